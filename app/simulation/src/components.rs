@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::sensing::Sensor;
+use interplay_planners::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
@@ -62,6 +62,37 @@ pub struct Driving {
     pub knows_plans: bool,
     /// What it senses of the others; none for one who sees everybody as it is.
     pub sensor: Option<Sensor>,
+    /// What the sensor sees in this tick.
+    pub sight: Option<Sight>,
+}
+
+/// What was handed in from outside for the tick that comes.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub enum HandedIn {
+    /// Nothing ever is: the vehicle has a driver of its own.
+    #[default]
+    NotExternal,
+    /// Nothing yet.
+    Awaited,
+    /// An input.
+    Input(Input),
+    /// The inputs of a whole plan, one for each step of the horizon.
+    Plan(Vec<Input>),
+}
+
+impl HandedIn {
+    /// Nothing yet, if the driver is external.
+    pub fn awaited_if(is_external: bool) -> Self {
+        if is_external { HandedIn::Awaited } else { HandedIn::NotExternal }
+    }
+
+    /// Takes what was handed in; none for a vehicle with a driver of its own.
+    pub fn take(&mut self) -> Option<Self> {
+        match self {
+            HandedIn::NotExternal => None,
+            _ => Some(std::mem::replace(self, HandedIn::Awaited)),
+        }
+    }
 }
 
 /// What a vehicle decided last, to be expected by others and continued if its planner fails.

@@ -4,13 +4,14 @@
 //! scenario -> entities -> sense -> predict -> plan -> act -> physics | climate -> measure -> record -> report
 //! ```
 //!
-//! [`run`](run::run) does all of it. The loop is one visible list in [`phases`]; each phase is one file. Who wants to see
+//! A [`Simulation`] is stepped from outside; [`run`](run::run) steps it to its end. The loop is one visible list in [`phases`]; each phase is one file. Who wants to see
 //! the ticks of a run implements [`Watcher`](watch::Watcher).
 
 pub mod act;
 pub mod climate;
 pub mod components;
 pub mod day;
+mod external;
 pub mod frame;
 pub mod measure;
 pub mod phases;
@@ -20,8 +21,15 @@ pub mod predict;
 pub mod report;
 pub mod run;
 pub mod sense;
+mod simulation;
+mod snapshot;
 pub mod spawn;
 pub mod time_points;
 pub mod watch;
 pub mod why;
+mod world_state;
 pub mod worst_zones;
+
+pub use simulation::Simulation;
+pub use snapshot::Snapshot;
+pub use world_state::NotCopied;

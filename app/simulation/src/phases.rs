@@ -8,7 +8,7 @@ use crate::{act, climate, measure, physics, plan, predict, sense, time_points, w
 /// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
-    /// Components become plain values that planners can be given.
+    /// Components become plain values that planners can be given, and sensors measure them.
     Sense,
     /// What everybody is expected to do.
     Predict,
@@ -42,7 +42,7 @@ pub fn schedule() -> Schedule {
     schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
     schedule.add_systems((
         (
-            sense::sense.in_set(Sense),
+            (sense::sense, sense::look).chain().in_set(Sense),
             predict::predict.in_set(Predict),
             plan::plan.in_set(Plan),
             act::act.in_set(Act),

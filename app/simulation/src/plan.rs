@@ -1,17 +1,18 @@
-//! Plan: every driver decides on what it senses, in the order and with the fallbacks of [`interplay_planners::traffic`]; here planning is timed,
-//! and failures become events.
+//! Plan: every driver decides on what it has sensed and is told, in the order and with the fallbacks of
+//! [`interplay_planners::traffic`]; here planning is timed, and failures become events.
 
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{Decision, Origin};
 
-use crate::components::{Committed, CurrentFrame, Driving, Identity, Sensed};
+use crate::components::{Committed, CurrentFrame, Driving, HandedIn, Identity, Sensed};
+use crate::external;
 use crate::frame::{Event, Frame, Level};
 
 /// Lets every driver decide.
 pub fn plan(
-    mut vehicles: Query<(&Identity, &mut Driving, &mut Committed)>,
+    mut vehicles: Query<(&Identity, &mut Driving, &mut HandedIn, &mut Committed)>,
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
@@ -19,8 +20,12 @@ pub fn plan(
     drivers.sort_by_key(|(identity, ..)| identity.index);
     let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
     let decisions = traffic.plan(|index, scene| {
-        let Driving { planner, sensor, .. } = &mut *drivers[index].1;
-        let sensed = sensor.as_mut().map(|sensor| sensor.sense(scene));
+        let (_, driving, handed_in, _) = &mut drivers[index];
+        if let Some(handed_in) = handed_in.take() {
+            return external::plan(handed_in, scene);
+        }
+        let Driving { planner, sight, .. } = &mut **driving;
+        let sensed = sight.as_ref().map(|sight| sight.of(scene));
         let began = Instant::now();
         let outcome = match &sensed {
             Some(sensed) => planner.plan_sensed(sensed),
@@ -36,7 +41,7 @@ pub fn plan(
         vehicle.plan = decision.plan;
     }
     let seen = frame.vehicles.iter_mut().zip(&traffic.road_users);
-    for ((vehicle, user), (_, _, committed)) in seen.zip(&mut drivers) {
+    for ((vehicle, user), (.., committed)) in seen.zip(&mut drivers) {
         vehicle.prediction = user.agent.prediction.clone();
         committed.0 = user.committed.clone();
     }

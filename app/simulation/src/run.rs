@@ -1,20 +1,14 @@
 //! One run: a scenario in, a report out.
 
-use std::time::Instant;
-
-use bevy_ecs::prelude::*;
 use interplay_scenarios::{Counterfactual, Scenario};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::climate::{Building, BuildingError, BuildingFailure};
-use crate::components::CurrentFrame;
-use crate::frame::Frame;
-use crate::measure::{BuildingMeasures, Measures};
+use crate::climate::{BuildingError, BuildingFailure};
 use crate::report::Report;
-use crate::time_points::time_points;
-use crate::watch::{WatchError, Watcher, Watchers};
-use crate::{phases, spawn};
+use crate::simulation::Simulation;
+use crate::watch::{WatchError, Watcher};
+use crate::world_state::NotCopied;
 
 /// Why a run could not be finished.
 #[derive(Debug, Error)]
@@ -41,6 +35,50 @@ pub enum RunError {
         /// Why.
         reason: Box<RunError>,
     },
+    /// No vehicle has this name.
+    #[error("there is no vehicle `{vehicle}`; the vehicles are {names}")]
+    NoVehicle {
+        /// The name.
+        vehicle: String,
+        /// The names that there are.
+        names: String,
+    },
+    /// A vehicle whose driver is external was given no input.
+    #[error("`{vehicle}` is driven from outside, and was given no input for the tick at {time_s} s")]
+    NoInput {
+        /// The vehicle.
+        vehicle: String,
+        /// When the tick begins \[s\].
+        time_s: f64,
+    },
+    /// An input was handed in for a vehicle that decides for itself.
+    #[error("`{vehicle}` has a driver of its own; `driver = {{ kind = \"external\" }}` lets it be driven from outside")]
+    NotExternal {
+        /// The vehicle.
+        vehicle: String,
+    },
+    /// An input is not a finite number.
+    #[error("the input for `{vehicle}` is not finite")]
+    NotFinite {
+        /// The vehicle.
+        vehicle: String,
+    },
+    /// A plan has the wrong length.
+    #[error("the plan for `{vehicle}` has {found} inputs, and the horizon is {steps} steps")]
+    WrongPlan {
+        /// The vehicle.
+        vehicle: String,
+        /// The inputs that it has.
+        found: usize,
+        /// The steps of the scenario's horizon.
+        steps: usize,
+    },
+    /// A part of the world cannot be copied.
+    #[error(transparent)]
+    NotCopied(#[from] NotCopied),
+    /// An earlier step has failed.
+    #[error("the run has ended with an error: restore a snapshot, or begin anew")]
+    Ended,
     /// The loop itself is broken.
     #[error("the loop could not be built: {0}")]
     Loop(String),
@@ -54,26 +92,9 @@ pub enum RunError {
 /// # Errors
 /// [`RunError`] if the schedule cannot be built or a watcher fails.
 pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Report, RunError> {
-    let began = Instant::now();
-    let mut world = spawn::world(scenario, watchers)?;
-    let mut schedule = phases::schedule();
-    let built = schedule.initialize(&mut world);
-    built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
-    for (tick, time_point) in time_points(scenario).enumerate() {
-        world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
-        world.insert_resource(time_point);
-        schedule.run(&mut world);
-        if let Some(mut building) = world.get_resource_mut::<Building>()
-            && let Some(reason) = building.failure.take()
-        {
-            return Err(RunError::Climate { day: (building.step - 1) / building.steps_per_day() + 1, reason });
-        }
-    }
-    let wall_s = began.elapsed().as_secs_f64();
-    let watchers = world.remove_resource::<Watchers>().unwrap_or_default();
-    watchers.finish().map_err(RunError::Watch)?;
-    let measures = (world.resource::<Measures>(), world.get_resource::<BuildingMeasures>());
-    Ok(Report::new(name, scenario, measures, wall_s))
+    let mut simulation = Simulation::watched(name, scenario, watchers)?;
+    while simulation.step()?.is_some() {}
+    simulation.finish()
 }
 
 /// Runs `scenario` as [`run`] does, then its counterfactuals side by side, and judges all of them. The scenario's own run is

@@ -1,8 +1,9 @@
-//! Sense: components become plain values, in the scenario's order.
+//! Sense: components become plain values, in the scenario's order, and sensors measure them.
 
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::sensing::SensedScene;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
@@ -11,16 +12,62 @@ use crate::components::{
 };
 use crate::frame::{Frame, VehicleFrame};
 
+/// The components of a vehicle that others may see.
+type SeenParts = (
+    &'static Identity,
+    &'static Motion,
+    &'static VehicleParameters,
+    &'static VehicleGoal,
+    &'static Driving,
+    &'static Committed,
+);
+
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
-    vehicles: Query<(&Identity, &Motion, &VehicleParameters, &VehicleGoal, &Driving, &Committed)>,
+    vehicles: Query<SeenParts>,
     clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    let mut sorted: Vec<_> = vehicles.iter().collect();
+    sensed.0 = traffic(vehicles.iter(), &clock);
+    let frames = sensed.0.road_users.iter().map(|user| VehicleFrame {
+        name: user.agent.name.clone(),
+        state: user.agent.state,
+        ..VehicleFrame::default()
+    });
+    current_frame.0 =
+        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), ..Frame::default() };
+}
+
+/// Lets every sensor measure the others. The plans that they will tell are joined to what is seen in the phase Plan.
+pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, sensed: Res<Sensed>) {
+    for (identity, mut driving) in &mut vehicles {
+        let Driving { sensor, sight, .. } = &mut *driving;
+        *sight = sensor.as_mut().map(|sensor| sensor.look(&sensed.0.moment(identity.index)));
+    }
+}
+
+/// What the driver of a vehicle would be given at the next tick, before anybody has planned in it; none without that vehicle.
+pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
+    let mut vehicles = world.try_query::<SeenParts>()?;
+    let mut traffic = traffic(vehicles.iter(world), world.get_resource()?);
+    traffic.predict();
+    let scene = (vehicle < traffic.road_users.len()).then(|| traffic.scene(vehicle))?;
+    let (.., driving, _) = vehicles.iter(world).find(|(identity, ..)| identity.index == vehicle)?;
+    let mut sensor = driving.sensor.clone();
+    Some(sensor.as_mut().map_or_else(|| SensedScene::perfect(&scene), |sensor| sensor.sense(&scene)))
+}
+
+/// Everybody as plain values, in the scenario's order.
+fn traffic<'w>(
+    vehicles: impl Iterator<
+        Item = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed),
+    >,
+    clock: &Clock,
+) -> Traffic {
+    let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let road_users = sorted.iter().map(|(identity, motion, parameters, objective, driving, committed)| RoadUser {
+    let road_users = sorted.into_iter().map(|(identity, motion, parameters, objective, driving, committed)| RoadUser {
         agent: Agent {
             name: identity.name.clone(),
             state: motion.state,
@@ -39,12 +86,5 @@ pub fn sense(
         committed: committed.0.clone(),
     });
     let road_users = road_users.collect();
-    sensed.0 = Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users };
-    let frames = sorted.iter().map(|(identity, motion, ..)| VehicleFrame {
-        name: identity.name.clone(),
-        state: motion.state,
-        ..VehicleFrame::default()
-    });
-    current_frame.0 =
-        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), ..Frame::default() };
+    Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users }
 }

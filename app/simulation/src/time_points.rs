@@ -16,22 +16,72 @@ pub struct TimePoint {
     pub building: bool,
 }
 
-/// Every time point of a scenario, in order.
-pub fn time_points(scenario: &Scenario) -> impl Iterator<Item = TimePoint> + use<> {
-    let building_step_s = scenario.building.as_ref().map_or(1.0, |building| building.step_s);
-    let steps = scenario.building.as_ref().map_or(0, |building| scenario.days() * building.steps_per_day());
-    let (step_s, ticks) = (scenario.step_s, scenario.tick_count());
-    let (mut tick, mut step) = (0, 0);
-    let strike =
-        |index: usize, count: usize, step_s: f64| (index < count).then(|| to_nanosecond(index as f64 * step_s));
-    std::iter::from_fn(move || {
-        let (vehicles_s, building_s) = (strike(tick, ticks, step_s), strike(step, steps, building_step_s));
+/// The time points of a scenario, in order, from a certain one on.
+#[derive(Clone, Debug)]
+pub struct TimePoints {
+    vehicles: ClockStrikes,
+    building: ClockStrikes,
+    passed: usize,
+}
+
+/// The times at which one clock strikes.
+#[derive(Clone, Copy, Debug)]
+struct ClockStrikes {
+    step_s: f64,
+    count: usize,
+    next: usize,
+}
+
+impl ClockStrikes {
+    /// The next time \[s\]; none once all are over.
+    fn next_s(&self) -> Option<f64> {
+        (self.next < self.count).then(|| to_nanosecond(self.next as f64 * self.step_s))
+    }
+
+    /// The end of the last step that has begun \[s\].
+    fn reached_s(&self) -> f64 {
+        to_nanosecond(self.next as f64 * self.step_s)
+    }
+}
+
+impl TimePoints {
+    /// All time points of a scenario.
+    pub fn new(scenario: &Scenario) -> Self {
+        let building = scenario.building.as_ref();
+        let clock = |step_s, count| ClockStrikes { step_s, count, next: 0 };
+        TimePoints {
+            vehicles: clock(scenario.step_s, scenario.tick_count()),
+            building: clock(
+                building.map_or(1.0, |building| building.step_s),
+                building.map_or(0, |building| scenario.days() * building.steps_per_day()),
+            ),
+            passed: 0,
+        }
+    }
+
+    /// How many have passed.
+    pub fn passed(&self) -> usize {
+        self.passed
+    }
+
+    /// The time up to which the slower of both parts has moved \[s\].
+    pub fn reached_s(&self) -> f64 {
+        self.vehicles.reached_s().max(self.building.reached_s())
+    }
+}
+
+impl Iterator for TimePoints {
+    type Item = TimePoint;
+
+    fn next(&mut self) -> Option<TimePoint> {
+        let (vehicles_s, building_s) = (self.vehicles.next_s(), self.building.next_s());
         let time_s = vehicles_s.into_iter().chain(building_s).min_by(f64::total_cmp)?;
         let (vehicles, building) = (vehicles_s == Some(time_s), building_s == Some(time_s));
-        tick += usize::from(vehicles);
-        step += usize::from(building);
+        self.vehicles.next += usize::from(vehicles);
+        self.building.next += usize::from(building);
+        self.passed += 1;
         Some(TimePoint { time_s, vehicles, building })
-    })
+    }
 }
 
 /// Whether vehicles drive now.
@@ -52,7 +102,7 @@ mod tests {
 
     fn of(text: &str) -> Vec<TimePoint> {
         let scenario = from_text("clocks.toml", &format!("title = 'a'\nshows = 'b'\n{text}"), &[]);
-        time_points(&scenario.expect("a scenario without fault")).collect()
+        TimePoints::new(&scenario.expect("a scenario without fault")).collect()
     }
 
     #[test]

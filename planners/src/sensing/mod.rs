@@ -109,27 +109,62 @@ impl SensedScene {
     }
 }
 
+/// What a sensor says of the others at a tick, before anybody has told plans.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sight(Vec<SeenVehicle>);
+
+/// A vehicle as a sensor sees it.
+#[derive(Clone, Debug, PartialEq)]
+struct SeenVehicle {
+    name: String,
+    /// Its estimated state, driven on to the present.
+    state: State,
+    /// The input that it is estimated to apply; none where it is seen as it is.
+    estimated_input: Option<Input>,
+    sighting: Sighting,
+}
+
+impl Sight {
+    /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells. Who is not seen is missing.
+    pub fn of(&self, scene: &Scene) -> SensedScene {
+        let (mut others, mut sightings) = (Vec::new(), Vec::new());
+        for other in &scene.others {
+            let Some(seen) = self.0.iter().find(|seen| seen.name == other.name) else { continue };
+            let mut agent = Agent { state: seen.state, ..other.clone() };
+            if let Some(first) = agent.prediction.states.first_mut() {
+                *first = seen.state;
+            }
+            agent.previous_input = seen.estimated_input.unwrap_or(agent.previous_input);
+            others.push(agent);
+            sightings.push(seen.sighting);
+        }
+        SensedScene { scene: Scene { others, ..scene.clone() }, sightings }
+    }
+}
+
 impl Sensor {
     /// A sensor that has not measured yet; `seed` is that of the run.
     pub fn new(settings: Settings, seed: u64) -> Sensor {
         Sensor { settings, seed, tracks: Vec::new() }
     }
 
-    /// Measures the other vehicles of a scene. Call it once a tick, with scenes of consecutive ticks.
-    pub fn sense(&mut self, scene: &Scene) -> SensedScene {
+    /// Measures the others of a scene; their plans play no part. To be called once a tick, with scenes whose ticks follow each other.
+    pub fn look(&mut self, scene: &Scene) -> Sight {
         for index in 0..scene.others.len() {
             self.measure(scene, index);
         }
-        let (mut others, mut sightings) = (Vec::new(), Vec::new());
+        let mut seen = Vec::new();
         for other in &scene.others {
             let Some(track) = self.tracks.iter_mut().find(|track| track.name == other.name) else { continue };
             track.receive(scene, other, &self.settings);
-            if let Some((seen, sighting)) = track.seen(scene, other, &self.settings) {
-                others.push(seen);
-                sightings.push(sighting);
-            }
+            seen.extend(track.seen(scene, other, &self.settings));
         }
-        SensedScene { scene: Scene { others, ..scene.clone() }, sightings }
+        Sight(seen)
+    }
+
+    /// Measures the others of a scene, and returns it as it is sensed. As [`Sensor::look`].
+    pub fn sense(&mut self, scene: &Scene) -> SensedScene {
+        self.look(scene).of(scene)
     }
 
     /// Makes the measurement of this tick.
@@ -186,7 +221,7 @@ impl Track {
     }
 
     /// The vehicle as it is seen now; none if it has not been measured for too long, and then it is forgotten.
-    fn seen(&mut self, scene: &Scene, other: &Agent, settings: &Settings) -> Option<(Agent, Sighting)> {
+    fn seen(&mut self, scene: &Scene, other: &Agent, settings: &Settings) -> Option<SeenVehicle> {
         let Measured { tick, state: measured, filter } = self.last?;
         let age = scene.tick.saturating_sub(tick);
         let missed = age.saturating_sub(ticks_of(settings.delay_s, scene.step_s));
@@ -195,13 +230,8 @@ impl Track {
             return None;
         }
         let state = driven_on(&filter.state, filter.acceleration_mps2, other, age, scene.step_s);
-        let mut prediction = other.prediction.clone();
-        if let Some(first) = prediction.states.first_mut() {
-            *first = state;
-        }
         let is_seen_as_it_is = settings.is_exact() && age == 0;
         let estimated = Input { acceleration_mps2: filter.acceleration_mps2, steering_rad: 0.0 };
-        let previous_input = if is_seen_as_it_is { other.previous_input } else { estimated };
         let sighting = Sighting {
             tick,
             measured,
@@ -211,7 +241,8 @@ impl Track {
             speed_sd_mps: filter.speed_sd_mps(),
             heading_sd_rad: filter.heading_sd_rad(),
         };
-        Some((Agent { state, previous_input, prediction, ..other.clone() }, sighting))
+        let estimated_input = (!is_seen_as_it_is).then_some(estimated);
+        Some(SeenVehicle { name: other.name.clone(), state, estimated_input, sighting })
     }
 }
 

@@ -74,16 +74,21 @@ impl Traffic {
 
     /// The moment as one vehicle sees it: with the plans of the others if it is told them.
     pub fn scene(&self, vehicle: usize) -> Scene {
+        let scene = self.moment(vehicle);
+        if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
+    }
+
+    /// The moment as it is around one vehicle, with everybody's prediction as it stands.
+    pub fn moment(&self, vehicle: usize) -> Scene {
         let others = self.road_users.iter().enumerate().filter(|(other, _)| *other != vehicle);
-        let scene = Scene {
+        Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
             ego: self.road_users[vehicle].agent.clone(),
             goal: self.road_users[vehicle].goal,
             others: others.map(|(_, other)| other.agent.clone()).collect(),
-        };
-        if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
+        }
     }
 
     /// Lets everybody decide; returns the decisions in the order in which they were made.

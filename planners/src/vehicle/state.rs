@@ -78,6 +78,11 @@ impl Input {
     pub fn from_array([acceleration_mps2, steering_rad]: [f64; 2]) -> Self {
         Input { acceleration_mps2, steering_rad }
     }
+
+    /// Whether both components are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.to_array().iter().all(|value| value.is_finite())
+    }
 }
 
 /// States at `t = 0…N` and the inputs at `t = 0…N−1` that lead from each to the next.

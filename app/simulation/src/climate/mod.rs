@@ -28,7 +28,9 @@ pub use disturbance::disturb;
 pub use failure::BuildingFailure;
 pub use learn::learn;
 use plant::ThermalPlant;
-pub use spawn::{BuildingError, people, spawn, surroundings_of};
+
+use crate::world_state::NotCopied;
+pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
 #[derive(Component, Clone, Copy, Debug)]
@@ -82,6 +84,26 @@ pub struct Building {
 }
 
 impl Building {
+    /// A copy that goes on bit for bit as this building does.
+    ///
+    /// # Errors
+    /// [`NotCopied`] if another program is the plant.
+    pub fn fork(&self) -> Result<Self, NotCopied> {
+        Ok(Building {
+            model: self.model.clone(),
+            believed: self.believed.clone(),
+            plant: self.plant.fork()?,
+            agenda: self.agenda.clone(),
+            targets: self.targets.clone(),
+            surroundings: self.surroundings.clone(),
+            controller: self.controller.clone(),
+            step: self.step,
+            today: self.today.clone(),
+            design_s: self.design_s,
+            failure: None,
+        })
+    }
+
     /// Steps of a day.
     pub fn steps_per_day(&self) -> usize {
         self.targets.steps()

@@ -1,6 +1,5 @@
 //! From a scenario to zones.
 
-use bevy_ecs::prelude::*;
 use interplay_building::comfort::{Agenda, SetpointsError};
 use interplay_building::control::{ControlError, Disturbance};
 use interplay_building::day::{Day, Surroundings};
@@ -12,6 +11,7 @@ use thiserror::Error;
 
 use super::plant::{NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 use super::{Building, Equipment, Gains, Node, Temperature};
+use crate::world_state::NodeState;
 
 /// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
 const OCCUPANCY_SEED_BIT: u64 = 1 << 40;
@@ -40,45 +40,55 @@ pub enum BuildingError {
     Plant(#[from] PlantError),
 }
 
-/// Adds the building of a scenario, if it has one.
-///
-/// # Errors
-/// [`BuildingError`], for a scenario that was not loaded, or if a plant behind a socket does not answer.
-pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError> {
-    let Some(described) = &scenario.building else { return Ok(()) };
-    let (network, steps) = (described.network()?, described.steps_per_day());
-    let model = Model::new(&network, described.method, described.step_s)?;
-    let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
-    let zones = network.zone_count();
-    let surroundings = surroundings_of(scenario, zones);
-    let controller = scenario.controller().controller(&believed, steps)?;
-    let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
-    for (index, initial_c) in plant.start()?.into_iter().enumerate() {
-        let mut node = world.spawn((Node { index }, Temperature(initial_c)));
-        if index < zones {
-            node.insert((Equipment { requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
-        }
+/// A building and its temperatures at the first midnight.
+#[derive(Debug)]
+pub struct ClimateState {
+    /// The building.
+    pub building: Building,
+    /// Every node of its network, in order.
+    pub nodes: Vec<NodeState>,
+}
+
+impl ClimateState {
+    /// The building of a scenario, if it has one.
+    ///
+    /// # Errors
+    /// [`BuildingError`], for a scenario that was not loaded, or if a plant behind a socket does not answer.
+    pub fn initial(scenario: &Scenario) -> Result<Option<Self>, BuildingError> {
+        let Some(described) = &scenario.building else { return Ok(None) };
+        let (network, steps) = (described.network()?, described.steps_per_day());
+        let model = Model::new(&network, described.method, described.step_s)?;
+        let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
+        let zones = network.zone_count();
+        let surroundings = surroundings_of(scenario, zones);
+        let controller = scenario.controller().controller(&believed, steps)?;
+        let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
+        let nodes = plant.start()?.into_iter().enumerate().map(|(index, initial_c)| NodeState {
+            node: Node { index },
+            temperature: Temperature(initial_c),
+            zone: (index < zones).then_some((Equipment { requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0))),
+        });
+        let nodes = nodes.collect();
+        let timetable = scenario.timetable()?;
+        let setpoints = scenario.setpoints.clone().unwrap_or_default();
+        let agenda = Agenda::new(setpoints, zones, described.step_s, steps)?;
+        let agenda = agenda.following(timetable).supplied(scenario.tariff.clone(), scenario.heat_pump.clone());
+        let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
+        let building = Building {
+            targets: agenda.of_day(0),
+            agenda,
+            surroundings,
+            controller,
+            step: 0,
+            today: Day::new(Vec::new(), nothing(), nothing()),
+            design_s: 0.0,
+            failure: None,
+            plant,
+            model,
+            believed,
+        };
+        Ok(Some(Self { building, nodes }))
     }
-    let timetable = scenario.timetable()?;
-    let setpoints = scenario.setpoints.clone().unwrap_or_default();
-    let agenda = Agenda::new(setpoints, zones, described.step_s, steps)?;
-    let agenda = agenda.following(timetable).supplied(scenario.tariff.clone(), scenario.heat_pump.clone());
-    let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
-    let building = Building {
-        targets: agenda.of_day(0),
-        agenda,
-        surroundings,
-        controller,
-        step: 0,
-        today: Day::new(Vec::new(), nothing(), nothing()),
-        design_s: 0.0,
-        failure: None,
-        plant,
-        model,
-        believed,
-    };
-    world.insert_resource(building);
-    Ok(())
 }
 
 /// Weather and people of a scenario with `zones` zones.

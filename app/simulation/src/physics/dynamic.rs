@@ -16,6 +16,7 @@ use super::moving::{Contact, Moving};
 use super::tyres::{Chassis, Planar};
 
 /// What the dynamic plant remembers beside Rapier's bodies.
+#[derive(Clone)]
 pub(super) struct DynamicPlant {
     settings: Dynamic,
     /// Where Rapier's world has its origin, so that single precision is enough \[m\].
@@ -24,6 +25,7 @@ pub(super) struct DynamicPlant {
     vehicles: Vec<Vehicle>,
 }
 
+#[derive(Clone)]
 struct Vehicle {
     chassis: Chassis,
     actuators: Actuators,

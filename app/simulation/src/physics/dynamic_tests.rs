@@ -8,7 +8,7 @@ use super::step;
 use super::tyres::GRAVITY_MPS2;
 use crate::components::{CurrentFrame, Motion};
 use crate::frame::Collision;
-use crate::spawn;
+use crate::world_state::WorldState;
 
 const STEP_S: f64 = 0.1;
 
@@ -40,7 +40,7 @@ fn scenario(plant: Dynamic, starts: &[State]) -> Scenario {
 
 /// The states after every tick in which everybody applies an input of its own, and the collisions.
 fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (Vec<Vec<State>>, Vec<Collision>) {
-    let mut world = spawn::world(&scenario(plant, starts), Vec::new()).expect("no building");
+    let mut world = WorldState::initial(&scenario(plant, starts)).expect("no building").into_world(Vec::new());
     for (mut motion, input) in world.query::<&mut Motion>().iter_mut(&mut world).zip(inputs) {
         motion.input = *input;
     }
@@ -173,7 +173,7 @@ fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     let plant = Dynamic { friction: 1e-6, ..prompt() };
     let quarter = std::f64::consts::FRAC_PI_2;
     let starts = [at(-0.7, 0.1, 0.0, 2.0), at(0.0, 0.0, quarter, 0.0)];
-    let mut world = spawn::world(&scenario(plant, &starts), Vec::new()).expect("no building");
+    let mut world = WorldState::initial(&scenario(plant, &starts)).expect("no building").into_world(Vec::new());
     world.run_system_once(step).expect("physics runs");
     let before = super::momentum(&world);
     assert!(world.resource::<CurrentFrame>().0.collisions.is_empty() && before[0] > 1.0, "{before:?}");

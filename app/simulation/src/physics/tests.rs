@@ -8,7 +8,7 @@ use super::path::MIN_STEP_TICKS;
 use super::step;
 use crate::components::{CurrentFrame, Motion};
 use crate::frame::Collision;
-use crate::spawn;
+use crate::world_state::WorldState;
 
 const TWO_CARS: &str = r#"
     title = "Two cars"
@@ -28,7 +28,7 @@ fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     for (vehicle, start) in scenario.vehicles.iter_mut().zip(starts) {
         vehicle.start = start;
     }
-    let mut world = spawn::world(&scenario, Vec::new()).expect("no building");
+    let mut world = WorldState::initial(&scenario).expect("no building").into_world(Vec::new());
     let mut smallest_m = f64::INFINITY;
     for _ in 0..ticks {
         world.run_system_once(step).expect("physics runs");

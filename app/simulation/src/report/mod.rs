@@ -22,12 +22,13 @@ use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
 
 impl Report {
-    /// Puts the measures of a run together and judges them.
+    /// Puts the measures of a run together and judges them. `wall_s` is how long it took; `ended_early_s` where it was ended before
+    /// the scenario was over \[s\].
     pub fn new(
         name: &str,
         scenario: &Scenario,
         (measures, building): (&Measures, Option<&BuildingMeasures>),
-        wall_s: f64,
+        (wall_s, ended_early_s): (f64, Option<f64>),
     ) -> Self {
         let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
         let vehicles = vehicles
@@ -39,7 +40,8 @@ impl Report {
             scenario: name.to_owned(),
             passed: true,
             seed: scenario.seed,
-            simulated_s: simulated_s(scenario),
+            simulated_s: ended_early_s.unwrap_or_else(|| simulated_s(scenario)),
+            ended_early_s,
             wall_s,
             digest: digest(scenario, &phase_digests, building.as_ref()),
             phase_digests,

@@ -22,6 +22,9 @@ pub struct Report {
     pub seed: u64,
     /// Simulated time \[s\].
     pub simulated_s: f64,
+    /// When the run was ended before the scenario was over \[s\]; expectations are then judged by what happened until then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ended_early_s: Option<f64>,
     /// Wall time \[s\]; not reproducible.
     pub wall_s: f64,
     /// Digest of all states, bit for bit.

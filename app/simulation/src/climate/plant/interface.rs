@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use super::error::PlantError;
+use crate::world_state::NotCopied;
 
 /// What acts on a building in one step. Everything is held for the step; lists have one number per zone, unless they say otherwise.
 #[derive(Clone, Copy, Debug)]
@@ -33,4 +34,10 @@ pub trait ThermalPlant: Debug + Send + Sync {
 
     /// Whether another program is the plant: the network is then a model of it, and its walls are estimated.
     fn is_foreign(&self) -> bool;
+
+    /// A copy in the same state.
+    ///
+    /// # Errors
+    /// [`NotCopied`] if its state is elsewhere.
+    fn fork(&self) -> Result<Box<dyn ThermalPlant>, NotCopied>;
 }

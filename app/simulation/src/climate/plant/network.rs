@@ -4,9 +4,10 @@ use interplay_building::discretise::Model;
 
 use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
+use crate::world_state::NotCopied;
 
 /// The network of the scenario. It always answers.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct NetworkPlant {
     /// The network with its step.
     pub model: Model,
@@ -26,5 +27,9 @@ impl ThermalPlant for NetworkPlant {
 
     fn is_foreign(&self) -> bool {
         false
+    }
+
+    fn fork(&self) -> Result<Box<dyn ThermalPlant>, NotCopied> {
+        Ok(Box::new(self.clone()))
     }
 }

@@ -14,6 +14,7 @@ use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
 use super::lines::Lines;
 use super::walls;
+use crate::world_state::NotCopied;
 
 /// Room of a number and of the rest in an answer \[bytes\].
 const NUMBER_BYTES: usize = 64;
@@ -177,6 +178,11 @@ impl ThermalPlant for SocketPlant {
 
     fn is_foreign(&self) -> bool {
         true
+    }
+
+    fn fork(&self) -> Result<Box<dyn ThermalPlant>, NotCopied> {
+        let why = "its state is in another program, behind a socket".to_owned();
+        Err(NotCopied { who: "the plant of the building".to_owned(), why })
     }
 }
 

@@ -1,0 +1,251 @@
+//! A world that is stepped from outside.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bevy_ecs::prelude::*;
+use interplay_planners::Input;
+use interplay_planners::sensing::SensedScene;
+use interplay_scenarios::Scenario;
+
+use crate::climate::Building;
+use crate::components::{CurrentFrame, HandedIn, Identity, Motion};
+use crate::frame::Frame;
+use crate::measure::{BuildingMeasures, Measures};
+use crate::report::Report;
+use crate::run::RunError;
+use crate::snapshot::Snapshot;
+use crate::time_points::TimePoints;
+use crate::watch::{Watcher, Watchers};
+use crate::world_state::{NotCopied, WorldState};
+use crate::{phases, sense};
+
+/// A scenario as a world that can be stepped, looked at, steered from outside, copied and resumed.
+///
+/// [`Simulation::step`] is the only thing that moves a world; [`run`](crate::run::run) is a loop over it. What happens depends on
+/// the scenario (its seed included) and on what is handed in, and on nothing else: same inputs, same digest, bit for bit.
+///
+/// ```
+/// use interplay_simulation::Simulation;
+///
+/// let scenario = interplay_scenarios::load("lane-change/front-nice", &[])?;
+/// let mut simulation = Simulation::new(&scenario)?;
+/// while let Some(frame) = simulation.step()? {
+///     if frame.time_s >= 2.0 {
+///         break;
+///     }
+/// }
+/// let fork = simulation.snapshot()?;
+/// let report = simulation.finish()?;
+/// assert_eq!(report.ended_early_s, Some(2.1));
+/// let resumed = fork.resume()?;
+/// assert_eq!(resumed.frame().map(|frame| frame.tick), Some(20));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation {
+    name: String,
+    scenario: Arc<Scenario>,
+    pub(crate) world: World,
+    schedule: Schedule,
+    time_points: TimePoints,
+    has_failed: bool,
+    /// Wall time of building and stepping the world \[s\].
+    wall_s: f64,
+}
+
+impl Simulation {
+    /// The world of `scenario` before its first tick.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scenario's building cannot be built.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        Self::watched(&scenario.title, scenario, Vec::new())
+    }
+
+    /// The world of `scenario` before its first tick, called `name` in its report, and with watchers who see every tick.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn watched(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Self, RunError> {
+        let began = Instant::now();
+        let state = WorldState::initial(scenario)?;
+        let parts = (Arc::new(scenario.clone()), TimePoints::new(scenario));
+        let mut simulation = Self::assembled(name, parts, state, watchers)?;
+        simulation.wall_s = began.elapsed().as_secs_f64();
+        Ok(simulation)
+    }
+
+    pub(crate) fn assembled(
+        name: &str,
+        (scenario, time_points): (Arc<Scenario>, TimePoints),
+        state: WorldState,
+        watchers: Vec<Box<dyn Watcher>>,
+    ) -> Result<Self, RunError> {
+        let mut world = state.into_world(watchers);
+        let mut schedule = phases::schedule();
+        let built = schedule.initialize(&mut world);
+        built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
+        Ok(Simulation { name: name.to_owned(), scenario, world, schedule, time_points, has_failed: false, wall_s: 0.0 })
+    }
+
+    /// The scenario that is simulated.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// Moves the world by one tick of the vehicles, or one step of the building, whichever comes next. Returns what happened in
+    /// it; none once the scenario is over, and then nothing moves.
+    ///
+    /// # Errors
+    /// [`RunError::NoInput`] if a vehicle that is driven from outside was given no input for this tick; nothing has moved then.
+    /// [`RunError::Climate`] if the building cannot go on. After that every step is [`RunError::Ended`].
+    pub fn step(&mut self) -> Result<Option<&Frame>, RunError> {
+        let began = Instant::now();
+        if self.has_failed {
+            return Err(RunError::Ended);
+        }
+        let mut ahead = self.time_points.clone();
+        let Some(time_point) = ahead.next() else { return Ok(None) };
+        if time_point.vehicles {
+            self.refuse_without_input()?;
+        }
+        let tick = self.time_points.passed();
+        self.time_points = ahead;
+        self.world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
+        self.world.insert_resource(time_point);
+        self.schedule.run(&mut self.world);
+        self.wall_s += began.elapsed().as_secs_f64();
+        if let Some(mut building) = self.world.get_resource_mut::<Building>()
+            && let Some(reason) = building.failure.take()
+        {
+            self.has_failed = true;
+            return Err(RunError::Climate { day: (building.step - 1) / building.steps_per_day() + 1, reason });
+        }
+        Ok(Some(&self.world.resource::<CurrentFrame>().0))
+    }
+
+    /// The last frame; none before the first step.
+    pub fn frame(&self) -> Option<&Frame> {
+        (self.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
+    }
+
+    /// Simulated time up to which the world has moved \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.time_points.reached_s()
+    }
+
+    /// What the driver of a vehicle would be given at the next tick, sensing included: the state of every vehicle that it sees, the
+    /// roads, its own goal. Nothing changes: twice gives the same, and no digest depends on it.
+    ///
+    /// The plans in it are those of the last tick, continued by one step; before the first tick, and of vehicles that are driven from
+    /// outside without a plan, motion at constant velocity. A planner of ours that plans in its turn knows one thing more: the new
+    /// plans of those who go first. A driver who infers plans is told none.
+    ///
+    /// # Errors
+    /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
+    pub fn observe(&self, vehicle: &str) -> Result<SensedScene, RunError> {
+        let index = self.index_of(vehicle)?;
+        sense::observed(&self.world, index).ok_or_else(|| self.no_vehicle(vehicle))
+    }
+
+    /// Hands in the input of a vehicle with `driver = { kind = "external" }` for the next tick. The others expect it to keep its
+    /// speed afterwards. What is beyond the limits of the vehicle is cut off at them, as of any plan. The last call before a step
+    /// counts.
+    ///
+    /// # Errors
+    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if somebody else drives it; [`RunError::NotFinite`].
+    pub fn apply(&mut self, vehicle: &str, input: Input) -> Result<(), RunError> {
+        if !input.is_finite() {
+            return Err(RunError::NotFinite { vehicle: vehicle.to_owned() });
+        }
+        self.hand_in(vehicle, HandedIn::Input(input))
+    }
+
+    /// The same with a plan, whose first input is applied, and which the others are told as the plan of any other driver.
+    ///
+    /// # Errors
+    /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if it has not as many steps as the scenario's horizon.
+    pub fn apply_plan(&mut self, vehicle: &str, inputs: &[Input]) -> Result<(), RunError> {
+        let steps = self.scenario.horizon_steps;
+        if inputs.len() != steps {
+            return Err(RunError::WrongPlan { vehicle: vehicle.to_owned(), found: inputs.len(), steps });
+        }
+        if !inputs.iter().all(Input::is_finite) {
+            return Err(RunError::NotFinite { vehicle: vehicle.to_owned() });
+        }
+        self.hand_in(vehicle, HandedIn::Plan(inputs.to_vec()))
+    }
+
+    /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.
+    ///
+    /// # Errors
+    /// [`NotCopied`] says who has no copy: a building behind a socket, a driver of somebody else's that does not fork.
+    pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
+        let world = WorldState::of(&self.world)?.into_world(Vec::new());
+        let Simulation { name, scenario, time_points, .. } = self;
+        Ok(Snapshot { name: name.clone(), scenario: Arc::clone(scenario), time_points: time_points.clone(), world })
+    }
+
+    /// Goes back, or forth, to a snapshot, of this world or of any other. The watchers stay and see the ticks that follow.
+    ///
+    /// # Errors
+    /// As [`Simulation::snapshot`].
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), RunError> {
+        let mut restored = snapshot.resume()?;
+        let watchers = self.world.remove_resource::<Watchers>().unwrap_or_default();
+        restored.world.insert_resource(watchers);
+        restored.wall_s = self.wall_s;
+        *self = restored;
+        Ok(())
+    }
+
+    /// Ends the run: watchers keep what they saw, and what was measured is judged. It may end before the scenario is over; the report
+    /// then says so in [`Report::ended_early_s`].
+    ///
+    /// # Errors
+    /// [`RunError::Watch`] if a watcher could not keep what it saw.
+    pub fn finish(mut self) -> Result<Report, RunError> {
+        let watchers = self.world.remove_resource::<Watchers>().unwrap_or_default();
+        watchers.finish().map_err(RunError::Watch)?;
+        let is_over = self.time_points.clone().next().is_none();
+        let ended_early_s = (!is_over).then(|| self.time_s());
+        let measures = (self.world.resource::<Measures>(), self.world.get_resource::<BuildingMeasures>());
+        Ok(Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s)))
+    }
+}
+
+impl Simulation {
+    fn index_of(&self, vehicle: &str) -> Result<usize, RunError> {
+        self.scenario.index_of(vehicle).ok_or_else(|| self.no_vehicle(vehicle))
+    }
+
+    fn no_vehicle(&self, vehicle: &str) -> RunError {
+        let names = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.clone());
+        RunError::NoVehicle { vehicle: vehicle.to_owned(), names: names.collect::<Vec<_>>().join(", ") }
+    }
+
+    /// Hands in what an external driver decided.
+    fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
+        let index = self.index_of(vehicle)?;
+        let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
+        let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.index == index);
+        match found {
+            Some((_, mut handed_in)) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
+            _ => return Err(RunError::NotExternal { vehicle: vehicle.to_owned() }),
+        }
+        Ok(())
+    }
+
+    /// An error if an external driver has not decided.
+    fn refuse_without_input(&mut self) -> Result<(), RunError> {
+        let mut vehicles = self.world.query::<(&Identity, &Motion, &HandedIn)>();
+        let waits = |(_, motion, handed_in): &(&Identity, &Motion, &HandedIn)| {
+            **handed_in == HandedIn::Awaited && !motion.crashed
+        };
+        let first = vehicles.iter(&self.world).filter(waits).min_by_key(|(identity, ..)| identity.index);
+        match first {
+            Some((identity, ..)) => Err(RunError::NoInput { vehicle: identity.name.clone(), time_s: self.time_s() }),
+            None => Ok(()),
+        }
+    }
+}
