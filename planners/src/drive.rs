@@ -1,5 +1,6 @@
 //! What every driver provides: its settings, [`DriverKind`], and what plans with them, [`Drive`].
 
+use std::any::Any;
 use std::fmt;
 
 use crate::belief::Outlook;
@@ -11,7 +12,7 @@ use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 ///
 /// A kind of one's own implements [`kind`](DriverKind::kind) and [`driver`](DriverKind::driver), and whatever differs from the
 /// defaults. In a scenario file its settings need `serde` and `schemars` besides; `interplay_scenarios::Registry` takes them.
-pub trait DriverKind: fmt::Debug + Send + Sync {
+pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// The word for this kind in a scenario file: small letters, digits and hyphens.
     fn kind(&self) -> &'static str;
 
@@ -95,4 +96,15 @@ pub trait Drive: fmt::Debug + Send + Sync {
     fn fork(&self) -> Option<Box<dyn Drive>> {
         None
     }
+
+    /// The same driver with all that it remembers, and other settings of its kind. `None` if the settings are of another kind, or if it
+    /// cannot change them: whoever asks then goes on with a new driver.
+    fn with_settings(&self, _settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        None
+    }
+}
+
+/// The settings themselves, if they are those of the kind `S`.
+pub(crate) fn settings_of<S: DriverKind>(settings: &dyn DriverKind) -> Option<&S> {
+    (settings as &dyn Any).downcast_ref()
 }

@@ -47,10 +47,21 @@ impl Planner {
         Planner { deadline, ..self }
     }
 
-    /// The same planner with another driver. What follows from the kind of the former one stays: what the driver is told, and
-    /// whether its plans may be refused.
-    pub fn with_driver(self, driver: Box<dyn Drive>) -> Self {
-        Planner { driver, ..self }
+    /// Another driver takes over. What follows from the kind of the former one stays: what the driver is told, and whether its plans
+    /// may be refused.
+    pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
+        self.driver = driver;
+    }
+
+    /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
+    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it is told none.
+    pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
+        let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
+        self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
+        self.beliefs = beliefs.filter(|_| !kind.knows_plans());
+        self.branches = kind.branches();
+        self.prediction = kind.prediction().unwrap_or_default();
+        self.may_be_refused = !kind.goes_first();
     }
 
     /// A copy that remembers the same; `None` if its driver cannot be copied.

@@ -229,6 +229,38 @@ fn why_says_what_the_order_depends_on() {
     assert_eq!(contents(&folder), Vec::<String>::new());
 }
 
+/// What decides at the beginning decides no more when the vehicles have passed each other; and a change from the first tick on is the
+/// change of the whole run.
+#[test]
+fn why_at_a_moment_says_what_decided_then() {
+    let folder = scratch("why-at");
+    let why = |more: &[&str]| interplay(&folder, &[&["why", "intersection/nice", "--json"], more].concat()).json();
+    let (whole, first, late) = (why(&[]), why(&["--at", "0"]), why(&["--at", "3.95"]));
+    for key in ["order_depends_on", "times_depend_on", "expectations_depend_on"] {
+        assert_eq!(whole[key], first[key], "{key}");
+        assert_eq!(late[key], json!([]), "{key}");
+    }
+    assert_eq!((&whole["at_s"], &first["at_s"], &late["at_s"]), (&Value::Null, &json!(0.0), &json!(4.0)));
+    let digests = |report: &Value| -> Vec<String> {
+        let runs = report["runs"].as_array().expect("a list");
+        runs.iter().map(|run| run["digest"].as_str().expect("a digest").to_owned()).collect()
+    };
+    assert_eq!(digests(&whole), digests(&first), "from the first tick on");
+    assert_eq!(digests(&whole)[0], digests(&late)[0], "the scenario's own run");
+    let text = interplay(&folder, &["why", "intersection/nice", "--at", "1.5"]);
+    assert!(
+        text.stdout.starts_with(
+            "Intersection, crossing driver nice  [intersection/nice]; what is changed holds from 1.5 s on\n"
+        ),
+        "{text:?}"
+    );
+    for (wrong, piece) in [("12", "not within the run"), ("-1", "at least 0"), ("soon", "at least 0")] {
+        let refused = interplay(&folder, &["why", "intersection/nice", "--at", wrong]);
+        assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""), "{refused:?}");
+        assert!(refused.stderr.contains(piece), "{refused:?}");
+    }
+}
+
 /// Every planner that is declared to have mechanisms can be run without each of them.
 #[test]
 fn why_switches_off_every_mechanism() {

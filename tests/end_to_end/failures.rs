@@ -1,37 +1,49 @@
 //! A planner that fails: the previous plan goes on, then the brakes are applied; each time it is told and counted.
 //!
-//! No scenario file makes a planner fail on purpose, so the goal of a vehicle is spoilt in the running world.
+//! No scenario file makes a planner fail on purpose, so a driver takes over that does for a while.
 
-use interplay_planners::Limits;
+use interplay_planners::belief::Outlook;
 use interplay_planners::predict::steady;
-use interplay_simulation::components::{Identity, VehicleGoal};
+use interplay_planners::{Drive, DriverKind, Limits, Plan, PlanError, Scene, human};
+use interplay_simulation::Simulation;
 use interplay_simulation::frame::{Frame, Level, Origin};
-use interplay_simulation::measure::Measures;
 use interplay_simulation::run::run;
-use interplay_simulation::{phases, spawn};
 
 use crate::film::{Camera, authored, film};
 
 const HORIZON: usize = 5;
-/// Ticks at which the goal of the front car is not a number.
+/// Ticks at which the front driver does not know what it wants.
 const SPOILT: std::ops::Range<usize> = 10..20;
+
+/// A driver whose goal is not a number for a while.
+#[derive(Debug)]
+struct Undecided(Box<dyn Drive>);
+
+impl Drive for Undecided {
+    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+        let mut scene = scene.clone();
+        if SPOILT.contains(&scene.tick) {
+            scene.goal.target.speed_mps = f64::NAN;
+        }
+        self.0.plan(&scene, outlook)
+    }
+}
 
 /// A run in which the planner of the front car fails for a while; with the failures that were counted.
 fn run_with_failures() -> (Vec<Frame>, usize) {
-    let scenario = authored("lane-change/front-nice", &["horizon_steps=5", "vehicle.ego.driver.settled_steps=2"]);
+    let changes = ["horizon_steps=5", "vehicle.ego.driver.settled_steps=2", "vehicle.front.goal.speed_mps=1.4"];
+    let scenario = authored("lane-change/front-nice", &changes);
     let camera = Camera::default();
-    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]).expect("no building");
-    let mut schedule = phases::schedule();
-    for tick in 0..SPOILT.end + 2 {
-        let mut objectives = world.query::<(&Identity, &mut VehicleGoal)>();
-        for (identity, mut objective) in objectives.iter_mut(&mut world) {
-            if identity.name == "front" {
-                objective.goal.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
-            }
-        }
-        schedule.run(&mut world);
+    let mut simulation =
+        Simulation::watched("failures", &scenario, vec![Box::new(camera.clone())]).expect("no building");
+    simulation.drive_with("front", Undecided(human::Settings::default().driver())).expect("there is a front car");
+    for _ in 0..SPOILT.end + 2 {
+        simulation.step().expect("the run goes on");
     }
-    (camera.frames(), world.resource::<Measures>().vehicles[1].planning.failed)
+    let copy = simulation.snapshot().map(|_| ()).expect_err("the driver does not fork");
+    assert_eq!(copy.to_string(), "the driver of `front` cannot be copied: it does not implement `fork`");
+    let report = simulation.finish().expect("the camera keeps everything");
+    (camera.frames(), report.vehicle("front").expect("there is a front car").plans.failed)
 }
 
 #[test]

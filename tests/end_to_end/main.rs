@@ -27,7 +27,7 @@ mod command;
 mod counterfactuals;
 mod determinism;
 mod documents;
-// mod failures;
+mod failures;
 mod faults;
 mod figures;
 mod film;

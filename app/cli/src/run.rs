@@ -18,7 +18,7 @@ use thiserror::Error;
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
 use crate::files::{destroyed, is_page_file, is_same_file, short_name};
-use crate::output::{json, print, print_error, print_load_error};
+use crate::output::{json, print, print_error, print_load_error, without_input};
 use crate::program::this_program;
 use crate::watch::WatchedFiles;
 
@@ -118,7 +118,7 @@ impl Run {
             print_error(&format!("note: {remark}"));
         }
         let name = short_name(self.scenario());
-        if let Some(reason) = self.refused_output(&name, registry) {
+        if let Some(reason) = without_input(&scenario).or_else(|| self.refused_output(&name, registry)) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }

@@ -10,6 +10,16 @@ pub(crate) fn count<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse().map_err(|_| "write a whole number of at least 1".to_owned())
 }
 
+/// A time since the beginning of a run \[s\].
+///
+/// # Errors
+/// What would work, if the text is no finite number of at least 0.
+pub(crate) fn time(text: &str) -> Result<f64, String> {
+    let found: Option<f64> = text.parse().ok();
+    let found = found.filter(|time_s| time_s.is_finite() && *time_s >= 0.0);
+    found.ok_or_else(|| "write a number of seconds of at least 0, for example `2.3`".to_owned())
+}
+
 /// A change, such as `vehicle.ego.goal.speed_mps=1.2`.
 ///
 /// # Errors
@@ -57,6 +67,10 @@ mod tests {
         assert_eq!(count::<NonZeroU64>("7").map(NonZeroU64::get), Ok(7));
         for wrong in ["0", "-1", "many", "1.5", ""] {
             assert!(count::<NonZeroU64>(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(time("2.3"), Ok(2.3));
+        for wrong in ["-1", "nan", "inf", "soon", ""] {
+            assert!(time(wrong).is_err(), "{wrong}");
         }
         assert!(assignment("a.b=1").is_ok() && assignments("a=1; b=[1, 2];").is_ok());
         for wrong in ["", ";", "a", "=1", "a=1; b"] {

@@ -10,7 +10,7 @@ use interplay_simulation::why::{WhyReport, why};
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
 use crate::files::short_name;
-use crate::output::{json, print, print_error, print_load_error};
+use crate::output::{json, print, print_error, print_load_error, without_input};
 use crate::progress::Progress;
 use crate::threads::pool;
 use crate::values;
@@ -21,6 +21,7 @@ use crate::values;
     mechanisms switched off; whether a vehicle knows the others' plans. Counterfactuals of the file are not run.\n\n\
     Examples:\n  \
     interplay why lane-change/front-nice\n  \
+    interplay why lane-change/front-nice --at 1.5\n  \
     interplay why my.toml --set vehicle.ego.goal.speed_mps=1.2 --json")]
 pub(crate) struct Why {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file, with vehicles
@@ -34,6 +35,10 @@ pub(crate) struct Why {
     /// How many run at a time [default: one for each core]
     #[arg(long, value_name = "N", value_parser = values::count::<NonZeroUsize>, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
+
+    /// Change things from this time of the run on, and not from the beginning: what decided then? Drivers keep what they remember
+    #[arg(long = "at", value_name = "SECONDS", value_parser = values::time, allow_negative_numbers = true)]
+    at_s: Option<f64>,
 
     /// Print the results as one JSON document
     #[arg(long)]
@@ -55,6 +60,11 @@ impl Why {
                  `[[counterfactual]]` for each",
                 self.scenario
             ));
+            return ExitStatus::BadInput;
+        }
+        if let Some(reason) = self.at_s.and_then(|at_s| too_late(at_s, &scenario)).or_else(|| without_input(&scenario))
+        {
+            print_error(&reason);
             return ExitStatus::BadInput;
         }
         let printed = self.run(&scenario, &changes).and_then(|report| {
@@ -90,8 +100,15 @@ impl Why {
         let pool = pool(self.jobs, 1 + changes.len())?;
         let progress = Progress::start(1 + changes.len());
         let name = short_name(&self.scenario);
-        let report = pool.install(|| why(&name, scenario, changes, &|| progress.advance()));
+        let report = pool.install(|| why(&name, scenario, (changes, self.at_s), &|| progress.advance()));
         progress.clear();
         Ok(report?)
     }
+}
+
+/// Why nothing can be changed at a time, if the run is over by then.
+fn too_late(at_s: f64, scenario: &Scenario) -> Option<String> {
+    let end_s = scenario.duration_s;
+    (at_s >= end_s)
+        .then(|| format!("`--at {at_s}` is not within the run, which takes {end_s} s; choose an earlier time"))
 }

@@ -8,6 +8,7 @@ use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
 use crate::frame::Frame;
+use crate::world_state::NotCopied;
 
 /// Who a vehicle is: its place in the scenario, which is the order of everything that is listed.
 #[derive(Component, Clone, Debug)]
@@ -64,6 +65,26 @@ pub struct Driving {
     pub sensor: Option<Sensor>,
     /// What the sensor sees in this tick.
     pub sight: Option<Sight>,
+}
+
+impl Driving {
+    /// A copy that remembers the same, of the driver of a vehicle called `name`.
+    ///
+    /// # Errors
+    /// [`NotCopied`] if the driver does not fork.
+    pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
+        let Driving { can_be_asked, goes_first, knows_plans, .. } = *self;
+        let why =
+            || NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() };
+        Ok(Driving {
+            can_be_asked,
+            planner: self.planner.fork().ok_or_else(why)?,
+            goes_first,
+            knows_plans,
+            sensor: self.sensor.clone(),
+            sight: self.sight.clone(),
+        })
+    }
 }
 
 /// What was handed in from outside for the tick that comes.

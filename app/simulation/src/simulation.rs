@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::Input;
 use interplay_planners::sensing::SensedScene;
+use interplay_planners::{Drive, Input};
 use interplay_scenarios::Scenario;
 
 use crate::climate::Building;
-use crate::components::{CurrentFrame, HandedIn, Identity, Motion};
+use crate::components::{CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
@@ -174,6 +174,42 @@ impl Simulation {
             return Err(RunError::NotFinite { vehicle: vehicle.to_owned() });
         }
         self.hand_in(vehicle, HandedIn::Plan(inputs.to_vec()))
+    }
+
+    /// Another driver takes the wheel of a vehicle from the next tick on, one of ours or one of somebody else's. What the vehicle is told
+    /// of the others' plans, and whether it plans before them, stays as its `driver` in the scenario says. A vehicle that was driven
+    /// from outside needs no inputs any more.
+    ///
+    /// # Errors
+    /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
+    pub fn drive_with(&mut self, vehicle: &str, driver: impl Drive + 'static) -> Result<(), RunError> {
+        let index = self.index_of(vehicle)?;
+        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
+        for (identity, mut driving, mut handed_in) in vehicles.iter_mut(&mut self.world) {
+            if identity.index == index {
+                driving.planner.replace_driver(Box::new(driver));
+                *handed_in = HandedIn::NotExternal;
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// From the next tick on the drivers are those of another form of the scenario, with the same vehicles. Each whose settings differ
+    /// goes on with the new ones and with all that it remembers; one of another kind begins anew.
+    pub(crate) fn change_drivers(&mut self, changed: &Scenario) {
+        let mut vehicles = self.world.query::<(&Identity, &mut VehicleGoal, &mut Driving)>();
+        for (identity, mut goal, mut driving) in vehicles.iter_mut(&mut self.world) {
+            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[identity.index]);
+            if (&old.driver, &old.inference) != (&new.driver, &new.inference) {
+                driving.planner.change(&*new.driver, &new.inference.unwrap_or_default());
+                driving.can_be_asked = new.driver.can_be_asked();
+                driving.goes_first = new.driver.goes_first();
+                driving.knows_plans = new.driver.knows_plans();
+                goal.shared = new.driver.shared_goal(&goal.goal);
+            }
+        }
+        self.scenario = Arc::new(changed.clone());
     }
 
     /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.

@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::report::Report;
-use crate::run::{RunError, run};
+use crate::run::RunError;
+use crate::simulation::Simulation;
+use crate::snapshot::Snapshot;
 
 /// The smallest change of a completion time that is spoken of \[s\].
 const NOTICEABLE_S: f64 = 0.3;
@@ -17,6 +19,9 @@ pub struct WhyReport {
     pub scenario: String,
     /// The seed of all runs, unless a change concerns it.
     pub seed: u64,
+    /// From when on the changes hold; none if they hold from the beginning \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_s: Option<f64>,
     /// Factors of which at least one change gives another order.
     pub order_depends_on: Vec<String>,
     /// Factors of which no change gives another order.
@@ -103,28 +108,47 @@ impl WhyRun {
 
 /// Runs a scenario, called `name`, and its changed forms side by side; `advance` is called after every run.
 ///
+/// The changes hold from the beginning, or from the first tick at or after `at_s` \[s\]: until then all runs are the scenario's own.
+/// Drivers whose settings change then keep what they remember; one that another kind replaces begins anew.
+///
 /// # Errors
-/// [`RunError`], if one of the runs cannot be finished.
+/// [`RunError`], if one of the runs cannot be finished, or the world cannot be copied at `at_s`.
 pub fn why(
     name: &str,
     scenario: &Scenario,
-    changes: &[StandardChange],
+    (changes, at_s): (&[StandardChange], Option<f64>),
     advance: &(dyn Fn() + Sync),
 ) -> Result<WhyReport, RunError> {
-    let all: Vec<&Scenario> = std::iter::once(scenario).chain(changes.iter().map(|change| &change.scenario)).collect();
-    let one = |scenario: &&Scenario| {
-        let report = run(name, scenario, Vec::new());
+    let then = at_s.map(|at_s| moment(name, scenario, at_s)).transpose()?;
+    let one = |change: Option<&StandardChange>| {
+        let changed = change.map_or(scenario, |change| &change.scenario);
+        let mut simulation = match &then {
+            Some(then) => then.resume()?,
+            None => Simulation::watched(name, changed, Vec::new())?,
+        };
+        if then.is_some() && change.is_some() {
+            simulation.change_drivers(changed);
+        }
+        while simulation.step()?.is_some() {}
         advance();
-        report
+        simulation.finish()
     };
-    let reports = all.par_iter().with_max_len(1).map(one).collect::<Result<Vec<Report>, RunError>>()?;
-    let changed = std::iter::once(None).chain(changes.iter().map(Some));
-    let runs = reports.iter().zip(changed).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
-    Ok(conclude(name, scenario.seed, runs))
+    let all: Vec<Option<&StandardChange>> = std::iter::once(None).chain(changes.iter().map(Some)).collect();
+    let reports =
+        all.par_iter().with_max_len(1).map(|change| one(*change)).collect::<Result<Vec<Report>, RunError>>()?;
+    let runs = reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
+    Ok(conclude(name, (scenario.seed, then.map(|then| then.time_s())), runs))
+}
+
+/// The world of a scenario at the first tick at or after a time.
+fn moment(name: &str, scenario: &Scenario, at_s: f64) -> Result<Snapshot, RunError> {
+    let mut simulation = Simulation::watched(name, scenario, Vec::new())?;
+    while simulation.time_s() < at_s && simulation.step()?.is_some() {}
+    Ok(simulation.snapshot()?)
 }
 
 /// Sorts the factors; the first run is the scenario's own.
-fn conclude(name: &str, seed: u64, runs: Vec<WhyRun>) -> WhyReport {
+fn conclude(name: &str, (seed, at_s): (u64, Option<f64>), runs: Vec<WhyRun>) -> WhyReport {
     let factors = |matters: &dyn Fn(&WhyRun) -> bool| {
         let mut found: Vec<String> = Vec::new();
         for factor in runs.iter().filter(|run| matters(run)).filter_map(|run| run.factor.as_ref()) {
@@ -143,6 +167,7 @@ fn conclude(name: &str, seed: u64, runs: Vec<WhyRun>) -> WhyReport {
     WhyReport {
         scenario: name.to_owned(),
         seed,
+        at_s,
         expectations_depend_on: factors(&|run| passes && run.expectations_hold == Some(false)),
         order_depends_on,
         order_does_not_depend_on: others,
@@ -185,12 +210,12 @@ mod tests {
                 run_of(Some("gamma"), "a b", Some(1.9), true),
             ]
         };
-        let report = conclude("x", 1, runs(true));
+        let report = conclude("x", (1, None), runs(true));
         assert_eq!(report.order_depends_on, ["style"]);
         assert_eq!(report.order_does_not_depend_on, ["filter", "belief", "gamma"]);
         assert_eq!(report.times_depend_on, ["filter", "belief"]);
         assert_eq!(report.expectations_depend_on, ["style", "belief"]);
-        let failed = conclude("x", 1, runs(false));
+        let failed = conclude("x", (1, None), runs(false));
         assert!(failed.expectations_depend_on.is_empty(), "what fails anyhow depends on nothing");
     }
 }

@@ -40,7 +40,7 @@ pub struct WorldState {
 }
 
 /// All components of a vehicle.
-#[derive(Bundle, Clone, Debug)]
+#[derive(Bundle, Debug)]
 pub struct VehicleState {
     /// Who it is.
     pub identity: Identity,
@@ -125,7 +125,7 @@ impl WorldState {
                 motion: *motion,
                 parameters: parameters.clone(),
                 goal: *goal,
-                driving: driving.clone(),
+                driving: driving.fork(&identity.name)?,
                 handed_in: handed_in.clone(),
                 committed: committed.clone(),
                 body: *body,

@@ -26,7 +26,7 @@ pub use value::attraction;
 use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
@@ -85,6 +85,12 @@ impl Drive for Bayesian {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let optimiser = self.optimiser.clone().searching(settings.passing_orders);
+        Some(Box::new(Bayesian { settings, optimiser, ..self.clone() }))
     }
 }
 

@@ -12,10 +12,10 @@ pub use settings::Settings;
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::receding_horizon::{self, Solved};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
+use crate::trajectory::{DescentError, Optimiser, HomotopySearch, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// The conservative planner (eq. 6.13) with its last plan.
@@ -45,6 +45,12 @@ impl Conservative {
         }
     }
 
+    /// The same, which compares other classes of motion.
+    pub(crate) fn searching(&self, passing_orders: HomotopySearch) -> Self {
+        let settings = Settings { passing_orders, ..self.settings };
+        Conservative { settings, optimiser: self.optimiser.clone().searching(passing_orders), ..self.clone() }
+    }
+
     /// The same with a limit of the work of a descent, beyond which it hands out what it has come to.
     pub(crate) fn limited_to(mut self, work_limit: usize) -> Self {
         self.optimiser.tolerances.work_limit = work_limit;
@@ -63,6 +69,12 @@ impl Drive for Conservative {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let optimiser = self.optimiser.clone().searching(settings.passing_orders);
+        Some(Box::new(Conservative { settings, optimiser, ..self.clone() }))
     }
 }
 

@@ -24,7 +24,7 @@ pub use settings::Settings;
 use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
@@ -95,6 +95,12 @@ impl Drive for Contingency {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let optimiser = self.optimiser.clone().searching(settings.passing_orders);
+        Some(Box::new(Contingency { settings, optimiser, ..self.clone() }))
     }
 }
 

@@ -29,7 +29,7 @@ pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, Solution
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::receding_horizon::Solved;
@@ -143,6 +143,13 @@ impl Drive for Game {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let optimiser = self.optimiser.clone().searching(settings.passing_orders);
+        let theory = TabulatedTheory::new(settings.prospect);
+        Some(Box::new(Game { settings, theory, optimiser, ..self.clone() }))
     }
 }
 

@@ -55,7 +55,7 @@ pub use settings::{Settings, Style};
 use std::borrow::Cow;
 
 use crate::belief::Outlook;
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::posing::ellipses;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
@@ -146,6 +146,12 @@ impl Drive for Human {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let optimiser = self.optimiser.clone().searching(settings.passing_orders);
+        Some(Box::new(Human { settings, optimiser, ..self.clone() }))
     }
 }
 

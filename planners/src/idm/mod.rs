@@ -13,7 +13,7 @@ mod settings;
 pub use settings::{Mobil, Settings};
 
 use crate::belief::Outlook;
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};
@@ -90,6 +90,11 @@ impl Drive for Idm {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        Some(Box::new(Idm { settings, ..self.clone() }))
     }
 }
 

@@ -21,7 +21,7 @@ pub use settings::Settings;
 use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::posing::{JointVehicle, joint_problem};
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
@@ -103,6 +103,12 @@ impl Drive for Nash {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        let joint = self.joint.clone().searching(settings.passing_orders);
+        Some(Box::new(Nash { settings, joint, ..self.clone() }))
     }
 }
 

@@ -32,7 +32,7 @@ pub use settings::Settings;
 use crate::belief::Outlook;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::drive::Drive;
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::encounter::partner_event;
 use crate::homotopy::{PassingSide, homotopy_class};
 use crate::receding_horizon::Solved;
@@ -116,6 +116,16 @@ impl Drive for Negotiation {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        Some(Box::new(Negotiation {
+            retreat: self.retreat.searching(settings.passing_orders),
+            optimiser: self.optimiser.clone().searching(settings.passing_orders),
+            settings,
+            ..self.clone()
+        }))
     }
 }
 

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::belief::Outlook;
-use crate::drive::{Drive, DriverKind};
+use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, Scene};
@@ -108,6 +108,11 @@ impl Drive for Scripted {
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = settings_of::<Settings>(settings)?.clone();
+        Some(Box::new(Scripted { settings, ..self.clone() }))
     }
 }
 

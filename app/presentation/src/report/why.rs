@@ -18,7 +18,8 @@ pub fn why(title: &str, command: &[String], report: &WhyReport) -> String {
 
 fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyReport) -> std::fmt::Result {
     use Align::{Left, Right};
-    writeln!(text, "{title}  [{}]", report.scenario)?;
+    let from = report.at_s.map(|at_s| format!("; what is changed holds from {at_s} s on")).unwrap_or_default();
+    writeln!(text, "{title}  [{}]{from}", report.scenario)?;
     let names = report.runs.iter().take(1).flat_map(|run| &run.vehicles).map(|vehicle| format!("{} s", vehicle.name));
     let names: Vec<String> = names.collect();
     let mut header = vec![("what is changed", Left), ("order", Left)];
@@ -26,6 +27,9 @@ fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyRep
     header.extend([("gap m", Right), ("expectations", Left)]);
     lines(&header, report.runs.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
     writeln!(text, "\n{}", conclusion(report))?;
+    if report.at_s.is_some() {
+        return Ok(());
+    }
     // The most instructive of the runs: the first in another order.
     let Some(run) = report.runs.iter().find(|run| run.order_differs).or(report.runs.last()) else { return Ok(()) };
     let set = run.set.iter().flat_map(|set| ["--set", set]);
