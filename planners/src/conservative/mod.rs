@@ -15,7 +15,7 @@ use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::receding_horizon::{self, Solved};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{DescentError, Optimiser, HomotopySearch, Problem, Robust, Violation};
+use crate::trajectory::{DescentError, HomotopySearch, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// The conservative planner (eq. 6.13) with its last plan.

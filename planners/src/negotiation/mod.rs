@@ -121,7 +121,7 @@ impl Drive for Negotiation {
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
         let settings = *settings_of::<Settings>(settings)?;
         Some(Box::new(Negotiation {
-            retreat: self.retreat.searching(settings.passing_orders),
+            fallback: self.fallback.searching(settings.passing_orders),
             optimiser: self.optimiser.clone().searching(settings.passing_orders),
             settings,
             ..self.clone()

@@ -87,8 +87,12 @@ impl Building {
     /// A copy that goes on bit for bit as this building does.
     ///
     /// # Errors
-    /// [`NotCopied`] if another program is the plant.
+    /// [`NotCopied`] if another program is the plant, or if the controller does not fork.
     pub fn fork(&self) -> Result<Self, NotCopied> {
+        let why = || NotCopied {
+            who: "the controller of the building".to_owned(),
+            why: "it does not implement `fork`".to_owned(),
+        };
         Ok(Building {
             model: self.model.clone(),
             believed: self.believed.clone(),
@@ -96,7 +100,7 @@ impl Building {
             agenda: self.agenda.clone(),
             targets: self.targets.clone(),
             surroundings: self.surroundings.clone(),
-            controller: self.controller.clone(),
+            controller: self.controller.fork().ok_or_else(why)?,
             step: self.step,
             today: self.today.clone(),
             design_s: self.design_s,
