@@ -1,10 +1,11 @@
 //! A world that is stepped from outside, copied and resumed goes on bit for bit as one that nobody touched.
 
 use interplay_planners::Input;
-use interplay_scenarios::{Scenario, embedded};
+use interplay_scenarios::{Registry, Scenario, embedded};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
-use interplay_simulation::{Simulation, Snapshot};
+use interplay_simulation::time_points::TimePoints;
+use interplay_simulation::{SavedRunError, Simulation, Snapshot};
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -51,22 +52,19 @@ fn moments(name: &str, steps: usize, count: usize) -> Vec<usize> {
 
 /// Runs a scenario with copies at some moments, and demands that what is resumed from each ends as the run itself.
 fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize {
-    let whole = run(name, scenario, Vec::new()).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let steps = {
-        let mut simulation = Simulation::new(scenario).expect("it began before");
-        std::iter::from_fn(|| simulation.step().expect("the run can go on").map(|_| ())).count()
-    };
+    let steps = TimePoints::new(scenario).count();
     let moments = moments(name, steps, count);
-    let mut simulation = Simulation::watched(name, scenario, Vec::new()).expect("it began before");
+    let mut simulation =
+        Simulation::watched(name, scenario, Vec::new()).unwrap_or_else(|error| panic!("{name}: {error}"));
     let mut forks: Vec<(usize, Snapshot)> = Vec::new();
     for step in 0..steps {
         for _ in moments.iter().filter(|moment| **moment == step) {
             forks.push((step, simulation.snapshot().expect("everything of ours can be copied")));
         }
-        simulation.step().expect("the run can go on");
+        assert!(simulation.step().expect("the run can go on").is_some(), "{name}: step {step} of {steps}");
     }
-    let wanted = outcome(&whole);
-    assert_eq!(outcome(&simulation.finish().expect("nobody watches")), wanted, "{name}, stepped from outside");
+    assert!(simulation.step().expect("the run is over").is_none());
+    let wanted = outcome(&simulation.finish().expect("nobody watches"));
     for (step, fork) in &forks {
         let resumed = finished(fork.resume().expect("a copy can be copied"));
         assert_eq!(outcome(&resumed), wanted, "{name}, resumed after {step} steps");
@@ -89,7 +87,7 @@ fn authored_scenarios_go_on_from_any_moment() {
         .par_iter()
         .map(|file| {
             let mut scenario = authored(file.name, &[]);
-            scenario.iterations = scenario.iterations.map(|days| days.min(3));
+            scenario.iterations = Some(scenario.days().clamp(1, 2));
             every_fork_ends_alike(file.name, &scenario, count(file.name))
         })
         .sum();
@@ -147,8 +145,7 @@ fn a_contact_in_progress_goes_on() {
         let mut compared = 0;
         loop {
             if (simulation.time_s() - first_s).abs() <= 5.0 * scenario.step_s {
-                let resumed =
-                    simulation.snapshot().and_then(|copy| Ok(copy.resume().expect("a copy"))).expect("a copy");
+                let resumed = simulation.snapshot().expect("a copy").resume().expect("a copy of it");
                 assert_eq!(outcome(&finished(resumed)), outcome(&whole), "at {} s", simulation.time_s());
                 compared += 1;
             }
@@ -273,4 +270,41 @@ fn a_simulation_is_sent_to_another_thread() {
     fn is_send<T: Send>() {}
     is_send::<Simulation>();
     is_send::<Snapshot>();
+}
+
+/// A snapshot as text is read back to the same state, inputs from outside included; what is damaged or of another version is refused.
+#[test]
+fn a_snapshot_is_written_and_read() {
+    let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}", "duration_s=4"];
+    let mut simulation = Simulation::new(&authored("lane-change/front-nice", &changes)).expect("a world");
+    let horizon = simulation.scenario().horizon_steps;
+    for tick in 0..25 {
+        let input = Input { acceleration_mps2: 0.02 * f64::from(tick - 12), steering_rad: 0.002 * f64::from(tick) };
+        if tick % 3 == 0 {
+            simulation.apply_plan("ego", &vec![input; horizon]).expect("the ego is external");
+        } else {
+            simulation.apply("ego", Input::default()).expect("the last call counts");
+            simulation.apply("ego", input).expect("the ego is external");
+        }
+        simulation.step().expect("it has its input");
+    }
+    let text = simulation.snapshot().expect("a copy").to_json().expect("it is all in the scenario");
+    let read = |text: &str| Snapshot::from_json(text, &Registry::default());
+    let ends = [simulation, read(&text).expect("the same program").resume().expect("a copy")].map(|mut simulation| {
+        while simulation.time_s() < 4.0 {
+            simulation.apply("ego", Input::default()).expect("the ego is external");
+            simulation.step().expect("it has its input");
+        }
+        outcome(&simulation.finish().expect("nobody watches"))
+    });
+    assert_eq!(ends[0], ends[1]);
+    let other_run = text.replacen("0.002", "0.003", 1);
+    assert!(matches!(read(&other_run), Err(SavedRunError::OtherRun { .. })));
+    assert!(matches!(read(&text.replacen("\"format\": 1", "\"format\": 7", 1)), Err(SavedRunError::Format { .. })));
+    assert!(matches!(read(&text[..text.len() / 2]), Err(SavedRunError::Text(_))));
+    let mut taken = Simulation::new(&authored("lane-change/front-nice", &changes)).expect("a world");
+    taken.drive_with("ego", interplay_planners::human::Human::new(Default::default())).expect("there is an ego");
+    taken.step().expect("it drives itself");
+    let refused = taken.snapshot().expect("ours forks").to_json().expect_err("the scenario does not name it");
+    assert!(refused.to_string().starts_with("the driver that has taken over `ego` cannot be copied"), "{refused}");
 }

@@ -91,6 +91,16 @@ pub(crate) fn json(what: &'static str, value: &impl Serialize) -> Result<String,
     text.map(|text| text + "\n").map_err(|reason| CommandError::Json { what, reason })
 }
 
+/// Why a scenario cannot be run by the command: a vehicle of it waits for inputs from outside.
+pub(crate) fn without_input(scenario: &Scenario) -> Option<String> {
+    let external = scenario.vehicles.iter().find(|vehicle| vehicle.driver.kind() == "external")?;
+    Some(format!(
+        "`{name}` has `driver = {{ kind = \"external\" }}`, and nothing drives it here: a program of your own does \
+         (`Simulation::apply`), or `--set 'vehicle.{name}.driver={{ kind = \"human\" }}'` gives it another driver",
+        name = external.name
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
@@ -114,14 +124,4 @@ mod tests {
         assert!(error.starts_with("the report cannot be written as JSON: "), "{error}");
         assert_eq!(json("numbers", &[0.1 + 0.2]).expect("numbers"), "[\n  0.30000000000000004\n]\n");
     }
-}
-
-/// Why a scenario cannot be run by the command: a vehicle of it waits for inputs from outside.
-pub(crate) fn without_input(scenario: &Scenario) -> Option<String> {
-    let external = scenario.vehicles.iter().find(|vehicle| vehicle.driver.kind() == "external")?;
-    Some(format!(
-        "`{name}` has `driver = {{ kind = \"external\" }}`, and nothing drives it here: a program of your own does \
-         (`Simulation::apply`), or `--set 'vehicle.{name}.driver={{ kind = \"human\" }}'` gives it another driver",
-        name = external.name
-    ))
 }

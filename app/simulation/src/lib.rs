@@ -20,6 +20,7 @@ pub mod plan;
 pub mod predict;
 pub mod report;
 pub mod run;
+mod saved_run;
 pub mod sense;
 mod simulation;
 mod snapshot;
@@ -30,6 +31,7 @@ pub mod why;
 mod world_state;
 pub mod worst_zones;
 
+pub use saved_run::SavedRunError;
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use world_state::NotCopied;

@@ -14,6 +14,7 @@ use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::run::RunError;
+use crate::saved_run::HandedInput;
 use crate::snapshot::Snapshot;
 use crate::time_points::TimePoints;
 use crate::watch::{Watcher, Watchers};
@@ -49,6 +50,10 @@ pub struct Simulation {
     schedule: Schedule,
     time_points: TimePoints,
     has_failed: bool,
+    /// What was handed in, in order.
+    pub(crate) inputs: Vec<HandedInput>,
+    /// Vehicles whose driver was replaced by one that the scenario does not name.
+    pub(crate) replaced: Vec<String>,
     /// Wall time of building and stepping the world \[s\].
     wall_s: f64,
 }
@@ -85,7 +90,17 @@ impl Simulation {
         let mut schedule = phases::schedule();
         let built = schedule.initialize(&mut world);
         built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
-        Ok(Simulation { name: name.to_owned(), scenario, world, schedule, time_points, has_failed: false, wall_s: 0.0 })
+        Ok(Simulation {
+            name: name.to_owned(),
+            scenario,
+            world,
+            schedule,
+            time_points,
+            has_failed: false,
+            inputs: Vec::new(),
+            replaced: Vec::new(),
+            wall_s: 0.0,
+        })
     }
 
     /// The scenario that is simulated.
@@ -189,6 +204,7 @@ impl Simulation {
             if identity.index == index {
                 driving.planner.replace_driver(Box::new(driver));
                 *handed_in = HandedIn::NotExternal;
+                self.replaced.push(vehicle.to_owned());
                 break;
             }
         }
@@ -218,8 +234,15 @@ impl Simulation {
     /// [`NotCopied`] says who has no copy: a building behind a socket, a driver of somebody else's that does not fork.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
         let world = WorldState::of(&self.world)?.into_world(Vec::new());
-        let Simulation { name, scenario, time_points, .. } = self;
-        Ok(Snapshot { name: name.clone(), scenario: Arc::clone(scenario), time_points: time_points.clone(), world })
+        let Simulation { name, scenario, time_points, inputs, replaced, .. } = self;
+        Ok(Snapshot {
+            name: name.clone(),
+            scenario: Arc::clone(scenario),
+            time_points: time_points.clone(),
+            inputs: inputs.clone(),
+            replaced: replaced.clone(),
+            world,
+        })
     }
 
     /// Goes back, or forth, to a snapshot, of this world or of any other. The watchers stay and see the ticks that follow.
@@ -265,10 +288,17 @@ impl Simulation {
         let index = self.index_of(vehicle)?;
         let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
         let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.index == index);
+        let step = self.time_points.passed();
+        let handed = HandedInput::of(step, vehicle, &decided);
         match found {
             Some((_, mut handed_in)) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
             _ => return Err(RunError::NotExternal { vehicle: vehicle.to_owned() }),
         }
+        // The last call before a step counts.
+        let before = self.inputs.iter().rposition(|before| before.step < step).map_or(0, |last| last + 1);
+        let same = self.inputs[before..].iter().position(|handed| handed.vehicle == vehicle);
+        same.map(|same| self.inputs.remove(before + same));
+        self.inputs.extend(handed);
         Ok(())
     }
 

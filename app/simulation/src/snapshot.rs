@@ -5,7 +5,9 @@ use std::sync::Arc;
 use bevy_ecs::prelude::World;
 use interplay_scenarios::Scenario;
 
+use crate::measure::{BuildingMeasures, Measures};
 use crate::run::RunError;
+use crate::saved_run::HandedInput;
 use crate::simulation::Simulation;
 use crate::time_points::TimePoints;
 use crate::world_state::WorldState;
@@ -18,6 +20,8 @@ pub struct Snapshot {
     pub(crate) name: String,
     pub(crate) scenario: Arc<Scenario>,
     pub(crate) time_points: TimePoints,
+    pub(crate) inputs: Vec<HandedInput>,
+    pub(crate) replaced: Vec<String>,
     pub(crate) world: World,
 }
 
@@ -28,7 +32,17 @@ impl Snapshot {
     /// [`RunError::NotCopied`]; never, if nothing was added to the copy.
     pub fn resume(&self) -> Result<Simulation, RunError> {
         let parts = (Arc::clone(&self.scenario), self.time_points.clone());
-        Simulation::assembled(&self.name, parts, WorldState::of(&self.world)?, Vec::new())
+        let mut simulation = Simulation::assembled(&self.name, parts, WorldState::of(&self.world)?, Vec::new())?;
+        simulation.inputs.clone_from(&self.inputs);
+        simulation.replaced.clone_from(&self.replaced);
+        Ok(simulation)
+    }
+
+    /// A digest of all states so far.
+    pub(crate) fn digest(&self) -> String {
+        let building = self.world.get_resource::<BuildingMeasures>();
+        let balance = building.map(|measures| measures.digests().balance).unwrap_or_default();
+        self.world.resource::<Measures>().digest.phases().physics + &balance
     }
 
     /// Simulated time at which it was taken \[s\].

@@ -1,0 +1,143 @@
+//! A snapshot as text: the scenario, what was handed in from outside, and how far the run has come.
+//!
+//! A run is a function of its scenario and of what is handed in, bit for bit. So that is all that has to be kept: whoever reads it drives
+//! up to the same step again, and a digest of all states proves that it is the same. It stays small, whatever planners and bodies
+//! remember, and is read by people. It takes the time of the run so far to read.
+
+use interplay_planners::Input;
+use interplay_scenarios::{LoadError, Registry};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::components::HandedIn;
+use crate::run::RunError;
+use crate::simulation::Simulation;
+use crate::snapshot::Snapshot;
+use crate::world_state::NotCopied;
+
+/// The version of the form below.
+const FORMAT: u32 = 1;
+
+/// What was handed in for a vehicle before a step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HandedInput {
+    /// How many steps were done before.
+    pub step: usize,
+    /// The vehicle.
+    pub vehicle: String,
+    /// One input, or those of a plan.
+    pub inputs: Vec<Input>,
+    /// Whether they are a plan, which others are told.
+    pub is_plan: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedRun {
+    format: u32,
+    program: String,
+    name: String,
+    scenario: String,
+    steps: usize,
+    inputs: Vec<HandedInput>,
+    digest: String,
+}
+
+/// Why a snapshot cannot be written or read as text.
+#[derive(Debug, Error)]
+pub enum SavedRunError {
+    /// A driver that is no part of the scenario has taken over.
+    #[error(transparent)]
+    NotCopied(#[from] NotCopied),
+    /// The text is no snapshot.
+    #[error("this is no snapshot: {0}")]
+    Text(#[from] serde_json::Error),
+    /// The text has another form.
+    #[error(
+        "this snapshot has form {found}, and this program reads form {FORMAT}; it was written by Interplay {program}"
+    )]
+    Format {
+        /// The form that it has.
+        found: u32,
+        /// The version of the program that wrote it.
+        program: String,
+    },
+    /// Its scenario is refused.
+    #[error("the scenario of the snapshot is refused: {0}")]
+    Scenario(#[from] LoadError),
+    /// Its run cannot be repeated.
+    #[error("the run of the snapshot cannot be repeated: {0}")]
+    Run(#[from] RunError),
+    /// The repeated run is another one.
+    #[error(
+        "the run of the snapshot goes otherwise in this program: it was written by Interplay {program}, and drivers behave \
+         differently since"
+    )]
+    OtherRun {
+        /// The version of the program that wrote it.
+        program: String,
+    },
+}
+
+impl HandedInput {
+    /// What was handed in, if it was anything.
+    pub(crate) fn of(step: usize, vehicle: &str, handed_in: &HandedIn) -> Option<Self> {
+        let (inputs, is_plan) = match handed_in {
+            HandedIn::NotExternal | HandedIn::Awaited => return None,
+            HandedIn::Input(input) => (vec![*input], false),
+            HandedIn::Plan(inputs) => (inputs.clone(), true),
+        };
+        Some(HandedInput { step, vehicle: vehicle.to_owned(), inputs, is_plan })
+    }
+}
+
+impl Snapshot {
+    /// The snapshot as JSON, for a file: [`Snapshot::from_json`] reads it.
+    ///
+    /// # Errors
+    /// [`SavedRunError::NotCopied`] if a driver has taken over by [`Simulation::drive_with`], which the scenario does not name.
+    pub fn to_json(&self) -> Result<String, SavedRunError> {
+        if let Some(vehicle) = self.replaced.first() {
+            let why = "it is no part of the scenario; give the vehicle a `driver` of a registered kind".to_owned();
+            return Err(NotCopied { who: format!("the driver that has taken over `{vehicle}`"), why }.into());
+        }
+        let saved = SavedRun {
+            format: FORMAT,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            name: self.name.clone(),
+            scenario: self.scenario.to_file().to_toml(),
+            steps: self.time_points.passed(),
+            inputs: self.inputs.clone(),
+            digest: self.digest(),
+        };
+        Ok(serde_json::to_string_pretty(&saved)?)
+    }
+
+    /// Reads what [`Snapshot::to_json`] wrote: the run up to there is repeated, which takes as long as it took. `registry` has the kinds
+    /// of drivers that the scenario may name.
+    ///
+    /// # Errors
+    /// [`SavedRunError`], if the text is no snapshot or this program does not come to the same states.
+    pub fn from_json(text: &str, registry: &Registry) -> Result<Snapshot, SavedRunError> {
+        let saved: SavedRun = serde_json::from_str(text)?;
+        let program = saved.program;
+        if saved.format != FORMAT {
+            return Err(SavedRunError::Format { found: saved.format, program });
+        }
+        let scenario = registry.from_text("snapshot.toml", &saved.scenario, &[])?;
+        let mut simulation = Simulation::watched(&saved.name, &scenario, Vec::new())?;
+        let mut inputs = saved.inputs.into_iter().peekable();
+        for step in 0..saved.steps {
+            while let Some(handed) = inputs.next_if(|handed| handed.step == step) {
+                match (handed.is_plan, handed.inputs.as_slice()) {
+                    (false, [input]) => simulation.apply(&handed.vehicle, *input)?,
+                    (_, inputs) => simulation.apply_plan(&handed.vehicle, inputs)?,
+                }
+            }
+            simulation.step()?;
+        }
+        let snapshot = simulation.snapshot()?;
+        if snapshot.digest() == saved.digest { Ok(snapshot) } else { Err(SavedRunError::OtherRun { program }) }
+    }
+}
