@@ -8,7 +8,7 @@ use std::{fmt, ops::Range, sync::Arc};
 use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use thiserror::Error;
 
-use crate::plain_text::is_plain;
+use crate::text::plain_text::is_plain;
 
 /// Excerpts longer than this are cut around the error \[bytes\].
 const MAX_EXCERPT_BYTES: usize = 2000;

@@ -5,21 +5,24 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json};
 
-use crate::commented::make_paths_absolute;
-use crate::counterfactual::{Counterfactual, CounterfactualConfig};
+use crate::budget;
+use crate::changes::changed;
+use crate::check::{consistency, shape};
+use crate::defaults::degrees;
+use crate::defaults::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::expansion::{expand, with_defaults};
-use crate::merge::merge_tables;
-use crate::overrides::Override;
-use crate::placement::KnownRoads;
+use crate::format::counterfactual::{Counterfactual, CounterfactualConfig};
+use crate::format::scenario_file::ScenarioFile;
+use crate::read::merge::merge_tables;
+use crate::read::overrides::Override;
+use crate::read::source::Source;
+use crate::read::tree::{self, Table, TomlNode, TomlValue};
 use crate::registry::Registry;
+use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
 use crate::scenario::Scenario;
-use crate::scenario_file::ScenarioFile;
 use crate::schema::SchemaNode;
-use crate::source::Source;
-use crate::tree::{self, Table, TomlNode, TomlValue};
-use crate::{budget, changed, consistency, degrees, schema_check};
+use crate::write::commented::make_paths_absolute;
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -140,7 +143,7 @@ fn whole(name: &str, tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec
 /// What a whole tree states, and no more.
 fn as_stated(mut tree: TomlNode, schema: SchemaNode) -> Result<ScenarioFile, Vec<Fault>> {
     make_paths_absolute(&mut tree, Path::new(""));
-    let faults = schema_check::check(&tree, schema);
+    let faults = shape::check(&tree, schema);
     if faults.is_empty() { Ok(read(tree.to_json(), &tree)?) } else { Err(faults) }
 }
 
@@ -180,7 +183,7 @@ pub(crate) fn assemble_on(
 ) -> Result<Scenario, Vec<Fault>> {
     let schema = registry.complete();
     let tree = &with_defaults(tree.clone(), schema)?;
-    let faults = schema_check::check(tree, schema);
+    let faults = shape::check(tree, schema);
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -11,39 +11,20 @@
 //! }
 //! ```
 
-mod check;
-mod compare;
-mod completions;
-mod error;
-mod exit_status;
-mod export_fmu;
-mod files;
-mod identify;
-mod list;
-mod man;
-mod new;
-mod out_of_memory;
+mod arguments;
+mod commands;
 mod output;
-mod plan_flags;
-mod program;
-mod progress;
-mod refusal;
-mod reproduce;
-mod run;
-mod schema;
-mod suite;
-mod sweep;
-mod threads;
-mod values;
-mod view;
-mod watch;
-mod why;
+mod process;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
+
+use commands::{
+    check, compare, completions, export_fmu, identify, list, man, new, reproduce, run, schema, suite, sweep, view, why,
+};
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
 #[derive(Debug, Parser)]

@@ -2,9 +2,9 @@
 
 use super::RunCost;
 use crate::error::Fault;
-use crate::plant::Plant;
+use crate::format::plant::Plant;
+use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
-use crate::tree::TomlNode;
 
 /// With more steps a day, these make a design large, and not the zones: those of half an hour.
 const USUAL_STEPS_PER_DAY: usize = 48;

@@ -6,9 +6,9 @@ use interplay_planners::human::Style;
 use super::assignment::{Assignment, path_of};
 use super::factor::{DrawSettings, Factor, factors};
 use crate::error::{Fault, quoted};
-use crate::overrides::{SettingPath, settings_of};
+use crate::read::overrides::{SettingPath, settings_of};
+use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
 use crate::registry::Registry;
-use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
 /// A planner of the ego, or drivers of the others.
 #[derive(Clone)]

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use crate::error::{Fault, Place};
-use crate::overrides::{SettingPath, lay_planner};
+use crate::format::start_jitter::StartJitter;
+use crate::read::overrides::{SettingPath, lay_planner};
+use crate::read::tree::{Table, TomlNode, TomlValue};
 use crate::schema::SchemaNode;
-use crate::start_jitter::StartJitter;
-use crate::tree::{Table, TomlNode, TomlValue};
 
 /// A setting of a scenario, or the driver of its ego, and the value that a plan gives it.
 #[derive(Clone)]

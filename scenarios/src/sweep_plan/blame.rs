@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::assignment::Assignment;
 use super::plan::{Indices, SweepPlan, SweepPoint};
 use crate::error::{Fault, LoadError};
+use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
-use crate::tree::TomlNode;
 
 impl SweepPlan {
     /// The scenario of a run.

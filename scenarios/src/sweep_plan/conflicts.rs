@@ -4,8 +4,8 @@ use super::arm::Arm;
 use super::plan::SweepPlan;
 use super::settings_below::is_within;
 use crate::error::{Fault, Place};
-use crate::overrides::SettingPath;
-use crate::tree::TomlNode;
+use crate::read::overrides::SettingPath;
+use crate::read::tree::TomlNode;
 
 /// What stands beside a change without effect.
 pub(super) const NO_EFFECT: &str = "without effect";

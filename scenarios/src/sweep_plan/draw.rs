@@ -2,7 +2,7 @@
 
 use interplay_common::random::Random;
 
-use crate::plan_file::Sampling;
+use crate::sweep_plan::plan_file::Sampling;
 
 /// The random numbers of one path of a plan.
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@ use super::assignment::Assignment;
 use super::factor::Factor;
 use super::plan::{Indices, SweepPlan};
 use crate::error::{Fault, quoted};
-use crate::plan_file::Sampling;
 use crate::scenario::Scenario;
+use crate::sweep_plan::plan_file::Sampling;
 
 impl SweepPlan {
     /// What is wrong with several samples of a run if nothing is drawn for it. `instead`, if stated, is the value of one of its

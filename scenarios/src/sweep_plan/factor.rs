@@ -5,10 +5,10 @@ use interplay_common::spelling::nearest;
 
 use super::draw::UnitDraws;
 use crate::error::{Fault, Place, quoted};
-use crate::overrides::SettingPath;
-use crate::plan_file::Sampling;
+use crate::read::overrides::SettingPath;
+use crate::read::tree::{Table, TomlNode, TomlValue, kind_of};
 use crate::schema::SchemaNode;
-use crate::tree::{Table, TomlNode, TomlValue, kind_of};
+use crate::sweep_plan::plan_file::Sampling;
 
 /// A path whose value varies.
 #[derive(Clone)]

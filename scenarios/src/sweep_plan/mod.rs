@@ -9,6 +9,8 @@
 //! or scenario, and more samples, leave all that is there as it was; only of a Latin hypercube the number of samples changes all
 //! values.
 
+pub(crate) mod plan_file;
+
 mod arm;
 mod assignment;
 mod blame;

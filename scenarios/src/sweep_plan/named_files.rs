@@ -1,7 +1,7 @@
 //! What the files say that a scenario only names: whoever compares scenarios must compare it, too.
 
+use crate::format::weather::WeatherSource;
 use crate::scenario::Scenario;
-use crate::weather::WeatherSource;
 
 /// The settings that name such files, by their first key.
 pub(super) const SETTINGS: [&str; 2] = ["weather", "tariff"];

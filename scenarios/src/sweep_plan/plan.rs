@@ -10,13 +10,13 @@ use super::factor::Factor;
 use super::named_files;
 use super::names::NamedScenario;
 use crate::error::{Fault, Place};
+use crate::format::start_jitter::StartJitter;
 use crate::load::assemble_on;
-use crate::placement::KnownRoads;
-use crate::plan_file::Sampling;
+use crate::read::tree::{Table, TomlNode, TomlValue};
 use crate::registry::Registry;
+use crate::resolve::placement::KnownRoads;
 use crate::scenario::Scenario;
-use crate::start_jitter::StartJitter;
-use crate::tree::{Table, TomlNode, TomlValue};
+use crate::sweep_plan::plan_file::Sampling;
 
 /// A plan of many runs. They are numbered from 0, those of one sample next to each other.
 pub struct SweepPlan {

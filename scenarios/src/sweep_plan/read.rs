@@ -13,17 +13,17 @@ use super::named_files;
 use super::names::{NamedScenario, find};
 use super::plan::{PlannedScenario, SweepPlan};
 use super::samples;
+use crate::check::shape;
 use crate::error::{Document, Fault, LoadError, Place, quoted};
+use crate::format::start_jitter::StartJitter;
 use crate::load::{self, stated_counterfactuals};
-use crate::overrides::settings_of;
-use crate::placement::KnownRoads;
-use crate::plan_file::PlanFile;
+use crate::read::overrides::settings_of;
+use crate::read::source::Source;
+use crate::read::tree::{self, TomlNode, TomlValue};
 use crate::registry::Registry;
+use crate::resolve::placement::KnownRoads;
 use crate::schema::{self, SchemaNode};
-use crate::schema_check;
-use crate::source::Source;
-use crate::start_jitter::StartJitter;
-use crate::tree::{self, TomlNode, TomlValue};
+use crate::sweep_plan::plan_file::PlanFile;
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
@@ -118,7 +118,7 @@ fn read(
     tree: &TomlNode,
     folder: &Path,
 ) -> Result<SweepPlan, Vec<Fault>> {
-    let faults = schema_check::check(tree, SchemaNode::new(&SCHEMA));
+    let faults = shape::check(tree, SchemaNode::new(&SCHEMA));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -286,7 +286,8 @@ fn planned(
 /// The counterfactuals of a scenario as planners.
 fn counterfactuals(registry: &Registry, tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
     let scenario = load::assemble(registry, tree)?;
-    let faults = crate::consistency::counterfactual::check(&scenario, &stated_counterfactuals(tree)?, tree, None);
+    let faults =
+        crate::check::consistency::counterfactual::check(&scenario, &stated_counterfactuals(tree)?, tree, None);
     if !faults.is_empty() {
         return Err(faults);
     }

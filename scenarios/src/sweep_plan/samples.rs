@@ -1,7 +1,7 @@
 //! Another number of samples than a plan's own.
 
 use crate::error::{Document, Place};
-use crate::tree::{TomlEntry, TomlNode, TomlValue};
+use crate::read::tree::{TomlEntry, TomlNode, TomlValue};
 
 /// The key of a plan that says how many samples there are.
 const KEY: &str = "samples";

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::super::fault::RoadFault;
 use super::super::piece::CurvePiece;
-use crate::name;
+use crate::text::name;
 
 /// A lane: a line with a width. The line is stated by `start` and `pieces`, or by `points`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,0 +1,5 @@
+//! What arguments stand for: scenarios, values, plans.
+
+pub(crate) mod files;
+pub(crate) mod plan_flags;
+pub(crate) mod values;

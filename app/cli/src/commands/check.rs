@@ -1,0 +1,54 @@
+//! `interplay check`
+
+use clap::Args;
+use interplay_scenarios::{Registry, Scenario};
+
+use crate::arguments::files;
+use crate::output::exit_status::ExitStatus;
+use crate::output::{print_error, print_load_error, printed};
+
+/// Check scenario files without running them; every error is located.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/")]
+pub(crate) struct Check {
+    /// Scenario files, names of embedded scenarios, or folders that are searched for .toml files
+    #[arg(value_name = "FILE|DIR", required = true)]
+    paths: Vec<String>,
+}
+
+impl Check {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        let mut ending = ExitStatus::Well;
+        for path in &self.paths {
+            match files::find(path) {
+                Ok(found) => {
+                    for file in found.into_iter().map(|found| found.scenario) {
+                        match registry.load(&file, &[]) {
+                            Ok(scenario) => ending = ending.max(printed(&approved(&file, &scenario))),
+                            Err(error) => {
+                                print_load_error(error);
+                                ending = ending.max(ExitStatus::BadInput);
+                            }
+                        }
+                    }
+                }
+                Err(error) => {
+                    print_error(&error.to_string());
+                    ending = ExitStatus::BadInput;
+                }
+            }
+        }
+        ending
+    }
+}
+
+/// That a file is fine, what a run of it makes, and what is remarkable about it although it is allowed.
+fn approved(file: &str, scenario: &Scenario) -> String {
+    let network = scenario.building.as_ref().and_then(|building| building.network().ok());
+    let remarks: Vec<_> = network.iter().flat_map(|network| network.remarks()).collect();
+    let remarks = remarks.iter().map(ToString::to_string);
+    let all = scenario.remarks.iter().map(ToString::to_string).chain(remarks);
+    all.fold(format!("ok  {file}\n    makes {}\n", scenario.cost()), |text, remark| {
+        text + &format!("    note: {remark}\n")
+    })
+}

@@ -1,0 +1,184 @@
+//! `interplay identify`
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
+use interplay_presentation::{plot, report, shell};
+use interplay_scenarios::{Fault, read_regular};
+use thiserror::Error;
+
+use crate::output::error::{CommandError, write_file};
+use crate::output::exit_status::ExitStatus;
+use crate::output::{json, print, print_error};
+
+/// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.
+///
+/// A small TOML file beside the table, the mapping, says which column is what, in which unit, and sampled how.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    interplay identify assets/telemetry/cabin.csv        (a sample; its mapping is cabin.toml beside it)\n  \
+    interplay identify office.csv --mapping columns.toml --out plots/ --json\n  \
+    interplay identify office.csv --scenario office-scenario.toml\n\n\
+    A mapping:\n  \
+    walls = [[\"office\", \"outdoor\"]]\n  \
+    time = { column = \"time\", format = \"%Y-%m-%d %H:%M:%S\", step_s = 900.0, gaps = \"split\" }\n  \
+    boundary = [{ name = \"outdoor\", temperature = \"T_out\" }]\n  \
+    zone = [{ name = \"office\", temperature = \"T_in\", heat = [{ kind = \"power\", column = \"P\", unit = \"kw\" }] }]\n  \
+    identify = { train_days = 9.0 }")]
+pub(crate) struct Identify {
+    /// The table, with a header
+    #[arg(value_name = "FILE.csv")]
+    table: PathBuf,
+
+    /// What its columns are [default: the table's name with .toml]
+    #[arg(long, value_name = "FILE.toml")]
+    mapping: Option<PathBuf>,
+
+    /// Print the findings as one JSON document
+    #[arg(long)]
+    json: bool,
+
+    /// Draw fit, residuals and autocorrelation of each zone into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Write a scenario with the network that was found and its uncertainty; a file that exists is never overwritten
+    #[arg(long, value_name = "FILE.toml")]
+    scenario: Option<PathBuf>,
+}
+
+impl Identify {
+    pub(crate) fn execute(self) -> ExitStatus {
+        let found = match self.identify() {
+            Ok(found) => found,
+            Err(error) => {
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
+            }
+        };
+        if let Err(error) = self.print_findings(&found) {
+            print_error(&format!("Error: {error}"));
+            return ExitStatus::Unfinished;
+        }
+        let scenario = match self.scenario_text(&found) {
+            Ok(scenario) => scenario,
+            // What was found says why.
+            Err(error) => {
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
+            }
+        };
+        if let Err(error) = self.write_scenario(scenario) {
+            print_error(&format!("Error: {error}"));
+            return ExitStatus::Unfinished;
+        }
+        ExitStatus::Well
+    }
+
+    /// The scenario, if one is asked for.
+    fn scenario_text(&self, found: &Identification) -> Result<Option<String>, InputError> {
+        let Some(path) = &self.scenario else { return Ok(None) };
+        let table = self.table.display().to_string();
+        let network = found
+            .network
+            .as_ref()
+            .map_err(|reason| InputError::NoNetwork { table: table.clone(), reason: reason.clone() })?;
+        let text = report::identified_scenario(&table, &found.report, network);
+        match interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
+            Ok(_) => Ok(Some(text)),
+            Err(error) => {
+                let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
+                let reason = format!("no scenario can hold it: {}", faults.join("; "));
+                Err(InputError::NoNetwork { table, reason })
+            }
+        }
+    }
+
+    fn write_scenario(&self, text: Option<String>) -> Result<(), CommandError> {
+        let (Some(path), Some(text)) = (&self.scenario, text) else { return Ok(()) };
+        write_file(path, text.as_bytes())?;
+        let run = shell::line(["interplay", "run", &path.to_string_lossy()]);
+        print_error(&format!("wrote {}; to run it: {run}", path.display()));
+        Ok(())
+    }
+
+    fn identify(&self) -> Result<Identification, InputError> {
+        if let Some(path) = self.scenario.as_ref().filter(|path| path.exists()) {
+            return Err(InputError::ScenarioExists { path: path.clone() });
+        }
+        let mapping_file = self.mapping.clone().unwrap_or_else(|| self.table.with_extension("toml"));
+        let table = read(&self.table, "")?;
+        let help = match self.mapping {
+            Some(_) => "",
+            None => "; a mapping says which column is what: name one with --mapping (see `interplay identify --help`)",
+        };
+        let described = read(&mapping_file, help)?;
+        let mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
+        let name = self.table.display().to_string();
+        let telemetry = Telemetry::read(&name, &table, &mapping)?;
+        identify(&telemetry, &mapping.identify).map_err(|reason| match reason {
+            // These are said by the mapping; the table is not to blame.
+            IdentifyError::Setting(_)
+            | IdentifyError::NothingToIdentify { .. }
+            | IdentifyError::TooManyZones { .. } => {
+                InputError::Identify { name: mapping_file.display().to_string(), reason }
+            }
+            _ => InputError::Identify { name, reason },
+        })
+    }
+
+    /// Prints what was found, and draws it if that is asked for.
+    fn print_findings(&self, found: &Identification) -> Result<(), CommandError> {
+        if let Some(folder) = &self.out {
+            let written = plot::identification(folder, found)?;
+            print_error(&format!("{} plots in {}", written.len(), folder.display()));
+        }
+        let text = if self.json {
+            json("the findings", &found.report)?
+        } else {
+            report::identification(&self.table.display().to_string(), found)
+        };
+        print(&text)
+    }
+}
+
+/// Why telemetry cannot be used.
+#[derive(Debug, Error)]
+enum InputError {
+    #[error("cannot read {}: {reason}{help}", path.display())]
+    Unreadable { path: PathBuf, reason: io::Error, help: &'static str },
+    #[error("{}:{line}: not UTF-8 text; save it as UTF-8", path.display())]
+    NotUtf8 { path: PathBuf, line: usize },
+    #[error("`{}` exists already, and `--scenario` overwrites nothing; choose another name", path.display())]
+    ScenarioExists { path: PathBuf },
+    #[error("{table}: no scenario is written: {reason}")]
+    NoNetwork { table: String, reason: String },
+    #[error(transparent)]
+    Telemetry(#[from] TelemetryError),
+    #[error("{name}: {reason}")]
+    Identify { name: String, reason: IdentifyError },
+}
+
+/// The largest table that is read \[bytes\].
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// A file as text; the error ends with `help`.
+fn read(path: &Path, help: &'static str) -> Result<String, InputError> {
+    let path = path.to_owned();
+    let bytes = match read_regular(&path, MAX_FILE_BYTES) {
+        Ok(Some(bytes)) => bytes,
+        Ok(None) => {
+            let reason = io::Error::other("it is larger than 1 GiB");
+            return Err(InputError::Unreadable { path, reason, help });
+        }
+        Err(reason) => return Err(InputError::Unreadable { path, reason, help }),
+    };
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").map(<[u8]>::to_vec).unwrap_or(bytes);
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
+        InputError::NotUtf8 { path, line }
+    })
+}

@@ -1,0 +1,17 @@
+//! The subcommands, one a file.
+
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod completions;
+pub(crate) mod export_fmu;
+pub(crate) mod identify;
+pub(crate) mod list;
+pub(crate) mod man;
+pub(crate) mod new;
+pub(crate) mod reproduce;
+pub(crate) mod run;
+pub(crate) mod schema;
+pub(crate) mod suite;
+pub(crate) mod sweep;
+pub(crate) mod view;
+pub(crate) mod why;

@@ -1,0 +1,331 @@
+//! `interplay run`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use interplay_presentation::animation::AnimationFile;
+use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
+use interplay_presentation::page::Page;
+use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
+use interplay_presentation::report::summary;
+use interplay_presentation::shell;
+use interplay_scenarios::{Override, Registry, Scenario};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run_with_counterfactuals;
+use interplay_simulation::watch::Watcher;
+use thiserror::Error;
+
+use crate::arguments::files::{destroyed, is_page_file, is_same_file, short_name};
+use crate::output::error::CommandError;
+use crate::output::exit_status::ExitStatus;
+use crate::output::program::this_program;
+use crate::output::{json, print, print_error, print_load_error, without_input};
+use crate::process::watch::WatchedFiles;
+
+/// Run one scenario, say whether its expectations held, and record it.
+#[derive(Debug, Default, Args)]
+#[command(after_help = "Examples:\n  \
+    interplay run lane-change/front-tough\n  \
+    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
+    interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
+    interplay run intersection/nice --report my-report     (pictures and a page)\n  \
+    interplay run intersection/nice --animate nice.gif     (a moving picture)")]
+pub(crate) struct Run {
+    /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
+    #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
+    scenario: Option<String>,
+
+    /// Who drives the ego instead of the scenario's choice
+    #[arg(long, value_name = "KIND")]
+    planner: Option<String>,
+
+    /// Change one value of the scenario; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
+
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
+    seed: Option<u64>,
+
+    /// Where the recording goes [default: recordings/NAME.rrd]
+    #[arg(long, value_name = "FILE.rrd", conflicts_with = "no_record")]
+    record: Option<PathBuf>,
+
+    /// Do not record
+    #[arg(long)]
+    no_record: bool,
+
+    /// Stream to a viewer that is running instead of writing a file [default: the one on this machine]
+    #[arg(long, value_name = "URL", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = ["record", "no_record"])]
+    connect: Option<Option<Viewer>>,
+
+    /// Run again whenever the scenario file, or one that it extends, is saved
+    #[arg(long)]
+    watch: bool,
+
+    /// Draw what there is to see into this folder, as SVG and PNG, with a page, index.html, that shows it; the recording
+    /// goes there too unless --record says otherwise
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+
+    /// Draw a moving picture of the run, seen from above: .gif, .webp, .png (a filmstrip), or .mp4 (through ffmpeg)
+    #[arg(long, value_name = "FILE")]
+    animate: Option<AnimationFile>,
+
+    /// Print the report as one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is run, and started from, unless something else is asked for.
+pub(crate) const DEFAULT_SCENARIO: &str = "lane-change/front-nice";
+
+impl Run {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        if self.watch { self.run_at_every_change(registry) } else { self.run_once(registry) }
+    }
+
+    /// Runs at every change of the scenario; never returns unless there is nothing to watch.
+    fn run_at_every_change(&self, registry: &Registry) -> ExitStatus {
+        let mut watched = WatchedFiles::look(registry, self.scenario());
+        if watched.is_empty() {
+            print_error(&format!(
+                "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
+                self.scenario()
+            ));
+            return ExitStatus::BadInput;
+        }
+        loop {
+            self.run_once(registry);
+            print_error(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            watched = watched.wait(registry);
+        }
+    }
+
+    fn run_once(&self, registry: &Registry) -> ExitStatus {
+        let scenario = match registry.load(self.scenario(), &self.overrides()) {
+            Ok(scenario) => self.without_foreign_claims(scenario),
+            Err(error) => {
+                print_load_error(error);
+                return ExitStatus::BadInput;
+            }
+        };
+        for [counterfactual, reason] in &scenario.left_out {
+            print_error(&format!("the counterfactual \"{counterfactual}\" does not fit the flags: {reason}"));
+        }
+        for remark in scenario.remarks.iter() {
+            print_error(&format!("note: {remark}"));
+        }
+        let name = short_name(self.scenario());
+        if let Some(reason) = without_input(&scenario).or_else(|| self.refused_output(&name, registry)) {
+            print_error(&reason);
+            return ExitStatus::BadInput;
+        }
+        let checked = self.animate.as_ref().map_or(Ok(()), AnimationFile::check).map_err(CommandError::from);
+        let recording = match checked.and_then(|()| Ok(self.begin_recording(&scenario, &name)?)) {
+            Ok(recording) => recording,
+            Err(error) => {
+                print_error(&error.to_string());
+                return ExitStatus::Unfinished;
+            }
+        };
+        let passed = self.simulate(&name, scenario, recording).and_then(|recorded| {
+            self.page(&name, &recorded)?;
+            self.write_animation(&recorded)?;
+            self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
+        });
+        match passed {
+            Ok(passed) => {
+                if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
+                    let view = shell::line([this_program().as_str(), "view", &path.to_string_lossy()]);
+                    print_error(&format!("recorded to {}; to open it: {view}", path.display()));
+                }
+                if passed { ExitStatus::Well } else { ExitStatus::Failed }
+            }
+            Err(error) => {
+                print_error(&error.to_string());
+                ExitStatus::Unfinished
+            }
+        }
+    }
+
+    /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
+    fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
+        let (recording, animation) = (self.recording(name), self.animate.as_ref().map(AnimationFile::path));
+        let outputs = [("recording", recording.as_deref()), ("animation", animation)];
+        for (what, path) in outputs.iter().filter_map(|(what, path)| Some((what, (*path)?))) {
+            if let Some(path) = destroyed(registry, path, [self.scenario()].into_iter(), &self.overrides()) {
+                let path = path.display();
+                return Some(format!(
+                    "the {what} would overwrite `{path}`, of which the scenario is made; choose another name for it"
+                ));
+            }
+        }
+        let is_of_page = |path: &Path| self.report.as_deref().is_some_and(|folder| is_page_file(folder, path));
+        if let Some((what, path)) =
+            outputs.iter().find_map(|(what, path)| Some((what, path.filter(|path| is_of_page(path))?)))
+        {
+            let path = path.display();
+            return Some(format!(
+                "the {what} and a file of the page cannot both be `{path}`; choose another name for the {what}"
+            ));
+        }
+        if let (Some(recording), Some(animation)) = (&recording, animation)
+            && is_same_file(recording, animation)
+        {
+            let path = animation.display();
+            return Some(format!(
+                "the recording and the animation cannot both be `{path}`; choose another name for one"
+            ));
+        }
+        let page = self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))?;
+        Some(format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()))
+    }
+
+    /// The scenario without its counterfactuals if a flag replaces the planner: they are claims about the file's own planner.
+    fn without_foreign_claims(&self, scenario: Scenario) -> Scenario {
+        if self.planner.is_none() || scenario.counterfactuals.is_empty() && scenario.left_out.is_empty() {
+            return scenario;
+        }
+        print_error(
+            "counterfactuals are left out: they are claims about the scenario's own planner, not that of --planner",
+        );
+        Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario }
+    }
+
+    /// What is run, as it was asked for.
+    fn scenario(&self) -> &str {
+        self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO)
+    }
+
+    /// Runs the scenario and its counterfactuals, and ends the recording; the frames are kept if something is to be drawn of them.
+    fn simulate(
+        &self,
+        name: &str,
+        scenario: Scenario,
+        recording: Option<OpenRecording>,
+    ) -> Result<RecordedRun, CommandError> {
+        let frame_log = FrameLog::default();
+        let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
+        if let Some(recording) = &recording {
+            watchers.push(Box::new(recording.clone()));
+        }
+        if self.report.is_some() || self.animate.is_some() {
+            watchers.push(Box::new(frame_log.clone()));
+        }
+        let report = run_with_counterfactuals(name, &scenario, watchers)?;
+        recording.map_or(Ok(()), |recording| recording.close(&report))?;
+        Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
+    }
+
+    /// Draws the page, if that is asked for.
+    fn page(&self, name: &str, recorded: &RecordedRun) -> Result<(), CommandError> {
+        let Some(folder) = &self.report else { return Ok(()) };
+        let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
+        let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
+        let what = |file: &String| format!("the recording; \u{201c}interplay view {file}\u{201d} opens it");
+        let page = run_page(recorded, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
+        print_error(&format!("page in {}", page.display()));
+        Ok(())
+    }
+
+    /// Draws the moving picture, if that is asked for.
+    fn write_animation(&self, recorded: &RecordedRun) -> Result<(), CommandError> {
+        let Some(file) = &self.animate else { return Ok(()) };
+        file.write(recorded)?;
+        print_error(&format!("animation in {}", file.path().display()));
+        Ok(())
+    }
+
+    /// Prints the report as it was asked for.
+    fn print_report(&self, title: &str, report: &Report) -> Result<(), CommandError> {
+        let text = if self.json { json("the report", report)? } else { summary(title, report) };
+        print(&text)
+    }
+
+    /// The words that run the same again. What is done with the results is no part of them.
+    fn words(&self) -> Vec<String> {
+        let planner = self.planner.iter().flat_map(|kind| ["--planner".to_owned(), kind.clone()]);
+        let seed = self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]);
+        let sets = self.sets.iter().flat_map(|change| ["--set".to_owned(), change.clone()]);
+        let run = ["interplay", "run", self.scenario()].map(str::to_owned);
+        run.into_iter().chain(planner).chain(seed).chain(sets).collect()
+    }
+
+    /// The same as one line for a shell.
+    fn command(&self) -> String {
+        shell::line(self.words().iter().map(String::as_str))
+    }
+
+    /// Changes of the scenario, the most specific last.
+    fn overrides(&self) -> Vec<Override> {
+        let planner = self.planner.iter().cloned().map(Override::Planner);
+        let seed = self.seed.into_iter().map(Override::Seed);
+        planner.chain(seed).chain(self.sets.iter().cloned().map(Override::Set)).collect()
+    }
+
+    /// Where the recording goes, if anywhere.
+    fn recording(&self, name: &str) -> Option<PathBuf> {
+        let default = || match &self.report {
+            Some(folder) => folder.join("recording.rrd"),
+            None => PathBuf::from("recordings").join(format!("{name}.rrd")),
+        };
+        (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
+    }
+
+    fn begin_recording(&self, scenario: &Scenario, name: &str) -> Result<Option<OpenRecording>, RecordError> {
+        let sink = match &self.connect {
+            Some(viewer) => Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok)?)),
+            None => self.recording(name).map(Sink::File),
+        };
+        let Some(sink) = sink else { return Ok(None) };
+        let mut recorder = Recorder::begin(scenario, name, &sink)?;
+        recorder.repeat_with(&self.command())?;
+        Ok(Some(OpenRecording::new(recorder)))
+    }
+}
+
+/// A text that is no seed.
+#[derive(Debug, Error)]
+#[error("a seed is a whole number from 0 to {}", u64::MAX)]
+struct SeedError;
+
+/// What `--planner` does, with the kinds of drivers that a scenario may name.
+pub(crate) fn planner_help(registry: &Registry) -> String {
+    format!("Who drives the ego instead of the scenario's choice: {}", registry.driver_kinds().join(", "))
+}
+
+/// A seed as it is written on the command line.
+fn seed(text: &str) -> Result<u64, SeedError> {
+    text.parse().map_err(|_| SeedError)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Debug, Parser)]
+    struct Alone {
+        #[command(flatten)]
+        run: Run,
+    }
+
+    fn parsed(words: &[&str]) -> Run {
+        Alone::try_parse_from([&["run"], words].concat()).expect("sound arguments").run
+    }
+
+    #[test]
+    fn the_command_that_repeats_a_run_has_its_words_and_no_others() {
+        assert_eq!(Run::default().command(), "interplay run lane-change/front-nice");
+        let words = ["my file.toml", "--json", "--set", "title=\"It's\"", "--no-record", "--seed", "7"];
+        let run = parsed(&[&words[..], &["--set", "seed=3", "--planner", "human"]].concat());
+        let expected = r#"interplay run 'my file.toml' --planner human --seed 7 --set 'title="It'\''s"' --set seed=3"#;
+        assert_eq!(run.command(), expected);
+        let again =
+            parsed(&["my file.toml", "--planner", "human", "--seed", "7", "--set", words[3], "--set", "seed=3"]);
+        assert_eq!((again.scenario(), again.overrides()), (run.scenario(), run.overrides()));
+    }
+}

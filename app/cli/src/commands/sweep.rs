@@ -1,0 +1,275 @@
+//! `interplay sweep`
+
+use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use clap::{Args, Subcommand, ValueEnum};
+use interplay_presentation::record::{OpenRecording, Recorder, Sink};
+use interplay_scenarios::{LoadError, Registry, Scenario, SweepPlan, embedded_plans};
+use interplay_simulation::run::run;
+use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
+use rayon::ThreadPool;
+
+use crate::arguments::plan_flags::PlanFlags;
+use crate::arguments::values;
+use crate::commands::compare::after_sweep;
+use crate::output::exit_status::ExitStatus;
+use crate::output::progress::{CheckProgress, Progress};
+use crate::output::refusal::gave_up;
+use crate::output::{print_error, print_load_error, printed};
+use crate::process::threads::pool;
+
+/// Run a plan of many runs, a row each: scenarios, times drivers, times values that vary, times planners.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+#[command(
+    after_help = "A sweep that was stopped goes on where it was, and a bigger one reuses the rows of a smaller one.\n\n\
+    Examples:\n  \
+    interplay sweep                                        (a small one, well below a minute)\n  \
+    interplay sweep my-plan.toml --out results --keep failures\n  \
+    interplay sweep --scenario intersection/nice --planner negotiation --planner idm --starts 20\n  \
+    interplay sweep my-plan.toml --out results --shard 3/8\n  \
+    interplay sweep merge results"
+)]
+pub(crate) struct Sweep {
+    #[command(subcommand)]
+    action: Option<Action>,
+
+    #[arg(value_name = "PLAN", help = plan_help(), default_value = DEFAULT_PLAN)]
+    #[arg(conflicts_with_all = ["scenario", "planner", "arms", "counterfactuals", "style", "vary", "sets", "starts"])]
+    plan: String,
+
+    #[command(flatten)]
+    flags: PlanFlags,
+
+    /// Where rows, journals and recordings go [default: sweeps/NAME of the plan]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Make only a part of the runs: the I-th of N. In a Slurm array, each task makes its own part without being told
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+
+    /// Make one of N parts: the one that the task of a scheduler stands for (Slurm, Kubernetes or HyperQueue)
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroU32>, allow_negative_numbers = true, conflicts_with = "shard")]
+    shards: Option<NonZeroU32>,
+
+    /// Which runs are recorded
+    #[arg(long, value_name = "WHICH", value_enum, default_value_t = Keep::None)]
+    keep: Keep,
+
+    /// Check the plan with all that it draws, say how many runs it stands for, and run none
+    #[arg(long)]
+    dry_run: bool,
+
+    /// How many run at a time [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroUsize>, allow_negative_numbers = true)]
+    jobs: Option<NonZeroUsize>,
+}
+
+/// Something else to do than to run.
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// Merge the rows of all shards into one file, runs.parquet, sorted by key
+    Merge {
+        /// The folder of the shards
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// Where the rows go [default: runs.parquet in the folder]
+        #[arg(long, value_name = "FILE")]
+        to: Option<PathBuf>,
+        /// Leave out wall times, so that equal runs give equal files
+        #[arg(long)]
+        no_timings: bool,
+    },
+}
+
+/// Which runs are recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Keep {
+    /// No run
+    None,
+    /// Runs in which the ego touched somebody or did not reach its goal
+    Failures,
+}
+
+/// The plan that is run without another.
+const DEFAULT_PLAN: &str = "quick";
+
+fn plan_help() -> String {
+    format!("A plan: a file, or one in the binary ({})", embedded_plans().join(", "))
+}
+
+impl Sweep {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        if let Some(Action::Merge { folder, to, no_timings }) = &self.action {
+            return merged(folder, to.as_deref(), !no_timings);
+        }
+        let shard = match self.shard() {
+            Ok(shard) => shard,
+            Err(error) => {
+                print_error(&error.to_string());
+                return ExitStatus::BadInput;
+            }
+        };
+        if let Err(message) = self.flags.check() {
+            print_error(&message);
+            return ExitStatus::BadInput;
+        }
+        let plan = match self.plan(registry) {
+            Ok(plan) => plan,
+            Err(error) => {
+                print_load_error(error);
+                return ExitStatus::BadInput;
+            }
+        };
+        let folder = self.folder();
+        if self.dry_run {
+            return match self.check(&plan, shard, &folder) {
+                Ok(()) => printed(&counted(&plan)),
+                Err(error) => gave_up(error),
+            };
+        }
+        match self.run(&plan, shard, &folder) {
+            Ok(outcome) => said(&outcome, shard, &folder),
+            Err(error) => gave_up(error),
+        }
+    }
+
+    fn shard(&self) -> Result<Shard, ShardError> {
+        if let Some(shard) = self.shard {
+            return Ok(shard);
+        }
+        let found = Shard::of_scheduler(self.shards.map(Into::into), |name| std::env::var(name).ok())?;
+        if let Some(shard) = found {
+            print_error(&format!("shard {shard}, as the scheduler says"));
+        }
+        Ok(found.unwrap_or(Shard::WHOLE))
+    }
+
+    fn plan(&self, registry: &Registry) -> Result<SweepPlan, LoadError> {
+        match self.flags.text() {
+            Some(text) => registry.sweep_plan_from_text("the flags", &text, Path::new("")),
+            None => registry.sweep_plan(&self.plan, self.flags.samples.map(NonZeroU64::get)),
+        }
+    }
+
+    fn folder(&self) -> PathBuf {
+        let name = if self.flags.text().is_some() { "flags" } else { &self.plan };
+        let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
+        self.out.clone().unwrap_or_else(|| Path::new("sweeps").join(&*stem))
+    }
+
+    fn pool(&self, plan: &SweepPlan) -> Result<ThreadPool, SweepError> {
+        let pool = pool(self.jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
+        pool.map_err(|error| SweepError::Input(error.to_string()))
+    }
+
+    /// Checks every run and makes none.
+    fn check(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<(), SweepError> {
+        let checks = CheckProgress::start(plan.run_count());
+        let outcome = self.pool(plan)?.install(|| check(plan, shard, folder, &|| checks.advance()));
+        checks.clear();
+        outcome
+    }
+
+    fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
+        let pool = self.pool(plan)?;
+        let checks = CheckProgress::start(plan.run_count());
+        let progress: OnceLock<Progress> = OnceLock::new();
+        let keep = |row: &SweepRow, scenario: &Scenario| record(folder, row, scenario);
+        let options = SweepOptions {
+            folder,
+            shard,
+            keep: (self.keep == Keep::Failures).then_some(&keep),
+            checked: &|| checks.advance(),
+            begin: &|to_make, there| {
+                checks.clear();
+                print_error(&format!("{} to make, {there} made before", runs(to_make)));
+                progress.get_or_init(|| Progress::with_time_left(to_make as usize));
+            },
+            advance: &|| {
+                if let Some(progress) = progress.get() {
+                    progress.advance();
+                }
+            },
+        };
+        let outcome = pool.install(|| sweep(plan, &options));
+        checks.clear();
+        if let Some(progress) = progress.into_inner() {
+            progress.clear();
+        }
+        outcome
+    }
+}
+
+fn runs(count: u64) -> String {
+    if count == 1 { "1 run".to_owned() } else { format!("{count} runs") }
+}
+
+/// What a plan stands for.
+fn counted(plan: &SweepPlan) -> String {
+    let [scenarios, styles, planners] = plan.names();
+    let listed = |what: &str, names: &[&str]| {
+        let plural = if names.len() == 1 { "" } else { "s" };
+        format!("{} {what}{plural}: {}\n", names.len(), names.join(", "))
+    };
+    let varied: Vec<String> = plan.inputs().into_iter().map(|(path, _)| path).collect();
+    let varied = if varied.is_empty() { String::new() } else { format!("varied: {}\n", varied.join(", ")) };
+    let counterfactuals = match plan.counterfactual_count() {
+        0 => String::new(),
+        count => format!("counterfactuals of the scenarios, besides: {count}\n"),
+    };
+    format!(
+        "{}: {}\n{}{}{}{counterfactuals}{varied}",
+        plan.title(),
+        runs(plan.run_count()),
+        listed("scenario", &scenarios),
+        listed("style", &styles),
+        listed("planner", &planners)
+    )
+}
+
+/// Makes a run again, which gives the same, and records it. A run without a result has no recording.
+fn record(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), String> {
+    if row.error.is_some() {
+        return Ok(());
+    }
+    let path = folder.join("recordings").join(format!("{}.rrd", row.key));
+    let recorder = Recorder::begin(scenario, &row.scenario, &Sink::File(path)).map_err(|error| error.to_string())?;
+    let recording = OpenRecording::new(recorder);
+    let report = run(&row.scenario, scenario, vec![Box::new(recording.clone())]).map_err(|error| error.to_string())?;
+    recording.close(&report).map_err(|error| error.to_string())
+}
+
+/// Says where the rows are; of a whole plan, also what they tell.
+fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path) -> ExitStatus {
+    let SweepOutcome { table, rows, made, unfinished } = outcome;
+    let told = printed(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
+    if *unfinished > 0 {
+        print_error(&format!("{} could not be finished: see the column `error`", runs(*unfinished as u64)));
+    }
+    let compared = if shard == Shard::WHOLE {
+        let compared = after_sweep(folder);
+        compared.max(printed(&format!("next: interplay compare {} --by scenario\n", folder.display())))
+    } else {
+        printed(&format!("when all shards are there: interplay sweep merge {}\n", folder.display()))
+    };
+    if *unfinished > 0 { ExitStatus::Unfinished } else { told.max(compared) }
+}
+
+fn merged(folder: &Path, to: Option<&Path>, timings: bool) -> ExitStatus {
+    match merge(folder, to, timings) {
+        Ok(merged) => {
+            let table = merged.table.display();
+            let rows = format!("{} of {} in {table}\n", runs(merged.rows as u64), shards(merged.shards));
+            printed(&format!("{rows}next: interplay compare {}\n", folder.display()))
+        }
+        Err(error) => gave_up(error),
+    }
+}
+
+fn shards(count: u32) -> String {
+    if count == 1 { "1 shard".to_owned() } else { format!("{count} shards") }
+}

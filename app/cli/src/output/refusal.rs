@@ -1,0 +1,16 @@
+//! How a command about sweeps ends without a result.
+
+use interplay_sweep::SweepError;
+
+use crate::output::exit_status::ExitStatus;
+use crate::output::{print_error, print_load_error};
+
+/// Says why there is no result.
+pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
+    let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
+    match error {
+        SweepError::Refused(refusal) => print_load_error(*refusal),
+        other => print_error(&other.to_string()),
+    }
+    ending
+}

@@ -1,0 +1,5 @@
+//! The process of a command: threads, memory, and running again when a file is saved.
+
+pub(crate) mod out_of_memory;
+pub(crate) mod threads;
+pub(crate) mod watch;

@@ -1,0 +1,130 @@
+//! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
+//!
+//! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
+//! - the planner of each interactive vehicle: negotiation, conservative, cooperative, or the intelligent driver model;
+//! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
+//! - whether a vehicle knows the plans of the others, or expects constant velocities.
+
+use interplay_planners::{Driver, human::Style};
+use serde_json::Value as Json;
+
+use crate::error::LoadError;
+use crate::read::overrides::Override;
+use crate::registry::Registry;
+use crate::scenario::{Scenario, Vehicle};
+use crate::schema::SchemaNode;
+
+/// The planners that an interactive vehicle is given instead of its own.
+const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", "idm"];
+
+/// One change of a scenario, and the changed scenario.
+#[derive(Clone, Debug)]
+pub struct StandardChange {
+    /// On what the outcome depends if this change changes it, such as "front's style".
+    pub factor: String,
+    /// What is changed, such as "front: style = tough".
+    pub change: String,
+    /// The same as arguments of `--set`.
+    pub sets: Vec<String>,
+    /// The changed scenario, with the expectations of the original and without counterfactuals.
+    pub scenario: Scenario,
+}
+
+impl Registry {
+    /// The changed scenarios of the standard list. `scenario` is what `name_or_path` means with `overrides`.
+    ///
+    /// # Errors
+    /// As [`Registry::load`], if a change does not fit the scenario.
+    pub fn standard_changes(
+        &self,
+        name_or_path: &str,
+        scenario: &Scenario,
+        overrides: &[Override],
+    ) -> Result<Vec<StandardChange>, LoadError> {
+        let stated = scenario.vehicles.iter().flat_map(|vehicle| changes(vehicle, self.complete()));
+        let changed = stated.map(|(factor, change, set)| {
+            let more = ["counterfactual=[]", &set].map(|set| Override::Set(set.to_owned()));
+            let scenario = self.load(name_or_path, &[overrides, &more].concat())?;
+            Ok(StandardChange { factor, change, sets: vec![set], scenario })
+        });
+        changed.collect()
+    }
+}
+
+/// Factor, change, and the argument of `--set`.
+type Change = (String, String, String);
+
+fn changes(vehicle: &Vehicle, schema: SchemaNode) -> Vec<Change> {
+    let mut changes = match &vehicle.driver {
+        Driver::Human(settings) => {
+            let styles = [Style::Tough, Style::Nice].into_iter();
+            let others = styles.filter(|style| style.safety_weight() != settings.weight());
+            others.map(|style| style_change(vehicle, style)).collect()
+        }
+        driver if driver.goes_first() => [Style::Tough, Style::Nice].map(|style| human(vehicle, style)).to_vec(),
+        driver => {
+            let others = PLANNERS.into_iter().filter(|kind| *kind != driver.kind());
+            others.map(|kind| planner_change(vehicle, kind)).collect()
+        }
+    };
+    let settings = serde_json::to_value(&vehicle.driver).unwrap_or_default();
+    for (key, property) in settings_of(&vehicle.driver, schema) {
+        let value = settings.get(key).unwrap_or(&Json::Null);
+        changes.extend(mechanism_change(vehicle, key, property, value));
+        if key == "prediction" {
+            let others = property.words().into_iter().filter(|word| value != word);
+            changes.extend(others.map(|word| prediction_change(vehicle, word)));
+        }
+    }
+    changes
+}
+
+fn style_change(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
+    let word = style.name();
+    let set = format!("vehicle.{name}.driver.style=\"{word}\"");
+    (format!("{name}'s style"), format!("{name}: style = {word}"), set)
+}
+
+fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
+    let word = style.name();
+    let set = format!("vehicle.{name}.driver={{ kind = \"human\", style = \"{word}\" }}");
+    (format!("{name}'s driver"), format!("{name}: driver = human, {word}"), set)
+}
+
+fn planner_change(Vehicle { name, .. }: &Vehicle, kind: &str) -> Change {
+    let set = format!("vehicle.{name}.driver.kind=\"{kind}\"");
+    (format!("{name}'s planner"), format!("{name}: planner = {kind}"), set)
+}
+
+fn prediction_change(Vehicle { name, .. }: &Vehicle, word: &str) -> Change {
+    let set = format!("vehicle.{name}.driver.prediction=\"{word}\"");
+    (format!("{name}'s knowledge of plans"), format!("{name}: prediction = {word}"), set)
+}
+
+/// Switches a mechanism off, if this setting is one and it is on.
+fn mechanism_change(vehicle: &Vehicle, key: &str, property: SchemaNode, value: &Json) -> Option<Change> {
+    let (mechanism, off) = property.mechanism()?;
+    let name = &vehicle.name;
+    // A table of numbers would be wider than the rest of the row.
+    let how = if off.is_object() { String::new() } else { format!(" ({key} = {})", toml_of(off)) };
+    let set = format!("vehicle.{name}.driver.{key}={}", toml_of(off));
+    (value != off).then(|| (format!("{name}'s {mechanism}"), format!("{name}: without {mechanism}{how}"), set))
+}
+
+/// A JSON value as TOML, on one line.
+fn toml_of(value: &Json) -> String {
+    match value {
+        Json::Object(table) => {
+            let pairs: Vec<String> = table.iter().map(|(key, value)| format!("{key} = {}", toml_of(value))).collect();
+            format!("{{ {} }}", pairs.join(", "))
+        }
+        plain => plain.to_string(),
+    }
+}
+
+/// The settings of a driver as its kind has them.
+fn settings_of<'s>(driver: &Driver, schema: SchemaNode<'s>) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
+    let vehicle = schema.property("vehicle").and_then(SchemaNode::entries);
+    let kinds = vehicle.and_then(|vehicle| vehicle.property("driver"));
+    kinds.and_then(|kinds| kinds.of_kind(driver.kind())).into_iter().flat_map(SchemaNode::properties)
+}

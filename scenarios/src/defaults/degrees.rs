@@ -1,0 +1,85 @@
+//! Angles in files are degrees: `steering_max_deg`. Scenarios hold radians.
+//!
+//! Each key of the schema that ends with `_rad` has a twin that ends with `_deg`, unless the format has that key already. The
+//! twin is an ordinary key of the file; before a scenario is made of the file, its value takes the place of the other's. Keys
+//! in radians are accepted for one version more, with a remark that says what to write.
+
+use serde_json::{Value as Json, json};
+
+use crate::error::Fault;
+use crate::read::tree::{TomlNode, TomlValue};
+use crate::schema::{SchemaNode, TWIN_OF, in_degrees, rounded};
+
+/// Puts radians in the place of the degrees of every twin.
+pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
+    match value {
+        Json::Object(table) => {
+            let kind = table.get("kind").and_then(Json::as_str).and_then(|kind| schema.of_kind(kind));
+            let schema = kind.unwrap_or(schema);
+            for (key, property) in schema.properties() {
+                match (property.keyword(TWIN_OF).and_then(Json::as_str), table.get_mut(key)) {
+                    (Some(radians), Some(stated)) => {
+                        let angle = stated.as_f64().map(f64::to_radians);
+                        table.remove(key);
+                        table.insert(radians.to_owned(), json!(angle));
+                    }
+                    (None, Some(below)) => to_radians(property, below),
+                    (_, None) => {}
+                }
+            }
+        }
+        Json::Array(items) => {
+            if let Some(schema) = schema.entries() {
+                items.iter_mut().for_each(|item| to_radians(schema, item));
+            }
+        }
+        Json::Null | Json::Bool(_) | Json::Number(_) | Json::String(_) => {}
+    }
+}
+
+/// A remark for each key in radians that is stated, with the value in degrees.
+pub(crate) fn remarks(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
+    let mut found = Vec::new();
+    collect(schema, tree, &mut found);
+    found
+}
+
+fn collect(schema: SchemaNode, node: &TomlNode, found: &mut Vec<Fault>) {
+    match &node.value {
+        TomlValue::Table(table) => {
+            let kind = table.get("kind").and_then(|entry| entry.node.text()).and_then(|kind| schema.of_kind(kind));
+            let schema = kind.unwrap_or(schema);
+            for (key, entry) in table {
+                let Some(property) = schema.property(key) else { continue };
+                let radians = entry.node.to_json().as_f64();
+                if let (true, Some(twin), Some(radians)) = (property.is_deprecated(), in_degrees(key), radians) {
+                    let message = format!("`{key}` is in radians, which the next version will refuse");
+                    let help = format!("write `{twin} = {}`", rounded(radians.to_degrees()));
+                    found.push(Fault::at(&entry.key, "in radians", message).help(help));
+                } else {
+                    collect(property, &entry.node, found);
+                }
+            }
+        }
+        TomlValue::Array(items) => {
+            if let Some(schema) = schema.entries() {
+                items.iter().for_each(|item| collect(schema, item, found));
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Registry;
+
+    #[test]
+    fn degrees_take_the_place_of_radians() {
+        let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
+        to_radians(Registry::standard().complete(), &mut stated);
+        let limits = &stated["vehicle"][0]["limits"];
+        assert_eq!(limits, &json!({ "steering_max_rad": 30.0_f64.to_radians() }));
+    }
+}

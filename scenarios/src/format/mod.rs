@@ -1,0 +1,17 @@
+//! The file format: what each table of a scenario file may state.
+
+pub(crate) mod building;
+pub(crate) mod building_plant;
+pub(crate) mod counterfactual;
+pub(crate) mod expect;
+pub(crate) mod lane_reference;
+pub(crate) mod plant;
+pub(crate) mod real_time;
+pub(crate) mod scenario_file;
+pub(crate) mod start;
+pub(crate) mod start_jitter;
+pub(crate) mod stated;
+pub(crate) mod vehicle_config;
+pub(crate) mod vehicle_defaults;
+pub(crate) mod weather;
+pub(crate) mod weights;

@@ -1,0 +1,143 @@
+//! What a scenario file may name: the kinds of drivers of Interplay and of other crates.
+
+pub(crate) mod foreign_kind;
+
+use std::sync::{Arc, LazyLock};
+
+use interplay_planners::{Driver, DriverKind};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+use thiserror::Error;
+
+use crate::format::stated::Stated;
+use crate::registry::foreign_kind::ForeignKind;
+use crate::schema::{self, SchemaNode};
+use crate::text::name;
+
+/// What a scenario file may name: the kinds of drivers, and with them the JSON Schema that files are checked against.
+///
+/// Loading, sweeping and everything else that reads a scenario is a method of a registry. [`Registry::standard`] has the kinds
+/// of Interplay; [`load`](crate::load) and the other functions of the crate are shorthands for it. A program with kinds of its
+/// own adds them to one:
+///
+/// ```
+/// use interplay_planners::{Drive, DriverKind, scripted};
+/// use interplay_scenarios::Registry;
+/// use schemars::JsonSchema;
+/// use serde::{Deserialize, Serialize};
+///
+/// /// Keeps its speed, or the stated one.
+/// #[derive(Debug, Default, Deserialize, JsonSchema, Serialize)]
+/// #[serde(deny_unknown_fields, default)]
+/// struct Steady {}
+///
+/// impl DriverKind for Steady {
+///     fn kind(&self) -> &'static str {
+///         "steady"
+///     }
+///
+///     fn driver(&self) -> Box<dyn Drive> {
+///         scripted::Settings::default().driver()
+///     }
+/// }
+///
+/// let registry = Registry::default().with_driver::<Steady>()?;
+/// let scenario = registry.load("lane-change/front-nice", &[interplay_scenarios::Override::Planner("steady".to_owned())])?;
+/// assert_eq!(scenario.vehicles[0].driver.kind(), "steady");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Registry {
+    /// The kinds of drivers of other crates.
+    drivers: Vec<ForeignKind>,
+    /// The schema of a whole scenario, all that it extends included.
+    schema: Arc<Json>,
+}
+
+/// Why a kind of driver cannot be added.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum RegistryError {
+    /// There is a kind of this word already.
+    #[error("there is a kind of driver `{0}` already")]
+    KindTaken(&'static str),
+    /// The word could not be written in a scenario file, on the command line and in the path of a recording alike.
+    #[error("a kind of driver cannot be called `{0}`: {help}", help = name::in_words())]
+    NotAName(&'static str),
+}
+
+static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
+
+impl Default for Registry {
+    /// The kinds of Interplay.
+    fn default() -> Self {
+        Registry { drivers: Vec::new(), schema: Arc::new(schema::complete(&[])) }
+    }
+}
+
+impl Registry {
+    /// The kinds of Interplay, and no others.
+    pub fn standard() -> &'static Registry {
+        &STANDARD
+    }
+
+    /// The same registry with another kind of driver: that of these settings.
+    ///
+    /// A table `driver = { kind = "…", … }` of a scenario file is checked against the schema of the settings and read by
+    /// `serde`. Whatever is said of a setting stands on its field, as in Interplay: units, bounds, examples, defaults
+    /// (`docs/extending.md`).
+    ///
+    /// # Errors
+    /// [`RegistryError`] if the kind's word is taken or is no name.
+    pub fn with_driver<S>(mut self) -> Result<Registry, RegistryError>
+    where
+        S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
+    {
+        let foreign = ForeignKind::of::<S>();
+        if self.driver_kinds().contains(&foreign.kind) {
+            return Err(RegistryError::KindTaken(foreign.kind));
+        }
+        if !name::is_name(foreign.kind) {
+            return Err(RegistryError::NotAName(foreign.kind));
+        }
+        self.drivers.push(foreign);
+        self.schema = Arc::new(schema::complete(&self.drivers));
+        Ok(self)
+    }
+
+    /// The kinds of drivers that a vehicle may have.
+    pub fn driver_kinds(&self) -> Vec<&str> {
+        let vehicle = self.complete().property("vehicle").and_then(SchemaNode::entries);
+        vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
+    }
+
+    /// The kinds of controllers that a building may have.
+    pub fn controller_kinds(&self) -> Vec<&str> {
+        self.complete().property("controller").map(SchemaNode::kinds).unwrap_or_default()
+    }
+
+    /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
+    pub fn schema(&self) -> Json {
+        schema::of_file(&self.schema)
+    }
+
+    /// The schema of a whole scenario, all that it extends included.
+    pub(crate) fn complete(&self) -> SchemaNode<'_> {
+        SchemaNode::new(&self.schema)
+    }
+
+    /// The driver that a table of a scenario file describes.
+    ///
+    /// # Errors
+    /// What keeps the table from being the settings of its kind, although it fits the schema.
+    pub(crate) fn driver(&self, table: Stated<Driver>) -> Result<Driver, serde_json::Error> {
+        let foreign = self.drivers.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind));
+        foreign.map_or_else(|| table.settings(), |foreign| foreign.driver(table.clone().into_keys()))
+    }
+
+    /// The versions of the kinds of other crates; empty without any.
+    pub(crate) fn versions(&self) -> String {
+        self.drivers.iter().map(|foreign| format!("{} {}\n", foreign.kind, foreign.version)).collect()
+    }
+}

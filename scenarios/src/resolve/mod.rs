@@ -1,0 +1,162 @@
+//! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
+
+pub(crate) mod placement;
+pub(crate) mod tariff_file;
+pub(crate) mod timetable;
+pub(crate) mod weather_file;
+
+use serde::de::DeserializeOwned;
+
+use interplay_planners::{Driver, human};
+
+use crate::check::remark::ScenarioRemarks;
+use crate::check::{consistency, remarks};
+use crate::error::Fault;
+use crate::format::scenario_file::{ScenarioFile, defaults};
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::format::weather::{WeatherConfig, WeatherSource};
+use crate::read::tree::TomlNode;
+use crate::registry::Registry;
+use crate::resolve::placement::{KnownRoads, Placed, Start, place};
+use crate::scenario::{Scenario, Vehicle};
+
+/// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.
+/// `tree` says where it is written.
+///
+/// # Errors
+/// Everything that keeps it from being run.
+pub(crate) fn resolve(
+    registry: &Registry,
+    file: ScenarioFile,
+    tree: &TomlNode,
+    known_roads: &KnownRoads,
+) -> Result<Scenario, Vec<Fault>> {
+    let (scenario, mut unread) = read(registry, file, tree, known_roads)?;
+    let mut faults = consistency::check(&scenario, tree, registry.complete());
+    faults.append(&mut unread);
+    let remarks = remarks::collect(&scenario, tree, registry.complete());
+    if faults.is_empty() { Ok(Scenario { remarks, ..scenario }) } else { Err(faults) }
+}
+
+/// The same, unchecked; and what is wrong with the files that it names, in whose place it has defaults.
+fn read(
+    registry: &Registry,
+    file: ScenarioFile,
+    tree: &TomlNode,
+    known_roads: &KnownRoads,
+) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
+    let reader = Reader { registry, tree };
+    let road = reader.or_default("road", &file.road)?;
+    let written = serde_json::to_string(&file.road).unwrap_or_default();
+    let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
+    let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
+    let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
+    let mut unread = Vec::new();
+    let mut scenario = Scenario {
+        vehicles: vehicles.collect::<Result<_, _>>()?,
+        road,
+        network,
+        title: file.title,
+        shows: file.shows,
+        figure: file.figure,
+        scale: file.scale,
+        duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
+        step_s: file.step_s.unwrap_or_else(defaults::step_s),
+        horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
+        seed: file.seed.unwrap_or_else(defaults::seed),
+        real_time: reader.optional("real_time", &file.real_time)?,
+        plant: reader.or_default("plant", &file.plant)?,
+        start_jitter: reader.or_default("start_jitter", &file.start_jitter)?,
+        building: reader.optional("building", &file.building)?,
+        weather: WeatherSource::default(),
+        occupancy: reader.optional("occupancy", &file.occupancy)?,
+        setpoints: reader.optional("setpoints", &file.setpoints)?,
+        schedules: reader.list("schedule", &file.schedules)?,
+        calendar: reader.optional("calendar", &file.calendar)?,
+        tariff: reader.optional("tariff", &file.tariff)?,
+        heat_pump: reader.optional("heat_pump", &file.heat_pump)?,
+        controller: reader.optional("controller", &file.controller)?,
+        iterations: file.iterations,
+        budget: reader.or_default("budget", &file.budget)?,
+        expect: file.expect,
+        counterfactuals: Vec::new(),
+        left_out: Vec::new(),
+        remarks: ScenarioRemarks::default(),
+    };
+    let days = scenario.days();
+    let weather = match reader.or_default("weather", &file.weather)? {
+        WeatherConfig::Synthetic(synthetic) => Ok(WeatherSource::Synthetic(synthetic)),
+        WeatherConfig::Epw(stated) => weather_file::read(stated, days, tree).map(WeatherSource::Epw),
+    };
+    scenario.weather = weather.unwrap_or_else(|fault| {
+        unread.push(fault);
+        WeatherSource::default()
+    });
+    if let Some(tariff) = &mut scenario.tariff {
+        match tariff_file::read(tariff, tree) {
+            Ok(prices) => *tariff = prices,
+            Err(fault) => unread.push(fault),
+        }
+    }
+    Ok((scenario, unread))
+}
+
+/// Reads tables of settings.
+struct Reader<'a> {
+    registry: &'a Registry,
+    tree: &'a TomlNode,
+}
+
+impl Reader<'_> {
+    fn required<T: DeserializeOwned>(&self, path: &str, stated: &Stated<T>) -> Result<T, Fault> {
+        stated.settings().map_err(|error| self.refused(path, &error))
+    }
+
+    /// The schema has admitted the table, so this happens only where it says less than the type.
+    fn refused(&self, path: &str, error: &serde_json::Error) -> Fault {
+        Fault::at(self.tree.place_of(path), "in this table", error.to_string())
+    }
+
+    fn optional<T: DeserializeOwned>(&self, path: &str, stated: &Option<Stated<T>>) -> Result<Option<T>, Fault> {
+        stated.as_ref().map(|stated| self.required(path, stated)).transpose()
+    }
+
+    fn or_default<T: DeserializeOwned + Default>(&self, path: &str, stated: &Option<Stated<T>>) -> Result<T, Fault> {
+        Ok(self.optional(path, stated)?.unwrap_or_default())
+    }
+
+    fn list<T: DeserializeOwned>(&self, path: &str, stated: &[Stated<T>]) -> Result<Vec<T>, Fault> {
+        let entries = stated.iter().enumerate();
+        entries.map(|(index, entry)| self.required(&format!("{path}.{index}"), entry)).collect()
+    }
+
+    fn driver(&self, path: &str, stated: Option<Stated<Driver>>) -> Result<Driver, Fault> {
+        let Some(stated) = stated else { return Ok(default_driver()) };
+        self.registry.driver(stated).map_err(|error| self.refused(path, &error))
+    }
+
+    fn vehicle(&self, index: usize, stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
+        let path = |key: &str| format!("vehicle.{index}.{key}");
+        Ok(Vehicle {
+            weights: self.or_default(&path("weights"), &stated.weights)?,
+            body: self.or_default(&path("body"), &stated.body)?,
+            limits: self.or_default(&path("limits"), &stated.limits)?,
+            safety: self.or_default(&path("safety"), &stated.safety)?,
+            driver: self.driver(&path("driver"), stated.driver)?,
+            sensing: self.optional(&path("sensing"), &stated.sensing)?,
+            inference: self.optional(&path("inference"), &stated.inference)?,
+            name: stated.name,
+            class: stated.class,
+            road: stated.road,
+            start,
+            route,
+            goal: stated.goal,
+        })
+    }
+}
+
+/// Who drives a vehicle that states no driver.
+pub(crate) fn default_driver() -> Driver {
+    Driver::Human(human::Settings::default())
+}

@@ -1,0 +1,68 @@
+//! Vehicles on roads of parallel lanes.
+
+use std::sync::Arc;
+
+use interplay_planners::{Route, State};
+
+use super::written::{Start, VehicleAsWritten, next_to};
+use crate::check::consistency::no_such_lane;
+use crate::error::Fault;
+use crate::format::lane_reference::LaneReference;
+use crate::road::Road;
+
+/// The state of a vehicle at its start.
+///
+/// # Errors
+/// For a start that is no place, and for lanes with names.
+pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Route>) -> Result<Start, Fault> {
+    if let Some(LaneReference::Name(name)) = &written.stated.goal.lane {
+        return Err(no_names(written, "goal.lane", name, road));
+    }
+    if let Some(name) = written.stated.route.first() {
+        return Err(no_names(written, "route", name, road));
+    }
+    let state = if written.stated.start.is_in_lane() {
+        in_lane(written, road, route)?
+    } else {
+        in_world(written, road, route)?
+    };
+    Ok((state, Arc::clone(route)))
+}
+
+fn no_names(written: &VehicleAsWritten<'_>, key: &str, name: &str, road: &Road) -> Fault {
+    let lanes = road.parallel_lanes().map_or(0, |lanes| lanes.count);
+    let message = format!("`{}.{key}` names lane `{name}`, but the lanes of this road have no names", written.shown());
+    let help = if key == "route" {
+        "leave it out: on parallel lanes the `lane` of `goal` says where a vehicle goes".to_owned()
+    } else {
+        format!("they are counted from the right: 0 to {}", lanes.saturating_sub(1))
+    };
+    written.fault(key, "no such lane", message).help(help)
+}
+
+fn in_world(written: &VehicleAsWritten<'_>, road: &Road, route: &Route) -> Result<State, Fault> {
+    let [x_m, y_m] = written.position()?;
+    let stated_rad = written.stated.start.heading_rad();
+    let state = State { x_m, y_m, heading_rad: stated_rad, speed_mps: written.stated.start.speed_mps };
+    if road.corridor(written.stated.road).is_some() {
+        return Ok(state);
+    }
+    Ok(State { heading_rad: next_to(stated_rad, route.heading_at(state.position())), ..state })
+}
+
+fn in_lane(written: &VehicleAsWritten<'_>, road: &Road, route: &Route) -> Result<State, Fault> {
+    let lane = match written.stated.start.lane.as_ref().ok_or_else(|| written.missing("lane"))? {
+        LaneReference::Number(lane) => *lane,
+        LaneReference::Name(name) => return Err(no_names(written, "start.lane", name, road)),
+    };
+    let along_m = written.stated.start.along_m.ok_or_else(|| written.missing("along_m"))?;
+    if let Some((message, help)) = no_such_lane(&format!("{}.start.lane", written.shown()), lane, road) {
+        return Err(written.fault("start.lane", "no such lane", message).help(help));
+    }
+    let offset_m = written.offset_within(0.5 * road.lane_width_m())?;
+    let centre = &route.centre;
+    let lane_m = road.lane_centre_m(written.stated.road, lane).unwrap_or_default();
+    let [x_m, y_m] = centre.position(along_m, lane_m + offset_m);
+    let heading_rad = centre.at(along_m).heading_rad + written.stated.start.heading_error_rad();
+    Ok(State { x_m, y_m, heading_rad, speed_mps: written.stated.start.speed_mps })
+}

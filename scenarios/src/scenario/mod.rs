@@ -1,0 +1,253 @@
+//! The nouns of a scenario that is ready to run: what is simulated, on which road, by which vehicles.
+//!
+//! Everything here is plain data in SI units. A [`Scenario`] that came from [`load`](crate::load) or
+//! [`ScenarioFile::resolve`](crate::ScenarioFile::resolve) has been checked: it keeps every promise of the format.
+
+pub(crate) mod conflict_zones;
+pub(crate) mod narrowest_lane;
+pub(crate) mod plan_deadlines;
+pub(crate) mod seed_dependence;
+pub(crate) mod swept_width;
+
+use std::sync::Arc;
+
+use interplay_building::calendar::Calendar;
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Controller;
+use interplay_building::control::pid::PidSettings;
+use interplay_building::energy::{HeatPump, Tariff};
+use interplay_building::occupancy::Occupancy;
+use interplay_building::schedule::ZoneSchedule;
+use interplay_common::random::SplitMix64;
+use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::sensing::{self, Sensor};
+use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::budget::limits::BudgetLimits;
+use crate::check::remark::ScenarioRemarks;
+use crate::classes::{ScenarioScale, VehicleClass};
+use crate::format::building::BuildingConfig;
+use crate::format::counterfactual::Counterfactual;
+use crate::format::expect::Expect;
+use crate::format::lane_reference::LaneReference;
+use crate::format::plant::Plant;
+use crate::format::real_time::RealTime;
+use crate::format::start_jitter::StartJitter;
+use crate::format::weather::WeatherSource;
+use crate::format::weights::Weights;
+use crate::road::{Branch, Road};
+
+/// A scenario that is ready to run: agents, their world, and the expectations of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// What the scenario is called, in a few words.
+    pub title: String,
+    /// What it shows, in one sentence.
+    pub shows: String,
+    /// The figure of the dissertation that it reproduces.
+    pub figure: Option<String>,
+    /// The size to which its defaults are scaled; none for the defaults of 1/10 scale as they are.
+    pub scale: Option<ScenarioScale>,
+    /// Simulated time of the vehicles \[s\].
+    pub duration_s: f64,
+    /// Time from one tick of the vehicles to the next \[s\].
+    pub step_s: f64,
+    /// Horizon of every plan, in ticks.
+    pub horizon_steps: usize,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// How long a plan may take; none where there is no limit.
+    pub real_time: Option<RealTime>,
+    /// What moves the vehicles.
+    pub plant: Plant,
+    /// Where vehicles may drive.
+    pub road: Road,
+    /// The lanes of the road, if they have names.
+    pub network: Option<Arc<RoadNetwork>>,
+    /// Random change of every start, drawn from the seed.
+    pub start_jitter: StartJitter,
+    /// The vehicles, in the order of the file.
+    pub vehicles: Vec<Vehicle>,
+    /// The building, if there is one.
+    pub building: Option<BuildingConfig>,
+    /// The weather around the building.
+    pub weather: WeatherSource,
+    /// The people in the building; by default office hours with real deviations.
+    pub occupancy: Option<Occupancy>,
+    /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
+    pub setpoints: Option<Setpoints>,
+    /// Schedules of zones that have other hours, wanted temperatures or people than the others.
+    pub schedules: Vec<ZoneSchedule>,
+    /// The date of the first day and the holidays.
+    pub calendar: Option<Calendar>,
+    /// The price of electricity by the hour; without it energy costs no money. Prices from a file are among them.
+    pub tariff: Option<Tariff>,
+    /// The heat pump or chiller that supplies all zones; without it a kilowatt-hour of heat takes one of electricity.
+    pub heat_pump: Option<HeatPump>,
+    /// The controller of the building; by default PID control in each zone.
+    pub controller: Option<Controller>,
+    /// How many days of the building are simulated; by default 10.
+    pub iterations: Option<usize>,
+    /// How much work the run may be, its counterfactuals included.
+    pub budget: BudgetLimits,
+    /// The conditions under which the run passes.
+    pub expect: Expect,
+    /// Runs beside this one in which something is changed, each with the scenario that is run.
+    pub counterfactuals: Vec<Counterfactual>,
+    /// Counterfactuals that flags have made impossible, each with the reason: a setting that another planner does not have.
+    pub left_out: Vec<[String; 2]>,
+    /// What is allowed and may not have been meant.
+    pub remarks: ScenarioRemarks,
+}
+
+/// How many days are simulated unless the scenario says so.
+const ITERATIONS: usize = 10;
+
+impl Scenario {
+    /// Index of the ego in [`Scenario::vehicles`]: the vehicle called `ego` if there is one, otherwise the first.
+    pub fn ego_index(&self) -> usize {
+        self.index_of(EGO).unwrap_or(0)
+    }
+
+    /// Index in [`Scenario::vehicles`] of the vehicle of that name.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.vehicles.iter().position(|vehicle| vehicle.name == name)
+    }
+
+    /// The ego: the vehicle called `ego` if there is one, otherwise the first; `None` only without vehicles.
+    pub fn ego(&self) -> Option<&Vehicle> {
+        self.vehicles.get(self.ego_index())
+    }
+
+    /// The vehicle of that name.
+    pub fn vehicle(&self, name: &str) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+
+    /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
+    pub fn tick_count(&self) -> usize {
+        if self.vehicles.is_empty() {
+            return 0;
+        }
+        (self.duration_s / self.step_s).round() as usize
+    }
+
+    /// How many days of the building are simulated; 0 without a building.
+    pub fn days(&self) -> usize {
+        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+    }
+
+    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    pub fn controller(&self) -> Controller {
+        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+    }
+
+    /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
+    pub fn main_route(&self) -> Arc<Route> {
+        let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
+        let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
+        let route = vehicle.map(|vehicle| Arc::clone(&vehicle.route));
+        route.or_else(|| self.road.route(Branch::Main)).unwrap_or_else(straight_route)
+    }
+
+    /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
+    /// same seed gives the same starts.
+    pub fn starts(&self) -> Vec<State> {
+        let mut random = SplitMix64::new(self.seed);
+        let jitter = self.start_jitter;
+        self.vehicles.iter().map(|vehicle| jitter.changed(vehicle.start, &vehicle.limits, &mut random)).collect()
+    }
+}
+
+/// The x axis, without width.
+fn straight_route() -> Arc<Route> {
+    Arc::new(Route::from(Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.0, end: None }))
+}
+
+/// The name that makes a vehicle the ego.
+pub(crate) const EGO: &str = "ego";
+
+/// One vehicle: start, route, goal, body, limits and driver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    /// Its name, unique in the scenario; it becomes part of paths in the recording.
+    pub name: String,
+    /// What sort of vehicle it is, if that is stated.
+    pub class: Option<VehicleClass>,
+    /// The road it drives on; there is another than the main one at intersections only.
+    pub road: Branch,
+    /// Where it starts, in world coordinates, and its speed there.
+    pub start: State,
+    /// Its way along the road.
+    pub route: Arc<Route>,
+    /// Its goal; what is not stated stays as at the start.
+    pub goal: GoalConfig,
+    /// Weights of deviations from its goal and of changes of its inputs.
+    pub weights: Weights,
+    /// Its size and axles.
+    pub body: Body,
+    /// The bounds of its inputs and its speed.
+    pub limits: Limits,
+    /// The ellipse around each other vehicle that it keeps out of.
+    pub safety: SafetyEllipse,
+    /// Its driver.
+    pub driver: Driver,
+    /// What it senses of the others; without it, it sees every state as it is.
+    pub sensing: Option<sensing::Settings>,
+    /// How it learns from the others' motion what they will do, where its driver infers that.
+    pub inference: Option<belief::Settings>,
+}
+
+impl Vehicle {
+    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
+    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
+    /// tracks it.
+    pub fn target(&self, road: &Road) -> State {
+        let route = &self.route;
+        let start = route.locate(self.start.position(), None);
+        let stated_m = self.goal_lane_centre_m(road).or(self.goal.y_m);
+        let start_m = if road.parallel_lanes().is_some() { start.across_m } else { 0.0 };
+        let [x_m, y_m] = route.centre.position(start.along_m, stated_m.unwrap_or(start_m));
+        State {
+            x_m,
+            y_m,
+            heading_rad: start.heading_rad,
+            speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
+        }
+    }
+}
+
+impl Vehicle {
+    /// Its planner, which has not planned yet.
+    pub fn planner(&self) -> Planner {
+        self.driver.planner_believing(&self.inference.unwrap_or_default())
+    }
+
+    /// Its sensor with the errors of a seed; none where it sees everybody as it is.
+    pub fn sensor(&self, seed: u64) -> Option<Sensor> {
+        self.sensing.map(|settings| Sensor::new(settings, seed))
+    }
+
+    /// Lateral coordinate of the lane that is the goal, if parallel lanes have one \[m\].
+    pub(crate) fn goal_lane_centre_m(&self, road: &Road) -> Option<f64> {
+        road.lane_centre_m(self.road, self.goal.lane.as_ref()?.number()?)
+    }
+}
+
+/// The goal of a vehicle. What is not stated stays as at the start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GoalConfig {
+    /// The lane whose centre it aims at: its number from the right, 0 being the rightmost. On a road whose lanes have names, the
+    /// name of the lane to which it drives, by the shortest way.
+    #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
+    pub lane: Option<LaneReference>,
+    /// The lateral position that it aims at, on the road along x \[m\].
+    #[schemars(example = 0.555)]
+    pub y_m: Option<f64>,
+    /// The speed that it aims at \[m/s\].
+    #[schemars(example = 1.0)]
+    pub speed_mps: Option<f64>,
+}

@@ -1,0 +1,5 @@
+//! Rules of texts: names, plain text, and numbers in messages.
+
+pub(crate) mod name;
+pub(crate) mod plain_text;
+pub(crate) mod readable;

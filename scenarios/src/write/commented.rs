@@ -1,0 +1,241 @@
+//! A scenario written out as a file to start from: every key with what the schema says of it.
+//!
+//! What the scenario states is written as it stands, `extends` resolved. What it leaves out follows as a comment with its
+//! default (`#step_s = 0.1`). Each sort of table is explained where it first appears; later ones state only their own.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use interplay_common::bounds::Bound;
+use interplay_common::spelling::listed;
+use serde_json::{Map, Value as Json};
+
+use crate::error::LoadError;
+use crate::load::tree;
+use crate::read::tree::{TomlNode, TomlValue};
+use crate::registry::Registry;
+use crate::resolve::weather_file::is_embedded_weather;
+use crate::schema::{Concern, SchemaNode};
+
+/// Columns of a comment.
+const WIDTH: usize = 110;
+
+impl Registry {
+    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a file that
+    /// would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`Registry::load`].
+    pub fn commented(&self, name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
+        let scenario = self.load(name_or_path, &[])?;
+        let mut tree = tree(self, name_or_path)?;
+        make_paths_absolute(&mut tree, folder);
+        let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
+        stated.remove("figure");
+        let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
+        let mut writer = Writer { text: String::new(), explained: Some(BTreeSet::new()), vehicles, building };
+        writer.table("", self.complete(), &stated, true);
+        Ok(writer.text)
+    }
+}
+
+/// A file that states `stated`, without comments.
+pub(crate) fn plain(stated: &Map<String, Json>) -> String {
+    let mut writer = Writer { text: String::new(), explained: None, vehicles: true, building: true };
+    writer.table("", Registry::standard().complete(), stated, true);
+    writer.text
+}
+
+/// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
+pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
+    let TomlValue::Table(root) = &mut tree.value else { return };
+    for key in ["weather", "tariff"] {
+        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
+        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
+        let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
+        let TomlValue::Text(name) = &mut file.value else { continue };
+        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
+        if !is_embedded_weather(name)
+            && !same
+            && let Ok(path) = real(&beside.join(&*name))
+        {
+            *name = path.to_string_lossy().into_owned();
+        }
+    }
+}
+
+struct Writer {
+    text: String,
+    /// Tables that have been explained, by definition and kind; none if nothing is explained.
+    explained: Option<BTreeSet<String>>,
+    vehicles: bool,
+    building: bool,
+}
+
+/// A table below another, to be written after its plain keys.
+struct Section<'a> {
+    path: String,
+    schema: SchemaNode<'a>,
+    value: &'a Json,
+    live: bool,
+}
+
+impl Writer {
+    /// Writes the keys of a table, then the tables below it. Unless `live`, all of it is a comment.
+    fn table(&mut self, path: &str, schema: SchemaNode, value: &Map<String, Json>, live: bool) {
+        let first = self.explained.as_mut().is_some_and(|explained| explained.insert(table_type(schema, value)));
+        let mut sections = Vec::new();
+        for (key, property) in keys(schema, value) {
+            let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            let stated = value.get(key).filter(|value| !value.is_null());
+            let shown = stated.or_else(|| property.default_or_example().filter(|_| first));
+            let is_written = stated.is_some() || !property.is_deprecated();
+            let Some(shown) = shown.filter(|_| is_written && self.concerns(property)) else { continue };
+            let live = live && stated.is_some();
+            if self.explained.is_none() && says_nothing(property, shown) {
+                continue;
+            }
+            let is_new = |table: &Map<String, Json>| !self.is_explained(&table_type(property, table));
+            let is_list = property.table_entries().is_some();
+            let is_inline = property.holds_paths() || property.forms().next().is_some();
+            if !is_list && !is_inline && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown))
+            {
+                sections.push(Section { path: below, schema: property, value: shown, live });
+            } else if !is_list && (stated.is_some() || is_inline || !shown.is_object()) {
+                if first && key != "kind" {
+                    self.explain(property);
+                }
+                self.line(&format!("{key} = {}", inline(property, shown)), live);
+            }
+        }
+        for section in sections {
+            self.section(&section);
+        }
+    }
+
+    fn section(&mut self, section: &Section<'_>) {
+        let Section { path, schema, value, live } = section;
+        let empty = Map::new();
+        let (header, table, values): (_, _, Vec<&Map<String, Json>>) = match (schema.table_entries(), value) {
+            (Some(entry), Json::Array(items)) if !items.is_empty() => {
+                (format!("[[{path}]]"), entry, items.iter().filter_map(Json::as_object).collect())
+            }
+            (Some(entry), _) => (format!("[[{path}]]"), entry, vec![&empty]),
+            (None, value) => (format!("[{path}]"), *schema, value.as_object().into_iter().collect()),
+        };
+        let is_list = schema.table_entries().is_some();
+        let live = *live && !(is_list && is_empty(value));
+        if !live && is_list && self.is_explained(&table_type(table, &empty)) {
+            return;
+        }
+        for (index, value) in values.into_iter().enumerate() {
+            self.text.push('\n');
+            if index == 0 && self.explained.is_some() {
+                self.explain(*schema);
+            }
+            self.line(&header, live);
+            self.table(path, table, value, live);
+        }
+    }
+
+    fn is_explained(&self, table: &str) -> bool {
+        self.explained.as_ref().is_some_and(|explained| explained.contains(table))
+    }
+
+    /// Whether a key has to do with anything in this scenario.
+    fn concerns(&self, property: SchemaNode) -> bool {
+        match property.concerns() {
+            Some(Concern::Vehicles) => self.vehicles,
+            Some(Concern::Building) => self.building,
+            None => true,
+        }
+    }
+
+    /// What the schema says of a key, as a comment.
+    fn explain(&mut self, property: SchemaNode) {
+        let mut words = property.description().to_owned();
+        // That a count is at least 0 needs no words.
+        let is_news = |bound: &Bound| *bound != Bound::AtLeast(0.0) || property.type_name() == Some("number");
+        let bounds: Vec<String> = property.bounds().filter(is_news).map(|bound| bound.to_string()).collect();
+        let mut bounds = bounds.join(", ");
+        if let Some(first) = bounds.get_mut(..1) {
+            first.make_ascii_uppercase();
+            words += &format!(" {bounds}.");
+        }
+        let choices = [property.words(), property.kinds()].concat();
+        if !choices.is_empty() {
+            words += &format!(" One of: {}.", listed(&choices));
+        }
+        let mut line = String::from("#");
+        for word in words.split_whitespace() {
+            if line.chars().count() + 1 + word.chars().count() > WIDTH {
+                self.text += &(std::mem::replace(&mut line, String::from("#")) + "\n");
+            }
+            line += " ";
+            line += word;
+        }
+        self.text += &(line + "\n");
+    }
+
+    fn line(&mut self, words: &str, live: bool) {
+        self.text += &format!("{}{words}\n", if live { "" } else { "#" });
+    }
+}
+
+/// The properties of a table; of a tagged one, those of its `kind`, and where a value has several forms, those of the table.
+fn keys<'s>(schema: SchemaNode<'s>, value: &Map<String, Json>) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
+    let kind = value.get("kind").and_then(Json::as_str);
+    let form = || schema.forms().find(|form| form.properties().next().is_some());
+    kind.and_then(|kind| schema.of_kind(kind)).or_else(form).unwrap_or(schema).properties()
+}
+
+/// What makes two tables the same sort of table: definition and kind.
+fn table_type(schema: SchemaNode, value: &Map<String, Json>) -> String {
+    let kind = value.get("kind").and_then(Json::as_str).unwrap_or_default();
+    format!("{} {kind}", schema.definition_name().unwrap_or_default())
+}
+
+fn is_empty(value: &Json) -> bool {
+    value.as_array().is_some_and(Vec::is_empty)
+}
+
+/// Whether a key may be left out: a list or a table without entries that is so by default.
+fn says_nothing(property: SchemaNode, value: &Json) -> bool {
+    match value {
+        Json::Array(items) => items.is_empty() && property.is_default(value),
+        Json::Object(table) => table.is_empty() && property.default().is_some(),
+        _ => false,
+    }
+}
+
+/// A value as TOML, on one line, a table in the order of its schema.
+pub(crate) fn inline(property: SchemaNode, value: &Json) -> String {
+    let Some(table) = value.as_object().filter(|_| !property.holds_paths()) else { return toml(value) };
+    let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
+    let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();
+    format!("{{ {} }}", pairs.join(", "))
+}
+
+/// A value as TOML, on one line.
+pub(crate) fn toml(value: &Json) -> String {
+    match value {
+        Json::Null => String::new(),
+        Json::Bool(truth) => truth.to_string(),
+        Json::Number(number) if number.is_f64() => format!("{:?}", number.as_f64().unwrap_or_default()),
+        Json::Number(number) => number.to_string(),
+        Json::String(text) => toml::Value::String(text.clone()).to_string(),
+        Json::Array(items) => format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", ")),
+        Json::Object(table) if table.is_empty() => "{}".to_owned(),
+        Json::Object(table) => {
+            let pair = |(key, value): (&String, &Json)| {
+                let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-".contains(&b));
+                let key = if is_bare { key.clone() } else { toml(&Json::String(key.clone())) };
+                format!("{key} = {}", toml(value))
+            };
+            format!("{{ {} }}", table.iter().map(pair).collect::<Vec<_>>().join(", "))
+        }
+    }
+}

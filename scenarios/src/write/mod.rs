@@ -1,0 +1,89 @@
+//! From the scenario back to a file: everything is stated, and what the file reads back to is the same.
+
+pub(crate) mod commented;
+
+use serde_json::{Map, Value as Json};
+
+use crate::format::counterfactual::Counterfactual;
+use crate::format::scenario_file::ScenarioFile;
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::scenario::{Scenario, Vehicle};
+use crate::write::commented::plain;
+
+impl Scenario {
+    /// The file that states everything of this scenario, whatever the file left out that it came from. It reads back to the same
+    /// scenario, and so to the same runs.
+    ///
+    /// Files that the scenario names are named by absolute paths, and the prices of a tariff are written out.
+    pub fn to_file(&self) -> ScenarioFile {
+        let drives = !self.vehicles.is_empty();
+        let weather = self.building.as_ref().map(|_| self.weather.config().into());
+        ScenarioFile {
+            title: self.title.clone(),
+            shows: self.shows.clone(),
+            figure: self.figure.clone(),
+            scale: self.scale.filter(|_| drives),
+            duration_s: drives.then_some(self.duration_s),
+            step_s: drives.then_some(self.step_s),
+            horizon_steps: drives.then_some(self.horizon_steps),
+            seed: Some(self.seed),
+            real_time: self.real_time.map(Stated::from),
+            plant: drives.then(|| self.plant.clone().into()),
+            road: drives.then(|| self.road.clone().into()),
+            start_jitter: drives.then(|| self.start_jitter.into()),
+            vehicles: self.vehicles.iter().map(Vehicle::to_config).collect(),
+            defaults: None,
+            building: self.building.clone().map(Stated::from),
+            weather,
+            occupancy: self.occupancy.map(Stated::from),
+            setpoints: self.setpoints.clone().map(Stated::from),
+            schedules: self.schedules.iter().cloned().map(Stated::from).collect(),
+            calendar: self.calendar.clone().map(Stated::from),
+            tariff: self.tariff.clone().map(Stated::from),
+            heat_pump: self.heat_pump.clone().map(Stated::from),
+            controller: self.controller.map(Stated::from),
+            iterations: self.iterations,
+            budget: Some(self.budget.into()),
+            expect: self.expect.clone(),
+            counterfactuals: self.counterfactuals.iter().map(|Counterfactual { stated, .. }| stated.clone()).collect(),
+        }
+    }
+}
+
+impl ScenarioFile {
+    /// The file as a text, which reads back to the same file.
+    pub fn to_toml(&self) -> String {
+        plain(&self.stated())
+    }
+
+    /// The keys that it states.
+    pub(crate) fn stated(&self) -> Map<String, Json> {
+        // The largest seeds are beyond the whole numbers of TOML.
+        let mut keys = Stated::<ScenarioFile>::from(ScenarioFile { seed: None, ..self.clone() }).into_keys();
+        keys.extend(self.seed.map(|seed| ("seed".to_owned(), seed.into())));
+        keys
+    }
+}
+
+impl Vehicle {
+    /// What a file states of the vehicle.
+    fn to_config(&self) -> VehicleConfig {
+        let lanes = self.route.legs.iter().filter(|_| self.route.is_in_network());
+        VehicleConfig {
+            name: self.name.clone(),
+            class: self.class,
+            road: self.road,
+            start: self.start.into(),
+            route: lanes.map(|leg| leg.lane.clone()).collect(),
+            goal: self.goal.clone(),
+            weights: Some(self.weights.into()),
+            body: Some(self.body.into()),
+            limits: Some(self.limits.into()),
+            safety: Some(self.safety.into()),
+            driver: Some(self.driver.clone().into()),
+            sensing: self.sensing.map(Stated::from),
+            inference: self.inference.map(Stated::from),
+        }
+    }
+}
