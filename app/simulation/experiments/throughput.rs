@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("| scenario | ms a world | simulated s | times real time |\n|---|---|---|---|");
         for name in names {
             let scenario = load(name, &[Override::Set("counterfactual=[]".to_owned())])?;
-            let speed = Speed::of(&scenario)?;
+            let speed = Speed::measure(&scenario)?;
             println!(
                 "| {name} | {:.1} | {} | {:.0} |",
                 1e3 * speed.processor_s,
@@ -76,7 +76,7 @@ struct Speed {
 
 impl Speed {
     /// Times a scenario.
-    fn of(scenario: &Scenario) -> Result<Speed, Box<dyn Error>> {
+    fn measure(scenario: &Scenario) -> Result<Speed, Box<dyn Error>> {
         let mut best = Speed { processor_s: f64::INFINITY, simulated_s: 0.0 };
         for _ in 0..BATCHES {
             let (began_s, mut runs) = (processor_s()?, 0);
@@ -121,7 +121,7 @@ fn families() -> Result<(), Box<dyn Error>> {
         let mut speeds = Vec::new();
         for file in embedded().iter().filter(|file| file.name.split('/').next() == Some(family)) {
             let scenario = load(file.name, &[Override::Set("counterfactual=[]".to_owned())])?;
-            speeds.push((Speed::of(&scenario)?, file.name));
+            speeds.push((Speed::measure(&scenario)?, file.name));
         }
         let all_s: f64 = speeds.iter().map(|(speed, _)| speed.processor_s).sum();
         let slowest = speeds.iter().min_by(|a, b| a.0.real_time_factor().total_cmp(&b.0.real_time_factor()));
@@ -146,7 +146,7 @@ fn vehicles() -> Result<(), Box<dyn Error>> {
     for count in VEHICLES {
         let speed = |driver: &str| -> Result<f64, Box<dyn Error>> {
             let scenario = from_text("straight road", &straight_road(count, driver), &[])?;
-            Ok(Speed::of(&scenario)?.real_time_factor())
+            Ok(Speed::measure(&scenario)?.real_time_factor())
         };
         let [idm, human] = [speed("{ kind = 'idm' }")?, speed("{ kind = 'human', style = 'normal' }")?];
         let [idm_of_two, human_of_two] = *first.get_or_insert([idm, human]);
@@ -194,7 +194,7 @@ fn zones() -> Result<(), Box<dyn Error>> {
                 "setpoints.occupied_c=[23.0]".to_owned(),
             ];
             let scenario = load(name, &changes.map(Override::Set))?;
-            days_per_s.push(DAYS as f64 / Speed::of(&scenario)?.processor_s);
+            days_per_s.push(DAYS as f64 / Speed::measure(&scenario)?.processor_s);
         }
         let of_two = first.get_or_insert_with(|| days_per_s.clone());
         let cells: Vec<String> =

@@ -10,7 +10,7 @@ use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 use crate::frame::Frame;
 use crate::world_state::NotCopied;
 
-/// Who a vehicle is: its place in the scenario, which is the order of everything that is listed.
+/// The identity of a vehicle: its index in the scenario, which is the order of everything that is listed, and its name.
 #[derive(Component, Clone, Debug)]
 pub struct Identity {
     /// Index in the scenario.
@@ -19,10 +19,10 @@ pub struct Identity {
     pub name: String,
 }
 
-/// How a vehicle moves.
+/// The motion of a vehicle.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Motion {
-    /// Where it is.
+    /// Present position, heading and speed.
     pub state: State,
     /// The input it applied last.
     pub input: Input,
@@ -33,7 +33,7 @@ pub struct Motion {
 /// The parameters of a vehicle that do not change during a run.
 #[derive(Component, Clone, Debug)]
 pub struct VehicleParameters {
-    /// Its body.
+    /// Body and axles.
     pub body: Body,
     /// The limits of its inputs and speed.
     pub limits: Limits,
@@ -41,10 +41,10 @@ pub struct VehicleParameters {
     pub route: Arc<Route>,
 }
 
-/// What a vehicle wants.
+/// The goal of a vehicle.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct VehicleGoal {
-    /// Its goal.
+    /// The vehicle's goal.
     pub goal: Goal,
     /// The goal that it communicates to the others, if any.
     pub shared: Option<Goal>,
@@ -116,18 +116,18 @@ impl HandedIn {
     }
 }
 
-/// What a vehicle decided last, to be expected by others and continued if its planner fails.
+/// The plan that a vehicle decided on last; others predict it, and it is continued if the planner fails.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Committed(pub CommittedPlan);
 
 /// Simulated time.
 #[derive(Resource, Clone, Copy, Debug)]
 pub struct Clock {
-    /// Ticks done.
+    /// Number of ticks since the run began.
     pub tick: usize,
     /// Length of a tick \[s\].
     pub step_s: f64,
-    /// Steps that plans look ahead.
+    /// Number of steps of a plan.
     pub horizon: usize,
 }
 

@@ -37,19 +37,19 @@ pub struct DayFigures {
 /// How zones came to a common plan; its serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ExchangeFigures {
-    /// Rounds of messages.
+    /// Number of rounds of messages.
     pub rounds: usize,
     /// Messages sent to neighbours, all zones together; one has a number for each step of the day.
     pub messages: usize,
     /// Messages that did not arrive in their round.
     pub undelivered: usize,
-    /// What the plan was expected to cost before the first round.
+    /// Cost that the plan was expected to have before the first round.
     pub first_cost: f64,
-    /// The same after the last.
+    /// Cost that the plan was expected to have after the last round.
     pub cost: f64,
     /// Whether no round made it dearer, but for rounding.
     pub never_rises: bool,
-    /// What the centralised plan would have cost, if that was asked for.
+    /// Cost that the centralised plan would have had, if it was computed for comparison.
     pub centralised_cost: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ impl ExchangeFigures {
     const COST_ROUNDING_SHARE: f64 = 1e-9;
 
     /// Sums an exchange up; `None` if not even the first guess has a cost.
-    pub fn of(exchange: &Exchange) -> Option<Self> {
+    pub fn sum_up(exchange: &Exchange) -> Option<Self> {
         let costs = &exchange.costs;
         Some(Self {
             rounds: costs.len().checked_sub(1)?,
@@ -88,7 +88,7 @@ pub struct DayAheadErrors {
 
 impl DayAheadErrors {
     /// The errors of a day that is over. `believed` is the controller's model.
-    pub fn of(today: &Day, believed: &Model) -> Self {
+    pub fn compute(today: &Day, believed: &Model) -> Self {
         let (record, design) = (&today.record, &today.record.design);
         let rmse_c = |predicted_c: &[f64]| {
             let errors_k = predicted_c.iter().zip(&record.temperatures_c).map(|(p, t)| p - t);

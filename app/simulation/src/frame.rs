@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::day::DayFigures;
 
-/// One tick of a run.
+/// One tick of a run as plain values: all that metrics, recorders and tests see of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Ticks before this one; of a building alone, its steps.
@@ -18,7 +18,7 @@ pub struct Frame {
     pub vehicles: Vec<VehicleFrame>,
     /// What happened, in order.
     pub events: Vec<Event>,
-    /// Who began to touch during the tick, in order.
+    /// The contacts that began during the tick, in order.
     pub collisions: Vec<Collision>,
     /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
     pub gap_m: Option<f64>,
@@ -43,9 +43,9 @@ pub struct BuildingFrame {
     pub ambient_c: f64,
     /// What it was forecast to be at midnight \[°C\].
     pub forecast_c: f64,
-    /// What the controller says of its plan for the day, at its first step.
+    /// The controller's description of its plan for the day, at the first step of the day.
     pub design: Option<Box<Design>>,
-    /// How the day turned out, at its last step.
+    /// The key figures of the day, at its last step.
     pub figures: Option<DayFigures>,
 }
 
@@ -60,7 +60,7 @@ pub struct ZoneFrame {
     pub reference_c: Option<f64>,
     /// Deviations from it that are comfortable \[K\]; none while nobody is there.
     pub band_k: Option<f64>,
-    /// What the controller asked for \[kW\].
+    /// Heat that the controller requested \[kW\].
     pub requested_kw: f64,
     /// Heat from the equipment, negative for cooling \[kW\].
     pub heat_kw: f64,
@@ -71,13 +71,13 @@ pub struct ZoneFrame {
 /// One vehicle at one tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VehicleFrame {
-    /// Its name.
+    /// Name of the vehicle.
     pub name: String,
-    /// Its state when it planned.
+    /// State of the vehicle when it planned.
     pub state: State,
-    /// The input that it applies from now on.
+    /// Input that the vehicle applies during the tick.
     pub input: Input,
-    /// What it decided; after a failure, the fallback.
+    /// The plan that it follows; after a failure, the fallback.
     pub plan: Plan,
     /// Where the plan comes from.
     pub origin: Origin,
@@ -93,27 +93,27 @@ pub struct VehicleFrame {
 pub struct PairGap {
     /// The distance; 0 where they touch \[m\].
     pub m: f64,
-    /// Who, in the scenario's order.
+    /// The names of both vehicles, in the scenario's order.
     pub between: [String; 2],
-    /// When \[s\].
+    /// Simulated time \[s\].
     pub time_s: f64,
 }
 
 /// Two vehicles that began to touch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Collision {
-    /// When \[s\].
+    /// Simulated time \[s\].
     pub time_s: f64,
-    /// Who, in the scenario's order.
+    /// The names of both vehicles, in the scenario's order.
     pub between: [String; 2],
-    /// How hard \[N s\].
+    /// Impulse of the contact \[N s\].
     pub impulse_ns: f64,
 }
 
-/// Something that happened.
+/// An event of a run: something that is worth a line in its log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
-    /// Whom it concerns: a vehicle, or `controller` for that of the building.
+    /// The source of the event: a vehicle, or `controller` for that of the building.
     pub vehicle: String,
     /// How serious it is.
     pub level: Level,

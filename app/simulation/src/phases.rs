@@ -10,7 +10,7 @@ use crate::{act, climate, measure, physics, plan, predict, sense, time_points, w
 pub enum Phase {
     /// Components become plain values that planners can be given, and sensors measure them.
     Sense,
-    /// What everybody is expected to do.
+    /// The motion of each vehicle is predicted.
     Predict,
     /// Every driver decides; failures fall back.
     Plan,

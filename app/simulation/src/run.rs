@@ -13,7 +13,7 @@ use crate::world_state::NotCopied;
 /// Why a run could not be finished.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// What was to be kept of it could not be kept.
+    /// A watcher could not keep what it was shown.
     #[error("{0}")]
     Watch(WatchError),
     /// The building cannot be built.
@@ -22,17 +22,17 @@ pub enum RunError {
     /// The building's controller gave up, or the program that is the building did not answer as agreed.
     #[error("the run ended on day {day}: {reason}")]
     Climate {
-        /// The day, from 1.
+        /// Number of the day, from 1.
         day: usize,
-        /// Why.
+        /// The reason.
         reason: BuildingFailure,
     },
     /// A run beside the scenario's own could not be finished.
     #[error("the counterfactual \"{name}\" could not be finished: {reason}")]
     Counterfactual {
-        /// What it claims.
+        /// Claim of the counterfactual.
         name: String,
-        /// Why.
+        /// The reason.
         reason: Box<RunError>,
     },
     /// No vehicle has this name.
@@ -79,7 +79,7 @@ pub enum RunError {
     /// An earlier step has failed.
     #[error("the run has ended with an error: restore a snapshot, or begin anew")]
     Ended,
-    /// The loop itself is broken.
+    /// The loop could not be run.
     #[error("the loop could not be built: {0}")]
     Loop(String),
 }

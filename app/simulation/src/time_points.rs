@@ -100,7 +100,7 @@ mod tests {
 
     use super::*;
 
-    fn of(text: &str) -> Vec<TimePoint> {
+    fn time_points_of(text: &str) -> Vec<TimePoint> {
         let scenario = from_text("clocks.toml", &format!("title = 'a'\nshows = 'b'\n{text}"), &[]);
         TimePoints::new(&scenario.expect("a scenario without fault")).collect()
     }
@@ -108,12 +108,15 @@ mod tests {
     #[test]
     fn each_clock_strikes_at_its_own_times_and_both_at_once_where_they_meet() {
         let car = "vehicle = [{ name = 'a', start = { x_m = 0, y_m = 0.2, speed_mps = 0 } }]";
-        let (vehicles, building) =
-            (of(&format!("duration_s = 2000\nstep_s = 450\n{car}")), of("building = {}\niterations = 2"));
+        let (vehicles, building) = (
+            time_points_of(&format!("duration_s = 2000\nstep_s = 450\n{car}")),
+            time_points_of("building = {}\niterations = 2"),
+        );
         assert_eq!((vehicles.len(), building.len()), (4, 96));
         assert!(vehicles.iter().all(|time_point| time_point.vehicles && !time_point.building));
-        let both =
-            of(&format!("duration_s = 2000\nstep_s = 450\nbuilding = {{ step_s = 900 }}\niterations = 1\n{car}"));
+        let both = time_points_of(&format!(
+            "duration_s = 2000\nstep_s = 450\nbuilding = {{ step_s = 900 }}\niterations = 1\n{car}"
+        ));
         let times: Vec<f64> = both[..5].iter().map(|time_point| time_point.time_s).collect();
         assert_eq!(times, [0.0, 450.0, 900.0, 1350.0, 1800.0]);
         let marks: Vec<(bool, bool)> =

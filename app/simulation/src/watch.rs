@@ -10,7 +10,7 @@ use crate::frame::Frame;
 /// Why a watcher could not keep what it was shown.
 pub type WatchError = Box<dyn Error + Send + Sync>;
 
-/// Somebody who is shown every tick.
+/// A watcher, which is shown every tick of a run and cannot change it.
 pub trait Watcher: Send + Sync {
     /// Looks at one tick.
     ///
@@ -25,7 +25,7 @@ pub trait Watcher: Send + Sync {
     fn finish(self: Box<Self>) -> Result<(), WatchError>;
 }
 
-/// Those who watch a world.
+/// The watchers of a world.
 #[derive(Resource, Default)]
 pub struct Watchers {
     watchers: Vec<Box<dyn Watcher>>,
@@ -33,12 +33,12 @@ pub struct Watchers {
 }
 
 impl Watchers {
-    /// Watchers of a world.
+    /// The watchers of a world that has not begun.
     pub fn new(watchers: Vec<Box<dyn Watcher>>) -> Self {
         Watchers { watchers, failure: None }
     }
 
-    /// Ends the watch.
+    /// Ends the watch and tells every watcher so.
     ///
     /// # Errors
     /// The first thing that went wrong.

@@ -34,12 +34,12 @@ pub struct WhyReport {
     pub runs: Vec<WhyRun>,
 }
 
-/// One run and what it amounts to.
+/// The scenario's own run or a changed one, with its outcome.
 #[derive(Clone, Debug, Serialize)]
 pub struct WhyRun {
-    /// What is changed; none in the scenario's own run.
+    /// The change in words; `None` for the scenario's own run.
     pub change: Option<String>,
-    /// On what the outcome depends if this run differs.
+    /// The factor on which the outcome depends if this run differs.
     pub factor: Option<String>,
     /// The change as arguments of `--set`.
     pub set: Vec<String>,
@@ -51,24 +51,24 @@ pub struct WhyRun {
     pub vehicles: Vec<Arrival>,
     /// Smallest distance of the ego's footprint to another \[m\].
     pub min_gap_m: Option<f64>,
-    /// How many pairs touched.
+    /// Number of contacts.
     pub collisions: usize,
     /// Plans that failed, over all vehicles.
     pub plan_failures: usize,
     /// Whether the scenario's expectations hold in this run; none if it has no expectations.
     pub expectations_hold: Option<bool>,
-    /// The expectations that do not.
+    /// The expectations that do not hold.
     pub failed: Vec<String>,
     /// Digest of all states, bit for bit.
     pub digest: String,
 }
 
-/// When a vehicle reached its goal.
+/// A vehicle with the time at which it reached its goal.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Arrival {
-    /// Its name.
+    /// Name of the vehicle.
     pub name: String,
-    /// When \[s\].
+    /// Time at which it reached its goal \[s\]; `None` if it never did.
     pub completed_s: Option<f64>,
 }
 

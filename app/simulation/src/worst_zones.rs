@@ -8,23 +8,23 @@ use interplay_building::network::PowerLimits;
 /// The zones with the largest share in each key figure of a day; none where the figure is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorstZones {
-    /// The largest sum of squared errors over occupied steps.
+    /// The zone with the largest sum of squared errors over occupied steps.
     pub tracking: Option<usize>,
-    /// The largest deviation beyond the comfort band, summed over occupied steps.
+    /// The zone with the largest deviation beyond the comfort band, summed over occupied steps.
     pub discomfort: Option<usize>,
-    /// The most heat in and out.
+    /// The zone with the most heat in and out.
     pub energy: Option<usize>,
-    /// The most electricity.
+    /// The zone with the most electricity.
     pub electricity: Option<usize>,
-    /// The dearest electricity.
+    /// The zone with the dearest electricity.
     pub energy_cost: Option<usize>,
-    /// The largest excess of a requested input over its limit.
+    /// The zone with the largest excess of a requested input over its limit.
     pub input_violation: Option<usize>,
 }
 
 impl WorstZones {
     /// The zones of a day's record.
-    pub fn of(record: &DayRecord, targets: &Targets, limits: &PowerLimits) -> Self {
+    pub fn find(record: &DayRecord, targets: &Targets, limits: &PowerLimits) -> Self {
         let zones = targets.zones;
         let largest = |share: &dyn Fn(usize) -> f64| {
             let shares = (0..zones).map(|zone| (zone, share(zone))).filter(|(_, share)| *share > 0.0);

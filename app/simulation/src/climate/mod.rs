@@ -35,20 +35,20 @@ pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Node {
-    /// Its number in the network.
+    /// Index of the node in the network.
     pub index: usize,
 }
 
-/// How warm a node is \[°C\].
+/// Temperature of a node \[°C\].
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Temperature(pub f64);
 
-/// What heats and cools a zone.
+/// The heating and cooling equipment of a zone.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Equipment {
-    /// What the controller asked for \[kW\].
+    /// Heat that the controller requested \[kW\].
     pub requested_kw: f64,
-    /// What it gives \[kW\].
+    /// Heat that the equipment gives \[kW\].
     pub heat_kw: f64,
 }
 
@@ -59,21 +59,21 @@ pub struct Gains(pub f64);
 /// The building beside its zones: its physics, its surroundings, its controller.
 #[derive(Resource, Debug)]
 pub struct Building {
-    /// The network with its step.
+    /// The model of the network in steps of time.
     pub model: Model,
-    /// What the controller takes the network for.
+    /// The model of the network that the controller believes.
     pub believed: Model,
-    /// What the heat acts on.
+    /// The simulated building: the network, or another program.
     pub plant: Box<dyn ThermalPlant>,
-    /// What is wanted on each day.
+    /// The targets of each day.
     pub agenda: Agenda,
-    /// What is wanted today.
+    /// The targets of the day in progress.
     pub targets: Targets,
     /// The weather and the people.
     pub surroundings: Surroundings,
-    /// The controller at work.
+    /// The running controller.
     pub controller: Box<dyn Control>,
-    /// Steps done.
+    /// Number of steps since the run began.
     pub step: usize,
     /// The day in progress.
     pub today: Day,
@@ -108,7 +108,7 @@ impl Building {
         })
     }
 
-    /// Steps of a day.
+    /// Number of steps of a day.
     pub fn steps_per_day(&self) -> usize {
         self.targets.steps()
     }

@@ -26,7 +26,7 @@ pub enum BuildingError {
     /// The network cannot be simulated at this step.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// What is wanted makes no sense.
+    /// The setpoints are out of range.
     #[error(transparent)]
     Setpoints(#[from] SetpointsError),
     /// Schedules contradict one another.

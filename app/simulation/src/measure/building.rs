@@ -127,13 +127,13 @@ impl BuildingMeasures {
         let foreign = building.plant.is_foreign();
         DayFigures {
             figures,
-            worst_zones: WorstZones::of(&today.record, targets, limits),
+            worst_zones: WorstZones::find(&today.record, targets, limits),
             regret,
             early_kwh: early_kwh(&today.record, targets, model.step_s()),
             spectral_radius: design.spectral_radius.or(self.spectral_radius),
             fallback: design.fallback.is_some(),
-            day_ahead: foreign.then(|| DayAheadErrors::of(today, &building.believed)),
-            exchange: design.exchange.as_ref().and_then(ExchangeFigures::of),
+            day_ahead: foreign.then(|| DayAheadErrors::compute(today, &building.believed)),
+            exchange: design.exchange.as_ref().and_then(ExchangeFigures::sum_up),
             design_s: *design_s,
         }
     }

@@ -21,12 +21,12 @@ pub(super) struct Closest {
     pub m: f64,
     /// Their indices, ascending.
     pub pair: [usize; 2],
-    /// The share of the tick that had passed.
+    /// Share of the tick that had passed.
     pub share: f64,
 }
 
 impl FootprintGaps {
-    /// Nothing seen yet.
+    /// Measures of a run that has not begun.
     pub fn new(scenario: &Scenario) -> Self {
         let bodies = scenario.vehicles.iter().map(|vehicle| vehicle.body).collect();
         FootprintGaps { ego: scenario.ego_index(), bodies, smallest_m: None, closest: None }

@@ -16,6 +16,6 @@ pub(super) struct Contact {
     pub pair: [usize; 2],
     /// The share of the tick that has passed.
     pub share: f64,
-    /// How hard \[N s\].
+    /// Impulse of the contact \[N s\].
     pub impulse_ns: f64,
 }

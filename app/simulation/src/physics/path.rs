@@ -17,11 +17,11 @@ const MAX_STEP_TICKS: f64 = 0.25;
 
 /// The motion of one vehicle during a tick.
 pub(super) struct Path {
-    /// What moves.
+    /// Body of the vehicle.
     pub body: Body,
-    /// Its state at the beginning.
+    /// State at the beginning of the tick.
     pub from: State,
-    /// Its state at the end.
+    /// State at the end of the tick.
     pub to: State,
 }
 

@@ -9,9 +9,9 @@ use super::footprint::{centre, pose, radius_m, shape};
 /// A footprint and the velocity of its mass centre.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingFootprint<'a> {
-    /// The footprint.
+    /// Body of the vehicle.
     pub body: &'a Body,
-    /// Where it is.
+    /// Present position, heading and speed.
     pub state: &'a State,
     /// Velocity in world coordinates \[m/s\].
     pub velocity_mps: [f64; 2],

@@ -36,11 +36,11 @@ const GAUSS_SEIDEL_SWEEPS: usize = 12;
 /// A velocity, or an impulse, along and across the vehicle and about its mass centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Planar {
-    /// Along the vehicle \[m/s or N s\].
+    /// Component along the vehicle \[m/s or N s\].
     pub forward: f64,
-    /// To its left \[m/s or N s\].
+    /// Component to the left of the vehicle \[m/s or N s\].
     pub left: f64,
-    /// Counter-clockwise \[rad/s or N m s\].
+    /// Component about the vertical axis, counter-clockwise \[rad/s or N m s\].
     pub yaw: f64,
 }
 
@@ -100,7 +100,7 @@ impl Chassis {
         [wheel(self.axles_m[0], sin, cos), wheel(self.axles_m[1], 0.0, 1.0)]
     }
 
-    /// What an impulse changes of the velocity.
+    /// The change of velocity that an impulse causes.
     pub fn response(&self, impulse: &Planar) -> Planar {
         let Planar { forward, left, yaw } = *impulse;
         Planar { forward: forward / self.mass_kg, left: left / self.mass_kg, yaw: yaw / self.inertia_kgm2 }

@@ -13,18 +13,18 @@ const MAX_SHOWN_CHARACTERS: usize = 120;
 #[derive(Debug, Deserialize)]
 #[serde(tag = "message", rename_all = "kebab-case")]
 enum Answer {
-    /// To `start`: the temperatures of the zones at the first midnight \[°C\].
+    /// Answer to `start`: the temperatures of the zones at the first midnight \[°C\].
     Ready { protocol: u32, temperatures_c: Vec<f64> },
-    /// To `step`: the same at the end of that step.
+    /// Answer to `step`: the temperatures of the zones at the end of that step \[°C\].
     State { step: usize, temperatures_c: Vec<f64> },
-    /// To either: it cannot go on.
+    /// Answer to either: the program cannot go on.
     Error { reason: String },
 }
 
 /// A question, and what an answer to it must have.
 #[derive(Clone, Debug)]
 pub struct Question<'a> {
-    /// In words, for errors.
+    /// The question in words, for errors.
     pub words: String,
     /// The step that is asked for; none at the start.
     pub step: Option<usize>,

@@ -17,63 +17,63 @@ pub enum PlantError {
          change `building.plant.address`"
     )]
     Connect {
-        /// Where it should listen.
+        /// Address at which the program should listen.
         address: String,
-        /// What the system says.
+        /// The system's reason.
         reason: io::Error,
     },
-    /// No answer in time.
+    /// The program did not answer in time.
     #[error("the plant gave no answer to {question} within {timeout_s} s; `building.plant.timeout_s` is that limit")]
     Timeout {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
-        /// How long it may take \[s\].
+        /// Longest time of an answer \[s\].
         timeout_s: f64,
     },
     /// The connection has ended.
     #[error("the plant closed the connection instead of answering {question}")]
     Closed {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
     },
     /// The connection is broken.
     #[error("the connection to the plant broke at {question}: {reason}")]
     Broken {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
-        /// What the system says.
+        /// The system's reason.
         reason: io::Error,
     },
-    /// A line that never ends.
+    /// The answer is a line that is too long.
     #[error("the plant's answer to {question} is longer than {limit} bytes; an answer is one line of JSON")]
     TooLong {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
         /// The longest answer \[bytes\].
         limit: usize,
     },
-    /// Something else than a message of the protocol.
+    /// The answer is no message of the protocol.
     #[error("the plant's answer to {question} is no message of the protocol: {reason}, in `{answer}`")]
     NoMessage {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
-        /// What the reader says.
+        /// The message of the JSON reader.
         reason: String,
         /// The beginning of the answer.
         answer: String,
     },
-    /// A message that has no place here.
+    /// The answer is a message that is no answer to the question.
     #[error("the plant's answer to {question} is not valid: {reason}")]
     Invalid {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
         /// What is wrong, and what would be right.
         reason: String,
     },
-    /// A number that cannot be sent.
+    /// A number of the question is not finite and cannot be sent.
     #[error("heat or gains of zone `{zone}` at {question} are no finite number, which cannot be sent to the plant")]
     NotFinite {
-        /// What was to be asked.
+        /// The question, in words.
         question: String,
         /// The first zone with such a number.
         zone: String,
@@ -81,9 +81,9 @@ pub enum PlantError {
     /// The other program says that it cannot go on.
     #[error("the plant reports an error at {question}: {reason}")]
     Reported {
-        /// What it was asked.
+        /// The question that was asked, in words.
         question: String,
-        /// What it says.
+        /// The program's reason.
         reason: String,
     },
 }

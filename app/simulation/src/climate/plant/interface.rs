@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use super::error::PlantError;
 use crate::world_state::NotCopied;
 
-/// What acts on a building in one step. Everything is held for the step; lists have one number per zone, unless they say otherwise.
+/// The inputs of a building in one step, all held for the step. Lists have one number per zone, unless they say
+/// otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct StepInputs<'a> {
     /// The step, counted from the first midnight.
@@ -18,7 +19,7 @@ pub struct StepInputs<'a> {
     pub ambient_c: f64,
 }
 
-/// What the heat of the equipment acts on.
+/// A simulated building, on which the heat of the equipment acts.
 pub trait ThermalPlant: Debug + Send + Sync {
     /// The temperatures of the nodes at the first midnight \[°C\], zones first. Called once, before any step.
     ///

@@ -6,10 +6,10 @@ use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
 use crate::world_state::NotCopied;
 
-/// The network of the scenario. It always answers.
+/// The thermal network of the scenario as the plant. It never fails.
 #[derive(Clone, Debug)]
 pub struct NetworkPlant {
-    /// The network with its step.
+    /// The model of the network in steps of time.
     pub model: Model,
     /// Temperature of everything at the first midnight \[°C\].
     pub initial_c: f64,

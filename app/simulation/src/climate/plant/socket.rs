@@ -50,14 +50,14 @@ enum Request<'a> {
     End,
 }
 
-/// What a plant is told of a run before its first step.
+/// The data of a run that a plant behind a socket gets before its first step.
 #[derive(Clone, Debug)]
 pub struct SocketPlantStart {
     /// The title of the scenario.
     pub scenario: String,
-    /// Steps of a day.
+    /// Number of steps of a day.
     pub steps_per_day: usize,
-    /// Days of the run.
+    /// Number of days of the run.
     pub days: usize,
     /// The temperature of everything that the scenario states \[°C\].
     pub initial_c: f64,
