@@ -13,7 +13,7 @@ cli *ARGS:
 
 # Run an example of the library (examples/README.md): `just example step_a_world`
 example NAME *ARGS:
-    cargo run --release -p interplay-examples --example {{NAME}} -- {{ARGS}}
+    cargo run --release --example {{NAME}} -- {{ARGS}}
 
 # All tests, or those whose path contains a word: `just test golden`
 test *WORDS:

@@ -1,5 +1,5 @@
 //! Loads a scenario, changes one of its settings, runs it, and reads what was measured.
-//! `cargo run --release -p interplay-examples --example first_run`
+//! `cargo run --release --example first_run`
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 

@@ -1,5 +1,5 @@
 //! A planner of one's own, in one's own crate: a kind of driver with a setting, which scenario files may name like ours.
-//! `cargo run --release -p interplay-examples --example own_planner`
+//! `cargo run --release --example own_planner`
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 

@@ -1,5 +1,5 @@
 //! A sweep from code: two planners among two styles of drivers, from the same perturbed starts, and what the runs say.
-//! `cargo run --release -p interplay-examples --example sweep_in_code -- [FOLDER]`
+//! `cargo run --release --example sweep_in_code -- [FOLDER]`
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 

@@ -20,8 +20,19 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
     ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
     ("app/presentation", &["common", "planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
-    ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/fmu", "app/sweep", "app/presentation"]),
-    ("examples", &["planners", "scenarios", "app/simulation", "app/sweep"]),
+    (
+        "app/cli",
+        &[
+            "planners",
+            "building",
+            "scenarios",
+            "app/files",
+            "app/simulation",
+            "app/fmu",
+            "app/sweep",
+            "app/presentation",
+        ],
+    ),
     ("tests", &["common", "planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 

@@ -1,12 +1,20 @@
-//! Every example runs to its end and prints something, and the page of the examples lists it.
+//! Every example runs to its end and prints something, is short, and is on the page of the examples.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// The names of the files beside the manifest.
+/// The most lines of an example.
+const MOST_LINES: usize = 65;
+
+/// The folder of the examples.
+fn sources() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
+}
+
+/// The names of the examples.
 fn names() -> Vec<String> {
-    let entries = fs::read_dir(env!("CARGO_MANIFEST_DIR")).expect("the folder of the examples");
+    let entries = fs::read_dir(sources()).expect("the folder of the examples");
     let paths = entries.map(|entry| entry.expect("readable").path());
     let sources = paths.filter(|path| path.extension().is_some_and(|extension| extension == "rs"));
     sources.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect()
@@ -23,7 +31,7 @@ fn every_example_runs() {
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
     for name in names() {
         let program = folder().join(format!("{name}{}", env::consts::EXE_SUFFIX));
-        assert!(program.exists(), "{name} is not built: run `cargo test -p interplay-examples` without `--test`");
+        assert!(program.exists(), "{name} is not built: run `cargo test -p interplay` without `--test`");
         let done = Command::new(program).arg(scratch.join(&name)).output().expect("started");
         assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
         assert!(!done.stdout.is_empty(), "{name} prints nothing");
@@ -31,11 +39,13 @@ fn every_example_runs() {
 }
 
 #[test]
-fn the_page_lists_every_example() {
-    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("the page");
+fn every_example_is_short_and_on_the_page() {
+    let page = fs::read_to_string(sources().join("README.md")).expect("the page");
     let names = names();
-    assert!(names.len() > 2, "{names:?}");
+    assert!(names.len() > 3, "{names:?}");
     for name in names {
         assert!(page.contains(&format!("| `{name}` |")), "examples/README.md does not list {name}");
+        let text = fs::read_to_string(sources().join(format!("{name}.rs"))).expect("a source");
+        assert!(text.lines().count() <= MOST_LINES, "{name} has more than {MOST_LINES} lines");
     }
 }
