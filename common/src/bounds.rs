@@ -7,22 +7,22 @@ use serde_json::Value as Json;
 /// The largest magnitude of a setting: beyond it, squares and products of what is computed could overflow.
 pub const LARGEST_SETTING: f64 = 1e9;
 
-/// A bound of a number.
+/// A bound of a number, as the JSON Schema of a setting states it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// Neither infinite nor NaN.
+    /// The number is neither infinite nor NaN.
     Finite,
-    /// Of at most this magnitude.
+    /// The magnitude is at most this.
     Magnitude(f64),
-    /// `minimum`.
+    /// The number is at least this: `minimum` of the schema.
     AtLeast(f64),
-    /// `exclusiveMinimum`.
+    /// The number is above this: `exclusiveMinimum` of the schema.
     Above(f64),
-    /// `maximum`.
+    /// The number is at most this: `maximum` of the schema.
     AtMost(f64),
-    /// `exclusiveMaximum`.
+    /// The number is below this: `exclusiveMaximum` of the schema.
     Below(f64),
-    /// `not = { const = … }`.
+    /// The number is not this: `not = { const = … }` of the schema.
     OtherThan(f64),
 }
 

@@ -66,11 +66,11 @@ impl fmt::Display for SettingKey {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{key}` is {value}; it must be {bound}")]
 pub struct SettingError {
-    /// The setting.
+    /// Key of the setting.
     pub key: SettingKey,
-    /// Its value.
+    /// Value of the setting.
     pub value: f64,
-    /// What it breaks.
+    /// The bound that the value breaks.
     pub bound: Bound,
 }
 

@@ -23,7 +23,7 @@ pub fn suggestion(word: &str, what: &str, candidates: &[impl AsRef<str>]) -> Str
     }
 }
 
-/// Words in backticks, separated by commas.
+/// The words in backticks, separated by commas.
 pub fn listed(words: &[impl AsRef<str>]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
     quoted.join(", ")

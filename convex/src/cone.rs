@@ -25,7 +25,7 @@ pub enum Cone {
     },
     /// Consecutive groups of order·(order + 1)/2 rows are each the [`triangle`] of a symmetric matrix S ⪰ 0.
     Semidefinite {
-        /// Rows and columns of S.
+        /// Number of rows and of columns of S.
         order: usize,
     },
 }

@@ -8,7 +8,7 @@ use crate::place::{ProblemPlace, VariablePlace};
 /// The problem, or the settings, are malformed: nothing was solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
-    /// There is nothing to decide.
+    /// The problem has no variables.
     #[error("the problem has no variables: declare some with Program::variables")]
     Empty,
     /// Two groups of variables, or two blocks of rows, bear one name.
@@ -20,7 +20,7 @@ pub enum ProblemError {
     /// A cost or a row uses a variable that this problem does not have.
     #[error("{place} uses variable number {index}, but the problem has {count}: the handle is another problem's")]
     NoSuchVariable {
-        /// The cost or row.
+        /// The cost or row at fault.
         place: ProblemPlace,
         /// The position of the variable, from zero.
         index: usize,
@@ -30,7 +30,7 @@ pub enum ProblemError {
     /// A number is infinite or not a number.
     #[error("{place} is {value}: every number of a problem must be finite")]
     NotFinite {
-        /// The cost or row.
+        /// The cost or row at fault.
         place: ProblemPlace,
         /// The offending number.
         value: f64,
@@ -38,7 +38,7 @@ pub enum ProblemError {
     /// The rows of a second-order or semidefinite block do not divide into cones.
     #[error("block `{block}` has {rows} rows, not a multiple of the {dimension} of one of its cones (at least 1)")]
     ConeSize {
-        /// The block.
+        /// Name of the block.
         block: String,
         /// How many rows it has.
         rows: usize,
@@ -48,9 +48,9 @@ pub enum ProblemError {
     /// The quadratic cost curves downwards along one variable, so it is not convex.
     #[error("the quadratic cost of {variable} is {value}: a convex cost needs at least zero")]
     NegativeCurvature {
-        /// The variable.
+        /// The variable along which the cost curves downwards.
         variable: VariablePlace,
-        /// The diagonal entry of P.
+        /// The diagonal entry of P for this variable.
         value: f64,
     },
     /// An update has other variables, rows or entries than the problem the solver was built for.
@@ -64,15 +64,15 @@ pub enum ProblemError {
     Setting {
         /// The field of [`SolverSettings`](crate::SolverSettings).
         name: &'static str,
-        /// Its value.
+        /// Value of the setting.
         value: f64,
-        /// What would work.
+        /// Values that would work.
         wanted: &'static str,
     },
     /// The solver library refused a problem that this crate found well-formed.
     #[error("the solver library refused the problem: {reason}")]
     Refused {
-        /// The library's own words.
+        /// The message of the library.
         reason: String,
     },
 }
@@ -83,21 +83,21 @@ pub enum SolveError {
     /// No x satisfies every row: proved by a certificate z with Aᵀz = 0, z ∈ K*, bᵀz = −1.
     #[error("no point satisfies every row (shown in {iterations} iterations); the conflict is among {}", list(.conflict))]
     PrimalInfeasible {
-        /// Interior-point iterations.
+        /// Number of interior-point iterations.
         iterations: u32,
         /// Blocks with a notable part in the certificate, in the problem's order: where to look first.
         conflict: Vec<String>,
-        /// z, one number a row, blocks in the problem's order.
+        /// The certificate z, one number a row, blocks in the problem's order.
         certificate: Vec<f64>,
     },
     /// The cost falls without end: proved by a direction x with Px = 0, −Ax ∈ K, qᵀx = −1.
     #[error("the cost is unbounded below (shown in {iterations} iterations), along {}", list(.unbounded))]
     DualInfeasible {
-        /// Interior-point iterations.
+        /// Number of interior-point iterations.
         iterations: u32,
         /// Groups of variables with a notable part in the direction, in the problem's order.
         unbounded: Vec<String>,
-        /// x, one number a variable.
+        /// The direction x, one number a variable.
         certificate: Vec<f64>,
     },
     /// Neither a solution nor a certificate was found.
@@ -105,7 +105,7 @@ pub enum SolveError {
     Unsolved {
         /// Why the solver stopped.
         status: Status,
-        /// Interior-point iterations.
+        /// Number of interior-point iterations.
         iterations: u32,
     },
 }

@@ -21,18 +21,18 @@ use crate::standard::StandardForm;
 /// The four residuals of the optimality conditions, relative as described in [`crate::kkt`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residuals {
-    /// Residual of Px + q + Aᵀz = 0.
+    /// Residual of stationarity, Px + q + Aᵀz = 0.
     pub stationarity: f64,
-    /// Residual of b − Ax ∈ K.
+    /// Residual of primal feasibility, b − Ax ∈ K.
     pub primal: f64,
-    /// Residual of z ∈ K*.
+    /// Residual of dual feasibility, z ∈ K*.
     pub dual: f64,
-    /// Residual of (b − Ax)ᵀz = 0, cone by cone.
+    /// Residual of complementarity, (b − Ax)ᵀz = 0, cone by cone.
     pub complementarity: f64,
 }
 
 impl Residuals {
-    /// The largest of the four.
+    /// The largest of the four residuals.
     #[must_use]
     pub fn largest(&self) -> f64 {
         // `f64::max` ignores a NaN, which would then count as a small residual.

@@ -5,13 +5,13 @@ use std::fmt;
 /// A part of a problem, by the names that the problem gives it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ProblemPlace {
-    /// All variables.
+    /// The variables of the problem as a whole.
     Variables,
-    /// All blocks of rows.
+    /// The blocks of the problem as a whole.
     Blocks,
     /// A block of rows.
     Block {
-        /// Its name.
+        /// Name of the block.
         name: String,
     },
     /// A row of a block.
@@ -26,9 +26,9 @@ pub enum ProblemPlace {
     LinearCostOf(VariablePlace),
     /// The coefficient of a variable in a row.
     Coefficient {
-        /// The variable.
+        /// The variable to which the coefficient belongs.
         variable: VariablePlace,
-        /// The row.
+        /// The row in which the coefficient stands.
         row: RowPlace,
     },
     /// The right-hand side of a row.

@@ -18,7 +18,7 @@ pub struct ConicSolution {
     pub(crate) blocks: Arc<[Range<usize>]>,
     /// The optimal cost ½xᵀPx + qᵀx.
     pub objective: f64,
-    /// Interior-point iterations.
+    /// Number of interior-point iterations.
     pub iterations: u32,
     /// Residuals of (x, z) in the optimality conditions, computed from the problem's data.
     pub residuals: Residuals,
@@ -53,13 +53,13 @@ impl ConicSolution {
         &self.slack[self.blocks[block.0].clone()]
     }
 
-    /// Every variable, in the order of declaration.
+    /// The values of all variables, in the order of declaration.
     #[must_use]
     pub fn point(&self) -> &[f64] {
         &self.x
     }
 
-    /// Every dual, block after block.
+    /// The duals of all rows, block after block.
     #[must_use]
     pub fn duals(&self) -> &[f64] {
         &self.z

@@ -4,9 +4,9 @@
 /// A quantity that planners report with their plans.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiagnosticQuantity {
-    /// Its name in words: the name of its curve. Unique among the quantities of a planner.
+    /// Name in words, by which its curve is called; unique among the quantities of a planner.
     pub name: &'static str,
-    /// Its unit; empty for a number without dimension.
+    /// Unit; empty for a number without dimension.
     pub unit: &'static str,
     /// The values that the quantity can take.
     pub values: ValueSet,
@@ -124,13 +124,13 @@ pub const COST: DiagnosticQuantity = DiagnosticQuantity::new("cost", "", ValueSe
 pub const RUNNER_UP_COST: DiagnosticQuantity = DiagnosticQuantity::new("cost of the runner-up", "", ValueSet::Real);
 /// By how much a plan enters the safety ellipses, summed over its steps (of `1 − d²`).
 pub const SAFETY_SLACK: DiagnosticQuantity = DiagnosticQuantity::new("safety slack", "", ValueSet::NonNegative);
-/// At how many steps of a plan a safety ellipse is touched.
+/// Number of steps of a plan at which a safety ellipse is touched.
 pub const STEPS_AT_ELLIPSE: DiagnosticQuantity = steps("steps at a safety ellipse");
-/// At how many steps of a plan a corner is at the edge of the road.
+/// Number of steps of a plan at which a corner is at the edge of the road.
 pub const STEPS_AT_EDGE: DiagnosticQuantity = steps("steps at a road edge");
-/// At how many steps of a plan the acceleration or the steering is at a bound.
+/// Number of steps of a plan at which the acceleration or the steering is at a bound.
 pub const STEPS_AT_INPUT_BOUND: DiagnosticQuantity = steps("steps at an input bound");
-/// At how many steps of a plan the speed is at a bound.
+/// Number of steps of a plan at which the speed is at a bound.
 pub const STEPS_AT_SPEED_BOUND: DiagnosticQuantity = steps("steps at a speed bound");
 
 /// The quantities that any planner may report that optimises a trajectory.

@@ -88,7 +88,7 @@ impl Driver {
         self.planner_believing(&belief::Settings::default())
     }
 
-    /// The same with settings for how it infers plans.
+    /// As [`Driver::planner`], with settings for how it infers plans.
     pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
         Planner::new(&**self, inference)
     }

@@ -50,7 +50,7 @@ pub struct VehicleGoal {
     pub shared: Option<Goal>,
 }
 
-/// Who drives a vehicle, with all that the planner remembers.
+/// The driver of a vehicle, with all that the planner remembers.
 #[derive(Component, Debug)]
 pub struct Driving {
     /// Whether others can ask it to give way.
@@ -61,9 +61,9 @@ pub struct Driving {
     pub goes_first: bool,
     /// Whether it is told the plans of the others.
     pub knows_plans: bool,
-    /// What it senses of the others; none for one who sees everybody as it is.
+    /// Sensor of the vehicle; `None` for one that sees everybody as it is.
     pub sensor: Option<Sensor>,
-    /// What the sensor sees in this tick.
+    /// The vehicles that the sensor sees in this tick.
     pub sight: Option<Sight>,
 }
 
@@ -87,7 +87,7 @@ impl Driving {
     }
 }
 
-/// What was handed in from outside for the tick that comes.
+/// Inputs or a plan that were handed in from outside for the next tick.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub enum HandedIn {
     /// Nothing ever is: the vehicle has a driver of its own.

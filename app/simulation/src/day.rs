@@ -16,7 +16,8 @@ pub struct DayFigures {
     /// The zones that did worst.
     #[serde(skip)]
     pub worst_zones: WorstZones,
-    /// How much dearer the day was than the cheapest one that knows everything beforehand; not for large buildings.
+    /// Cost of the day minus that of the cheapest day that knows all disturbances beforehand; `None` for large
+    /// buildings.
     pub regret: Option<f64>,
     /// Heat brought in and taken out before the first occupied time of the day \[kWh\].
     pub early_kwh: f64,

@@ -16,7 +16,7 @@ pub struct Frame {
     pub time_s: f64,
     /// Every vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleFrame>,
-    /// What happened, in order.
+    /// Events of the tick, in order.
     pub events: Vec<Event>,
     /// The contacts that began during the tick, in order.
     pub collisions: Vec<Collision>,
@@ -41,7 +41,7 @@ pub struct BuildingFrame {
     pub zones: Vec<ZoneFrame>,
     /// Outdoor temperature during the step \[°C\].
     pub ambient_c: f64,
-    /// What it was forecast to be at midnight \[°C\].
+    /// Outdoor temperature that was forecast at midnight for the step \[°C\].
     pub forecast_c: f64,
     /// The controller's description of its plan for the day, at the first step of the day.
     pub design: Option<Box<Design>>,
@@ -117,7 +117,7 @@ pub struct Event {
     pub vehicle: String,
     /// How serious it is.
     pub level: Level,
-    /// What happened, in words.
+    /// The event in words.
     pub text: String,
 }
 

@@ -25,7 +25,7 @@ pub fn plan(
             return external::plan(handed_in, scene);
         }
         let Driving { planner, sight, .. } = &mut **driving;
-        let sensed = sight.as_ref().map(|sight| sight.of(scene));
+        let sensed = sight.as_ref().map(|sight| sight.apply_to(scene));
         let began = Instant::now();
         let outcome = match &sensed {
             Some(sensed) => planner.plan_sensed(sensed),

@@ -48,7 +48,7 @@ pub enum RunError {
     NoInput {
         /// The vehicle.
         vehicle: String,
-        /// When the tick begins \[s\].
+        /// Time at which the tick begins \[s\].
         time_s: f64,
     },
     /// An input was handed in for a vehicle that decides for itself.

@@ -22,7 +22,7 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HandedInput {
-    /// How many steps were done before.
+    /// Number of steps that were done before.
     pub step: usize,
     /// The vehicle.
     pub vehicle: String,
@@ -63,10 +63,10 @@ pub enum SavedRunError {
         /// The version of the program that wrote it.
         program: String,
     },
-    /// Its scenario is refused.
+    /// The scenario of the text is refused.
     #[error("the scenario of the snapshot is refused: {0}")]
     Scenario(#[from] LoadError),
-    /// Its run cannot be repeated.
+    /// The run of the text cannot be repeated.
     #[error("the run of the snapshot cannot be repeated: {0}")]
     Run(#[from] RunError),
     /// The repeated run is another one.

@@ -233,7 +233,7 @@ impl Simulation {
     /// # Errors
     /// [`NotCopied`] says who has no copy: a building behind a socket, a driver of somebody else's that does not fork.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
-        let world = WorldState::of(&self.world)?.into_world(Vec::new());
+        let world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
         let Simulation { name, scenario, time_points, inputs, replaced, .. } = self;
         Ok(Snapshot {
             name: name.clone(),

@@ -32,7 +32,7 @@ impl Snapshot {
     /// [`RunError::NotCopied`]; never, if nothing was added to the copy.
     pub fn resume(&self) -> Result<Simulation, RunError> {
         let parts = (Arc::clone(&self.scenario), self.time_points.clone());
-        let mut simulation = Simulation::assembled(&self.name, parts, WorldState::of(&self.world)?, Vec::new())?;
+        let mut simulation = Simulation::assembled(&self.name, parts, WorldState::copy_from(&self.world)?, Vec::new())?;
         simulation.inputs.clone_from(&self.inputs);
         simulation.replaced.clone_from(&self.replaced);
         Ok(simulation)

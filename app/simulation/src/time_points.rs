@@ -59,7 +59,7 @@ impl TimePoints {
         }
     }
 
-    /// How many have passed.
+    /// Number of time points that have passed.
     pub fn passed(&self) -> usize {
         self.passed
     }

@@ -31,7 +31,7 @@ pub struct WorldState {
     pub sensed: Sensed,
     /// The last frame.
     pub current_frame: CurrentFrame,
-    /// What was measured of the vehicles.
+    /// Measures of the vehicles so far.
     pub measures: Measures,
     /// The bodies.
     pub physics: Physics,
@@ -42,28 +42,28 @@ pub struct WorldState {
 /// All components of a vehicle.
 #[derive(Bundle, Debug)]
 pub struct VehicleState {
-    /// Who it is.
+    /// Index and name of the vehicle.
     pub identity: Identity,
-    /// How it moves.
+    /// State, last input, and whether it has crashed.
     pub motion: Motion,
-    /// Its body, limits and route.
+    /// Body, limits and route.
     pub parameters: VehicleParameters,
-    /// What it wants.
+    /// The goal of the vehicle.
     pub goal: VehicleGoal,
-    /// Who drives it.
+    /// The driver with all that it remembers, and the sensor.
     pub driving: Driving,
-    /// What was handed in for it from outside.
+    /// Inputs or a plan that were handed in from outside for the next tick.
     pub handed_in: HandedIn,
-    /// What it decided last.
+    /// The plan that it decided on last.
     pub committed: Committed,
-    /// Its body in the physics engine.
+    /// Body of the vehicle in the physics engine.
     pub body: VehicleBody,
 }
 
 /// All components of a temperature of the building.
 #[derive(Clone, Debug)]
 pub struct NodeState {
-    /// Its number.
+    /// Index of the temperature in the network.
     pub node: Node,
     /// How warm it is.
     pub temperature: Temperature,
@@ -77,7 +77,7 @@ pub struct NodeState {
 pub struct NotCopied {
     /// Which part of the world it is.
     pub who: String,
-    /// Why it has no copy.
+    /// Why the piece of state has no copy.
     pub why: String,
 }
 
@@ -115,7 +115,7 @@ impl WorldState {
     ///
     /// # Errors
     /// [`NotCopied`] names what has no copy.
-    pub fn of(world: &World) -> Result<Self, NotCopied> {
+    pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
         for (identity, motion, parameters, goal, driving, handed_in, committed, body) in
             world.try_query::<VehicleParts>().iter_mut().flat_map(|query| query.iter(world))

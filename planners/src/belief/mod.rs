@@ -56,7 +56,7 @@ pub struct DriverBeliefs {
 pub struct InferredScene {
     /// The scene with the predictions that follow from the beliefs.
     pub scene: Scene,
-    /// What is believed of each of the others, in the order of the scene.
+    /// The belief about the driver of each other vehicle, in the order of the scene.
     pub estimates: Vec<DriverEstimate>,
     /// The belief about the nearest vehicle that the observer may meet, as numbers.
     pub diagnostics: Vec<Diagnostic>,

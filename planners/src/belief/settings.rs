@@ -39,7 +39,7 @@ pub struct Settings {
     /// with `nice` it counts on being let in, with `tough` it waits.
     #[schemars(extend("x-excludes" = ["odds"]))]
     pub prior: Prior,
-    /// The same as odds of one's own.
+    /// The belief about a human's style before anything has been observed, as odds instead of a word.
     #[schemars(example = StyleOdds { tough: 1.0, normal: 1.0, nice: 2.0 })]
     pub odds: Option<StyleOdds>,
     /// Whether observed motions change the belief; without it the prior is believed for ever.

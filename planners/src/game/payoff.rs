@@ -158,12 +158,12 @@ impl TabulatedTheory {
 #[derive(Clone, Copy, Debug)]
 pub struct Player<'a> {
     theory: &'a TabulatedTheory,
-    /// `v(x)`.
+    /// Value `v(x)` of passing first.
     gain: f64,
     /// `v₁ − v₂, v₂ − v₃, v₃`.
     steps: [f64; 3],
     ranking: [Loss; 3],
-    /// `v(−M)`.
+    /// Value `v(−M)` of the accident.
     accident: f64,
 }
 

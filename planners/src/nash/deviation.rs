@@ -8,11 +8,11 @@ pub const TOLERATED_GAIN: f64 = 1e-4;
 
 /// A deviation of one player.
 pub(super) struct Deviation {
-    /// Who.
+    /// Index of the player.
     pub player: usize,
-    /// What it gains.
+    /// What the player gains by it.
     pub gain: f64,
-    /// Its inputs.
+    /// Inputs of the player's deviating motion.
     pub inputs: Vec<Input>,
 }
 

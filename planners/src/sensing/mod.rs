@@ -126,7 +126,7 @@ struct SeenVehicle {
 
 impl Sight {
     /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells. Who is not seen is missing.
-    pub fn of(&self, scene: &Scene) -> SensedScene {
+    pub fn apply_to(&self, scene: &Scene) -> SensedScene {
         let (mut others, mut sightings) = (Vec::new(), Vec::new());
         for other in &scene.others {
             let Some(seen) = self.0.iter().find(|seen| seen.name == other.name) else { continue };
@@ -164,7 +164,7 @@ impl Sensor {
 
     /// Measures the others of a scene, and returns it as it is sensed. As [`Sensor::look`].
     pub fn sense(&mut self, scene: &Scene) -> SensedScene {
-        self.look(scene).of(scene)
+        self.look(scene).apply_to(scene)
     }
 
     /// Makes the measurement of this tick.

@@ -25,11 +25,11 @@ pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
         }
         for (key, property) in schema.properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
             // Networks of lanes are those of real cars by default.
-            let native = if key == "road" && StatedRoad::of(root, schema).is_network() { FULL_SCALE } else { 1.0 };
+            let native = if key == "road" && StatedRoad::read(root, schema).is_network() { FULL_SCALE } else { 1.0 };
             fill_key(key, property, root, scale / native);
         }
     }
-    let lane_width_m = StatedRoad::of(root, schema).lane_widths_m().next();
+    let lane_width_m = StatedRoad::read(root, schema).lane_widths_m().next();
     let vehicles = root.get_mut("vehicle").and_then(Json::as_array_mut).into_iter().flatten();
     for vehicle in vehicles.filter_map(Json::as_object_mut) {
         if let Some(lane_width_m) = lane_width_m {
@@ -55,7 +55,7 @@ fn size(root: &Map<String, Json>, schema: SchemaNode) -> Option<Size> {
     }
     let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
     let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
-    let of_road = || scale_of_road(&StatedRoad::of(root, schema), states_a_body(root));
+    let of_road = || scale_of_road(&StatedRoad::read(root, schema), states_a_body(root));
     scales
         .max_by(f64::total_cmp)
         .or_else(of_road)

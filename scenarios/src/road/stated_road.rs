@@ -14,7 +14,7 @@ pub(crate) struct StatedRoad<'a> {
 
 impl<'a> StatedRoad<'a> {
     /// The road of a scenario, of which `schema` describes the whole; parallel lanes where none is stated.
-    pub fn of(scenario: &'a Map<String, Json>, schema: SchemaNode<'a>) -> Self {
+    pub fn read(scenario: &'a Map<String, Json>, schema: SchemaNode<'a>) -> Self {
         let keys = scenario.get("road").and_then(Json::as_object);
         let kind = keys.and_then(|keys| keys.get("kind")?.as_str());
         StatedRoad { kind: kind.unwrap_or(Road::DEFAULT_KIND), keys, schema }
@@ -60,13 +60,13 @@ mod tests {
                 road["lane"] = serde_json::json!([lane("a", 3.0.into()), lane("b", serde_json::json!([[0.0, 3.5]]))]);
             }
             let scenario = serde_json::json!({ "road": road });
-            let stated = StatedRoad::of(scenario.as_object().expect("a table"), schema);
+            let stated = StatedRoad::read(scenario.as_object().expect("a table"), schema);
             let read: Road = serde_json::from_value(road.clone()).expect("a road");
             assert_eq!(stated.is_network(), read.is_network(), "{kind}");
             assert_eq!(stated.lane_widths_m().next(), Some(read.lane_width_m()), "{kind}");
         }
         let none = Map::new();
-        let default = StatedRoad::of(&none, schema);
+        let default = StatedRoad::read(&none, schema);
         assert_eq!(
             (default.is_network(), default.lane_widths_m().next()),
             (false, Some(Road::default().lane_width_m()))

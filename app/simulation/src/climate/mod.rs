@@ -79,7 +79,7 @@ pub struct Building {
     pub today: Day,
     /// Wall time of planning and learning today \[s\]; never part of a digest.
     pub design_s: f64,
-    /// Why the run cannot go on, if it cannot.
+    /// The failure because of which the run cannot go on, if there is one.
     pub failure: Option<BuildingFailure>,
 }
 
