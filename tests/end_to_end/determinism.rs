@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use interplay_scenarios::embedded;
+use interplay_scenarios::{embedded, from_text};
 use interplay_simulation::measure::Digest;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -39,6 +39,28 @@ fn golden_digests() {
         }
     }
     assert!(differences.is_empty(), "runs differ from tests/golden:\n{differences}{ADVICE}");
+}
+
+/// What is written out of a scenario runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
+/// building.
+#[test]
+fn a_scenario_that_was_written_out_runs_the_same() {
+    let driving = ["duration_s=2", "expect.completes=[]", "counterfactual=[]"];
+    let cases = [
+        ("lane-change/front-nice", driving),
+        ("lane-keeping/inferred", driving),
+        ("curve/lane-drop", driving),
+        ("full-size/lane-change", driving),
+        ("roundabout/nice", driving),
+        ("building/epw-weather", ["iterations=2", "expect.zone=[]", "counterfactual=[]"]),
+    ];
+    cases.par_iter().for_each(|(name, changes)| {
+        let scenario = authored(name, changes);
+        let again = from_text("written.toml", &scenario.to_file().to_toml(), &[]).expect("what was written");
+        let [one, other] = [scenario, again].map(|scenario| film(name, scenario));
+        let (wanted, found) = (golden(&one), golden(&other));
+        assert!(wanted == found, "{name}: {}", difference(&wanted, &found));
+    });
 }
 
 #[test]

@@ -52,11 +52,11 @@ impl<Settings> Stated<Settings> {
     }
 
     /// The settings that the table describes, once nothing that depends on the size of the scenario is missing in it.
-    pub(crate) fn settings(&self) -> Result<Settings, serde_json::Error>
+    pub(crate) fn settings(self) -> Result<Settings, serde_json::Error>
     where
         Settings: DeserializeOwned,
     {
-        serde_json::from_value(Json::Object(self.keys.clone()))
+        serde_json::from_value(Json::Object(self.keys))
     }
 }
 

@@ -133,7 +133,10 @@ impl Registry {
     /// What keeps the table from being the settings of its kind, although it fits the schema.
     pub(crate) fn driver(&self, table: Stated<Driver>) -> Result<Driver, serde_json::Error> {
         let foreign = self.drivers.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind));
-        foreign.map_or_else(|| table.settings(), |foreign| foreign.driver(table.clone().into_keys()))
+        match foreign {
+            Some(foreign) => foreign.driver(table.into_keys()),
+            None => table.settings(),
+        }
     }
 
     /// The versions of the kinds of other crates; empty without any.

@@ -47,8 +47,8 @@ fn read(
     known_roads: &KnownRoads,
 ) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
     let reader = Reader { registry, tree };
-    let road = reader.or_default("road", &file.road)?;
     let written = serde_json::to_string(&file.road).unwrap_or_default();
+    let road = reader.or_default("road", file.road)?;
     let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
     let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
@@ -65,27 +65,27 @@ fn read(
         step_s: file.step_s.unwrap_or_else(defaults::step_s),
         horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
         seed: file.seed.unwrap_or_else(defaults::seed),
-        real_time: reader.optional("real_time", &file.real_time)?,
-        plant: reader.or_default("plant", &file.plant)?,
-        start_jitter: reader.or_default("start_jitter", &file.start_jitter)?,
-        building: reader.optional("building", &file.building)?,
+        real_time: reader.optional("real_time", file.real_time)?,
+        plant: reader.or_default("plant", file.plant)?,
+        start_jitter: reader.or_default("start_jitter", file.start_jitter)?,
+        building: reader.optional("building", file.building)?,
         weather: WeatherSource::default(),
-        occupancy: reader.optional("occupancy", &file.occupancy)?,
-        setpoints: reader.optional("setpoints", &file.setpoints)?,
-        schedules: reader.list("schedule", &file.schedules)?,
-        calendar: reader.optional("calendar", &file.calendar)?,
-        tariff: reader.optional("tariff", &file.tariff)?,
-        heat_pump: reader.optional("heat_pump", &file.heat_pump)?,
-        controller: reader.optional("controller", &file.controller)?,
+        occupancy: reader.optional("occupancy", file.occupancy)?,
+        setpoints: reader.optional("setpoints", file.setpoints)?,
+        schedules: reader.list("schedule", file.schedules)?,
+        calendar: reader.optional("calendar", file.calendar)?,
+        tariff: reader.optional("tariff", file.tariff)?,
+        heat_pump: reader.optional("heat_pump", file.heat_pump)?,
+        controller: reader.optional("controller", file.controller)?,
         iterations: file.iterations,
-        budget: reader.or_default("budget", &file.budget)?,
+        budget: reader.or_default("budget", file.budget)?,
         expect: file.expect,
         counterfactuals: Vec::new(),
         left_out: Vec::new(),
         remarks: ScenarioRemarks::default(),
     };
     let days = scenario.days();
-    let weather = match reader.or_default("weather", &file.weather)? {
+    let weather = match reader.or_default("weather", file.weather)? {
         WeatherConfig::Synthetic(synthetic) => Ok(WeatherSource::Synthetic(synthetic)),
         WeatherConfig::Epw(stated) => weather_file::read(stated, days, tree).map(WeatherSource::Epw),
     };
@@ -109,7 +109,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn required<T: DeserializeOwned>(&self, path: &str, stated: &Stated<T>) -> Result<T, Fault> {
+    fn required<T: DeserializeOwned>(&self, path: &str, stated: Stated<T>) -> Result<T, Fault> {
         stated.settings().map_err(|error| self.refused(path, &error))
     }
 
@@ -118,16 +118,16 @@ impl Reader<'_> {
         Fault::at(self.tree.place_of(path), "in this table", error.to_string())
     }
 
-    fn optional<T: DeserializeOwned>(&self, path: &str, stated: &Option<Stated<T>>) -> Result<Option<T>, Fault> {
-        stated.as_ref().map(|stated| self.required(path, stated)).transpose()
+    fn optional<T: DeserializeOwned>(&self, path: &str, stated: Option<Stated<T>>) -> Result<Option<T>, Fault> {
+        stated.map(|stated| self.required(path, stated)).transpose()
     }
 
-    fn or_default<T: DeserializeOwned + Default>(&self, path: &str, stated: &Option<Stated<T>>) -> Result<T, Fault> {
+    fn or_default<T: DeserializeOwned + Default>(&self, path: &str, stated: Option<Stated<T>>) -> Result<T, Fault> {
         Ok(self.optional(path, stated)?.unwrap_or_default())
     }
 
-    fn list<T: DeserializeOwned>(&self, path: &str, stated: &[Stated<T>]) -> Result<Vec<T>, Fault> {
-        let entries = stated.iter().enumerate();
+    fn list<T: DeserializeOwned>(&self, path: &str, stated: Vec<Stated<T>>) -> Result<Vec<T>, Fault> {
+        let entries = stated.into_iter().enumerate();
         entries.map(|(index, entry)| self.required(&format!("{path}.{index}"), entry)).collect()
     }
 
@@ -139,13 +139,13 @@ impl Reader<'_> {
     fn vehicle(&self, index: usize, stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
         let path = |key: &str| format!("vehicle.{index}.{key}");
         Ok(Vehicle {
-            weights: self.or_default(&path("weights"), &stated.weights)?,
-            body: self.or_default(&path("body"), &stated.body)?,
-            limits: self.or_default(&path("limits"), &stated.limits)?,
-            safety: self.or_default(&path("safety"), &stated.safety)?,
+            weights: self.or_default(&path("weights"), stated.weights)?,
+            body: self.or_default(&path("body"), stated.body)?,
+            limits: self.or_default(&path("limits"), stated.limits)?,
+            safety: self.or_default(&path("safety"), stated.safety)?,
             driver: self.driver(&path("driver"), stated.driver)?,
-            sensing: self.optional(&path("sensing"), &stated.sensing)?,
-            inference: self.optional(&path("inference"), &stated.inference)?,
+            sensing: self.optional(&path("sensing"), stated.sensing)?,
+            inference: self.optional(&path("inference"), stated.inference)?,
             name: stated.name,
             class: stated.class,
             road: stated.road,
