@@ -114,18 +114,22 @@ const MAX_SHOWN: usize = 100;
 
 /// The tree of a scenario that code made. It is written nowhere: the place of a value is the path of its key.
 pub(crate) fn of_value(value: &Json) -> TomlNode {
-    node_of_value("", "scenario", value).node
+    entry_of_value("", "", value).node
 }
 
-fn node_of_value(parent: &str, key: &str, value: &Json) -> TomlEntry {
-    let path = if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") };
-    let shown: String = format!("{key} = {}", toml(value)).chars().take(MAX_SHOWN).collect();
-    let document = Document::of_key(&path, &shown, 1);
-    let below = if parent.is_empty() && key == "scenario" { "" } else { path.as_str() };
+/// The value of a key of the table at a path; the whole scenario where both are empty.
+fn entry_of_value(table: &str, key: &str, value: &Json) -> TomlEntry {
+    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+    let [name, before] = if path.is_empty() { ["scenario", ""] } else { [path.as_str(), " = "] };
+    let shown: String = format!("{key}{before}{}", toml(value)).chars().take(MAX_SHOWN).collect();
+    let document = Document::of_key(name, &shown, 1);
+    let span = (key.len() + before.len()).min(shown.len())..shown.len();
+    // Of a table, an error then points at the whole and not at the first key.
+    let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
     let value = match value {
-        Json::Object(table) => {
-            let stated = table.iter().filter(|(_, value)| !value.is_null());
-            TomlValue::Table(stated.map(|(key, value)| (key.clone(), node_of_value(below, key, value))).collect())
+        Json::Object(stated) => {
+            let stated = stated.iter().filter(|(_, value)| !value.is_null());
+            TomlValue::Table(stated.map(|(key, value)| (key.clone(), entry_of_value(&path, key, value))).collect())
         }
         Json::Array(items) => {
             let label = |index: usize, item: &Json| {
@@ -133,7 +137,7 @@ fn node_of_value(parent: &str, key: &str, value: &Json) -> TomlEntry {
                 name.map_or_else(|| index.to_string(), str::to_owned)
             };
             let entries = items.iter().enumerate();
-            let nodes = entries.map(|(index, item)| node_of_value(below, &label(index, item), item).node);
+            let nodes = entries.map(|(index, item)| entry_of_value(&path, &label(index, item), item).node);
             TomlValue::Array(nodes.collect())
         }
         Json::Number(number) => match number.as_i128() {
@@ -144,9 +148,6 @@ fn node_of_value(parent: &str, key: &str, value: &Json) -> TomlEntry {
         Json::Bool(truth) => TomlValue::Bool(*truth),
         Json::Null => TomlValue::Text(String::new()),
     };
-    let span = (key.len() + 3).min(shown.len())..shown.len();
-    // Of a table, an error then points at the whole and not at the first key.
-    let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
     TomlEntry { key: key_place, node: TomlNode { place: Place::new(&document, span), value } }
 }
 

@@ -52,7 +52,6 @@ fn read(
     let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
     let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
-    let mut unread = Vec::new();
     let mut scenario = Scenario {
         vehicles: vehicles.collect::<Result<_, _>>()?,
         road,
@@ -84,22 +83,28 @@ fn read(
         left_out: Vec::new(),
         remarks: ScenarioRemarks::default(),
     };
-    let days = scenario.days();
-    let weather = match reader.or_default("weather", file.weather)? {
-        WeatherConfig::Synthetic(synthetic) => Ok(WeatherSource::Synthetic(synthetic)),
-        WeatherConfig::Epw(stated) => weather_file::read(stated, days, tree).map(WeatherSource::Epw),
-    };
-    scenario.weather = weather.unwrap_or_else(|fault| {
-        unread.push(fault);
-        WeatherSource::default()
-    });
+    let weather = reader.or_default("weather", file.weather)?;
+    let unread = read_named_files(&mut scenario, weather, tree);
+    Ok((scenario, unread))
+}
+
+/// Puts what the weather file and the table of prices say in the place of their names; returns what is wrong with them.
+fn read_named_files(scenario: &mut Scenario, weather: WeatherConfig, tree: &TomlNode) -> Vec<Fault> {
+    let mut unread = Vec::new();
+    match weather {
+        WeatherConfig::Synthetic(synthetic) => scenario.weather = WeatherSource::Synthetic(synthetic),
+        WeatherConfig::Epw(stated) => match weather_file::read(stated, scenario.days(), tree) {
+            Ok(weather) => scenario.weather = WeatherSource::Epw(weather),
+            Err(fault) => unread.push(fault),
+        },
+    }
     if let Some(tariff) = &mut scenario.tariff {
         match tariff_file::read(tariff, tree) {
             Ok(prices) => *tariff = prices,
             Err(fault) => unread.push(fault),
         }
     }
-    Ok((scenario, unread))
+    unread
 }
 
 /// Reads tables of settings.
