@@ -7,19 +7,16 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::drive::DriverKind;
 use crate::foreign_driver::ForeignDriver;
-use crate::{
-    Planner, bayesian, belief, conservative, contingency, cooperative, external, game, human, idm, nash, negotiation,
-    scripted,
-};
+use crate::{Planner, belief};
 
-/// Makes the enumeration of the listed kinds, each with its settings.
+/// Makes the enumeration of the listed kinds, each with the settings of its folder.
 macro_rules! drivers {
-    ($($(#[$doc:meta])* $kind:ident($settings:ty),)*) => {
+    ($($(#[$doc:meta])* $kind:ident($folder:ident),)*) => {
         /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
         #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
         #[serde(tag = "kind", rename_all = "kebab-case")]
         pub enum Driver {
-            $($(#[$doc])* $kind($settings),)*
+            $($(#[$doc])* $kind(crate::$folder::Settings),)*
             /// A kind of another crate. It is read by the registry that knows the kind.
             #[serde(skip)]
             Foreign(ForeignDriver),
@@ -59,27 +56,27 @@ struct DriverTable<'a, S> {
 
 drivers! {
     /// A human: model-predictive control with a safety weight, from tough to nice.
-    Human(human::Settings),
+    Human(human),
     /// The intelligent driver model with MOBIL: the field's baseline of a human.
-    Idm(idm::Settings),
+    Idm(idm),
     /// Does what the scenario says.
-    Scripted(scripted::Settings),
+    Scripted(scripted),
     /// Its inputs come from outside: from a person or another program, through the library.
-    External(external::Settings),
+    External(external),
     /// Baseline: keeps out of the safety ellipses around the others' plans (eq. 6.13).
-    Conservative(conservative::Settings),
+    Conservative(conservative),
     /// Negotiation with concession and persuasion (chapter 6).
-    Negotiation(negotiation::Settings),
+    Negotiation(negotiation),
     /// Bayesian persuasion (chapter 7).
-    Bayesian(bayesian::Settings),
+    Bayesian(bayesian),
     /// The persuasion game (chapter 8).
-    Game(game::Settings),
+    Game(game),
     /// Cooperation: one problem for all vehicles that have this driver (eq. 6.12).
-    Cooperative(cooperative::Settings),
+    Cooperative(cooperative),
     /// A general-sum game of up to four vehicles: the ego's part of a generalised Nash equilibrium.
-    Nash(nash::Settings),
+    Nash(nash),
     /// Plans that branch: one continuation for each kind of driver that another may be.
-    Contingency(contingency::Settings),
+    Contingency(contingency),
 }
 
 impl Driver {

@@ -5,15 +5,7 @@ use std::ops::Deref;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::clairvoyant::ClairvoyantSettings;
-use super::concurrent::ConcurrentSettings;
-use super::distributed::{CentralisedSettings, DistributedSettings};
 use super::interface::ControllerKind;
-use super::iterative::IterativeSettings;
-use super::learning::LearningSettings;
-use super::pid::PidSettings;
-use super::predictive::PredictiveSettings;
-use super::thermostat::ThermostatSettings;
 
 /// Makes the enumeration of the listed kinds, each with its settings.
 macro_rules! controllers {
@@ -40,21 +32,21 @@ macro_rules! controllers {
 
 controllers! {
     /// A thermostat per zone: full power or none, with a dead band.
-    Thermostat(ThermostatSettings),
+    Thermostat(super::thermostat::ThermostatSettings),
     /// A PID controller per zone.
-    Pid(PidSettings),
+    Pid(super::pid::PidSettings),
     /// Plain iterative learning of P- or PD-type on top of a PID controller, with or without a forecast.
-    IterativeLearning(LearningSettings),
+    IterativeLearning(super::learning::LearningSettings),
     /// Model predictive control: the cheapest inputs over a horizon, planned anew at every step.
-    ModelPredictive(PredictiveSettings),
+    ModelPredictive(super::predictive::PredictiveSettings),
     /// The day's optimum, computed from the actual disturbances: for comparison.
-    Clairvoyant(ClairvoyantSettings),
+    Clairvoyant(super::clairvoyant::ClairvoyantSettings),
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
-    Iterative(IterativeSettings),
+    Iterative(super::iterative::IterativeSettings),
     /// Feedforward and a Youla-parametrised feedback (chapter 4).
-    Concurrent(ConcurrentSettings),
+    Concurrent(super::concurrent::ConcurrentSettings),
     /// Zones that plan together by exchanging messages with their neighbours (chapter 5).
-    Distributed(DistributedSettings),
+    Distributed(super::distributed::DistributedSettings),
     /// The problem of the distributed design, solved centrally (eq. 5.12).
-    Centralised(CentralisedSettings),
+    Centralised(super::distributed::CentralisedSettings),
 }

@@ -1,0 +1,137 @@
+//! The planner of this crate through every command: it is treated like ours.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use interplay_planners::belief::Outlook;
+use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
+use interplay_scenarios::{Override, Registry, RegistryError};
+use own_planner::GapAcceptance;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use tempfile::tempdir;
+
+fn command(folder: &Path, words: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_own-planner");
+    Command::new(program).args(words).current_dir(folder).env("NO_COLOR", "1").output().expect("it starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+/// The report of a run that ends with this code.
+fn report(folder: &Path, words: &[&str], code: i32) -> Value {
+    let output = command(folder, &[words, &["--no-record", "--json"]].concat());
+    assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+const SCENARIO: &str = "extends = 'lane-change/front-nice'\n";
+
+#[test]
+fn it_drives_a_scenario_of_ours_to_its_goal_behind_the_front_driver() {
+    let folder = tempdir().expect("a folder");
+    let run = ["run", "lane-change/front-nice", "--planner", "gap-acceptance"];
+    // The scenario expects what negotiation does: the ego ahead of both.
+    let report = report(folder.path(), &run, 1);
+    let ego = &report["vehicles"][0];
+    assert_eq!(ego["driver"], "gap-acceptance");
+    assert!(ego["completed_s"].is_number(), "it reaches its goal: {ego}");
+    assert_eq!((&report["order"][0], &ego["plans"]["failed"]), (&Value::from("front"), &Value::from(0)), "{report}");
+    assert_eq!(report["collisions"], Value::Array(Vec::new()), "{report}");
+}
+
+#[test]
+fn its_table_is_checked_like_ours() {
+    let folder = tempdir().expect("a folder");
+    let check = |driver: &str| {
+        let file = format!("{SCENARIO}[[vehicle]]\nname = 'ego'\ndriver = {{ {driver} }}\n");
+        std::fs::write(folder.path().join("mine.toml"), file).expect("a file");
+        let output = command(folder.path(), &["check", "mine.toml"]);
+        (output.status.code(), text(&output.stderr))
+    };
+    assert_eq!(check("kind = 'gap-acceptance', gap_s = 0.2"), (Some(0), String::new()));
+    for (driver, said) in [
+        ("kind = 'gap-acceptance', gap = 0.2", "it is called `gap_s` here, after its unit"),
+        ("kind = 'gap-acceptance', gap_s = -1", "must be at least 0"),
+        ("kind = 'gap-acceptance', beta = 0.8", "unknown key `beta` in `vehicle.ego.driver`"),
+        ("kind = 'gap-aceptance'", "did you mean `gap-acceptance`?"),
+    ] {
+        let (code, stderr) = check(driver);
+        assert!(code == Some(2) && stderr.contains(said) && stderr.contains("mine.toml:4:"), "{driver}: {stderr}");
+    }
+    let schema = text(&command(folder.path(), &["schema"]).stdout);
+    assert!(
+        schema.contains("\"const\": \"gap-acceptance\"") && schema.contains("goal. [s]") | schema.contains("goal [s]")
+    );
+    let help = text(&command(folder.path(), &["run", "--help"]).stdout);
+    assert!(help.contains("gap-acceptance"), "{help}");
+}
+
+#[test]
+fn it_is_compared_beside_ours() {
+    let folder = tempdir().expect("a folder");
+    let planners = ["--planner", "gap-acceptance", "--planner", "conservative", "--planner", "negotiation"];
+    let sweep = [&["sweep", "--scenario", "lane-change/front-nice", "--starts", "4", "--out", "rows"], &planners[..]];
+    let output = command(folder.path(), &sweep.concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let output = command(folder.path(), &["compare", "rows"]);
+    let table = text(&output.stdout);
+    for planner in ["gap-acceptance", "conservative", "negotiation"] {
+        assert!(table.contains(planner), "{table}");
+    }
+}
+
+#[test]
+fn a_counterfactual_names_it_and_why_changes_its_drivers() {
+    let folder = tempdir().expect("a folder");
+    let claim = "[[counterfactual]]\nname = 'gaps'\nplanner = 'gap-acceptance'\n[counterfactual.expect]\norder_differs = true\n";
+    std::fs::write(folder.path().join("claim.toml"), format!("{SCENARIO}{claim}")).expect("a file");
+    let report = report(folder.path(), &["run", "claim.toml"], 0);
+    assert_eq!(report["counterfactuals"][0]["name"], "gaps", "{report}");
+    std::fs::write(
+        folder.path().join("mine.toml"),
+        format!("{SCENARIO}duration_s = 3\n[[vehicle]]\nname = 'ego'\ndriver = {{ kind = 'gap-acceptance' }}\n"),
+    )
+    .expect("a file");
+    let output = command(folder.path(), &["why", "mine.toml"]);
+    assert!(text(&output.stdout).contains("ego: planner = negotiation"), "{}", text(&output.stderr));
+}
+
+/// A driver who never finds a plan.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields, default)]
+struct Lost {}
+
+impl DriverKind for Lost {
+    fn kind(&self) -> &'static str {
+        "lost"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(self.clone())
+    }
+}
+
+impl Drive for Lost {
+    fn plan(&mut self, _: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+        Err(PlanError::Infeasible("never".to_owned()))
+    }
+}
+
+#[test]
+fn a_driver_without_a_plan_drives_the_fallback() {
+    let registry = Registry::default().with_driver::<Lost>().expect("a new word");
+    let changes = [Override::Planner("lost".to_owned()), Override::Set("duration_s=2".to_owned())];
+    let scenario = registry.load("lane-change/front-nice", &changes).expect("sound");
+    let report = interplay_simulation::run::run("lost", &scenario, Vec::new()).expect("it ends");
+    assert_eq!(report.vehicles[0].plans.failed, 20, "each is counted");
+}
+
+#[test]
+fn a_word_stands_for_one_kind() {
+    let twice = Registry::default().with_driver::<GapAcceptance>().and_then(Registry::with_driver::<GapAcceptance>);
+    assert_eq!(twice.err(), Some(RegistryError::KindTaken("gap-acceptance")));
+}
