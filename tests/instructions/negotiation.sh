@@ -29,7 +29,7 @@ if ((${#scenarios[@]} == 0)); then scenarios=(intersection/nice lane-change/fron
 echo "| scenario | million instructions a run | comparison of classes | descent | companion plan: comparison | its descent | safety filter | rest |"
 echo "|---|---|---|---|---|---|---|---|"
 for scenario in "${scenarios[@]}"; do
-    count '*negotiation::Negotiation::plan' "$scenario"
+    count '*negotiation::Negotiation as *::plan' "$scenario"
     all=$(inside 'PROGRAM TOTALS')
     search=$(inside 'Optimiser<S>::explore_class')
     descent=$(inside 'Optimiser<S>::descend ')
