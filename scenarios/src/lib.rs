@@ -60,6 +60,7 @@ mod defaults;
 mod error;
 mod format;
 mod load;
+mod metric;
 mod read;
 mod registry;
 mod resolve;
@@ -80,10 +81,11 @@ pub use format::building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use format::building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
 pub use format::counterfactual::{Counterfactual, CounterfactualConfig};
 pub use format::expect::{
-    BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedSpeed,
-    ExpectedYield, ExpectedZone,
+    BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedMetric,
+    ExpectedSpeed, ExpectedYield, ExpectedZone,
 };
 pub use format::lane_reference::LaneReference;
+pub use format::metric_bound::{MetricBound, MetricLimit};
 pub use format::plant::{Dynamic, Kinematic, Plant};
 pub use format::real_time::{Deadline, RealTime};
 pub use format::scenario_file::ScenarioFile;
@@ -95,6 +97,9 @@ pub use format::vehicle_defaults::{GoalDefaults, VehicleDefaults};
 pub use format::weather::{EpwFile, EpwWeather, Synthetic, WeatherConfig, WeatherSource};
 pub use format::weights::Weights;
 pub use load::{from_text, load};
+pub use metric::{
+    Better, DeclaredMetric, MetricComparison, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics,
+};
 pub use read::embedded::{Embedded, embedded};
 pub use read::files::{files, files_below};
 pub use read::overrides::Override;

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use interplay_scenarios::Expect;
+use interplay_scenarios::MetricLimit::{AtLeast, AtMost, Is};
+use interplay_scenarios::{Expect, MetricBound};
 
 type Outcome = Result<(), toml::de::Error>;
 
@@ -21,6 +22,7 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
         speed = [{ vehicle = "ego", min_below_mps = 0.8, max_above_mps = 1.0 }]
         comfort = [{ vehicle = "front", braking_at_most_mps2 = 1.5 }]
         yields = [{ vehicle = "ego", to = "human" }]
+        metric = [{ name = "hard_braking", vehicle = "ego", is = false }, { name = "ego_gap_m", at_least = 0.1 }]
         building = { after_iterations = 2, energy_kwh_at_most = 32.0 }
         zone = [{ zone = "office", discomfort_k_h_at_most = 1.0, energy_kwh_at_most = 3.0 }]
     "#;
@@ -29,6 +31,8 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
         "comfort.front.braking_at_most_mps2",
         "completes.ego",
         "completes.front",
+        "metric.ego_gap_m.at_least",
+        "metric.hard_braking.ego.is",
         "min_gap_m",
         "no_collision",
         "order",
@@ -53,16 +57,23 @@ fn what_is_absent_has_no_name() -> Outcome {
 fn bounds_carry_their_own_keys() -> Outcome {
     let text = r#"
         comfort = [{ vehicle = "ego", acceleration_at_most_mps2 = 1.0, braking_at_most_mps2 = 2.0, jerk_at_most_mps3 = 3.0 }]
+        metric = [{ name = "hard_braking", is = false }, { name = "off_road_m", vehicle = "ego", at_most = 0.1, at_least = 0.0 }]
         zone = [{ zone = "office", tracking_rmse_c_at_most = 1.0, energy_kwh_at_most = 3.0, energy_cost_at_most = 4.0 }]
     "#;
     let expect: Expect = toml::from_str(text)?;
+    let bound = |what: &str, metric, limit| MetricBound { what: what.to_owned(), metric, vehicle: Some("ego"), limit };
     let comfort = [
-        ("acceleration_at_most_mps2", Some(1.0)),
-        ("braking_at_most_mps2", Some(2.0)),
-        ("jerk_at_most_mps3", Some(3.0)),
-        ("lateral_acceleration_at_most_mps2", None),
+        bound("comfort.ego.acceleration_at_most_mps2", "peak_acceleration_mps2", AtMost(1.0)),
+        bound("comfort.ego.braking_at_most_mps2", "peak_braking_mps2", AtMost(2.0)),
+        bound("comfort.ego.jerk_at_most_mps3", "peak_jerk_mps3", AtMost(3.0)),
     ];
-    assert_eq!(expect.comfort[0].bounds(), comfort);
+    assert_eq!(expect.bounds_of_vehicles(), comfort);
+    let metrics = [
+        MetricBound { vehicle: None, ..bound("metric.hard_braking.is", "hard_braking", Is(false)) },
+        bound("metric.off_road_m.ego.at_most", "off_road_m", AtMost(0.1)),
+        bound("metric.off_road_m.ego.at_least", "off_road_m", AtLeast(0.0)),
+    ];
+    assert_eq!(expect.bounds_of_metrics(), metrics);
     let zone = [
         ("tracking_rmse_c_at_most", Some(1.0)),
         ("discomfort_k_h_at_most", None),

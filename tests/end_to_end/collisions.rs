@@ -56,7 +56,7 @@ fn a_collision_has_a_time_parties_and_an_impulse() {
         let expected_ns = 0.5 * 185.0 * 0.4 * 0.19 * closing_mps;
         assert!(collision.impulse_ns > 0.0);
         assert!((collision.impulse_ns / expected_ns - 1.0).abs() < 1e-6, "{} {expected_ns}", collision.impulse_ns);
-        assert_eq!(film.report.min_gap_m, Some(0.0));
+        assert_eq!(film.report.min_gap_m(), Some(0.0));
         let events: Vec<_> = film.frames.iter().flat_map(|frame| &frame.events).collect();
         let alarms = events.iter().filter(|event| event.text.contains("collides with standing"));
         assert_eq!(alarms.count(), 1, "{events:?}");
@@ -82,7 +82,8 @@ fn a_car_that_can_stop_does_not_collide() {
     let careful = unavoidable(1.6).replace("speed_mps = 1.5 }", &format!("speed_mps = 1.5 }}\n{driver}"));
     let film = film("stops", Scenario { duration_s: 5.0, ..scenario(&careful) });
     assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
-    let (gap_m, speed_mps) = (film.report.min_gap_m.expect("there is another"), film.report.vehicles[0].last.speed_mps);
+    let (gap_m, speed_mps) =
+        (film.report.min_gap_m().expect("there is another"), film.report.vehicles[0].last.speed_mps);
     assert!((0.25..0.5).contains(&gap_m) && speed_mps < 1e-3, "{gap_m} {speed_mps}");
 }
 
@@ -105,6 +106,6 @@ fn near_is_not_a_collision() {
     "#;
     let film = film("near", scenario(text));
     assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
-    let smallest = film.report.min_gap_m.expect("there is another");
+    let smallest = film.report.min_gap_m().expect("there is another");
     assert!((smallest - 0.005).abs() < 1e-4, "{smallest}");
 }

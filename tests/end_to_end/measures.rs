@@ -40,7 +40,7 @@ fn the_gap_is_the_distance_between_the_rectangles() {
         let at_ticks = smallest(&mut moments.iter().cloned());
         let often = film.frames.len() * 50;
         let between = smallest(&mut (0..often).map(|i| film.states_at(i as f64 * film.scenario.step_s / 50.0)));
-        let measured = film.report.min_gap_m.expect("there are others");
+        let measured = film.report.min_gap_m().expect("there are others");
         assert!((between - 1e-3..=at_ticks + 1e-5).contains(&measured), "{}: {measured}", film.name());
         assert!(film.report.collisions.is_empty() && measured > 0.0, "{}", film.name());
     }
@@ -145,17 +145,22 @@ fn speeds_and_comfort_are_those_of_the_frames() {
         let moments = moments(film);
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let speeds = || moments.iter().map(|states| states[index].speed_mps);
-            assert_eq!(vehicle.min_speed_mps, speeds().fold(f64::INFINITY, f64::min));
-            assert_eq!(vehicle.max_speed_mps, speeds().fold(f64::NEG_INFINITY, f64::max));
+            let extremes = [speeds().fold(f64::INFINITY, f64::min), speeds().fold(f64::NEG_INFINITY, f64::max)];
+            assert_eq!(vehicle.speed_range_mps(), extremes);
+            let number = |name: &str| vehicle.metrics.number(name).expect("every vehicle has one");
             let accelerations: Vec<f64> =
                 film.frames.iter().map(|frame| frame.vehicles[index].input.acceleration_mps2).collect();
             let count = accelerations.len() as f64;
             let mean = accelerations.iter().map(|value| value.abs()).sum::<f64>() / count;
-            assert!((vehicle.mean_abs_acceleration - mean).abs() < 1e-12);
+            assert!((number("mean_abs_acceleration") - mean).abs() < 1e-12);
             let before = [0.0].iter().chain(&accelerations);
             let changes = accelerations.iter().zip(before).map(|(now, before)| (now - before).abs());
             let jerk = changes.sum::<f64>() / film.scenario.step_s / count;
-            assert!((vehicle.mean_abs_jerk - jerk).abs() < 1e-9);
+            assert!((number("mean_abs_jerk") - jerk).abs() < 1e-9);
+            let steering: Vec<f64> = film.frames.iter().map(|frame| frame.vehicles[index].input.steering_rad).collect();
+            let turns = [0.0].iter().chain(&steering).zip(&steering).map(|(before, now)| (now - before).abs());
+            let rate_radps = turns.fold(0.0, f64::max) / film.scenario.step_s;
+            assert!((number("peak_steering_rate_radps") - rate_radps).abs() < 1e-9);
             let asked = film.frames.iter().filter(|frame| frame.vehicles[index].origin != Origin::Crashed);
             assert_eq!(vehicle.plans.count, asked.count());
         }

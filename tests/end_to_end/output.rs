@@ -26,7 +26,7 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(outcome.stderr, "");
     has_keys(
         &report,
-        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m smallest_gap \
+        "scenario passed seed simulated_s wall_s digest phase_digests collisions contact_by_ego min_gap_m smallest_gap \
          shortest_time_to_collision right_of_way order vehicles expectations counterfactuals",
     );
     assert_eq!(report["scenario"], "lane-change/front-nice");
@@ -42,10 +42,13 @@ fn the_report_has_the_keys_of_the_contract() {
         has_keys(
             vehicle,
             "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
-             peak_acceleration_mps2 peak_braking_mps2 peak_jerk_mps3 peak_lateral_acceleration_mps2 off_road_m \
-             speeding_mps peak_times_s plans",
+             peak_acceleration_mps2 peak_braking_mps2 peak_braking_share hard_braking peak_jerk_mps3 \
+             peak_lateral_acceleration_mps2 off_road_m leaves_road speeding_mps peak_steering_rate_radps peak_times_s plans",
         );
-        has_keys(&vehicle["peak_times_s"], "acceleration braking jerk lateral_acceleration off_road speeding");
+        has_keys(
+            &vehicle["peak_times_s"],
+            "acceleration braking braking_share jerk lateral_acceleration off_road speeding steering_rate",
+        );
         assert_eq!(vehicle["speeding_mps"], Value::Null, "this road has no limits");
         has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");
         has_keys(&vehicle["plans"], "count failed unfinished violating over_budget median_ms p99_ms");

@@ -45,7 +45,7 @@ fn row((own, tyres): &(&Film, Film)) -> String {
     } else {
         format!("{}; then {}", own.order.join(", "), tyres.order.join(", "))
     };
-    let centimetres = |report: &Report| format!("{:.1}", 100.0 * report.min_gap_m.unwrap_or(f64::NAN));
+    let centimetres = |report: &Report| format!("{:.1}", 100.0 * report.min_gap_m().unwrap_or(f64::NAN));
     let time = |report: &Report| report.vehicles[ego].completed_s.map_or("-".to_owned(), |time| format!("{time:.1}"));
     let failed = tyres.expectations.iter().filter(|one| !one.passed && one.what != "order");
     let failed: Vec<String> = failed.map(|one| format!("`{}`", one.what)).collect();

@@ -8,6 +8,7 @@ use interplay_planners::road::centre_line::Piece;
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, CentreLine, State};
 use interplay_scenarios::{Branch, Road, Vehicle};
+use interplay_simulation::frame::PairGap;
 use interplay_simulation::run::run;
 use serde_json::{Value, json};
 
@@ -37,11 +38,18 @@ fn gap_m(film: &Film, states: &[State], [a, b]: [usize; 2]) -> f64 {
     distance((&vehicles[a].body, &states[a]), (&vehicles[b].body, &states[b]))
 }
 
+/// A metric of two vehicles, its value whatever its unit; none if no two have one.
+fn of_pair(film: &Film, name: &str) -> Option<PairGap> {
+    let (_, measured) = film.report.metrics.get(name)?;
+    let (m, time_s, between) = (measured.value?.as_number(), measured.time_s?, measured.between.clone()?);
+    Some(PairGap { m, between, time_s })
+}
+
 /// The gap is the smallest of all pairs, and the named pair has it at the named time.
 #[test]
 fn the_smallest_gap_is_that_of_the_closest_pair() {
     for film in kinematic() {
-        let (pairs, gap) = (pairs(film), film.report.smallest_gap.as_ref().expect("there are others"));
+        let (pairs, gap) = (pairs(film), of_pair(film, "smallest_gap_m").expect("there are others"));
         let smallest_m =
             |states: &[State]| pairs.iter().map(|pair| gap_m(film, states, *pair)).fold(f64::INFINITY, f64::min);
         let at_ticks = moments(film).iter().map(|states| smallest_m(states)).fold(f64::INFINITY, f64::min);
@@ -51,11 +59,11 @@ fn the_smallest_gap_is_that_of_the_closest_pair() {
         assert!((between - 1e-3..=at_ticks + 1e-5).contains(&gap.m), "{}: {gap:?}, {between}", film.name());
         let there_m = gap_m(film, &film.states_at(gap.time_s), indices(film, &gap.between));
         assert!((there_m - gap.m).abs() < 1e-4, "{}: {gap:?}, but {there_m} m", film.name());
-        assert!(film.report.min_gap_m.is_none_or(|of_ego_m| gap.m <= of_ego_m), "{}", film.name());
+        assert!(film.report.min_gap_m().is_none_or(|of_ego_m| gap.m <= of_ego_m), "{}", film.name());
     }
     // Bodies of the dynamic plant may be at distance 0 for a sub-step of a millisecond before they push each other.
     for film in FILMS.iter().filter(|film| !film.report.collisions.is_empty()) {
-        let (gap, collision) = (film.report.smallest_gap.as_ref().expect("two"), &film.report.collisions[0]);
+        let (gap, collision) = (of_pair(film, "smallest_gap_m").expect("two"), &film.report.collisions[0]);
         assert_eq!((gap.m, &gap.between), (0.0, &collision.between), "{}", film.name());
         assert!((gap.time_s - collision.time_s).abs() < 1.5e-3, "{}: {gap:?} {collision:?}", film.name());
     }
@@ -105,12 +113,12 @@ fn the_time_to_collision_is_that_of_rectangles_which_do_not_turn() {
         let ticks = || (0..film.frames.len()).flat_map(|tick| pairs(film).into_iter().map(move |pair| (tick, pair)));
         let shortest = ticks().filter_map(|(tick, pair)| time_s(tick, pair)).fold(f64::INFINITY, f64::min);
         let is_near = |found_s: f64, wanted_s: f64| (found_s - wanted_s).abs() < 1e-3 * (1.0 + wanted_s);
-        match &film.report.shortest_time_to_collision {
+        match of_pair(film, "time_to_collision_s") {
             Some(found) => {
-                assert!(is_near(found.s, shortest), "{}: {found:?}, but {shortest} s", film.name());
+                assert!(is_near(found.m, shortest), "{}: {found:?}, but {shortest} s", film.name());
                 let tick = (found.time_s / step_s).round() as usize;
                 let theirs = time_s(tick, indices(film, &found.between)).expect("a collision course");
-                assert!(is_near(found.s, theirs), "{}: {found:?}, but {theirs} s", film.name());
+                assert!(is_near(found.m, theirs), "{}: {found:?}, but {theirs} s", film.name());
                 closed_in += 1;
             }
             None => assert!(shortest > 100.0, "{}: {shortest} s", film.name()),
@@ -176,13 +184,16 @@ fn off_road_is_the_farthest_corner_beyond_the_edge() {
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let expected_m = off_road_m(film, index);
             let at = format!("{}: {}", film.name(), vehicle.name);
-            assert!((vehicle.off_road_m - expected_m).abs() < 1e-6, "{at}: {} {expected_m}", vehicle.off_road_m);
-            assert_eq!(vehicle.off_road_m > 0.0, vehicle.peak_times_s.off_road.is_some(), "{at}");
+            let (_, measured) = vehicle.metrics.get("off_road_m").expect("measured");
+            let off_road_m = measured.value.expect("every vehicle has one").as_number();
+            assert!((off_road_m - expected_m).abs() < 1e-6, "{at}: {off_road_m} {expected_m}");
+            assert_eq!(off_road_m > 0.0, measured.time_s.is_some(), "{at}");
         }
     }
     for film in &strayed {
         let ego = film.report.vehicle("ego").expect("there");
-        assert!(ego.off_road_m > 0.01, "{}: {} m", film.name(), ego.off_road_m);
+        let off_road_m = ego.metrics.number("off_road_m").expect("measured");
+        assert!(off_road_m > 0.01, "{}: {off_road_m} m", film.name());
     }
 }
 
@@ -244,7 +255,7 @@ fn who_exceeds_a_limit_is_named() {
     let [mps, vehicle, time_s] = ["mps", "vehicle", "time_s"].map(|key| &expectation.got[key]);
     assert!(mps.as_f64().is_some_and(|mps| (0.049..0.1).contains(&mps)), "{expectation}");
     assert!((vehicle == "front" || vehicle == "rear") && time_s.is_f64(), "{expectation}");
-    assert_eq!(report.vehicle("ego").expect("there").speeding_mps, Some(0.0));
+    assert_eq!(report.vehicle("ego").expect("there").metrics.number("speeding_mps"), Some(0.0));
     scenario.expect.speed_limit_exceeded_by_at_most_mps = Some(0.2);
     assert!(report.judged_by(&scenario.expect).iter().all(|one| one.what != expectation.what || one.passed));
 }

@@ -86,7 +86,7 @@ impl WhyRun {
             order: report.order.clone(),
             order_differs: report.order != main.order,
             vehicles: report.vehicles.iter().map(arrival).collect(),
-            min_gap_m: report.min_gap_m,
+            min_gap_m: report.min_gap_m(),
             collisions: report.collisions.len(),
             plan_failures: report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum(),
             expectations_hold: (!report.expectations.is_empty()).then_some(report.passed),

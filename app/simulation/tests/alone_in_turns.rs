@@ -24,7 +24,8 @@ fn scenario(road: &str, start: &str, goal: &str, speed_mps: f64) -> Scenario {
 fn driven(scenario: &Scenario, of: &str) -> VehicleReport {
     let mut report = run("turn", scenario, Vec::new()).unwrap_or_else(|error| panic!("{of}: {error}"));
     let car = report.vehicles.remove(0);
-    assert!(car.off_road_m <= MOST_OFF_ROAD_M, "{of}: {} m beside its road", car.off_road_m);
+    let off_road_m = car.metrics.number("off_road_m").expect("measured");
+    assert!(off_road_m <= MOST_OFF_ROAD_M, "{of}: {off_road_m} m beside its road");
     car
 }
 
@@ -53,7 +54,7 @@ fn drive_every_way(road: &str, lane: &str, speeds_mps: &[f64]) -> usize {
             let (car, route) = (driven(&scenario, &of), &scenario.vehicles[0].route);
             let driven_share = route.along(car.last.position()) / route.end_m();
             assert!(driven_share > 0.75, "{of}: it stops after {driven_share} of its way");
-            let speeding_mps = car.speeding_mps.expect("there are limits");
+            let speeding_mps = car.metrics.number("speeding_mps").expect("there are limits");
             let at_start_mps = (speed_mps - limit_mps).max(0.0);
             assert!(speeding_mps <= at_start_mps + MOST_SPEEDING_MPS, "{of}: {speeding_mps} m/s too fast");
         }

@@ -37,9 +37,9 @@ const DRIVE: &str = "intersection/nice";
 fn bounds_of_a_drive() {
     let plain = report(DRIVE, &[]);
     let ego = plain.vehicle("ego").expect("an ego");
-    let gap_m = plain.min_gap_m.expect("two vehicles");
+    let gap_m = plain.min_gap_m().expect("two vehicles");
     holds_up_to(DRIVE, &[], "expect.min_gap_m", ("min_gap_m", gap_m), 1.0);
-    let (slowest, fastest) = (ego.min_speed_mps, ego.max_speed_mps);
+    let [slowest, fastest] = ego.speed_range_mps();
     assert!(slowest < fastest);
     for (key, measured) in [("min", slowest), ("max", fastest)] {
         for (side, sign) in [("above", 1.0), ("below", -1.0)] {

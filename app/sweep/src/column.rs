@@ -1,8 +1,16 @@
-//! The columns of a table of rows: each with its type, and with how its value is found in a row.
+//! The columns of a table of rows: each with its type, and with how its value is found.
+//!
+//! A column is declared once. The metrics of runs are columns by their own declarations; here are what tells rows apart, and
+//! what follows from the report of a run and is no metric: what the ego did as a driver with a task, the others taken
+//! together, and the sums over a building's days.
 
-use serde_json::Value as Json;
+use interplay_scenarios::{Better, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics, Scenario};
+use interplay_simulation::measure::metrics_of;
+use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
+use serde_json::{Value as Json, json};
 
-use crate::row::{BuildingResult, RunResult, SweepRow, TrafficResult};
+use crate::row::SweepRow;
+use crate::table::TableSchema;
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,118 +34,238 @@ pub(crate) enum Cell {
     Text(Option<String>),
 }
 
-/// How a value is found in a row.
-type Getter = fn(&SweepRow) -> Cell;
+/// A column of what tells a row apart, or of the run as a whole.
+type RowColumn = (&'static str, ColumnKind, fn(&SweepRow) -> Json);
 
-/// A column that every table has.
-pub(crate) struct FixedColumn {
-    pub name: &'static str,
-    pub kind: ColumnKind,
-    pub get: Getter,
-}
+/// A column of what follows from the report of a run with vehicles.
+type TrafficColumn = (&'static str, ColumnKind, fn(&EgoRun<'_>) -> Json);
+
+/// A column of what follows from the report of a building.
+type BuildingColumn = (&'static str, ColumnKind, fn(&BuildingReport) -> Json);
+
+use ColumnKind::{Count, Flag, Number, Text};
 
 /// Columns that are not reproducible.
 pub(crate) const TIMINGS: [&str; 3] = ["wall_s", "plan_median_ms", "plan_p99_ms"];
 
-fn result<T>(row: &SweepRow, value: impl Fn(&RunResult) -> T) -> Option<T> {
-    row.result.as_ref().map(value)
-}
-
-fn traffic<T>(row: &SweepRow, value: impl Fn(&TrafficResult) -> T) -> Option<T> {
-    row.result.as_ref().and_then(|result| result.traffic.as_ref()).map(value)
-}
-
-fn building<T>(row: &SweepRow, value: impl Fn(&BuildingResult) -> T) -> Option<T> {
-    row.result.as_ref().and_then(|result| result.building.as_ref()).map(value)
-}
-
-/// A column: its name, its type, and the value of a row.
-macro_rules! column {
-    ($name:literal, $kind:ident, $get:expr) => {
-        FixedColumn { name: $name, kind: ColumnKind::$kind, get: |row| Cell::$kind($get(row)) }
-    };
-}
-
 /// Columns before those of what varies.
-pub(crate) const HEAD: [FixedColumn; 8] = [
-    column!("key", Text, |row: &SweepRow| Some(row.key.to_string())),
-    column!("version", Text, |row: &SweepRow| Some(row.version.clone())),
-    column!("scenario", Text, |row: &SweepRow| Some(row.scenario.clone())),
-    column!("family", Text, |row: &SweepRow| Some(row.family.clone())),
-    column!("style", Text, |row: &SweepRow| Some(row.style.clone())),
-    column!("planner", Text, |row: &SweepRow| Some(row.planner.clone())),
-    column!("sample", Count, |row: &SweepRow| Some(row.sample)),
-    column!("seed", Count, |row: &SweepRow| Some(row.seed)),
+const HEAD: [RowColumn; 8] = [
+    ("key", Text, |row| json!(row.key.to_string())),
+    ("version", Text, |row| json!(row.version)),
+    ("scenario", Text, |row| json!(row.scenario)),
+    ("family", Text, |row| json!(row.family)),
+    ("style", Text, |row| json!(row.style)),
+    ("planner", Text, |row| json!(row.planner)),
+    ("sample", Count, |row| json!(row.sample)),
+    ("seed", Count, |row| json!(row.seed)),
 ];
 
 /// Columns after those of what varies.
-pub(crate) const TAIL: [FixedColumn; 54] = [
-    column!("error", Text, |row: &SweepRow| row.error.clone()),
-    column!("digest", Text, |row| result(row, |of| of.digest.clone())),
-    column!("simulated_s", Number, |row| result(row, |of| of.simulated_s)),
-    column!("passed", Flag, |row| result(row, |of| of.passed)),
-    column!("success", Flag, |row| traffic(row, |of| of.success)),
-    column!("driver", Text, |row| traffic(row, |of| of.driver.clone())),
-    column!("has_task", Flag, |row| traffic(row, |of| of.has_task)),
-    column!("completed_s", Number, |row| traffic(row, |of| of.completed_s).flatten()),
-    column!("deadlock", Flag, |row| traffic(row, |of| of.deadlock)),
-    column!("others_with_task", Count, |row| traffic(row, |of| of.others_with_task)),
-    column!("others_completed", Count, |row| traffic(row, |of| of.others_completed)),
-    column!("contacts", Count, |row| traffic(row, |of| of.contacts)),
-    column!("ego_contact", Flag, |row| traffic(row, |of| of.ego_contact)),
-    column!("contact_by_ego", Flag, |row| traffic(row, |of| of.contact_by_ego)),
-    column!("ego_contact_s", Number, |row| traffic(row, |of| of.ego_contact_s).flatten()),
-    column!("order_kept", Flag, |row| traffic(row, |of| of.order_kept).flatten()),
-    column!("impulse_ns", Number, |row| traffic(row, |of| of.impulse_ns).flatten()),
-    column!("order", Text, |row| traffic(row, |of| of.order.join(" "))),
-    column!("ego_place", Count, |row| traffic(row, |of| of.ego_place)),
-    column!("ego_yields", Count, |row| traffic(row, |of| of.ego_yields)),
-    column!("others_yield", Count, |row| traffic(row, |of| of.others_yield)),
-    column!("ego_gap_m", Number, |row| traffic(row, |of| of.ego_gap_m).flatten()),
-    column!("smallest_gap_m", Number, |row| traffic(row, |of| of.smallest_gap_m).flatten()),
-    column!("time_to_collision_s", Number, |row| traffic(row, |of| of.time_to_collision_s).flatten()),
-    column!("mean_abs_acceleration", Number, |row| traffic(row, |of| of.mean_abs_acceleration)),
-    column!("mean_abs_jerk", Number, |row| traffic(row, |of| of.mean_abs_jerk)),
-    column!("peak_acceleration_mps2", Number, |row| traffic(row, |of| of.peak_acceleration_mps2)),
-    column!("peak_braking_mps2", Number, |row| traffic(row, |of| of.peak_braking_mps2)),
-    column!("peak_braking_share", Number, |row| traffic(row, |of| of.peak_braking_share)),
-    column!("hard_braking", Flag, |row| traffic(row, |of| of.hard_braking)),
-    column!("peak_jerk_mps3", Number, |row| traffic(row, |of| of.peak_jerk_mps3)),
-    column!("peak_lateral_acceleration_mps2", Number, |row| traffic(row, |of| of.peak_lateral_acceleration_mps2)),
-    column!("min_speed_mps", Number, |row| traffic(row, |of| of.min_speed_mps)),
-    column!("max_speed_mps", Number, |row| traffic(row, |of| of.max_speed_mps)),
-    column!("off_road_m", Number, |row| traffic(row, |of| of.off_road_m)),
-    column!("leaves_road", Flag, |row| traffic(row, |of| of.leaves_road)),
-    column!("speeding_mps", Number, |row| traffic(row, |of| of.speeding_mps).flatten()),
-    column!("others_peak_braking_mps2", Number, |row| traffic(row, |of| of.others_peak_braking_mps2).flatten()),
-    column!("others_hard_braking", Flag, |row| traffic(row, |of| of.others_hard_braking)),
-    column!("plans", Count, |row| traffic(row, |of| of.plans)),
-    column!("plans_failed", Count, |row| traffic(row, |of| of.plans_failed)),
-    column!("plans_unfinished", Count, |row| traffic(row, |of| of.plans_unfinished)),
-    column!("others_plans_failed", Count, |row| traffic(row, |of| of.others_plans_failed)),
-    column!("controller", Text, |row| building(row, |of| of.controller.clone())),
-    column!("days", Count, |row| building(row, |of| of.days)),
-    column!("energy_kwh", Number, |row| building(row, |of| of.energy_kwh)),
-    column!("electricity_kwh", Number, |row| building(row, |of| of.electricity_kwh)),
-    column!("bill", Number, |row| building(row, |of| of.bill).flatten()),
-    column!("currency", Text, |row| building(row, |of| of.currency.clone()).flatten()),
-    column!("discomfort_k_h", Number, |row| building(row, |of| of.discomfort_k_h)),
-    column!("last_cost", Number, |row| building(row, |of| of.last_cost)),
-    column!("wall_s", Number, |row: &SweepRow| Some(row.wall_s)),
-    column!("plan_median_ms", Number, |row: &SweepRow| row.plan_median_ms),
-    column!("plan_p99_ms", Number, |row: &SweepRow| row.plan_p99_ms),
+const RUN: [RowColumn; 4] = [
+    ("error", Text, |row| json!(row.error)),
+    ("digest", Text, |row| json!(row.result.as_ref().map(|result| &result.digest))),
+    ("simulated_s", Number, |row| json!(row.result.as_ref().map(|result| result.simulated_s))),
+    ("passed", Flag, |row| json!(row.result.as_ref().map(|result| result.passed))),
 ];
 
-/// The value of what varies; numbers in a column of numbers, everything else as a text.
-pub(crate) fn input(row: &SweepRow, path: &str, kind: ColumnKind) -> Cell {
-    let value = row.inputs.get(path);
-    match kind {
-        ColumnKind::Number => Cell::Number(value.and_then(Json::as_f64)),
-        ColumnKind::Flag => Cell::Flag(value.and_then(Json::as_bool)),
-        ColumnKind::Count => Cell::Count(value.and_then(Json::as_u64)),
-        ColumnKind::Text => Cell::Text(value.map(|value| match value {
-            Json::String(text) => text.clone(),
-            other => other.to_string(),
-        })),
+/// The last columns, [`TIMINGS`].
+const TAIL: [RowColumn; 3] = [
+    ("wall_s", Number, |row| json!(row.wall_s)),
+    ("plan_median_ms", Number, |row| json!(row.plan_median_ms)),
+    ("plan_p99_ms", Number, |row| json!(row.plan_p99_ms)),
+];
+
+/// A run with vehicles, seen from its ego.
+pub(crate) struct EgoRun<'a> {
+    pub scenario: &'a Scenario,
+    pub report: &'a Report,
+    pub ego: &'a VehicleReport,
+}
+
+/// What the ego did with its task, before the columns of metrics.
+const TASK: [TrafficColumn; 17] = [
+    // Whether the ego does its task without touching anybody; without a task, whether it touches nobody.
+    ("success", Flag, |run| json!(run.is_done() && !run.has_contact())),
+    ("driver", Text, |run| json!(run.ego.driver)),
+    ("has_task", Flag, |run| json!(run.ego.has_task)),
+    ("completed_s", Number, |run| json!(run.ego.completed_s)),
+    ("deadlock", Flag, |run| json!(!run.is_done() && run.report.collisions.is_empty())),
+    ("others_with_task", Count, |run| json!(run.others().filter(|vehicle| vehicle.has_task).count())),
+    ("others_completed", Count, |run| {
+        json!(run.others().filter(|vehicle| vehicle.has_task && vehicle.completed_s.is_some()).count())
+    }),
+    ("contacts", Count, |run| json!(run.report.collisions.len())),
+    ("ego_contact", Flag, |run| json!(run.has_contact())),
+    ("contact_by_ego", Flag, |run| json!(run.report.metrics.number("contact_by_ego").map(|flag| flag != 0.0))),
+    ("ego_contact_s", Number, |run| json!(run.contact_times_s().min_by(f64::total_cmp))),
+    ("order_kept", Flag, |run| json!(order_kept(run.report))),
+    ("impulse_ns", Number, |run| {
+        json!(run.report.collisions.iter().map(|contact| contact.impulse_ns).max_by(f64::total_cmp))
+    }),
+    ("order", Text, |run| json!(run.report.order.join(" "))),
+    // In the order, or on a network one more than the conflict zones in which another went first.
+    ("ego_place", Count, |run| match run.scenario.network {
+        Some(_) => json!(1 + run.yields()),
+        None => json!(run.report.order.iter().position(|name| *name == run.ego.name).map_or(0, |index| index + 1)),
+    }),
+    ("ego_yields", Count, |run| json!(run.yields())),
+    ("others_yield", Count, |run| {
+        json!(run.report.right_of_way.iter().filter(|passage| passage.first == run.ego.name).count())
+    }),
+];
+
+/// Counts of plans, after the columns of metrics.
+const PLANS: [TrafficColumn; 4] = [
+    ("plans", Count, |run| json!(run.ego.plans.count)),
+    ("plans_failed", Count, |run| json!(run.ego.plans.failed)),
+    ("plans_unfinished", Count, |run| json!(run.ego.plans.unfinished)),
+    ("others_plans_failed", Count, |run| json!(run.others().map(|vehicle| vehicle.plans.failed).sum::<usize>())),
+];
+
+/// What a building amounts to over all its days.
+const BUILDING: [BuildingColumn; 8] = [
+    ("controller", Text, |building| json!(building.controller)),
+    ("days", Count, |building| json!(building.iterations.len())),
+    ("energy_kwh", Number, |building| json!(building.iterations.iter().map(|day| day.figures.energy_kwh).sum::<f64>())),
+    ("electricity_kwh", Number, |building| {
+        json!(building.iterations.iter().map(|day| day.figures.electricity_kwh).sum::<f64>())
+    }),
+    ("bill", Number, |building| {
+        let costs = || building.iterations.iter().map(|day| day.figures.energy_cost).sum::<Option<f64>>();
+        json!(building.currency.as_ref().and_then(|_| costs()))
+    }),
+    ("currency", Text, |building| json!(building.currency)),
+    ("discomfort_k_h", Number, |building| {
+        json!(building.iterations.iter().map(|day| day.figures.discomfort_k_h).sum::<f64>())
+    }),
+    ("last_cost", Number, |building| json!(building.iterations.last().map_or(0.0, |day| day.figures.cost))),
+];
+
+impl EgoRun<'_> {
+    fn others(&self) -> impl Iterator<Item = &VehicleReport> {
+        self.report.vehicles.iter().filter(|vehicle| vehicle.name != self.ego.name)
+    }
+
+    fn is_done(&self) -> bool {
+        !self.ego.has_task || self.ego.completed_s.is_some()
+    }
+
+    fn contact_times_s(&self) -> impl Iterator<Item = f64> {
+        let of_ego = self.report.collisions.iter().filter(|contact| contact.between.contains(&self.ego.name));
+        of_ego.map(|contact| contact.time_s)
+    }
+
+    fn has_contact(&self) -> bool {
+        self.contact_times_s().next().is_some()
+    }
+
+    /// In how many conflict zones another vehicle went before the ego.
+    fn yields(&self) -> usize {
+        self.report.right_of_way.iter().filter(|passage| passage.second == self.ego.name).count()
+    }
+
+    /// The values of all columns about vehicles, by their names.
+    pub fn values(&self) -> impl Iterator<Item = (String, Json)> {
+        let fixed = TASK.iter().chain(&PLANS).map(|(name, _, value)| ((*name).to_owned(), value(self)));
+        let of_run_and_ego = self.report.metrics.0.iter().chain(&self.ego.metrics.0);
+        let metrics =
+            of_run_and_ego.clone().map(|(declaration, measured)| (declaration.name.to_owned(), json!(measured.value)));
+        let with_others = self.ego.metrics.0.iter().filter(|(declaration, _)| declaration.others);
+        let others = with_others.map(|(declaration, _)| (others_name(declaration), self.worst_of_others(declaration)));
+        metrics.chain(others).chain(fixed)
+    }
+
+    /// The worst value of the other vehicles: whether any flag is set, the sum of counts, the largest number or the smallest.
+    fn worst_of_others(&self, declaration: &MetricDeclaration) -> Json {
+        let numbers = self.others().filter_map(|vehicle| vehicle.metrics.number(declaration.name));
+        match (declaration.kind, declaration.better) {
+            (MetricKind::Flag, _) => json!({ numbers }.any(|number| number != 0.0)),
+            (MetricKind::Count, _) => json!(numbers.sum::<f64>() as u64),
+            (MetricKind::Number, Some(Better::Higher)) => json!(numbers.min_by(f64::total_cmp)),
+            (MetricKind::Number, _) => json!(numbers.max_by(f64::total_cmp)),
+        }
+    }
+}
+
+/// The values of all columns about a building, by their names.
+pub(crate) fn building_values(building: &BuildingReport) -> impl Iterator<Item = (String, Json)> {
+    BUILDING.iter().map(|(name, _, value)| ((*name).to_owned(), value(building)))
+}
+
+/// Whether the scenario's expectations of order and right of way hold and nobody touches anybody; none without such expectations.
+/// They are about the drivers that the file states.
+fn order_kept(report: &Report) -> Option<bool> {
+    let is_order = |what: &str| what == "order" || what.starts_with("yields.");
+    let mut of_order = report.expectations.iter().filter(|expectation| is_order(&expectation.what)).peekable();
+    of_order.peek()?;
+    Some(of_order.all(|expectation| expectation.passed) && report.collisions.is_empty())
+}
+
+/// The column of the worst value of the others.
+pub(crate) fn others_name(declaration: &MetricDeclaration) -> String {
+    format!("others_{}", declaration.name)
+}
+
+/// The columns of a table in their order, between them those of what varies.
+pub(crate) fn schema(inputs: &TableSchema, registered: &RegisteredMetrics) -> TableSchema {
+    fn named<T>(columns: &[(&str, ColumnKind, T)]) -> TableSchema {
+        columns.iter().map(|(name, kind, _)| ((*name).to_owned(), *kind)).collect()
+    }
+    let task = named(&TASK);
+    let declarations: Vec<MetricDeclaration> = metrics_of(registered).map(|metric| metric.declaration()).collect();
+    let own = |of| declarations.iter().filter(move |one| one.of == of).map(|one| (one.name.to_owned(), kind_of(one)));
+    let metrics = own(MetricSubject::Run).chain(own(MetricSubject::Vehicle)).filter(|column| !task.contains(column));
+    let with_others = declarations.iter().filter(|one| one.others && one.of == MetricSubject::Vehicle);
+    let others = with_others.map(|one| (others_name(one), kind_of(one)));
+    let parts: [TableSchema; 8] = [
+        named(&HEAD),
+        inputs.clone(),
+        named(&RUN),
+        task.clone(),
+        metrics.chain(others).collect(),
+        named(&PLANS),
+        named(&BUILDING),
+        named(&TAIL),
+    ];
+    parts.concat()
+}
+
+fn kind_of(declaration: &MetricDeclaration) -> ColumnKind {
+    match declaration.kind {
+        MetricKind::Flag => Flag,
+        MetricKind::Count => Count,
+        MetricKind::Number => Number,
+    }
+}
+
+/// The values of a row in the columns of a schema, of which `inputs` are those of what varies.
+pub(crate) fn cells(row: &SweepRow, schema: &TableSchema, inputs: &TableSchema) -> Vec<Cell> {
+    let measured = |name: &str| {
+        let result = row.result.as_ref()?;
+        [&result.traffic, &result.building].into_iter().flatten().find_map(|values| values.get(name)).cloned()
+    };
+    let value = |(at, (name, _)): (usize, &(String, ColumnKind))| {
+        let of_row = HEAD.iter().chain(&RUN).chain(&TAIL).find(|(known, ..)| known == name);
+        match of_row {
+            _ if (HEAD.len()..HEAD.len() + inputs.len()).contains(&at) => row.inputs.get(name).cloned(),
+            Some((_, _, value)) => Some(value(row)),
+            None => measured(name),
+        }
+    };
+    let columns = schema.iter().enumerate();
+    columns.map(|column| Cell::of(column.1.1, value(column).unwrap_or(Json::Null))).collect()
+}
+
+impl Cell {
+    /// A value in a column of a type; none if it is of another type. In a column of texts everything is a text.
+    fn of(kind: ColumnKind, value: Json) -> Cell {
+        match (kind, value) {
+            (Flag, value) => Cell::Flag(value.as_bool()),
+            (Count, value) => Cell::Count(value.as_u64()),
+            (Number, value) => Cell::Number(value.as_f64()),
+            (Text, Json::Null) => Cell::Text(None),
+            (Text, Json::String(text)) => Cell::Text(Some(text)),
+            (Text, other) => Cell::Text(Some(other.to_string())),
+        }
     }
 }

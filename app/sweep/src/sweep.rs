@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
+use interplay_scenarios::{RegisteredMetrics, RunRefusals, Scenario, SweepPlan};
 use rayon::prelude::*;
 
 use crate::column::ColumnKind;
@@ -232,6 +232,6 @@ fn write_table(
     let rows = rows.inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
-    let count = write_rows(table, &inputs, &about, rows)?;
+    let count = write_rows(table, (&inputs, &RegisteredMetrics::default()), &about, rows)?;
     Ok((count, unfinished))
 }

@@ -1,10 +1,8 @@
 //! What makes a run pass. Each key that is present is one expectation; what is absent is not judged.
 
-use std::collections::BTreeSet;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value as Json, json};
+use serde_json::json;
 
 /// The expectations of a scenario.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,6 +48,10 @@ pub struct Expect {
     /// Vehicles that let another one go first where their ways cross or merge, one `[[expect.yields]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub yields: Vec<ExpectedYield>,
+    /// Bounds on any metric of the run or of vehicles, one `[[expect.metric]]` each.
+    #[serde(rename = "metric")]
+    #[schemars(extend("x-concerns" = "vehicles"))]
+    pub metrics: Vec<ExpectedMetric>,
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
@@ -91,52 +93,6 @@ pub struct CompletionShift {
     /// The least difference between both times \[s\].
     #[schemars(range(min = 0.001), example = 0.3)]
     pub by_s: f64,
-}
-
-impl Expect {
-    /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps`,
-    /// `yields.ego.to.human`, `building.energy_kwh_at_most` and `zone.office.discomfort_k_h_at_most`; without repetition.
-    pub fn names(&self) -> BTreeSet<String> {
-        let mut names = BTreeSet::new();
-        let whole = serde_json::to_value(self).unwrap_or_default();
-        for (key, value) in whole.as_object().into_iter().flatten().filter(|(_, value)| !value.is_null()) {
-            match (key.as_str(), value) {
-                ("completes", Json::Array(items)) => names.extend(items.iter().map(|item| named("completes", item))),
-                ("yields", Json::Array(items)) => names.extend(items.iter().map(yield_name)),
-                ("zone", Json::Array(items)) => {
-                    let of = |item: &Json| format!("zone.{}", item["zone"].as_str().unwrap_or_default());
-                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (of(item), key)));
-                    names.extend(bounds.filter(|(_, key)| key != "zone").map(|(name, key)| format!("{name}.{key}")));
-                }
-                (list @ ("speed" | "comfort"), Json::Array(items)) => {
-                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (named(list, item), key)));
-                    names.extend(bounds.filter(|(_, key)| key != "vehicle").map(|(name, key)| format!("{name}.{key}")));
-                }
-                ("building", building) => {
-                    let bounds = stated(building).filter(|key| key != "after_iterations");
-                    names.extend(bounds.map(|key| format!("building.{key}")));
-                }
-                (key, _) => drop(names.insert(key.to_owned())),
-            }
-        }
-        names
-    }
-}
-
-/// The name of an expectation about a vehicle.
-fn named(key: &str, item: &Json) -> String {
-    format!("{key}.{}", item["vehicle"].as_str().unwrap_or_default())
-}
-
-/// The name of an expectation about who goes first.
-fn yield_name(item: &Json) -> String {
-    format!("{}.to.{}", named("yields", item), item["to"].as_str().unwrap_or_default())
-}
-
-/// The keys of a table that have a value.
-fn stated(table: &Json) -> impl Iterator<Item = String> {
-    let entries = table.as_object().into_iter().flatten();
-    entries.filter(|(_, value)| !value.is_null()).map(|(key, _)| key.clone())
 }
 
 /// Bounds on the key figures of a building. Each is judged on every day after `after_iterations`: the worst one counts.
@@ -298,16 +254,29 @@ pub struct ExpectedComfort {
     pub lateral_acceleration_at_most_mps2: Option<f64>,
 }
 
-impl ExpectedComfort {
-    /// Every bound by its key.
-    pub fn bounds(&self) -> [(&'static str, Option<f64>); 4] {
-        [
-            ("acceleration_at_most_mps2", self.acceleration_at_most_mps2),
-            ("braking_at_most_mps2", self.braking_at_most_mps2),
-            ("jerk_at_most_mps3", self.jerk_at_most_mps3),
-            ("lateral_acceleration_at_most_mps2", self.lateral_acceleration_at_most_mps2),
-        ]
-    }
+/// Bounds on a metric: of the run, of a vehicle, or of all vehicles. What has no value keeps its bounds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedMetric {
+    /// Name of the metric, as in reports; the reference lists all.
+    #[schemars(example = &"peak_braking_mps2")]
+    pub name: String,
+    /// Name of the vehicle, for a metric of vehicles; without it, every vehicle is meant.
+    #[serde(default)]
+    #[schemars(example = &"ego")]
+    pub vehicle: Option<String>,
+    /// The largest value allowed, in the unit of the metric.
+    #[serde(default)]
+    #[schemars(example = 2.0, extend("x-unit" = "that of the metric"))]
+    pub at_most: Option<f64>,
+    /// The smallest value allowed, in the unit of the metric.
+    #[serde(default)]
+    #[schemars(example = 0.5, extend("x-unit" = "that of the metric"))]
+    pub at_least: Option<f64>,
+    /// The value of a flag.
+    #[serde(default)]
+    #[schemars(example = true)]
+    pub is: Option<bool>,
 }
 
 /// A vehicle lets another one go first where their ways cross or merge: the other one enters the conflict zone first.

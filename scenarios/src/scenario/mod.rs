@@ -37,6 +37,7 @@ use crate::format::real_time::RealTime;
 use crate::format::start_jitter::StartJitter;
 use crate::format::weather::WeatherSource;
 use crate::format::weights::Weights;
+use crate::metric::RegisteredMetrics;
 use crate::road::{Branch, Road};
 
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
@@ -100,6 +101,8 @@ pub struct Scenario {
     pub left_out: Vec<[String; 2]>,
     /// What is allowed and may not have been meant.
     pub remarks: ScenarioRemarks,
+    /// The metrics of the registry that it was loaded with; a run measures them beside those that Interplay has.
+    pub metrics: RegisteredMetrics,
 }
 
 /// How many days are simulated unless the scenario says so.

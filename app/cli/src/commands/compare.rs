@@ -65,14 +65,14 @@ impl Compare {
         }
         let by = if self.by == By::Family { GroupBy::Family } else { GroupBy::Scenario };
         match &self.second {
-            None => match compare(&self.first, self.baseline.as_deref(), by) {
+            None => match compare(&self.first, self.baseline.as_deref(), by, &RegisteredMetrics::default()) {
                 Ok(figures) => {
                     let page = |title: &str| report::comparison_page(title, &figures).map_err(CommandError::from);
                     self.show(|| json("the figures", &figures), || report::comparison(&figures), page)
                 }
                 Err(error) => gave_up(error),
             },
-            Some(second) => match compare_versions(&self.first, second) {
+            Some(second) => match compare_versions(&self.first, second, &RegisteredMetrics::default()) {
                 Ok(figures) => {
                     let page = |title: &str| Ok(report::version_comparison_page(title, &figures));
                     let text = || report::version_comparison(&figures);

@@ -46,8 +46,10 @@ fn driving(recorded_runs: &[&&RecordedRun]) -> TextTable {
             label(recorded),
             if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
             report.order.join(", "),
-            ego.map_or_else(String::new, |ego| format!("{:.2} to {:.2}", ego.min_speed_mps, ego.max_speed_mps)),
-            report.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
+            ego.map_or_else(String::new, |ego| {
+                ego.speed_range_mps().map(|speed_mps| format!("{speed_mps:.2}")).join(" to ")
+            }),
+            report.min_gap_m().map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
             report.collisions.len().to_string(),
             failed.to_string(),
             expectations(report, recorded.changed()),
@@ -161,7 +163,7 @@ pub fn counterfactuals(report: &Report) -> TextTable {
             one.name.clone(),
             one.order.join(", "),
             completed.join(", "),
-            run.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
+            run.min_gap_m().map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
             if one.passed { "held".to_owned() } else { format!("FAILED: {}", failed.join("; ")) },
         ]
     };

@@ -37,9 +37,9 @@ fn facts(recorded: &RecordedRun) -> Vec<(String, String)> {
         let goal = ego.completed_s.map_or_else(|| GOAL_NOT_REACHED.to_owned(), |time_s| format!("at {time_s:.1} s"));
         facts.push((format!("{} reaches its goal", ego.name), goal));
         facts.push(("order at the end".to_owned(), report.order.join(", ")));
-        let gap = report.min_gap_m.map_or_else(|| "none".to_owned(), |gap_m| format!("{gap_m:.2} m"));
+        let gap = report.min_gap_m().map_or_else(|| "none".to_owned(), |gap_m| format!("{gap_m:.2} m"));
         facts.push(("smallest gap".to_owned(), gap));
-        facts.push(("slowest".to_owned(), format!("{:.2} m/s", ego.min_speed_mps)));
+        facts.push(("slowest".to_owned(), format!("{:.2} m/s", ego.speed_range_mps()[0])));
         facts.push(("collisions".to_owned(), report.collisions.len().to_string()));
     }
     let days = report.building.as_ref().map(|building| building.iterations.as_slice()).unwrap_or_default();

@@ -59,7 +59,7 @@ impl Case {
 
 /// The figures of a run in its row.
 fn figures(report: &Report) -> [String; 3] {
-    let gap = report.min_gap_m.map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
+    let gap = report.min_gap_m().map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
     [report.collisions.len().to_string(), gap, format!("{:.2}", report.wall_s)]
 }
 

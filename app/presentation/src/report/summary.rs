@@ -45,7 +45,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
         }
     }
     writeln!(text, "  order at the end: {}", report.order.join(", "))?;
-    match report.min_gap_m {
+    match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is alone")?,
     }
@@ -138,8 +138,8 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
         vec![
             vehicle.name.clone(),
             vehicle.driver.clone(),
-            format!("{:.2}-{:.2}", vehicle.min_speed_mps, vehicle.max_speed_mps),
-            format!("{:.2}", vehicle.mean_abs_acceleration),
+            vehicle.speed_range_mps().map(|speed_mps| format!("{speed_mps:.2}")).join("-"),
+            vehicle.metrics.number("mean_abs_acceleration").map_or_else(String::new, |mean| format!("{mean:.2}")),
             plans.count.to_string(),
             format!("{:.2}", plans.median_ms),
             format!("{:.2}", plans.p99_ms),

@@ -1,40 +1,38 @@
-//! Measure: one metric a file, all fed with the same frames.
+//! Measure: metrics, which are declared once (`metrics`), and what has a form of its own.
+//!
+//! No [`Metric`] is what is not one value of a vehicle or a run: the reaching of a goal is an event too, plans are counted and
+//! timed together, who went first is a list of pairs, beliefs and digests are no numbers, and a building is measured day by day.
 
 mod beliefs;
 mod building;
-mod comfort;
 mod completion;
 mod digest;
-mod gap;
+mod metric;
+mod metrics;
 mod milestones;
-mod off_road;
-mod peak;
 mod planning;
+mod registered;
 mod right_of_way;
-mod speed;
-mod speeding;
-mod time_to_collision;
+mod values;
+mod vehicle_metric;
 
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::{Route, State};
-use interplay_scenarios::{Scenario, Vehicle};
+use interplay_planners::{Input, State};
+use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 
 pub use beliefs::{Beliefs, HeldBelief};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
-pub use comfort::RideComfort;
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
-pub use gap::SmallestGap;
+pub use metric::{Measurement, Metric, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
 pub use milestones::Milestones;
-pub use off_road::OffRoad;
-pub use peak::Peak;
 pub use planning::Planning;
+pub use registered::metrics_of;
 pub use right_of_way::{Passage, Passages};
-pub use speed::SpeedRange;
-pub use speeding::Speeding;
-pub use time_to_collision::{ShortestTimeToCollision, TimeToCollision};
+pub use values::{Measured, MetricValue, MetricValues};
+pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion};
 use crate::frame::Collision;
@@ -44,18 +42,22 @@ use crate::frame::Collision;
 pub struct Measures {
     /// Contacts, in order.
     pub collisions: Vec<Collision>,
-    /// Distances between footprints.
-    pub gap: SmallestGap,
-    /// How soon two vehicles would have touched.
-    pub time_to_collision: ShortestTimeToCollision,
     /// Who went first where ways cross or merge.
     pub passages: Passages,
     /// Digest of the run, by phase.
     pub digest: Digest,
     /// What happens that is worth a line in the log.
     pub milestones: Milestones,
+    /// Metrics of the run.
+    pub metrics: Measurements,
     /// Per vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleMeasures>,
+    /// What the scenario says of the vehicles.
+    stated: Arc<[Vehicle]>,
+    /// Where they are along their routes \[m\].
+    along_m: Vec<f64>,
+    /// Their inputs of the tick before.
+    previous_inputs: Vec<Input>,
 }
 
 /// What is measured of one vehicle.
@@ -63,70 +65,73 @@ pub struct Measures {
 pub struct VehicleMeasures {
     /// When it reached its goal.
     pub completion: Completion,
-    /// How smoothly it drove.
-    pub comfort: RideComfort,
-    /// How fast it drove.
-    pub speed: SpeedRange,
-    /// How far it left its road.
-    pub off_road: OffRoad,
-    /// How far it exceeded speed limits.
-    pub speeding: Speeding,
     /// How its planner did.
     pub planning: Planning,
     /// What it believes of the others.
     pub beliefs: Beliefs,
+    /// Its metrics.
+    pub metrics: Measurements,
     /// Its last state.
     pub last: State,
-    /// Its way.
-    route: Arc<Route>,
-    /// Where that is along its way \[m\].
-    along_m: f64,
 }
 
-impl VehicleMeasures {
-    /// A vehicle at its start.
-    fn new(vehicle: &Vehicle, start: State, scenario: &Scenario) -> Self {
-        let mut measures = VehicleMeasures {
-            completion: Completion::new(vehicle, &scenario.road),
-            comfort: RideComfort::new(scenario.step_s),
-            speed: SpeedRange::new(start.speed_mps),
-            off_road: OffRoad::new(&vehicle.route, vehicle.body),
-            speeding: Speeding::new(&vehicle.route),
-            planning: Planning::new(scenario.plan_budget_ms(vehicle)),
-            beliefs: Beliefs::default(),
-            last: start,
-            route: Arc::clone(&vehicle.route),
-            along_m: vehicle.route.along(start.position()),
-        };
-        measures.look(&start, 0.0);
-        measures
+/// Some metrics while they are measured, in the order in which they are listed.
+#[derive(Clone, Debug)]
+pub struct Measurements(Vec<(MetricDeclaration, Box<dyn Measurement>)>);
+
+impl Measurements {
+    /// Begins to measure a vehicle, or the run.
+    fn begin(scenario: &Scenario, of: MetricSubject, start: &ObservedMoment<'_>, vehicle: usize) -> Self {
+        let of_subject = metrics_of(&scenario.metrics).filter(|metric| metric.declaration().of == of);
+        let begun = of_subject.map(|metric| (metric.declaration(), metric.begin(scenario, start, vehicle)));
+        Measurements(begun.collect())
     }
 
-    /// Looks at the state at one time.
-    fn look(&mut self, state: &State, time_s: f64) {
-        self.along_m = self.route.locate(state.position(), Some(self.along_m)).along_m;
-        self.speed.observe(state.speed_mps);
-        self.off_road.observe(state, self.along_m, time_s);
-        self.speeding.observe(state.speed_mps, self.along_m, time_s);
-        self.last = *state;
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        self.0.iter_mut().for_each(|(_, measurement)| measurement.observe(tick));
+    }
+
+    /// What was measured until now.
+    pub fn values(&self) -> MetricValues {
+        let measured = |(declaration, measurement): &(MetricDeclaration, Box<dyn Measurement>)| {
+            (*declaration, measurement.measured().of_kind(declaration.kind))
+        };
+        MetricValues(self.0.iter().map(measured).collect())
     }
 }
 
 impl Measures {
     /// Nothing measured yet.
     pub fn new(scenario: &Scenario) -> Self {
-        let vehicles = scenario.vehicles.iter().zip(scenario.starts());
-        let vehicles: Vec<VehicleMeasures> =
-            vehicles.map(|(vehicle, start)| VehicleMeasures::new(vehicle, start, scenario)).collect();
-        let along_m: Vec<f64> = vehicles.iter().map(|vehicle| vehicle.along_m).collect();
+        let starts = scenario.starts();
+        let located = |vehicle: &Vehicle, start: &State| {
+            let along_m = vehicle.route.along(start.position());
+            vehicle.route.locate(start.position(), Some(along_m)).along_m
+        };
+        let along_m: Vec<f64> =
+            scenario.vehicles.iter().zip(&starts).map(|(vehicle, start)| located(vehicle, start)).collect();
+        let start = ObservedMoment { time_s: 0.0, vehicles: &scenario.vehicles, states: &starts, along_m: &along_m };
+        let vehicles = scenario.vehicles.iter().enumerate().map(|(index, vehicle)| VehicleMeasures {
+            completion: Completion::new(vehicle, &scenario.road),
+            planning: Planning::new(scenario.plan_budget_ms(vehicle)),
+            beliefs: Beliefs::default(),
+            metrics: Measurements::begin(scenario, MetricSubject::Vehicle, &start, index),
+            last: starts[index],
+        });
+        let metrics = match scenario.vehicles.as_slice() {
+            [] => Measurements(Vec::new()),
+            [_, ..] => Measurements::begin(scenario, MetricSubject::Run, &start, scenario.ego_index()),
+        };
         Measures {
             collisions: Vec::new(),
-            gap: SmallestGap::default(),
-            time_to_collision: ShortestTimeToCollision::new(scenario),
             passages: Passages::new(scenario, &along_m),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
-            vehicles,
+            metrics,
+            vehicles: vehicles.collect(),
+            stated: scenario.vehicles.clone().into(),
+            previous_inputs: vec![Input::default(); scenario.vehicles.len()],
+            along_m,
         }
     }
 }
@@ -147,18 +152,30 @@ pub fn measure(
     for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
         measured.planning.observe(vehicle);
         measured.beliefs.observe(&vehicle.plan.beliefs, frame.time_s);
-        measured.comfort.observe(&vehicle.input, [&vehicle.state, state], frame.time_s);
         if measured.completion.observe(state, clock.time_s()) {
             frame.events.push(milestones::arrival(&vehicle.name, measured.completion.crosses()));
         }
-        measured.look(state, clock.time_s());
+        measured.last = *state;
     }
     let begun = measures.milestones.observe(frame);
     frame.events.extend(begun);
-    measures.gap.observe(frame);
-    measures.time_to_collision.observe(frame, &after);
-    let along_m: Vec<f64> = measures.vehicles.iter().map(|vehicle| vehicle.along_m).collect();
-    measures.passages.observe(&along_m, [frame.time_s, clock.time_s()]);
+    for ((along_m, vehicle), state) in measures.along_m.iter_mut().zip(&*measures.stated).zip(&after) {
+        *along_m = vehicle.route.locate(state.position(), Some(*along_m)).along_m;
+    }
+    let end = ObservedMoment {
+        time_s: clock.time_s(),
+        vehicles: &measures.stated,
+        states: &after,
+        along_m: &measures.along_m,
+    };
+    let (step_s, previous_inputs) = (clock.step_s, measures.previous_inputs.as_slice());
+    let tick = ObservedTick { frame, step_s, previous_inputs, end };
+    measures.metrics.observe(&tick);
+    measures.vehicles.iter_mut().for_each(|measured| measured.metrics.observe(&tick));
+    measures.passages.observe(&measures.along_m, [frame.time_s, clock.time_s()]);
     measures.collisions.extend_from_slice(&frame.collisions);
     measures.digest.observe(frame, &after);
+    for (previous, vehicle) in measures.previous_inputs.iter_mut().zip(&frame.vehicles) {
+        *previous = vehicle.input;
+    }
 }

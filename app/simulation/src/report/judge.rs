@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use interplay_scenarios::{Completes, Expect, ExpectedSpeed};
+use interplay_scenarios::{Completes, Expect, ExpectedYield};
 use serde_json::{Map, Value, json};
 
-use super::driving;
+use super::bounds::judge_bound;
 use super::expectation::Expectation;
 use super::judge_building::{judge_building, judge_zone};
 use super::outcome::Report;
+use crate::measure::Passage;
 
 /// Judges every expectation that the scenario states.
 pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
@@ -30,23 +31,20 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         let passed = got.iter().copied().eq(order);
         add("order".into(), json!(order), json!(got), passed);
     }
-    if let Some(least) = expect.min_gap_m {
-        let passed = report.min_gap_m.is_none_or(|gap| gap >= least);
-        add("min_gap_m".into(), json!(least), json!(report.min_gap_m), passed);
-    }
+    let of_all = expect.bounds_of_all();
+    let (of_ego, of_all) = of_all.split_at(usize::from(expect.min_gap_m.is_some()));
+    judged.extend(of_ego.iter().filter_map(|bound| judge_bound(bound, report)));
     if let Some(most) = expect.plan_failures_at_most {
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
-        add("plan_failures_at_most".into(), json!(most), json!(failed), failed <= most);
+        judged.push(Expectation::new("plan_failures_at_most", json!(most), json!(failed), failed <= most));
     }
-    judged.extend(driving::of_all(expect, report));
+    judged.extend(of_all.iter().filter_map(|bound| judge_bound(bound, report)));
     for window in &expect.completes {
         judged.push(completes(window, report));
     }
-    for range in &expect.speed {
-        judged.extend(speed(range, report));
-    }
-    judged.extend(expect.comfort.iter().flat_map(|bounds| driving::comfort(bounds, report)));
-    judged.extend(expect.yields.iter().map(|expected| driving::yields(expected, report)));
+    judged.extend(expect.bounds_of_vehicles().iter().filter_map(|bound| judge_bound(bound, report)));
+    judged.extend(expect.yields.iter().map(|expected| yields(expected, report)));
+    judged.extend(expect.bounds_of_metrics().iter().filter_map(|bound| judge_bound(bound, report)));
     if let Some(building) = &report.building {
         let first_days = expect.building.unwrap_or_default().after_iterations;
         judged.extend(expect.building.iter().flat_map(|expect| judge_building(expect, building)));
@@ -80,24 +78,25 @@ fn wanted_window(window: &Completes) -> Value {
     if stated.is_empty() { json!("any time") } else { Value::Object(stated) }
 }
 
-fn speed(range: &ExpectedSpeed, report: &Report) -> Vec<Expectation> {
-    let Some(vehicle) = report.vehicle(&range.vehicle) else { return Vec::new() };
-    let (min, max) = (vehicle.min_speed_mps, vehicle.max_speed_mps);
-    let bounds = [
-        ("min_below_mps", range.min_below_mps, min, min < range.min_below_mps.unwrap_or(f64::INFINITY)),
-        ("min_above_mps", range.min_above_mps, min, min > range.min_above_mps.unwrap_or(f64::NEG_INFINITY)),
-        ("max_below_mps", range.max_below_mps, max, max < range.max_below_mps.unwrap_or(f64::INFINITY)),
-        ("max_above_mps", range.max_above_mps, max, max > range.max_above_mps.unwrap_or(f64::NEG_INFINITY)),
-    ];
-    let stated =
-        bounds.into_iter().filter_map(|(key, bound, got, passed)| bound.map(|bound| (key, bound, got, passed)));
-    stated
-        .map(|(key, bound, got, passed)| Expectation {
-            what: format!("speed.{}.{key}", range.vehicle),
-            want: json!(bound),
-            got: json!(got),
-            passed,
-            at: None,
-        })
-        .collect()
+/// Judges whether one vehicle let another go first wherever their ways meet and one of them came.
+fn yields(expected: &ExpectedYield, report: &Report) -> Expectation {
+    let ExpectedYield { vehicle, to } = expected;
+    let is_theirs = |passage: &&Passage| {
+        (&passage.first, &passage.second) == (vehicle, to) || (&passage.first, &passage.second) == (to, vehicle)
+    };
+    let passages: Vec<&Passage> = report.right_of_way.iter().filter(is_theirs).collect();
+    let let_go =
+        |passage: &&Passage| passage.first == *to && passage.second_s.is_none_or(|second_s| second_s > passage.first_s);
+    let got = match passages.as_slice() {
+        [] => json!("neither entered the conflict zone"),
+        [only] => json!(only),
+        all => json!(all),
+    };
+    Expectation {
+        what: format!("yields.{vehicle}.to.{to}"),
+        want: json!({ "first": to, "second": vehicle }),
+        got,
+        passed: !passages.is_empty() && passages.iter().all(let_go),
+        at: None,
+    }
 }

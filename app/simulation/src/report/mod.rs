@@ -1,9 +1,9 @@
 //! What a run amounts to: figures, and whether the scenario's expectations held.
 
 mod belief;
+mod bounds;
 mod building;
 mod counterfactual;
-mod driving;
 mod expectation;
 mod judge;
 mod judge_building;
@@ -16,7 +16,7 @@ use xxhash_rust::xxh3::xxh3_128;
 pub use belief::BeliefReport;
 pub use building::{BuildingReport, ZoneOutcome};
 pub use expectation::Expectation;
-pub use outcome::{CounterfactualReport, PeakTimes, PlansReport, Report, VehicleReport};
+pub use outcome::{CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
@@ -46,9 +46,7 @@ impl Report {
             digest: digest(scenario, &phase_digests, building.as_ref()),
             phase_digests,
             collisions: measures.collisions.clone(),
-            min_gap_m: measures.gap.smallest_m,
-            smallest_gap: measures.gap.closest.clone(),
-            shortest_time_to_collision: measures.time_to_collision.shortest.clone(),
+            metrics: measures.metrics.values(),
             right_of_way: measures.passages.passages(),
             order: order(scenario, measures),
             vehicles,

@@ -6,8 +6,8 @@ use serde::{Serialize, Serializer};
 use super::belief::BeliefReport;
 use super::building::BuildingReport;
 use super::expectation::Expectation;
-use crate::frame::{Collision, PairGap};
-use crate::measure::{Passage, PhaseDigests, TimeToCollision, VehicleMeasures};
+use crate::frame::Collision;
+use crate::measure::{MetricValues, Passage, PhaseDigests, VehicleMeasures};
 
 /// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
 /// that without vehicles, and `building` without a building.
@@ -33,12 +33,9 @@ pub struct Report {
     pub phase_digests: PhaseDigests,
     /// Contacts.
     pub collisions: Vec<Collision>,
-    /// Smallest distance of the ego's footprint to another \[m\].
-    pub min_gap_m: Option<f64>,
-    /// Smallest distance of any two footprints; none without two vehicles.
-    pub smallest_gap: Option<PairGap>,
-    /// Shortest time until two footprints would touch if both vehicles kept their velocities; none if that never was so.
-    pub shortest_time_to_collision: Option<TimeToCollision>,
+    /// The metrics of the run; none without vehicles.
+    #[serde(flatten)]
+    pub metrics: MetricValues,
     /// Who went first in each zone where the ways of two vehicles cross or merge, and that one of them entered.
     pub right_of_way: Vec<Passage>,
     /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
@@ -73,16 +70,7 @@ pub struct CounterfactualReport {
 }
 
 /// Keys of the serialisation that are about vehicles.
-const VEHICLE_KEYS: [&str; 8] = [
-    "phase_digests",
-    "collisions",
-    "min_gap_m",
-    "smallest_gap",
-    "shortest_time_to_collision",
-    "right_of_way",
-    "order",
-    "vehicles",
-];
+const VEHICLE_KEYS: [&str; 5] = ["phase_digests", "collisions", "right_of_way", "order", "vehicles"];
 
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -112,50 +100,14 @@ pub struct VehicleReport {
     /// Its last state.
     #[serde(rename = "final")]
     pub last: State,
-    /// Slowest \[m/s\].
-    pub min_speed_mps: f64,
-    /// Fastest \[m/s\].
-    pub max_speed_mps: f64,
-    /// Mean absolute acceleration \[m/s²\].
-    pub mean_abs_acceleration: f64,
-    /// Mean absolute jerk \[m/s³\].
-    pub mean_abs_jerk: f64,
-    /// Largest magnitude of the longitudinal acceleration \[m/s²\].
-    pub peak_acceleration_mps2: f64,
-    /// Largest deceleration \[m/s²\].
-    pub peak_braking_mps2: f64,
-    /// Largest magnitude of the jerk \[m/s³\].
-    pub peak_jerk_mps3: f64,
-    /// Largest magnitude of the lateral acceleration \[m/s²\].
-    pub peak_lateral_acceleration_mps2: f64,
-    /// Largest distance of a corner beyond an edge of its road; 0 if it never left it \[m\].
-    pub off_road_m: f64,
-    /// Largest speed above the limit of its lane; none if no lane on its way has one \[m/s\].
-    pub speeding_mps: Option<f64>,
-    /// When these were reached.
-    pub peak_times_s: PeakTimes,
+    /// Its metrics, and as `peak_times_s` when those that are peaks were reached.
+    #[serde(flatten)]
+    pub metrics: MetricValues,
     /// Its planner.
     pub plans: PlansReport,
     /// What it believed of the others when it planned last, where it infers their plans.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beliefs: Vec<BeliefReport>,
-}
-
-/// When peaks were reached; none for what was 0 all the time \[s\].
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct PeakTimes {
-    /// Of `peak_acceleration_mps2`.
-    pub acceleration: Option<f64>,
-    /// Of `peak_braking_mps2`.
-    pub braking: Option<f64>,
-    /// Of `peak_jerk_mps3`.
-    pub jerk: Option<f64>,
-    /// Of `peak_lateral_acceleration_mps2`.
-    pub lateral_acceleration: Option<f64>,
-    /// Of `off_road_m`.
-    pub off_road: Option<f64>,
-    /// Of `speeding_mps`.
-    pub speeding: Option<f64>,
 }
 
 /// How a planner did. Times are wall times and not reproducible.
@@ -181,6 +133,11 @@ pub struct PlansReport {
 }
 
 impl Report {
+    /// Smallest distance of the ego's footprint to another; none without others \[m\].
+    pub fn min_gap_m(&self) -> Option<f64> {
+        self.metrics.number("ego_gap_m")
+    }
+
     /// The outcome for the vehicle of that name.
     pub fn vehicle(&self, name: &str) -> Option<&VehicleReport> {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
@@ -195,33 +152,20 @@ impl CounterfactualReport {
 }
 
 impl VehicleReport {
+    /// Its lowest and its highest speed \[m/s\].
+    pub fn speed_range_mps(&self) -> [f64; 2] {
+        ["min_speed_mps", "max_speed_mps"].map(|name| self.metrics.number(name).unwrap_or(self.last.speed_mps))
+    }
+
     /// Takes over what was measured.
     pub(super) fn new(name: &str, driver: &str, measured: &VehicleMeasures) -> Self {
-        let VehicleMeasures { comfort, off_road, speeding, .. } = measured;
         VehicleReport {
             name: name.to_owned(),
             driver: driver.to_owned(),
             completed_s: measured.completion.completed_s,
             has_task: measured.completion.has_task(),
             last: measured.last,
-            min_speed_mps: measured.speed.min_mps,
-            max_speed_mps: measured.speed.max_mps,
-            mean_abs_acceleration: comfort.mean_abs_acceleration(),
-            mean_abs_jerk: comfort.mean_abs_jerk(),
-            peak_acceleration_mps2: comfort.acceleration.value,
-            peak_braking_mps2: comfort.braking.value,
-            peak_jerk_mps3: comfort.jerk.value,
-            peak_lateral_acceleration_mps2: comfort.lateral_acceleration.value,
-            off_road_m: off_road.peak.value,
-            speeding_mps: speeding.has_limits().then_some(speeding.peak.value),
-            peak_times_s: PeakTimes {
-                acceleration: comfort.acceleration.time_s,
-                braking: comfort.braking.time_s,
-                jerk: comfort.jerk.time_s,
-                lateral_acceleration: comfort.lateral_acceleration.time_s,
-                off_road: off_road.peak.time_s,
-                speeding: speeding.peak.time_s,
-            },
+            metrics: measured.metrics.values(),
             plans: PlansReport {
                 count: measured.planning.count(),
                 failed: measured.planning.failed,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::estimate::Estimate;
-use super::records::{BuildingRecord, RunRecord};
+use super::records::RunRecord;
 use super::split::Split;
 
 /// The intervals of buildings have streams of their own, from here on.
@@ -44,22 +44,24 @@ pub struct BuildingDifference {
 impl BuildingFigures {
     /// The figures of some runs; none without buildings.
     pub(super) fn of(records: &[&RunRecord], stream: u64) -> Option<BuildingFigures> {
-        let buildings: Vec<&BuildingRecord> = records.iter().filter_map(|record| record.building.as_ref()).collect();
-        let first = buildings.first()?;
-        let estimate = |index: u64, of: fn(&BuildingRecord) -> Option<f64>| {
-            let numbers: Vec<f64> = buildings.iter().filter_map(|one| of(one)).collect();
+        let buildings: Vec<&RunRecord> = records.iter().copied().filter(|record| has_building(record)).collect();
+        let currency = buildings.first()?.text("currency");
+        let estimate = |index: u64, column: &str| {
+            let numbers: Vec<f64> = buildings.iter().filter_map(|one| one.number(column)).collect();
             Estimate::of(&numbers, FIRST_STREAM + INTERVALS * stream + index)
         };
-        let has_heat_pump =
-            |one: &&BuildingRecord| one.electricity_kwh.is_some_and(|kwh| !is_equal(kwh, one.energy_kwh));
-        let has_one_currency = buildings.iter().all(|one| one.currency == first.currency);
+        let has_heat_pump = |one: &&RunRecord| {
+            let heat_and_electricity = one.number("energy_kwh").zip(one.number("electricity_kwh"));
+            heat_and_electricity.is_some_and(|(heat_kwh, electricity_kwh)| !is_equal(heat_kwh, electricity_kwh))
+        };
+        let has_one_currency = buildings.iter().all(|one| one.text("currency") == currency);
         let electricity = buildings.iter().any(has_heat_pump);
         Some(BuildingFigures {
-            energy_kwh: estimate(0, |one| Some(one.energy_kwh))?,
-            electricity_kwh: estimate(1, |one| one.electricity_kwh).filter(|_| electricity),
-            bill: estimate(2, |one| one.bill).filter(|_| has_one_currency),
-            currency: first.currency.as_deref().filter(|_| has_one_currency).map(str::to_owned),
-            discomfort_k_h: estimate(3, |one| Some(one.discomfort_k_h))?,
+            energy_kwh: estimate(0, "energy_kwh")?,
+            electricity_kwh: estimate(1, "electricity_kwh").filter(|_| electricity),
+            bill: estimate(2, "bill").filter(|_| has_one_currency),
+            currency: currency.filter(|_| has_one_currency).map(str::to_owned),
+            discomfort_k_h: estimate(3, "discomfort_k_h")?,
         })
     }
 }
@@ -67,27 +69,32 @@ impl BuildingFigures {
 impl BuildingDifference {
     /// Compares the first of each pair with the second; none without buildings.
     pub(super) fn of(pairs: &[&(&RunRecord, &RunRecord)], stream: u64) -> Option<BuildingDifference> {
-        let pairs: Vec<(&BuildingRecord, &BuildingRecord)> =
-            pairs.iter().filter_map(|(one, other)| Some((one.building.as_ref()?, other.building.as_ref()?))).collect();
+        let both = |pair: &&&(&RunRecord, &RunRecord)| has_building(pair.0) && has_building(pair.1);
+        let pairs: Vec<(&RunRecord, &RunRecord)> = pairs.iter().filter(both).map(|pair| **pair).collect();
         pairs.first()?;
-        let more = |index: u64, of: fn(&BuildingRecord, &BuildingRecord) -> Option<f64>| {
-            let numbers: Vec<f64> = pairs.iter().filter_map(|(one, other)| of(one, other)).collect();
-            Estimate::of(&numbers, FIRST_STREAM + INTERVALS * stream + 4 + index)
+        let has_one_currency = |one: &RunRecord, other: &RunRecord| one.text("currency") == other.text("currency");
+        let more = |index: u64, column: &str, is_known: &dyn Fn(&RunRecord, &RunRecord) -> bool| {
+            let known = pairs.iter().filter(|(one, other)| is_known(one, other));
+            let differences = known.filter_map(|(one, other)| Some(one.number(column)? - other.number(column)?));
+            Estimate::of(&differences.collect::<Vec<f64>>(), FIRST_STREAM + INTERVALS * stream + 4 + index)
         };
-        let is_cheaper = |one: &BuildingRecord, other: &BuildingRecord| {
-            let price = |of: &BuildingRecord| of.bill.or(of.electricity_kwh);
-            let prices = price(one).zip(price(other)).filter(|_| one.currency == other.currency);
+        let is_cheaper = |one: &RunRecord, other: &RunRecord| {
+            let price = |of: &RunRecord| of.number("bill").or_else(|| of.number("electricity_kwh"));
+            let prices = price(one).zip(price(other)).filter(|_| has_one_currency(one, other));
             prices.is_some_and(|(one, other)| one < other && !is_equal(one, other))
         };
         Some(BuildingDifference {
             cheaper: Split::between(pairs.iter().copied(), is_cheaper),
-            electricity_kwh: more(0, |one, other| Some(one.electricity_kwh? - other.electricity_kwh?)),
-            bill: more(1, |one, other| {
-                one.bill.zip(other.bill).filter(|_| one.currency == other.currency).map(|(one, other)| one - other)
-            }),
-            discomfort_k_h: more(2, |one, other| Some(one.discomfort_k_h - other.discomfort_k_h)),
+            electricity_kwh: more(0, "electricity_kwh", &|_, _| true),
+            bill: more(1, "bill", &has_one_currency),
+            discomfort_k_h: more(2, "discomfort_k_h", &|_, _| true),
         })
     }
+}
+
+/// Whether a run has a building.
+fn has_building(record: &RunRecord) -> bool {
+    record.number("energy_kwh").is_some() && record.number("discomfort_k_h").is_some()
 }
 
 /// Whether two sums are equal but for the order in which they were added.

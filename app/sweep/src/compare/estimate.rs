@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::records::RunRecord;
 use crate::statistics::{mean_interval, quantile, wilson_interval};
 
 /// A share with Wilson's interval at 95 %.
@@ -39,10 +38,9 @@ pub struct Quantiles {
 }
 
 impl Share {
-    /// The share of the runs that do something, of those of which it is known.
-    pub(super) fn of(records: &[&RunRecord], does: impl Fn(&RunRecord) -> Option<bool>) -> Share {
-        let known: Vec<bool> = records.iter().filter_map(|record| does(record)).collect();
-        let (count, of) = (known.iter().filter(|does| **does).count(), known.len());
+    /// The share of the numbers that are not 0.
+    pub(super) fn of(numbers: &[f64]) -> Share {
+        let (count, of) = (numbers.iter().filter(|number| **number != 0.0).count(), numbers.len());
         Share { count, of, interval: wilson_interval(count, of) }
     }
 

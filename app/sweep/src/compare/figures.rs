@@ -4,10 +4,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
+use interplay_scenarios::RegisteredMetrics;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::building::BuildingFigures;
+use super::compared::{ComparedColumns, FigureColumn, FigureKind};
 use super::estimate::{Estimate, Quantiles, Share};
 use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
@@ -50,46 +52,82 @@ pub struct PlannerFigures {
     pub runs: usize,
     /// How many have none.
     pub unfinished: usize,
-    /// Runs in which the ego did its task and touched nobody.
-    pub success: Share,
-    /// Time to the goal \[s\], of runs that succeeded.
-    pub completed_s: Option<Estimate>,
-    /// Runs in which the ego had the first place.
-    pub first: Share,
-    /// Runs in which another went before the ego in a conflict zone.
-    pub yields: Share,
-    /// Runs in which the ego went before another in a conflict zone.
-    pub others_yield: Share,
-    /// Runs in which the order is that of the scenario's file and nobody touched anybody, of those whose file states one.
-    pub order_kept: Share,
-    /// Runs in which the ego never did its task, though nobody touched anybody.
-    pub deadlocks: usize,
-    /// Runs in which the ego touched somebody.
-    pub contacts: usize,
-    /// Those of them in which it moved towards the other at least as fast as the other towards it.
-    pub contacts_by_ego: usize,
-    /// Runs in which anybody touched anybody.
-    pub touched: usize,
-    /// Runs in which the ego braked hard: with at least 75 % of its strongest braking.
-    pub hard_braking: Share,
-    /// Runs in which another vehicle did.
-    pub others_hard_braking: Share,
-    /// Runs in which the ego left the road: by more than 3 % of its width.
-    pub off_road: Share,
-    /// Smallest distance of the ego to another \[m\].
-    pub gap_m: Option<Quantiles>,
-    /// Shortest time to collision \[s\].
-    pub time_to_collision_s: Option<Quantiles>,
-    /// Plans that failed.
-    pub plans_failed: u64,
-    /// Median over the runs of the median time of a plan \[ms\]; not reproducible.
-    pub plan_median_ms: Option<f64>,
-    /// Median over the runs of the 99th percentile of the times of plans \[ms\]; not reproducible.
-    pub plan_p99_ms: Option<f64>,
+    /// Its figures: shares, counts, means and quantiles of what rows have, by their keys.
+    #[serde(flatten)]
+    pub figures: Figures,
     /// What became of the building; none without one.
     pub building: Option<BuildingFigures>,
     /// What is different from the baseline under the same conditions; none for the baseline itself.
     pub versus_baseline: Option<PairedDifference>,
+}
+
+/// Figures in the order in which they are listed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figures(pub Vec<NamedFigure>);
+
+/// A figure with what it is called.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFigure {
+    /// Its key.
+    pub key: String,
+    /// What it is, in words with the unit.
+    pub title: String,
+    /// The figure.
+    pub figure: Figure,
+}
+
+/// What the values of many runs amount to; none where no run has a value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Figure {
+    /// In how many runs something is so, of those of which it is known.
+    Share(Share),
+    /// A number of runs, or a sum of counts.
+    Count(u64),
+    /// A mean.
+    Mean(Option<Estimate>),
+    /// Quantiles.
+    Quantiles(Option<Quantiles>),
+    /// A median.
+    Median(Option<f64>),
+}
+
+impl Figures {
+    /// The figure of a key.
+    pub fn get(&self, key: &str) -> Option<&Figure> {
+        self.0.iter().find(|named| named.key == key).map(|named| &named.figure)
+    }
+
+    /// A share; none if that figure is none.
+    pub fn share(&self, key: &str) -> Option<&Share> {
+        if let Some(Figure::Share(share)) = self.get(key) { Some(share) } else { None }
+    }
+
+    /// A count; 0 if that figure is none.
+    pub fn count(&self, key: &str) -> u64 {
+        if let Some(Figure::Count(count)) = self.get(key) { *count } else { 0 }
+    }
+
+    /// A mean, if any run has a value.
+    pub fn mean(&self, key: &str) -> Option<&Estimate> {
+        if let Some(Figure::Mean(mean)) = self.get(key) { mean.as_ref() } else { None }
+    }
+
+    /// Quantiles, if any run has a value.
+    pub fn quantiles(&self, key: &str) -> Option<&Quantiles> {
+        if let Some(Figure::Quantiles(quantiles)) = self.get(key) { quantiles.as_ref() } else { None }
+    }
+
+    /// A median, if any run has a value.
+    pub fn median(&self, key: &str) -> Option<f64> {
+        if let Some(Figure::Median(median)) = self.get(key) { *median } else { None }
+    }
+}
+
+impl Serialize for Figures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|named| (&named.key, &named.figure)))
+    }
 }
 
 /// What rows are grouped by besides the style.
@@ -102,16 +140,29 @@ pub enum GroupBy {
     Scenario,
 }
 
+/// The place of the time to the goal on the list of what is compared.
+const TIME_TO_GOAL: usize = 1;
+/// Intervals of means of metrics have streams of their own, from here on.
+const FIRST_STREAM: u64 = 1 << 56;
+/// At most this many figures have streams of a planner's own.
+const MAX_FIGURES: u64 = 1 << 12;
+
 /// The name of the driver that a scenario's file states.
 const AS_WRITTEN: &str = "as-written";
 
 /// Compares the planners in the rows of a folder or file. Without a `baseline`, they are compared with `as-written` if that is
-/// there, otherwise with the first by name.
+/// there, otherwise with the first by name. `registered` metrics are compared, too.
 ///
 /// # Errors
 /// Files that cannot be read or are no table of runs; a baseline that has no row.
-pub fn compare(path: &Path, baseline: Option<&str>, by: GroupBy) -> Result<Comparison, SweepError> {
-    let Records { all, versions } = Records::read(path)?;
+pub fn compare(
+    path: &Path,
+    baseline: Option<&str>,
+    by: GroupBy,
+    registered: &RegisteredMetrics,
+) -> Result<Comparison, SweepError> {
+    let compared = ComparedColumns::new(registered);
+    let Records { all, versions } = Records::read(path, compared.columns())?;
     let mut planners: Vec<&str> = all.iter().map(|record| &*record.planner).collect();
     planners.sort_unstable();
     planners.dedup();
@@ -129,8 +180,8 @@ pub fn compare(path: &Path, baseline: Option<&str>, by: GroupBy) -> Result<Compa
         .into_par_iter()
         .enumerate()
         .map(|(index, ((family, style), records))| {
-            let planners = planner_figures(&records, &baseline, (index as u64) << 16);
-            let has_vehicles = records.iter().any(|record| record.has_vehicles);
+            let planners = planner_figures(&records, &baseline, &compared, (index as u64) << 16);
+            let has_vehicles = records.iter().any(|record| record.has_vehicles());
             GroupFigures { family: family.map(String::from), style: style.map(String::from), has_vehicles, planners }
         })
         .collect();
@@ -176,7 +227,12 @@ fn grouped(all: &[RunRecord], by: GroupBy) -> Vec<(GroupName<'_>, Vec<&RunRecord
     groups.into_iter().map(|((_, name), records)| (name, records)).collect()
 }
 
-fn planner_figures(records: &[&RunRecord], baseline: &str, stream: u64) -> Vec<PlannerFigures> {
+fn planner_figures(
+    records: &[&RunRecord],
+    baseline: &str,
+    compared: &ComparedColumns,
+    stream: u64,
+) -> Vec<PlannerFigures> {
     let mut by_planner: BTreeMap<&str, Vec<&RunRecord>> = BTreeMap::new();
     for record in records {
         by_planner.entry(&record.planner).or_default().push(record);
@@ -190,8 +246,8 @@ fn planner_figures(records: &[&RunRecord], baseline: &str, stream: u64) -> Vec<P
         let pairs = || -> Vec<(&RunRecord, &RunRecord)> {
             records.iter().filter_map(|record| Some((*record, *base.get(&record.conditions())?))).collect()
         };
-        let versus_baseline = (*planner != baseline).then(|| PairedDifference::of(&pairs(), stream + 1));
-        PlannerFigures { versus_baseline, ..figures_of(planner, records, stream) }
+        let versus_baseline = (*planner != baseline).then(|| PairedDifference::of(&pairs(), compared, stream + 1));
+        PlannerFigures { versus_baseline, ..figures_of(planner, records, compared, stream) }
     });
     figures.collect()
 }
@@ -207,36 +263,37 @@ fn leave_out_those_of_some_scenarios(by_planner: &mut BTreeMap<&str, Vec<&RunRec
     by_planner.retain(|planner, _| counts.get(planner) == Some(&most));
 }
 
-fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigures {
+fn figures_of(planner: &str, records: &[&RunRecord], compared: &ComparedColumns, stream: u64) -> PlannerFigures {
     let finished: Vec<&RunRecord> = records.iter().copied().filter(|record| record.is_finished()).collect();
-    let count = |is: fn(&RunRecord) -> bool| finished.iter().filter(|record| is(record)).count();
-    let numbers =
-        |of: fn(&RunRecord) -> Option<f64>| -> Vec<f64> { finished.iter().filter_map(|one| of(one)).collect() };
-    let median = |of: fn(&RunRecord) -> Option<f64>| Quantiles::of(numbers(of)).map(|quantiles| quantiles.median);
-    let times_s = numbers(|record| record.completed_s.filter(|_| record.success));
+    let figures = compared.figures.iter().enumerate().map(|(index, column)| NamedFigure {
+        key: column.key.clone(),
+        title: column.title.clone(),
+        figure: figure(column, &finished, stream_of(index, stream)),
+    });
     PlannerFigures {
         planner: planner.to_owned(),
         runs: finished.len(),
         unfinished: records.len() - finished.len(),
-        success: Share::of(&finished, |record| Some(record.success)),
-        completed_s: Estimate::of(&times_s, stream),
-        first: Share::of(&finished, |record| Some(record.place == Some(1))),
-        yields: Share::of(&finished, |record| Some(record.yields)),
-        others_yield: Share::of(&finished, |record| record.others_yield),
-        order_kept: Share::of(&finished, |record| record.is_order_kept),
-        deadlocks: count(|record| record.is_deadlock),
-        contacts: count(|record| record.has_contact),
-        contacts_by_ego: count(|record| record.has_contact_by_ego),
-        touched: count(|record| record.has_any_contact),
-        hard_braking: Share::of(&finished, |record| record.brakes_hard),
-        others_hard_braking: Share::of(&finished, |record| record.others_brake_hard),
-        off_road: Share::of(&finished, |record| record.leaves_road),
-        gap_m: Quantiles::of(numbers(|record| record.gap_m)),
-        time_to_collision_s: Quantiles::of(numbers(|record| record.time_to_collision_s)),
-        plans_failed: finished.iter().map(|record| record.plans_failed).sum(),
-        plan_median_ms: median(|record| record.plan_median_ms),
-        plan_p99_ms: median(|record| record.plan_p99_ms),
+        figures: Figures(figures.collect()),
         building: BuildingFigures::of(&finished, stream),
         versus_baseline: None,
+    }
+}
+
+/// The interval of the time to the goal has the planner's own stream, the others one each from [`FIRST_STREAM`] on.
+fn stream_of(index: usize, stream: u64) -> u64 {
+    if index == TIME_TO_GOAL { stream } else { FIRST_STREAM + MAX_FIGURES * stream + index as u64 }
+}
+
+/// A figure of some runs; `stream` tells the draws of one interval from another's.
+fn figure(column: &FigureColumn, records: &[&RunRecord], stream: u64) -> Figure {
+    let values = column.values(records);
+    match column.how {
+        FigureKind::Share => Figure::Share(Share::of(&values)),
+        FigureKind::Runs => Figure::Count(values.iter().filter(|value| **value != 0.0).count() as u64),
+        FigureKind::Sum => Figure::Count(values.iter().sum::<f64>() as u64),
+        FigureKind::Mean => Figure::Mean(Estimate::of(&values, stream)),
+        FigureKind::Quantiles => Figure::Quantiles(Quantiles::of(values)),
+        FigureKind::Median => Figure::Median(Quantiles::of(values).map(|quantiles| quantiles.median)),
     }
 }

@@ -1,8 +1,9 @@
 //! Two runs under the same conditions, many times.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::building::BuildingDifference;
+use super::compared::{ComparedColumns, succeeds};
 use super::records::RunRecord;
 use super::split::Split;
 use crate::statistics::{holm, mean_interval, median};
@@ -28,56 +29,98 @@ pub struct PairedDifference {
     pub delay_interval_s: Option<[f64; 2]>,
     /// The median over these pairs \[s\].
     pub delay_median_s: Option<f64>,
-    /// Who does not brake hard where the other does.
-    pub hard_braking: Split,
+    /// Who has the better value of each metric of which one value is better, by their keys: of `hard_braking`, who does not brake
+    /// hard where the other does.
+    #[serde(flatten)]
+    pub metrics: MetricSplits,
     /// What is different for the building; none without one.
     pub building: Option<BuildingDifference>,
 }
 
+/// Splits by metrics, in the order in which the metrics are listed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MetricSplits(pub Vec<MetricSplit>);
+
+/// Who has the better value of a metric.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetricSplit {
+    /// The key of the metric.
+    pub key: &'static str,
+    /// What it is, in words.
+    pub title: String,
+    /// The split.
+    pub split: Split,
+}
+
+impl MetricSplits {
+    /// The split of a key; an empty one if there is none.
+    pub fn get(&self, key: &str) -> Split {
+        self.0.iter().find(|one| one.key == key).map(|one| one.split).unwrap_or_default()
+    }
+}
+
+impl Serialize for MetricSplits {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|one| (one.key, &one.split)))
+    }
+}
+
 impl PairedDifference {
     /// Compares the first of each pair with the second; `stream` tells the draws of one interval from another's.
-    pub(super) fn of(pairs: &[(&RunRecord, &RunRecord)], stream: u64) -> PairedDifference {
+    pub(super) fn of(pairs: &[(&RunRecord, &RunRecord)], compared: &ComparedColumns, stream: u64) -> PairedDifference {
         let pairs: Vec<_> = pairs.iter().filter(|(one, other)| one.is_finished() && other.is_finished()).collect();
         let split = |is_better: &dyn Fn(&RunRecord, &RunRecord) -> bool| {
             Split::between(pairs.iter().map(|(one, other)| (*one, *other)), is_better)
         };
-        let rank = |record: &RunRecord| (record.has_any_contact, record.place.unwrap_or(u64::MAX));
-        let succeeded = pairs.iter().filter(|(one, other)| one.success && other.success);
-        let delays_s: Vec<f64> =
-            succeeded.filter_map(|(one, other)| Some(one.completed_s? - other.completed_s?)).collect();
+        let is_ahead = |one: &RunRecord, other: &RunRecord| {
+            let touches = |record: &RunRecord| record.flag("contacts").unwrap_or(false);
+            let place = |record: &RunRecord| record.number("ego_place").unwrap_or(f64::INFINITY);
+            touches(one).cmp(&touches(other)).then(place(one).total_cmp(&place(other))).is_lt()
+        };
+        let succeeded = pairs.iter().filter(|(one, other)| succeeds(one) && succeeds(other));
+        let time_s = |record: &RunRecord| record.number("completed_s");
+        let delays_s: Vec<f64> = succeeded.filter_map(|(one, other)| Some(time_s(one)? - time_s(other)?)).collect();
         let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count();
         let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count();
         let delay = mean_interval(&delays_s, stream);
+        let metrics = compared.splits.iter().map(|metric| MetricSplit {
+            key: metric.key,
+            title: metric.title.clone(),
+            split: split(&|one, other| metric.is_better(one, other)),
+        });
         PairedDifference {
             pairs: pairs.len(),
-            success: split(&|one, other| one.success && !other.success),
-            place: split(&|one, other| rank(one) < rank(other)),
+            success: split(&|one, other| succeeds(one) && !succeeds(other)),
+            place: split(&is_ahead),
             time: Split::of(sooner, later),
             delay_s: delay.map(|(mean, _)| mean),
             delay_interval_s: delay.map(|(_, interval)| interval),
             delay_median_s: median(delays_s),
-            hard_braking: split(&|one, other| one.brakes_hard == Some(false) && other.brakes_hard == Some(true)),
+            metrics: MetricSplits(metrics.collect()),
             building: BuildingDifference::of(&pairs, stream),
         }
     }
 }
 
-/// A kind of split of a difference.
-type SplitOf = fn(&mut PairedDifference) -> Option<&mut Split>;
-
-/// All kinds of splits.
-const KINDS: [SplitOf; 5] = [
-    |one| Some(&mut one.success),
-    |one| Some(&mut one.place),
-    |one| Some(&mut one.time),
-    |one| Some(&mut one.hard_braking),
-    |one| one.building.as_mut().map(|building| &mut building.cheaper),
-];
+/// All splits of a difference, kind by kind in an order that all differences have in common.
+fn splits(difference: &mut PairedDifference) -> Vec<Option<&mut Split>> {
+    let PairedDifference { success, place, time, metrics, building, .. } = difference;
+    let of_vehicles = [success, place, time].into_iter().chain(metrics.0.iter_mut().map(|metric| &mut metric.split));
+    of_vehicles.map(Some).chain([building.as_mut().map(|building| &mut building.cheaper)]).collect()
+}
 
 /// Corrects the probabilities of all differences of a comparison together, those of each kind by themselves.
 pub(super) fn correct(differences: &mut [&mut PairedDifference]) {
-    for kind in KINDS {
-        let mut splits: Vec<&mut Split> = differences.iter_mut().filter_map(|one| kind(one)).collect();
+    let mut kinds: Vec<Vec<&mut Split>> = Vec::new();
+    for difference in differences {
+        for (kind, split) in splits(difference).into_iter().enumerate() {
+            if kinds.len() <= kind {
+                kinds.push(Vec::new());
+            }
+            kinds[kind].extend(split);
+        }
+    }
+    for mut splits in kinds {
         let corrected = holm(&splits.iter().map(|split| split.p).collect::<Vec<f64>>());
         for (split, p_holm) in splits.iter_mut().zip(corrected) {
             split.p_holm = p_holm;

@@ -3,9 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
+use interplay_scenarios::RegisteredMetrics;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::compared::ComparedColumns;
 use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
@@ -42,12 +44,18 @@ pub struct VersionGroup {
     pub difference: PairedDifference,
 }
 
-/// Compares the rows of two folders or files: pairs have the same scenario, style, planner, sample and seed.
+/// Compares the rows of two folders or files: pairs have the same scenario, style, planner, sample and seed. `registered` metrics are compared, too.
 ///
 /// # Errors
 /// Files that cannot be read or are no table of runs, or that have no pair.
-pub fn compare_versions(first: &Path, second: &Path) -> Result<VersionComparison, SweepError> {
-    let [before, after] = [Records::read(first)?, Records::read(second)?];
+pub fn compare_versions(
+    first: &Path,
+    second: &Path,
+    registered: &RegisteredMetrics,
+) -> Result<VersionComparison, SweepError> {
+    let compared = ComparedColumns::new(registered);
+    let read = |path| Records::read(path, compared.columns());
+    let [before, after] = [read(first)?, read(second)?];
     type Key<'a> = (Conditions, &'a str);
     let known: HashMap<Key<'_>, &RunRecord> =
         before.all.iter().map(|record| ((record.conditions(), &*record.planner), record)).collect();
@@ -74,7 +82,7 @@ pub fn compare_versions(first: &Path, second: &Path) -> Result<VersionComparison
             style: (*style).to_owned(),
             planner: (*planner).to_owned(),
             changed: pairs.iter().filter(|(one, other)| one.digest != other.digest).count(),
-            difference: PairedDifference::of(pairs, index as u64),
+            difference: PairedDifference::of(pairs, &compared, index as u64),
         })
         .collect();
     let mut differences: Vec<&mut PairedDifference> = groups.iter_mut().map(|group| &mut group.difference).collect();
@@ -83,7 +91,7 @@ pub fn compare_versions(first: &Path, second: &Path) -> Result<VersionComparison
         versions: [before.versions, after.versions],
         unpaired: [before.all.len() - pairs, after.all.len() - pairs],
         pairs,
-        has_vehicles: after.all.iter().any(|record| record.has_vehicles),
+        has_vehicles: after.all.iter().any(|record| record.has_vehicles()),
         changed: groups.iter().map(|group| group.changed).sum(),
         groups,
     })

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use interplay_files::WholeFile;
+use interplay_scenarios::RegisteredMetrics;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -13,7 +14,7 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
 use super::{ROWS_PER_GROUP, TableColumn, TableSchema, column_type};
-use crate::column::{Cell, HEAD, TAIL, TIMINGS, input};
+use crate::column::{Cell, cells, schema};
 use crate::error::SweepError;
 use crate::row::SweepRow;
 
@@ -109,26 +110,18 @@ fn write_column(writer: &mut SerializedColumnWriter<'_>, column: &TableColumn) -
     Ok(())
 }
 
-/// Writes rows as a table; `inputs` are the columns of what varies.
+/// Writes rows as a table; `inputs` are the columns of what varies, and `registered` metrics that have columns, too.
 pub(crate) fn write_rows(
     target: &Path,
-    inputs: &TableSchema,
+    (inputs, registered): (&TableSchema, &RegisteredMetrics),
     about: &[(&str, String)],
     rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
 ) -> Result<usize, SweepError> {
-    let head = HEAD.iter().map(|column| (column.name.to_owned(), column.kind));
-    let tail = TAIL.iter().map(|column| (column.name.to_owned(), column.kind));
-    let schema: TableSchema = head.chain(inputs.iter().cloned()).chain(tail).collect();
-    debug_assert!(TIMINGS.iter().all(|timing| schema.iter().any(|(name, _)| name == timing)));
-    let mut writer = TableWriter::new(target, schema, about)?;
+    let columns = schema(inputs, registered);
+    let mut writer = TableWriter::new(target, columns.clone(), about)?;
     let mut count = 0;
     for row in rows {
-        let row = row?;
-        let head = HEAD.iter().map(|column| (column.get)(&row));
-        let varied = inputs.iter().map(|(path, kind)| input(&row, path, *kind));
-        let tail = TAIL.iter().map(|column| (column.get)(&row));
-        let cells: Vec<Cell> = head.chain(varied).chain(tail).collect();
-        writer.push(cells)?;
+        writer.push(cells(&row?, &columns, inputs))?;
         count += 1;
     }
     writer.finish()?;

@@ -4,7 +4,9 @@ use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::quoted;
-use crate::format::expect::ExpectedYield;
+use crate::format::expect::{ExpectedMetric, ExpectedYield};
+use crate::format::metric_bound::MetricBoundKey;
+use crate::metric::{MetricDeclaration, MetricKind, MetricSubject};
 use crate::scenario::Vehicle;
 use crate::text::readable::readable;
 
@@ -20,16 +22,13 @@ impl Checker<'_> {
             self.window(&path, completes.after_s, completes.before_s);
         }
         for (index, speed) in expect.speed.iter().enumerate() {
-            let bounds = [
-                ("min_below_mps", speed.min_below_mps),
-                ("min_above_mps", speed.min_above_mps),
-                ("max_below_mps", speed.max_below_mps),
-                ("max_above_mps", speed.max_above_mps),
-            ];
-            self.bounds("speed", index, &speed.vehicle, &bounds);
+            self.bounds("speed", index, &speed.vehicle, &speed.bounds());
         }
         for (index, comfort) in expect.comfort.iter().enumerate() {
             self.bounds("comfort", index, &comfort.vehicle, &comfort.bounds());
+        }
+        for (index, metric) in expect.metrics.iter().enumerate() {
+            self.metric(index, metric);
         }
         for (index, expected) in expect.yields.iter().enumerate() {
             self.yields(index, expected);
@@ -80,13 +79,50 @@ impl Checker<'_> {
     }
 
     /// Whether an entry of a list of bounds states one, for a vehicle that exists.
-    fn bounds(&mut self, list: &str, index: usize, vehicle: &str, bounds: &[(&str, Option<f64>); 4]) {
+    fn bounds(&mut self, list: &str, index: usize, vehicle: &str, bounds: &[MetricBoundKey; 4]) {
         let path = format!("expect.{list}.{index}");
         self.known(&format!("{path}.vehicle"), vehicle);
-        if bounds.iter().all(|(_, bound)| bound.is_none()) {
+        if bounds.iter().all(|(_, bound, ..)| bound.is_none()) {
             let message = format!("`expect.{list}` for {} expects nothing", quoted(vehicle));
-            let [a, b, c, d] = bounds.map(|(key, _)| key);
+            let [a, b, c, d] = bounds.map(|(key, ..)| key);
             self.refuse(&path, "no bound", message, &format!("state `{a}`, `{b}`, `{c}` or `{d}`"));
+        }
+    }
+
+    /// Whether an entry bounds a metric that exists, of a vehicle that exists, by what its values can be compared with. Without
+    /// known metrics, whoever runs the scenario knows them.
+    fn metric(&mut self, index: usize, stated: &ExpectedMetric) {
+        let ExpectedMetric { name, vehicle, at_most, at_least, is } = stated;
+        let path = format!("expect.metric.{index}");
+        if let Some(vehicle) = vehicle {
+            self.known(&format!("{path}.vehicle"), vehicle);
+        }
+        let declarations: Vec<MetricDeclaration> =
+            self.scenario.metrics.0.iter().map(|one| one.declaration()).collect();
+        let declaration = declarations.iter().find(|one| one.name == name);
+        if declaration.is_none() && !declarations.is_empty() {
+            let names: Vec<&str> = declarations.iter().map(|one| one.name).collect();
+            let message = format!("there is no metric {}", quoted(name));
+            let help = suggestion(name, "the metrics are", &names);
+            return self.refuse(&format!("{path}.name"), "unknown metric", message, &help);
+        }
+        let is_flag = declaration.map(|one| one.kind == MetricKind::Flag);
+        let has_bound = at_most.is_some() || at_least.is_some();
+        let help = match is_flag {
+            Some(true) => "state `is = true` or `is = false`",
+            Some(false) => "state `at_most` or `at_least`",
+            None => "state `at_most`, `at_least` or `is`",
+        };
+        if is_flag.map_or(!has_bound && is.is_none(), |is_flag| if is_flag { is.is_none() } else { !has_bound }) {
+            let message = format!("`expect.metric` of {} expects nothing", quoted(name));
+            self.refuse(&path, "no bound", message, help);
+        } else if is_flag.is_some_and(|is_flag| if is_flag { has_bound } else { is.is_some() }) {
+            let key = if is.is_some() && is_flag == Some(false) { "is" } else { "a bound" };
+            self.refuse(&path, "of another type", format!("{} cannot have {key}", quoted(name)), help);
+        }
+        if vehicle.is_some() && declaration.is_some_and(|one| one.of == MetricSubject::Run) {
+            let message = format!("{} is a metric of the run, and no vehicle has one of its own", quoted(name));
+            self.refuse(&format!("{path}.vehicle"), "not of a vehicle", message, "leave `vehicle` out");
         }
     }
 

@@ -1,6 +1,6 @@
 //! Comparisons as a page.
 
-use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, PlannerFigures, VersionComparison};
+use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, PlannerFigures, Share, VersionComparison};
 
 use super::rows::{TextRows, differences, figures, heading, version_name, versus};
 use crate::page::{Page, Section};
@@ -52,17 +52,17 @@ fn section(index: usize, family: String, groups: Vec<&GroupFigures>, baseline: &
     };
     let success = bars("Success", "share of runs, with intervals of 95 %", Some(1.0), |planner| IntervalBar {
         name: planner.planner.clone(),
-        value: planner.success.share(),
-        interval: planner.success.share().map(|_| planner.success.interval),
+        value: planner.figures.share("success").and_then(Share::share),
+        interval: planner.figures.share("success").filter(|share| share.of > 0).map(|share| share.interval),
     });
     let time =
         bars("Time to the goal", "mean of successful runs [s], with intervals of 95 %", None, |planner| IntervalBar {
             name: planner.planner.clone(),
-            value: planner.completed_s.map(|time| time.mean),
-            interval: planner.completed_s.map(|time| time.interval),
+            value: planner.figures.mean("completed_s").map(|time| time.mean),
+            interval: planner.figures.mean("completed_s").map(|time| time.interval),
         });
     let mut pictures = vec![("success of each planner".to_owned(), success.draw().svg()?)];
-    if groups.iter().any(|group| group.planners.iter().any(|planner| planner.completed_s.is_some())) {
+    if groups.iter().any(|group| group.planners.iter().any(|planner| planner.figures.mean("completed_s").is_some())) {
         pictures.push(("time to the goal of each planner".to_owned(), time.draw().svg()?));
     }
     let mut tables = Vec::new();

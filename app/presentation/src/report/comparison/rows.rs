@@ -1,8 +1,8 @@
 //! Figures of comparisons as rows of words.
 
 use interplay_sweep::compare::{
-    BuildingDifference, BuildingFigures, Estimate, GroupFigures, PairedDifference, PlannerFigures, Quantiles, Share,
-    Split, VersionGroup,
+    BuildingDifference, BuildingFigures, Estimate, Figure, GroupFigures, NamedFigure, PairedDifference, PlannerFigures,
+    Quantiles, Share, Split, VersionGroup,
 };
 
 /// A table: the words of its header, and its rows.
@@ -11,22 +11,50 @@ pub(super) type TextRows = (Vec<String>, Vec<Vec<String>>);
 /// A column of a table: what it is called, and what it says of one.
 type RowColumn<T> = (&'static str, fn(&T) -> String);
 
-/// The columns of what vehicles did.
+/// A column that is there because of a metric: the same, with the key of the metric.
+type MetricColumn<T> = (String, Box<dyn Fn(&T) -> String>);
+
+/// The columns of what vehicles did, of which some put several figures side by side.
 const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
     ("planner", |one| one.planner.clone()),
     ("runs", |one| runs(one)),
-    ("success % (95 %)", |one| with_interval(&one.success)),
-    ("as in the file % (95 %)", |one| with_interval(&one.order_kept)),
-    ("time s (95 %)", |one| one.completed_s.as_ref().map_or_else(nothing, |time| estimate(time, 2))),
-    ("first %", |one| percent(one.first.share())),
-    ("yields %: ego, others", |one| both(one.yields.share(), one.others_yield.share())),
-    ("stuck", |one| one.deadlocks.to_string()),
-    ("contacts: ego (by ego), any", |one| format!("{} ({}), {}", one.contacts, one.contacts_by_ego, one.touched)),
+    ("success % (95 %)", |one| with_interval(one.figures.share("success"))),
+    ("as in the file % (95 %)", |one| with_interval(one.figures.share("order_kept"))),
+    ("time s (95 %)", |one| one.figures.mean("completed_s").map_or_else(nothing, |time| estimate(time, 2))),
+    ("first %", |one| percent(share(one, "first"))),
+    ("yields %: ego, others", |one| both(share(one, "yields"), share(one, "others_yield"))),
+    ("stuck", |one| one.figures.count("deadlocks").to_string()),
+    ("contacts: ego (by ego), any", |one| {
+        let [ego, by_ego, any] = ["contacts", "contacts_by_ego", "touched"].map(|key| one.figures.count(key));
+        format!("{ego} ({by_ego}), {any}")
+    }),
     ("brakes hard %: ego (95 %), others", |one| hard_braking(one)),
-    ("off road %", |one| if one.off_road.of == 0 { nothing() } else { percent(one.off_road.share()) }),
+    ("off road %", |one| percent(share(one, "off_road"))),
     ("gap m: least, 5 %, median", |one| gap(one)),
     ("time to collision s: 5 %, median", |one| time_to_collision(one)),
     ("plan ms: median, 99 %", |one| plan_times(one)),
+];
+
+/// The figures that these columns tell, or that only JSON has.
+const TOLD: [&str; 18] = [
+    "success",
+    "order_kept",
+    "completed_s",
+    "first",
+    "yields",
+    "others_yield",
+    "deadlocks",
+    "contacts",
+    "contacts_by_ego",
+    "touched",
+    "hard_braking",
+    "others_hard_braking",
+    "off_road",
+    "gap_m",
+    "time_to_collision_s",
+    "plans_failed",
+    "plan_median_ms",
+    "plan_p99_ms",
 ];
 
 /// The columns of what became of buildings.
@@ -55,8 +83,8 @@ fn difference_columns<'a>() -> [RowColumn<(&'a str, &'a PairedDifference)>; 11] 
         ("sooner / later", |(_, one)| split(&one.time)),
         ("p (Holm)", |(_, one)| probability(&one.time)),
         ("later by s (95 %), median", |(_, one)| delay(one)),
-        ("brakes hard: only the baseline / only this", |(_, one)| split(&one.hard_braking)),
-        ("p (Holm)", |(_, one)| probability(&one.hard_braking)),
+        ("brakes hard: only the baseline / only this", |(_, one)| split(&one.metrics.get("hard_braking"))),
+        ("p (Holm)", |(_, one)| probability(&one.metrics.get("hard_braking"))),
     ]
 }
 
@@ -92,8 +120,14 @@ pub(super) fn figures(group: &GroupFigures) -> Vec<TextRows> {
     let planners: Vec<&PlannerFigures> = group.planners.iter().collect();
     let buildings: Vec<(&PlannerFigures, &BuildingFigures)> =
         planners.iter().filter_map(|planner| Some((*planner, planner.building.as_ref()?))).collect();
-    let traffic = table(&TRAFFIC, planners.into_iter().filter(|_| group.has_vehicles));
-    [traffic, table(&building_columns(), buildings.iter())].into_iter().filter(|(_, rows)| !rows.is_empty()).collect()
+    let told = |named: &&NamedFigure| !TOLD.contains(&named.key.as_str());
+    let untold = planners.first().into_iter().flat_map(|planner| planner.figures.0.iter().filter(told));
+    let metrics = untold.map(metric_column).collect();
+    let traffic = table(&TRAFFIC, metrics, planners.into_iter().filter(|_| group.has_vehicles));
+    [traffic, table(&building_columns(), Vec::new(), buildings.iter())]
+        .into_iter()
+        .filter(|(_, rows)| !rows.is_empty())
+        .collect()
 }
 
 /// Tables of differences, each with the name of what is different: of vehicles, and of buildings, where there are any.
@@ -101,8 +135,11 @@ pub(super) fn differences(all: &[(String, &PairedDifference)], has_vehicles: boo
     let named: Vec<(&str, &PairedDifference)> = all.iter().map(|(name, one)| (name.as_str(), *one)).collect();
     let buildings: Vec<(&str, &BuildingDifference)> =
         named.iter().filter_map(|(name, one)| Some((*name, one.building.as_ref()?))).collect();
-    let traffic = table(&difference_columns(), named.iter().filter(|_| has_vehicles));
-    [traffic, table(&building_difference_columns(), buildings.iter())]
+    let splits = named.first().into_iter().flat_map(|(_, one)| &one.metrics.0);
+    let untold = splits.filter(|metric| !TOLD.contains(&metric.key));
+    let metrics = untold.flat_map(|metric| split_columns(metric.key, &metric.title)).collect();
+    let traffic = table(&difference_columns(), metrics, named.iter().filter(|_| has_vehicles));
+    [traffic, table(&building_difference_columns(), Vec::new(), buildings.iter())]
         .into_iter()
         .filter(|(_, rows)| !rows.is_empty())
         .collect()
@@ -117,14 +154,54 @@ pub(super) fn versus(group: &GroupFigures) -> Vec<TextRows> {
 }
 
 /// A table without the columns that say nothing in any row.
-fn table<'a, T: 'a>(columns: &[RowColumn<T>], of: impl Iterator<Item = &'a T>) -> TextRows {
+fn table<'a, T: 'a>(
+    columns: &[RowColumn<T>],
+    metrics: Vec<MetricColumn<T>>,
+    of: impl Iterator<Item = &'a T>,
+) -> TextRows {
     let all: Vec<&T> = of.collect();
-    let cells: Vec<(&str, Vec<String>)> =
-        columns.iter().map(|(title, cell)| (*title, all.iter().map(|one| cell(one)).collect())).collect();
-    let told: Vec<(&str, Vec<String>)> =
+    let fixed = columns.iter().map(|(title, cell)| ((*title).to_owned(), all.iter().map(|one| cell(one)).collect()));
+    let metrics = metrics.into_iter().map(|(title, cell)| (title, all.iter().map(|one| cell(one)).collect()));
+    let cells: Vec<(String, Vec<String>)> = fixed.chain(metrics).collect();
+    let told: Vec<(String, Vec<String>)> =
         cells.into_iter().filter(|(_, cells)| cells.iter().any(|cell| cell != NOTHING)).collect();
     let rows = (0..all.len()).map(|row| told.iter().map(|(_, cells)| cells[row].clone()).collect()).collect();
-    (told.iter().map(|(title, _)| (*title).to_owned()).collect(), rows)
+    (told.into_iter().map(|(title, _)| title).collect(), rows)
+}
+
+/// The column of a figure by what kind of figure it is.
+fn metric_column(named: &NamedFigure) -> MetricColumn<PlannerFigures> {
+    let (key, title) = (named.key.clone(), &named.title);
+    let title = match named.figure {
+        Figure::Share(_) => format!("{title} % (95 %)"),
+        Figure::Mean(_) => format!("{title} (95 %)"),
+        Figure::Quantiles(_) => format!("{title}: least, 5 %, median"),
+        Figure::Count(_) | Figure::Median(_) => title.clone(),
+    };
+    let cell = move |one: &PlannerFigures| match one.figures.get(&key) {
+        Some(Figure::Share(share)) => with_interval(Some(share)),
+        Some(Figure::Mean(Some(mean))) => estimate(mean, 3),
+        Some(Figure::Quantiles(Some(Quantiles { least, p05, median }))) => {
+            format!("{least:.3}, {p05:.3}, {median:.3}")
+        }
+        Some(Figure::Count(count)) => count.to_string(),
+        Some(Figure::Median(Some(median))) => format!("{median:.3}"),
+        Some(Figure::Mean(None) | Figure::Quantiles(None) | Figure::Median(None)) | None => nothing(),
+    };
+    (title, Box::new(cell))
+}
+
+/// The columns of who has the better value of a metric.
+fn split_columns<'a>(key: &'static str, title: &str) -> [MetricColumn<(&'a str, &'a PairedDifference)>; 2] {
+    [
+        (format!("{title}: better / worse"), Box::new(move |(_, one)| split(&one.metrics.get(key)))),
+        ("p (Holm)".to_owned(), Box::new(move |(_, one)| probability(&one.metrics.get(key)))),
+    ]
+}
+
+/// A share of the runs of a planner; none of none.
+fn share(planner: &PlannerFigures, key: &str) -> Option<f64> {
+    planner.figures.share(key).and_then(Share::share)
 }
 
 fn runs(planner: &PlannerFigures) -> String {
@@ -135,24 +212,23 @@ fn runs(planner: &PlannerFigures) -> String {
 }
 
 fn gap(planner: &PlannerFigures) -> String {
-    let gap = planner.gap_m;
+    let gap = planner.figures.quantiles("gap_m");
     gap.map_or_else(nothing, |Quantiles { least, p05, median }| format!("{least:.3}, {p05:.3}, {median:.3}"))
 }
 
 fn time_to_collision(planner: &PlannerFigures) -> String {
-    planner.time_to_collision_s.map_or_else(nothing, |time| format!("{:.2}, {:.2}", time.p05, time.median))
+    let time = planner.figures.quantiles("time_to_collision_s");
+    time.map_or_else(nothing, |time| format!("{:.2}, {:.2}", time.p05, time.median))
 }
 
 fn plan_times(planner: &PlannerFigures) -> String {
-    let times = planner.plan_median_ms.zip(planner.plan_p99_ms);
+    let times = planner.figures.median("plan_median_ms").zip(planner.figures.median("plan_p99_ms"));
     times.map_or_else(nothing, |(median, tail)| format!("{median:.1}, {tail:.1}"))
 }
 
 fn hard_braking(planner: &PlannerFigures) -> String {
-    match planner.hard_braking.of {
-        0 => nothing(),
-        _ => format!("{}, {}", with_interval(&planner.hard_braking), percent(planner.others_hard_braking.share())),
-    }
+    let Some(ego) = planner.figures.share("hard_braking").filter(|share| share.of > 0) else { return nothing() };
+    format!("{}, {}", with_interval(Some(ego)), percent(share(planner, "others_hard_braking")))
 }
 
 fn bill(building: &BuildingFigures) -> String {
@@ -192,9 +268,10 @@ fn nothing() -> String {
     NOTHING.to_owned()
 }
 
-fn with_interval(share: &Share) -> String {
-    share.share().map_or_else(nothing, |value| {
-        format!("{} ({})", percent(Some(value)), span(share.interval.map(|bound| 100.0 * bound), 0))
+fn with_interval(share: Option<&Share>) -> String {
+    let known = share.and_then(|share| Some((share.share()?, share.interval)));
+    known.map_or_else(nothing, |(value, interval)| {
+        format!("{} ({})", percent(Some(value)), span(interval.map(|bound| 100.0 * bound), 0))
     })
 }
 

@@ -1,0 +1,116 @@
+//! What a metric is: what is said of it, and how it follows from the ticks of a run.
+
+use std::fmt::Debug;
+
+use interplay_planners::{Input, State};
+use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
+
+use super::values::Measured;
+use crate::frame::{Frame, VehicleFrame};
+
+/// A metric. It is declared once, here: reports, rows of sweeps, comparisons, expectations and the reference follow.
+///
+/// A number that is folded over the ticks of a vehicle, such as a peak or a mean, need not implement this:
+/// [`VehicleMetric`](super::VehicleMetric) does.
+pub trait Metric: Debug + Send + Sync {
+    /// What is said of it.
+    fn declaration(&self) -> MetricDeclaration;
+
+    /// Begins to measure one run, with everybody at the start. `vehicle` is the index of the vehicle that is measured; for a metric
+    /// of the run, that of the ego.
+    fn begin(&self, scenario: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement>;
+}
+
+/// A metric that is being measured in one run.
+pub trait Measurement: Debug + Send + Sync {
+    /// Takes one tick.
+    fn observe(&mut self, tick: &ObservedTick<'_>);
+
+    /// What was measured until now.
+    fn measured(&self) -> Measured;
+
+    /// A copy that goes on by itself, for a snapshot of the run.
+    fn fork(&self) -> Box<dyn Measurement>;
+}
+
+/// All vehicles at one time, in the scenario's order.
+#[derive(Clone, Copy, Debug)]
+pub struct ObservedMoment<'a> {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// What the scenario says of them.
+    pub vehicles: &'a [Vehicle],
+    /// Their states.
+    pub states: &'a [State],
+    /// Arc lengths of their mass centres on their routes \[m\].
+    pub along_m: &'a [f64],
+}
+
+/// One tick.
+#[derive(Clone, Copy, Debug)]
+pub struct ObservedTick<'a> {
+    /// How it began, what was decided and who touched whom.
+    pub frame: &'a Frame,
+    /// Its length \[s\].
+    pub step_s: f64,
+    /// The inputs of the tick before, in the scenario's order; zero in the first.
+    pub previous_inputs: &'a [Input],
+    /// How it ended.
+    pub end: ObservedMoment<'a>,
+}
+
+/// One vehicle at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct VehicleMoment<'a> {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// What the scenario says of it.
+    pub vehicle: &'a Vehicle,
+    /// Its state.
+    pub state: &'a State,
+    /// Arc length of its mass centre on its route \[m\].
+    pub along_m: f64,
+}
+
+/// One vehicle during one tick.
+#[derive(Clone, Copy, Debug)]
+pub struct VehicleTick<'a> {
+    /// Its state before, its plan and its input.
+    pub frame: &'a VehicleFrame,
+    /// Its input of the tick before; zero in the first.
+    pub previous_input: Input,
+    /// Length of the tick \[s\].
+    pub step_s: f64,
+    /// How the tick ended.
+    pub end: VehicleMoment<'a>,
+}
+
+impl<'a> ObservedMoment<'a> {
+    /// One of the vehicles.
+    pub fn of(&self, vehicle: usize) -> VehicleMoment<'a> {
+        VehicleMoment {
+            time_s: self.time_s,
+            vehicle: &self.vehicles[vehicle],
+            state: &self.states[vehicle],
+            along_m: self.along_m[vehicle],
+        }
+    }
+}
+
+impl<'a> ObservedTick<'a> {
+    /// One of the vehicles.
+    pub fn of(&self, vehicle: usize) -> VehicleTick<'a> {
+        VehicleTick {
+            frame: &self.frame.vehicles[vehicle],
+            previous_input: self.previous_inputs[vehicle],
+            step_s: self.step_s,
+            end: self.end.of(vehicle),
+        }
+    }
+}
+
+impl Clone for Box<dyn Measurement> {
+    fn clone(&self) -> Self {
+        self.fork()
+    }
+}

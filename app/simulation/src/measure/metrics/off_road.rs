@@ -1,0 +1,118 @@
+//! How far a vehicle leaves its road.
+
+use interplay_scenarios::MetricKind::{Flag, Number};
+use interplay_scenarios::{MetricComparison, MetricDeclaration};
+
+use crate::measure::metric::{Metric, VehicleMoment};
+use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
+
+/// Shorter distances beyond an edge are treated as zero: rounding, and the tolerance of planners that drive along the edge \[m\].
+const ROUNDING_M: f64 = 1e-6;
+/// A vehicle leaves the road if a corner of it comes this far beyond an edge, in widths of its body: 5 cm of a car.
+const OFF_ROAD_WIDTHS: f64 = 0.03;
+
+const OFF_ROAD_DOC: &str = "Largest distance of a corner of the footprint beyond the edge of the road beside it; 0 if it never left \
+                            the road";
+const LEAVES_ROAD_DOC: &str = "Whether that is more than 3 % of the width of its body: 5 cm of a car";
+
+pub(super) const METRICS: &[&dyn Metric] = &[&OFF_ROAD, &LEAVES_ROAD];
+
+const OFF_ROAD: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration::of_vehicle("off_road_m", Number, OFF_ROAD_DOC),
+    Fold::Peak,
+    VehicleQuantity::AtMoment(off_road_m),
+);
+
+const LEAVES_ROAD: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration {
+        comparison_key: Some("off_road"),
+        ..MetricDeclaration::of_vehicle("leaves_road", Flag, LEAVES_ROAD_DOC).compared(MetricComparison::Share)
+    },
+    Fold::Count,
+    VehicleQuantity::AtMoment(leaves_road),
+);
+
+/// The largest distance of a corner beyond the edge of the route's strip that is beside the corner; 0 if none is beyond it \[m\].
+fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
+    let VehicleMoment { vehicle, state, along_m, .. } = moment;
+    let (sin, cos) = libm::sincos(state.heading_rad);
+    let beyond_m = vehicle.body.local_corners().map(|[ahead, left]| {
+        let corner = [state.x_m + ahead * cos - left * sin, state.y_m + ahead * sin + left * cos];
+        let at = vehicle.route.locate(corner, Some(along_m + ahead));
+        let [right_m, left_m] = [vehicle.route.right.value(at.along_m), vehicle.route.left.value(at.along_m)];
+        (right_m - at.across_m).max(at.across_m - left_m)
+    });
+    Some(beyond_m.into_iter().filter(|beyond_m| *beyond_m > ROUNDING_M).fold(0.0, f64::max))
+}
+
+fn leaves_road(moment: &VehicleMoment<'_>) -> Option<f64> {
+    off_road_m(moment).map(|off_road_m| f64::from(off_road_m > OFF_ROAD_WIDTHS * moment.vehicle.body.width_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::State;
+    use interplay_scenarios::{Vehicle, load};
+
+    use super::*;
+    use crate::measure::metrics::tests::{at_moments, peak};
+    use crate::measure::values::{Measured, MetricValue};
+
+    fn beyond_of(vehicle: &Vehicle, [along_m, across_m]: [f64; 2], turn_rad: f64) -> (Measured, f64) {
+        let [x_m, y_m] = vehicle.route.position(along_m, across_m);
+        let heading_rad = vehicle.route.heading_at([x_m, y_m]) + turn_rad;
+        let state = State { x_m, y_m, heading_rad, speed_mps: 0.0 };
+        let [measured, leaves] =
+            [OFF_ROAD, LEAVES_ROAD].map(|metric| at_moments(&metric, vehicle, &[(0.7, state, along_m)]));
+        let value = measured.value.expect("every vehicle has one").as_number();
+        assert_eq!(leaves.value, Some(MetricValue::Flag(value > 0.03 * vehicle.body.width_m)));
+        (measured, value)
+    }
+
+    fn beyond(scenario: &str, along_m: f64, across_m: f64, turn_rad: f64) -> (Measured, f64) {
+        let scenario = load(scenario, &[]).expect("authored");
+        beyond_of(&scenario.vehicles[0], [along_m, across_m], turn_rad)
+    }
+
+    /// Across a straight road of 0.74 m, the footprint is 0.19 m wide and reaches 0.21 m ahead.
+    #[test]
+    fn distances_beyond_a_straight_edge_are_exact() {
+        let at = |across_m: f64, turn_rad: f64| beyond("lane-change/front-nice", 3.0, across_m, turn_rad);
+        let on_the_road = (peak(0.0, None), 0.0);
+        assert_eq!((at(0.095, 0.0), at(0.4, 0.3)), (on_the_road.clone(), on_the_road.clone()));
+        assert_eq!(at(0.095 - 1e-9, 0.0), on_the_road, "a rounding error is not off the road");
+        for (across_m, turn_rad, wanted_m) in [(0.05, 0.0, 0.045), (0.70, 0.0, 0.055), (0.74, 0.5, 0.0)] {
+            let (sin, cos) = libm::sincos(turn_rad);
+            let wanted_m = if turn_rad == 0.0 { wanted_m } else { 0.21 * sin + 0.095 * cos };
+            let (found, found_m) = at(across_m, turn_rad);
+            assert!((found_m - wanted_m).abs() < 1e-12, "{across_m}: {found:?}");
+            assert_eq!(found.time_s, Some(0.7));
+        }
+    }
+
+    /// Corners turn with the vehicle, on a road in any direction: with its centre on an edge a front or rear corner is beyond it.
+    #[test]
+    fn corners_are_those_of_the_body() {
+        let scenario = load("intersection/nice", &[]).expect("authored");
+        for vehicle in &scenario.vehicles {
+            let (route, body) = (&vehicle.route, vehicle.body);
+            let [right_m, left_m] = [route.right.value(0.5), route.left.value(0.5)];
+            let front = [(left_m, 0.5), (right_m, -0.5)].map(|(across_m, turn_rad)| (across_m, turn_rad, body.front_m));
+            let rear = [(left_m, -2.5), (right_m, 2.5)].map(|(across_m, turn_rad)| (across_m, turn_rad, body.rear_m));
+            for (across_m, turn_rad, reach_m) in front.into_iter().chain(rear) {
+                let (sin, cos) = libm::sincos(f64::abs(turn_rad));
+                let wanted_m = reach_m * sin + 0.5 * body.width_m * cos.abs();
+                let (_, found_m) = beyond_of(vehicle, [0.5, across_m], turn_rad);
+                assert!((found_m - wanted_m).abs() < 1e-9, "{}: {found_m} and {wanted_m}", vehicle.name);
+            }
+        }
+    }
+
+    /// Where lane 0 has ended, who stands in it is off the road, and who is before its end is not.
+    #[test]
+    fn the_end_of_a_ramp_is_an_edge() {
+        assert_eq!(beyond("ramp-merge/front-tough", -20.0, 0.185, 0.0).1, 0.0);
+        let (_, past) = beyond("ramp-merge/front-tough", 20.0, 0.185, 0.0);
+        assert!((past - (0.37 - 0.09)).abs() < 1e-6, "{past}");
+    }
+}

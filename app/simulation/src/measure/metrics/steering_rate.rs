@@ -1,0 +1,20 @@
+//! How fast a vehicle turns its wheels: `|δ_k − δ_{k−1}| / T` of its steering angles δ over a tick of length T.
+
+use interplay_scenarios::MetricKind::Number;
+use interplay_scenarios::{MetricComparison, MetricDeclaration};
+
+use crate::measure::metric::{Metric, VehicleTick};
+use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
+
+const DOC: &str = "Largest magnitude of the change of the steering angle from tick to tick, over a tick";
+
+pub(super) const METRICS: &[&dyn Metric] = &[&VehicleMetric::new(
+    MetricDeclaration::of_vehicle("peak_steering_rate_radps", Number, DOC).compared(MetricComparison::Mean),
+    Fold::Peak,
+    VehicleQuantity::OverTick(steering_rate_radps),
+)];
+
+/// The wheels of a vehicle point straight ahead before its first tick.
+fn steering_rate_radps(tick: &VehicleTick<'_>) -> Option<f64> {
+    Some((tick.frame.input.steering_rad - tick.previous_input.steering_rad).abs() / tick.step_s)
+}

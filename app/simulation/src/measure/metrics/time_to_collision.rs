@@ -1,0 +1,114 @@
+//! The shortest time to collision of any two vehicles in a run.
+
+use interplay_scenarios::MetricKind::Number;
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
+
+use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::values::{Measured, MetricValue};
+use crate::physics::{MovingFootprint, time_to_collision_s};
+
+/// Who touches only after a longer time than this is not on a collision course \[s\].
+const MAX_TIME_TO_COLLISION_S: f64 = 100.0;
+
+pub(super) const METRICS: &[&dyn Metric] = &[&TimeToCollision];
+
+/// The shortest time to collision, at the beginnings of ticks: the time until two footprints would touch if both vehicles kept
+/// the velocity of the tick that begins; 0 where they touch already.
+///
+/// The velocity of a tick is the displacement of the mass centre in it over its length. Headings stay.
+#[derive(Clone, Copy, Debug)]
+struct TimeToCollision;
+
+/// The shortest time so far \[s\], when it was so, and of whom.
+#[derive(Clone, Debug)]
+struct ShortestSoFar(Option<(f64, f64, [String; 2])>);
+
+impl Metric for TimeToCollision {
+    fn declaration(&self) -> MetricDeclaration {
+        let doc = "Shortest time until two footprints would touch if both vehicles kept their velocities; none if no two vehicles \
+                   were on a collision course";
+        MetricDeclaration {
+            report_key: Some("shortest_time_to_collision"),
+            ..MetricDeclaration::of_run("time_to_collision_s", Number, doc).compared(MetricComparison::Quantiles)
+        }
+    }
+
+    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, _: usize) -> Box<dyn Measurement> {
+        Box::new(ShortestSoFar(None))
+    }
+}
+
+impl Measurement for ShortestSoFar {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let pairs = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles);
+        let moving: Vec<MovingFootprint<'_>> = pairs
+            .map(|((before, after), vehicle)| {
+                let state = &before.state;
+                let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
+                MovingFootprint { body: &vehicle.body, state, velocity_mps }
+            })
+            .collect();
+        for (index, one) in moving.iter().enumerate() {
+            for (other_index, other) in moving.iter().enumerate().skip(index + 1) {
+                // Only a shorter time is of interest, which keeps the search small.
+                let within_s = self.0.as_ref().map_or(MAX_TIME_TO_COLLISION_S, |(shortest_s, ..)| *shortest_s);
+                if within_s <= 0.0 {
+                    return;
+                }
+                if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
+                    let between = [index, other_index].map(|index| tick.frame.vehicles[index].name.clone());
+                    self.0 = Some((s, tick.frame.time_s, between));
+                }
+            }
+        }
+    }
+
+    fn measured(&self) -> Measured {
+        let Some((s, time_s, between)) = self.0.clone() else { return Measured::default() };
+        let value = Some(MetricValue::Number(s));
+        Measured { value, time_s: Some(time_s), between: Some(between), is_peak: false }
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(self.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::{Input, State};
+    use interplay_scenarios::load;
+
+    use super::*;
+    use crate::frame::{Frame, VehicleFrame};
+
+    /// The ego behind and beside the others, seen once a second; only the front car is in its way.
+    #[test]
+    fn the_shortest_time_is_kept_with_its_pair() {
+        let scenario = load("lane-change/front-nice", &[]).expect("authored");
+        let mut measure = ShortestSoFar(None);
+        let state = |x_m, y_m, speed_mps| State { x_m, y_m, heading_rad: 0.0, speed_mps };
+        // Closing speed and distance of bumpers of ego and front: 1 s, 0.5 s, 2 s, and parting.
+        for (time_s, ahead_m, speed_mps) in [(0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, 2.0, 1.0), (3.0, 0.1, -1.0)] {
+            let states = [state(5.0, 0.2, 1.0 + speed_mps), state(ahead_m + 5.4, 0.2, 1.0), state(2.0, 0.55, 1.0)];
+            let vehicles = scenario.vehicles.iter().zip(states);
+            let vehicles = vehicles.map(|(vehicle, state)| VehicleFrame {
+                name: vehicle.name.clone(),
+                state,
+                ..VehicleFrame::default()
+            });
+            let frame = Frame { time_s, vehicles: vehicles.collect(), ..Frame::default() };
+            let after = states.map(|state| State { x_m: state.x_m + scenario.step_s * state.speed_mps, ..state });
+            measure.observe(&ObservedTick {
+                frame: &frame,
+                step_s: scenario.step_s,
+                previous_inputs: &[Input::default(); 3],
+                end: ObservedMoment { time_s, vehicles: &scenario.vehicles, states: &after, along_m: &[0.0; 3] },
+            });
+        }
+        let Measured { value, time_s, between, .. } = measure.measured();
+        let names = [0, 1].map(|index: usize| scenario.vehicles[index].name.clone());
+        assert_eq!((between, time_s), (Some(names), Some(1.0)));
+        assert!((value.map_or(f64::NAN, MetricValue::as_number) - 0.5).abs() < 1e-4, "{value:?}");
+    }
+}

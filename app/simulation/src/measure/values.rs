@@ -1,0 +1,108 @@
+//! What metrics amount to, and how a report tells it.
+
+use interplay_scenarios::{MetricDeclaration, MetricKind};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use serde_json::{Value as Json, json};
+
+/// The value of a metric.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum MetricValue {
+    /// True or false.
+    Flag(bool),
+    /// A whole number.
+    Count(u64),
+    /// A number.
+    Number(f64),
+}
+
+/// What a metric amounts to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// The value; none where there is nothing to measure.
+    pub value: Option<MetricValue>,
+    /// When it was reached; none for what has no time, and for a peak of 0 \[s\].
+    pub time_s: Option<f64>,
+    /// The two vehicles that it is about, in the scenario's order, if it is about two.
+    pub between: Option<[String; 2]>,
+    /// Whether it has a time unless it is 0.
+    pub is_peak: bool,
+}
+
+/// The values of all metrics of a vehicle, or of a run, in the order in which the metrics are listed.
+///
+/// As a part of a report, each is told under its key. One about two vehicles is told with them and with its time; the times of
+/// peaks are told together, as `peak_times_s`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MetricValues(pub Vec<(MetricDeclaration, Measured)>);
+
+impl Measured {
+    /// A number without time or place.
+    pub fn number(value: Option<f64>) -> Self {
+        Measured { value: value.map(MetricValue::Number), ..Measured::default() }
+    }
+
+    /// The same value in a type that a metric is declared with.
+    #[must_use]
+    pub(super) fn of_kind(self, kind: MetricKind) -> Self {
+        let value = self.value.map(|value| match (kind, value.as_number()) {
+            (MetricKind::Flag, number) => MetricValue::Flag(number != 0.0),
+            (MetricKind::Count, number) => MetricValue::Count(number as u64),
+            (MetricKind::Number, number) => MetricValue::Number(number),
+        });
+        Measured { value, ..self }
+    }
+
+    /// The value as a report tells it.
+    pub fn to_json(&self, declaration: &MetricDeclaration) -> Json {
+        match (&self.between, self.value) {
+            (Some(between), Some(value)) => {
+                json!({ declaration.unit_key(): value, "between": between, "time_s": self.time_s })
+            }
+            (_, value) => json!(value),
+        }
+    }
+}
+
+impl MetricValue {
+    /// The number; 0 and 1 for flags.
+    pub fn as_number(self) -> f64 {
+        match self {
+            MetricValue::Flag(flag) => f64::from(flag),
+            MetricValue::Count(count) => count as f64,
+            MetricValue::Number(number) => number,
+        }
+    }
+}
+
+impl MetricValues {
+    /// What the metric of a name amounts to; none if it is not measured.
+    pub fn get(&self, name: &str) -> Option<(&MetricDeclaration, &Measured)> {
+        self.0.iter().find(|(declaration, _)| declaration.name == name).map(|(declaration, one)| (declaration, one))
+    }
+
+    /// The value of a metric as a number, flags as 0 and 1.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.get(name).and_then(|(_, measured)| measured.value).map(MetricValue::as_number)
+    }
+}
+
+impl Serialize for MetricValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (declaration, measured) in &self.0 {
+            map.serialize_entry(declaration.report_key.unwrap_or(declaration.name), &measured.to_json(declaration))?;
+        }
+        let peaks = self.0.iter().filter(|(_, measured)| measured.is_peak);
+        let short = |declaration: &MetricDeclaration| {
+            declaration.quantity().strip_prefix("peak_").unwrap_or(declaration.quantity()).to_owned()
+        };
+        let times: serde_json::Map<String, Json> =
+            peaks.map(|(declaration, measured)| (short(declaration), json!(measured.time_s))).collect();
+        if !times.is_empty() {
+            map.serialize_entry("peak_times_s", &times)?;
+        }
+        map.end()
+    }
+}

@@ -1,0 +1,126 @@
+//! Metrics of a vehicle that are a number at each tick, folded over the run: peaks, extremes, means, and whether something
+//! ever was so.
+
+use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
+
+use super::metric::{Measurement, Metric, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
+use super::values::Measured;
+
+/// A metric of each vehicle: a number at each tick, and how the numbers of all ticks become one.
+#[derive(Clone, Copy, Debug)]
+pub struct VehicleMetric {
+    /// What is said of it.
+    pub declaration: MetricDeclaration,
+    /// The number.
+    pub quantity: VehicleQuantity,
+    /// How the numbers become one.
+    pub fold: Fold,
+    /// The vehicles that have a value.
+    pub applies: fn(&Vehicle) -> bool,
+}
+
+/// A number that a vehicle has at each tick; none where it has none.
+#[derive(Clone, Copy, Debug)]
+pub enum VehicleQuantity {
+    /// Of the tick as a whole; its time is the beginning of the tick.
+    OverTick(fn(&VehicleTick<'_>) -> Option<f64>),
+    /// Of the vehicle at the start and after each tick.
+    AtMoment(fn(&VehicleMoment<'_>) -> Option<f64>),
+}
+
+/// How the numbers of all ticks become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fold {
+    /// The largest positive one, with the time at which it was reached first; 0 if none was positive.
+    Peak,
+    /// The smallest one.
+    Least,
+    /// The largest one.
+    Largest,
+    /// Their mean; 0 without any.
+    Mean,
+    /// How many are not 0; of a flag, whether any is.
+    Count,
+}
+
+impl VehicleMetric {
+    /// A metric that every vehicle has.
+    pub const fn new(declaration: MetricDeclaration, fold: Fold, quantity: VehicleQuantity) -> Self {
+        VehicleMetric { declaration, quantity, fold, applies: |_| true }
+    }
+}
+
+impl Metric for VehicleMetric {
+    fn declaration(&self) -> MetricDeclaration {
+        self.declaration
+    }
+
+    fn begin(&self, _: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        let value = match self.fold {
+            Fold::Least => f64::INFINITY,
+            Fold::Largest => f64::NEG_INFINITY,
+            Fold::Peak | Fold::Mean | Fold::Count => 0.0,
+        };
+        let moment = start.of(vehicle);
+        let applies = (self.applies)(moment.vehicle);
+        let mut folded = FoldedMetric { metric: *self, vehicle, applies, value, time_s: None, count: 0 };
+        if let VehicleQuantity::AtMoment(quantity) = self.quantity {
+            folded.take(quantity(&moment), start.time_s);
+        }
+        Box::new(folded)
+    }
+}
+
+/// The fold so far.
+#[derive(Clone, Copy, Debug)]
+struct FoldedMetric {
+    metric: VehicleMetric,
+    /// The index of the vehicle.
+    vehicle: usize,
+    applies: bool,
+    /// The folded value; of a mean, the sum.
+    value: f64,
+    /// When a peak was reached first \[s\].
+    time_s: Option<f64>,
+    /// How many numbers there were.
+    count: usize,
+}
+
+impl FoldedMetric {
+    fn take(&mut self, number: Option<f64>, time_s: f64) {
+        let Some(number) = number else { return };
+        self.count += 1;
+        match self.metric.fold {
+            Fold::Peak if number > self.value => (self.value, self.time_s) = (number, Some(time_s)),
+            Fold::Peak => {}
+            Fold::Least => self.value = self.value.min(number),
+            Fold::Largest => self.value = self.value.max(number),
+            Fold::Mean => self.value += number,
+            Fold::Count => self.value += f64::from(number != 0.0),
+        }
+    }
+}
+
+impl Measurement for FoldedMetric {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        match self.metric.quantity {
+            VehicleQuantity::OverTick(quantity) => self.take(quantity(&tick.of(self.vehicle)), tick.frame.time_s),
+            VehicleQuantity::AtMoment(quantity) => self.take(quantity(&tick.end.of(self.vehicle)), tick.end.time_s),
+        }
+    }
+
+    fn measured(&self) -> Measured {
+        let is_extreme = matches!(self.metric.fold, Fold::Least | Fold::Largest);
+        let value = match self.metric.fold {
+            Fold::Mean => self.value / self.count.max(1) as f64,
+            _ => self.value,
+        };
+        let value = Some(value).filter(|_| self.applies && (self.count > 0 || !is_extreme));
+        let is_peak = self.metric.fold == Fold::Peak;
+        Measured { time_s: self.time_s, is_peak, ..Measured::number(value).of_kind(self.metric.declaration.kind) }
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(*self)
+    }
+}

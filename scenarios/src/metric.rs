@@ -1,0 +1,153 @@
+//! What is said of a metric: all that reports, rows of sweeps, comparisons and expectations need to know of it.
+//!
+//! How a metric follows from the ticks of a run is declared in the same place, by whoever steps a scenario. This crate
+//! knows only what is said of it.
+
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::schema::{quantity_of, unit_of};
+
+/// What is said of a metric.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MetricDeclaration {
+    /// Its name, which ends with its unit as the keys of settings do: the column in rows of sweeps, and its key in reports.
+    pub name: &'static str,
+    /// What it is, in one sentence without a full stop.
+    pub doc: &'static str,
+    /// The type of its value.
+    pub kind: MetricKind,
+    /// Whether each vehicle has a value of its own, or the run has one.
+    pub of: MetricSubject,
+    /// Its key in reports, if that is not its name.
+    pub report_key: Option<&'static str>,
+    /// How `compare` puts the values of many runs together; none where it does not tell it.
+    pub comparison: Option<MetricComparison>,
+    /// Its key in comparisons, if that is not its name.
+    pub comparison_key: Option<&'static str>,
+    /// Which of two values under the same conditions is the better one; none where neither is.
+    pub better: Option<Better>,
+    /// Whether rows, which are about the ego, also have a column `others_NAME` with the worst value of the others: any of flags,
+    /// the sum of counts.
+    pub others: bool,
+}
+
+/// The type of a metric's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MetricKind {
+    /// True or false.
+    Flag,
+    /// A whole number.
+    Count,
+    /// A number.
+    Number,
+}
+
+/// What has a value of a metric.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MetricSubject {
+    /// Each vehicle; rows of sweeps have that of the ego.
+    Vehicle,
+    /// The run.
+    Run,
+}
+
+/// How the values of many runs are put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MetricComparison {
+    /// The share of the runs in which a flag is true, with Wilson's interval.
+    Share,
+    /// The sum of counts.
+    Sum,
+    /// The mean of numbers, with a bootstrap interval.
+    Mean,
+    /// The least of numbers, their quantile at 5 % and their median: of gaps, and whatever is the more critical the smaller it is.
+    Quantiles,
+}
+
+/// Which of two values is the better one; of flags, `false` is the lower one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Better {
+    /// The lower one.
+    Lower,
+    /// The higher one.
+    Higher,
+}
+
+impl MetricDeclaration {
+    /// A metric of each vehicle.
+    pub const fn of_vehicle(name: &'static str, kind: MetricKind, doc: &'static str) -> Self {
+        MetricDeclaration {
+            name,
+            doc,
+            kind,
+            of: MetricSubject::Vehicle,
+            report_key: None,
+            comparison: None,
+            comparison_key: None,
+            better: None,
+            others: false,
+        }
+    }
+
+    /// A metric of the run.
+    pub const fn of_run(name: &'static str, kind: MetricKind, doc: &'static str) -> Self {
+        MetricDeclaration { of: MetricSubject::Run, ..Self::of_vehicle(name, kind, doc) }
+    }
+
+    /// The same, told by `compare`.
+    #[must_use]
+    pub const fn compared(self, comparison: MetricComparison) -> Self {
+        MetricDeclaration { comparison: Some(comparison), ..self }
+    }
+
+    /// The same, of which one value is better than another.
+    #[must_use]
+    pub const fn better(self, better: Better) -> Self {
+        MetricDeclaration { better: Some(better), ..self }
+    }
+
+    /// The same, with a column for the others.
+    #[must_use]
+    pub const fn with_others(self) -> Self {
+        MetricDeclaration { others: true, ..self }
+    }
+
+    /// Its unit, by the end of its name; none for what has none.
+    pub fn unit(&self) -> Option<&'static str> {
+        unit_of(self.name)
+    }
+
+    /// Its name without the unit, such as `peak_braking`.
+    pub fn quantity(&self) -> &'static str {
+        quantity_of(self.name)
+    }
+
+    /// The end of its name that stands for its unit, such as `mps2`; `value` without a unit.
+    pub fn unit_key(&self) -> &'static str {
+        self.name.strip_prefix(self.quantity()).and_then(|rest| rest.strip_prefix('_')).unwrap_or("value")
+    }
+
+    /// Its key in comparisons.
+    pub fn compared_as(&self) -> &'static str {
+        self.comparison_key.unwrap_or(self.name)
+    }
+}
+
+/// A metric as this crate knows it: what is said of it. What computes it is behind the same value, for who knows its type.
+pub trait DeclaredMetric: Any + Debug + Send + Sync {
+    /// What is said of it.
+    fn declaration(&self) -> MetricDeclaration;
+}
+
+/// Metrics that were registered from outside.
+#[derive(Clone, Debug, Default)]
+pub struct RegisteredMetrics(pub Vec<Arc<dyn DeclaredMetric>>);
+
+impl PartialEq for RegisteredMetrics {
+    /// Metrics with equal declarations are the same.
+    fn eq(&self, other: &Self) -> bool {
+        self.0.iter().map(|one| one.declaration()).eq(other.0.iter().map(|one| one.declaration()))
+    }
+}
