@@ -33,15 +33,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let outcome = sweep(&plan, &options)?;
     println!("{} rows in {}", outcome.rows, outcome.table.display());
 
-    let figures = compare(&folder, Some("conservative"), GroupBy::Family)?;
+    let figures = compare(&folder, Some("conservative"), GroupBy::Family, plan.metrics())?;
     for group in figures.groups.iter().filter(|group| group.family.is_none()) {
         let style = group.style.as_deref().unwrap_or("all");
         for planner in &group.planners {
-            let (share, first) = (planner.success, planner.first);
-            println!(
-                "{style:6} {:14} success {}/{}, first {}/{}",
-                planner.planner, share.count, share.of, first.count, first.of
-            );
+            let share = |key| {
+                planner.figures.share(key).map_or_else(String::new, |share| format!("{}/{}", share.count, share.of))
+            };
+            println!("{style:6} {:14} success {}, first {}", planner.planner, share("success"), share("first"));
         }
     }
     Ok(())

@@ -4,6 +4,7 @@
 //! knows only what is said of it.
 
 use std::any::Any;
+use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -129,6 +130,17 @@ impl MetricDeclaration {
         self.name.strip_prefix(self.quantity()).and_then(|rest| rest.strip_prefix('_')).unwrap_or("value")
     }
 
+    /// Its name, its key in reports, and the column of the others: what nothing else may be called.
+    pub(crate) fn keys(&self) -> BTreeSet<String> {
+        let others = self.others.then(|| self.others_name());
+        [Some(self.name), self.report_key].into_iter().flatten().map(str::to_owned).chain(others).collect()
+    }
+
+    /// The column of the worst value of the others.
+    pub fn others_name(&self) -> String {
+        format!("others_{}", self.name)
+    }
+
     /// Its key in comparisons.
     pub fn compared_as(&self) -> &'static str {
         self.comparison_key.unwrap_or(self.name)
@@ -139,9 +151,13 @@ impl MetricDeclaration {
 pub trait DeclaredMetric: Any + Debug + Send + Sync {
     /// What is said of it.
     fn declaration(&self) -> MetricDeclaration;
+
+    /// What tells its values from those of earlier versions: rows of sweeps made with another one are made anew. None for a metric
+    /// of Interplay, whose own version tells that.
+    fn version(&self) -> Option<&'static str>;
 }
 
-/// Metrics that were registered from outside.
+/// Metrics that a registry knows.
 #[derive(Clone, Debug, Default)]
 pub struct RegisteredMetrics(pub Vec<Arc<dyn DeclaredMetric>>);
 

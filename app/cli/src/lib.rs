@@ -21,6 +21,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
+use interplay_simulation::measure::RegisterMetrics;
 
 use commands::{
     check, compare, completions, export_fmu, identify, list, man, new, reproduce, run, schema, suite, sweep, view, why,
@@ -60,8 +61,19 @@ pub fn main() -> ExitCode {
     main_with(Registry::standard())
 }
 
-/// The same with the kinds of drivers of a registry: the whole command for a crate with drivers of its own.
+/// The same with the kinds of drivers and the metrics of a registry: the whole command for a crate with drivers or metrics of its
+/// own.
 pub fn main_with(registry: &Registry) -> ExitCode {
+    match registry.clone().with_own_metrics() {
+        Ok(registry) => run_command(&registry),
+        Err(error) => {
+            output::print_error(&error.to_string());
+            exit_status::ExitStatus::BadInput.into()
+        }
+    }
+}
+
+fn run_command(registry: &Registry) -> ExitCode {
     let mut command = command(registry);
     let parsed = command.try_get_matches_from_mut(std::env::args_os());
     let interplay = match parsed.and_then(|found| Interplay::from_arg_matches(&found)) {
@@ -77,7 +89,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         Some(Command::Suite(command)) => command.execute(registry),
         Some(Command::Why(command)) => command.execute(registry),
         Some(Command::Sweep(command)) => command.execute(registry),
-        Some(Command::Compare(command)) => command.execute(),
+        Some(Command::Compare(command)) => command.execute(registry),
         Some(Command::New(command)) => command.execute(registry),
         Some(Command::Schema(command)) => command.execute(registry),
         Some(Command::View(command)) => command.execute(),

@@ -171,7 +171,7 @@ impl EgoRun<'_> {
         let metrics =
             of_run_and_ego.clone().map(|(declaration, measured)| (declaration.name.to_owned(), json!(measured.value)));
         let with_others = self.ego.metrics.0.iter().filter(|(declaration, _)| declaration.others);
-        let others = with_others.map(|(declaration, _)| (others_name(declaration), self.worst_of_others(declaration)));
+        let others = with_others.map(|(declaration, _)| (declaration.others_name(), self.worst_of_others(declaration)));
         metrics.chain(others).chain(fixed)
     }
 
@@ -201,11 +201,6 @@ fn order_kept(report: &Report) -> Option<bool> {
     Some(of_order.all(|expectation| expectation.passed) && report.collisions.is_empty())
 }
 
-/// The column of the worst value of the others.
-pub(crate) fn others_name(declaration: &MetricDeclaration) -> String {
-    format!("others_{}", declaration.name)
-}
-
 /// The columns of a table in their order, between them those of what varies.
 pub(crate) fn schema(inputs: &TableSchema, registered: &RegisteredMetrics) -> TableSchema {
     fn named<T>(columns: &[(&str, ColumnKind, T)]) -> TableSchema {
@@ -216,7 +211,7 @@ pub(crate) fn schema(inputs: &TableSchema, registered: &RegisteredMetrics) -> Ta
     let own = |of| declarations.iter().filter(move |one| one.of == of).map(|one| (one.name.to_owned(), kind_of(one)));
     let metrics = own(MetricSubject::Run).chain(own(MetricSubject::Vehicle)).filter(|column| !task.contains(column));
     let with_others = declarations.iter().filter(|one| one.others && one.of == MetricSubject::Vehicle);
-    let others = with_others.map(|one| (others_name(one), kind_of(one)));
+    let others = with_others.map(|one| (one.others_name(), kind_of(one)));
     let parts: [TableSchema; 8] = [
         named(&HEAD),
         inputs.clone(),

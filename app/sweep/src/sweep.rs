@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use interplay_scenarios::{RegisteredMetrics, RunRefusals, Scenario, SweepPlan};
+use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
 use rayon::prelude::*;
 
-use crate::column::ColumnKind;
+use crate::column::{ColumnKind, schema};
 use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
@@ -80,6 +80,7 @@ pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
 pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcome, SweepError> {
     let (folder, shard) = (options.folder, options.shard);
     refuse_file_in_the_way(folder)?;
+    refuse_two_of_a_name(plan)?;
     let known = if folder.exists() { JournalIndex::read(folder)? } else { JournalIndex::empty() };
     let part = Part::of(plan, shard, &known, options.checked)?;
     drop(known);
@@ -111,6 +112,7 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
 /// Runs that are refused, or a folder that cannot be made.
 pub fn check(plan: &SweepPlan, shard: Shard, folder: &Path, checked: &(dyn Fn() + Sync)) -> Result<(), SweepError> {
     refuse_file_in_the_way(folder)?;
+    refuse_two_of_a_name(plan)?;
     Part::of(plan, shard, &JournalIndex::empty(), checked).map(|_| ())
 }
 
@@ -120,6 +122,22 @@ fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
         Some(above) if !above.is_dir() => Err(SweepError::FileInTheWay(above.to_owned())),
         Some(_) | None => Ok(()),
     }
+}
+
+/// A metric of another crate may be called as a column is.
+fn refuse_two_of_a_name(plan: &SweepPlan) -> Result<(), SweepError> {
+    let columns = schema(&inputs(plan), plan.metrics());
+    let mut names = HashSet::new();
+    match columns.iter().find(|(name, _)| !names.insert(name)) {
+        Some((name, _)) => Err(SweepError::Input(format!("a metric cannot be called `{name}`: a column of rows is"))),
+        None => Ok(()),
+    }
+}
+
+/// The columns of what varies.
+fn inputs(plan: &SweepPlan) -> TableSchema {
+    let kind = |is_number: bool| if is_number { ColumnKind::Number } else { ColumnKind::Text };
+    plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect()
 }
 
 /// The runs of a shard.
@@ -224,14 +242,13 @@ fn write_table(
     runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
     let index = JournalIndex::read(folder)?;
-    let kind = |is_number: bool| if is_number { ColumnKind::Number } else { ColumnKind::Text };
-    let inputs: TableSchema = plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect();
+    let inputs = inputs(plan);
     let about = [(PLAN_NOTE, plan_digest(plan)), (SHARD_NOTE, shard.to_string())];
     let mut unfinished = 0;
     let rows = index.rows(runs).map(|row| row.map(|(row, number)| row.labelled(plan.point(number))));
     let rows = rows.inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
-    let count = write_rows(table, (&inputs, &RegisteredMetrics::default()), &about, rows)?;
+    let count = write_rows(table, (&inputs, plan.metrics()), &about, rows)?;
     Ok((count, unfinished))
 }

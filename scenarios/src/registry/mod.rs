@@ -1,4 +1,4 @@
-//! What a scenario file may name: the kinds of drivers of Interplay and of other crates.
+//! What a scenario file may name: the kinds of drivers and the metrics of Interplay and of other crates.
 
 pub(crate) mod foreign_kind;
 
@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use thiserror::Error;
 
 use crate::format::stated::Stated;
+use crate::metric::{DeclaredMetric, RegisteredMetrics};
 use crate::registry::foreign_kind::ForeignKind;
 use crate::schema::{self, SchemaNode};
 use crate::text::name;
@@ -52,11 +53,13 @@ use crate::text::name;
 pub struct Registry {
     /// The kinds of drivers of other crates.
     drivers: Vec<ForeignKind>,
+    /// The metrics that are declared.
+    metrics: RegisteredMetrics,
     /// The schema of a whole scenario, all that it extends included.
     schema: Arc<Json>,
 }
 
-/// Why a kind of driver cannot be added.
+/// Why a kind of driver or a metric cannot be added.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum RegistryError {
     /// There is a kind of this word already.
@@ -65,6 +68,9 @@ pub enum RegistryError {
     /// The word could not be written in a scenario file, on the command line and in the path of a recording alike.
     #[error("a kind of driver cannot be called `{0}`: {help}", help = name::in_words())]
     NotAName(&'static str),
+    /// There is a metric of this name already, or something else in reports or rows is called so.
+    #[error("a metric cannot be called `{0}`: something in reports or in rows of sweeps is called so already")]
+    MetricTaken(String),
 }
 
 static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
@@ -72,7 +78,7 @@ static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
 impl Default for Registry {
     /// The kinds of Interplay.
     fn default() -> Self {
-        Registry { drivers: Vec::new(), schema: Arc::new(schema::complete(&[])) }
+        Registry { drivers: Vec::new(), metrics: RegisteredMetrics::default(), schema: Arc::new(schema::complete(&[])) }
     }
 }
 
@@ -104,6 +110,27 @@ impl Registry {
         self.drivers.push(foreign);
         self.schema = Arc::new(schema::complete(&self.drivers));
         Ok(self)
+    }
+
+    /// The same registry with another metric declared. What computes it is known to who made the value: users of the simulation
+    /// call `with_metric` of `interplay_simulation::measure::RegisterMetrics`.
+    ///
+    /// # Errors
+    /// [`RegistryError::MetricTaken`] if its name or one of its keys is taken by another metric.
+    pub fn with_declared_metric(mut self, metric: Arc<dyn DeclaredMetric>) -> Result<Registry, RegistryError> {
+        let keys = metric.declaration().keys();
+        let known = self.metrics.0.iter().flat_map(|known| known.declaration().keys());
+        if let Some(taken) = known.into_iter().find(|key| keys.contains(key)) {
+            return Err(RegistryError::MetricTaken(taken));
+        }
+        self.metrics.0.push(metric);
+        Ok(self)
+    }
+
+    /// The metrics that are declared. Without any, `[[expect.metric]]` may name whatever it likes; whoever runs the scenario knows
+    /// which metrics there are.
+    pub fn metrics(&self) -> &RegisteredMetrics {
+        &self.metrics
     }
 
     /// The kinds of drivers that a vehicle may have.
@@ -139,8 +166,10 @@ impl Registry {
         }
     }
 
-    /// The versions of the kinds of other crates; empty without any.
+    /// The versions of the kinds and metrics of other crates; empty without any.
     pub(crate) fn versions(&self) -> String {
-        self.drivers.iter().map(|foreign| format!("{} {}\n", foreign.kind, foreign.version)).collect()
+        let drivers = self.drivers.iter().map(|foreign| format!("{} {}\n", foreign.kind, foreign.version));
+        let metrics = self.metrics.0.iter().filter_map(|metric| Some((metric.declaration().name, metric.version()?)));
+        drivers.chain(metrics.map(|(name, version)| format!("{name} {version}\n"))).collect()
     }
 }

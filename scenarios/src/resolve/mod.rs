@@ -82,6 +82,7 @@ fn read(
         counterfactuals: Vec::new(),
         left_out: Vec::new(),
         remarks: ScenarioRemarks::default(),
+        metrics: registry.metrics().clone(),
     };
     let weather = reader.or_default("weather", file.weather)?;
     let unread = read_named_files(&mut scenario, weather, tree);

@@ -12,6 +12,7 @@ use super::names::NamedScenario;
 use crate::error::{Fault, Place};
 use crate::format::start_jitter::StartJitter;
 use crate::load::assemble_on;
+use crate::metric::RegisteredMetrics;
 use crate::read::tree::{Table, TomlNode, TomlValue};
 use crate::registry::Registry;
 use crate::resolve::placement::KnownRoads;
@@ -89,6 +90,11 @@ pub(super) struct Indices {
 }
 
 impl SweepPlan {
+    /// The metrics of the registry that it was read with.
+    pub fn metrics(&self) -> &RegisteredMetrics {
+        self.registry.metrics()
+    }
+
     /// What the plan is for.
     pub fn title(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.name)

@@ -1,49 +1,159 @@
-//! A metric: the shortest time headway of the ego, as a watcher of a run.
+//! A metric: the shortest time headway of each vehicle, in every report, row and comparison.
 
 // shown from here
-use std::sync::{Arc, Mutex, PoisonError};
+use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, MetricKind, Registry, RegistryError, Scenario};
+use interplay_simulation::measure::{
+    Measured, Measurement, Metric, ObservedMoment, ObservedTick, RegisterMetrics, VehicleMoment,
+};
 
-use interplay_simulation::frame::Frame;
-use interplay_simulation::watch::{WatchError, Watcher};
+/// The shortest time headway of a vehicle: the time in which it gets to where the rear bumper of the vehicle ahead in its lane is.
+#[derive(Debug)]
+struct Headway;
 
-/// The shortest time headway to the vehicle ahead in the same lane [s]: the gap between the bumpers, divided by the speed.
-struct Headway {
-    /// Distance from the centre of one vehicle to that of the next when their bumpers touch [m].
-    bumpers_m: f64,
-    shortest_s: Arc<Mutex<Option<f64>>>,
+/// The shortest one so far.
+#[derive(Clone, Copy, Debug)]
+struct ShortestHeadway {
+    /// The index of the vehicle that is measured.
+    vehicle: usize,
+    shortest_s: Option<f64>,
 }
 
-impl Watcher for Headway {
-    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
-        let Some(ego) = frame.vehicles.iter().find(|vehicle| vehicle.name == "ego") else { return Ok(()) };
-        let same_lane = frame.vehicles.iter().filter(|other| (other.state.y_m - ego.state.y_m).abs() < 0.19);
-        let ahead = same_lane.map(|other| other.state.x_m - ego.state.x_m).filter(|lead_m| *lead_m > 0.0);
-        let now_s = ahead.map(|lead_m| (lead_m - self.bumpers_m) / ego.state.speed_mps).min_by(f64::total_cmp);
-        let mut shortest_s = self.shortest_s.lock().unwrap_or_else(PoisonError::into_inner);
-        *shortest_s = [*shortest_s, now_s].into_iter().flatten().min_by(f64::total_cmp);
-        Ok(())
+impl Metric for Headway {
+    fn declaration(&self) -> MetricDeclaration {
+        let doc = "Shortest time headway to a vehicle ahead in its lane; none if nobody was ahead";
+        MetricDeclaration::of_vehicle("time_headway_s", MetricKind::Number, doc)
+            .compared(MetricComparison::Quantiles)
+            .better(Better::Higher)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), WatchError> {
-        Ok(())
+    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        Box::new(ShortestHeadway { vehicle, shortest_s: None })
     }
 }
 
-/// Runs a scenario and says the shortest headway of the ego in it [s]; none if nobody was ahead.
-fn shortest_headway_s(scenario: &str) -> Result<Option<f64>, Box<dyn std::error::Error>> {
-    let shortest_s = Arc::new(Mutex::new(None));
-    let scenario = interplay_scenarios::load(scenario, &[])?;
-    let headway = Headway { bumpers_m: 0.4, shortest_s: Arc::clone(&shortest_s) };
-    interplay_simulation::run::run("headway", &scenario, vec![Box::new(headway)])?;
-    let shortest_s = *shortest_s.lock().unwrap_or_else(PoisonError::into_inner);
-    Ok(shortest_s)
+impl Measurement for ShortestHeadway {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let own = tick.end.of(self.vehicle);
+        let headway_s = |other: VehicleMoment<'_>| {
+            let beside_m = other.state.y_m - own.state.y_m;
+            let bumpers_m = own.vehicle.body.front_m + other.vehicle.body.rear_m;
+            let gap_m = other.state.x_m - own.state.x_m - bumpers_m;
+            (beside_m.abs() < own.vehicle.body.width_m && gap_m > 0.0).then(|| gap_m / own.state.speed_mps)
+        };
+        let all_s = (0..tick.end.states.len()).filter_map(|other| headway_s(tick.end.of(other)));
+        self.shortest_s = self.shortest_s.into_iter().chain(all_s).min_by(f64::total_cmp);
+    }
+
+    fn measured(&self) -> Measured {
+        Measured::number(self.shortest_s)
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(*self)
+    }
+}
+
+/// All that Interplay has, and this metric. `interplay::main_with(&registry()?)` is a command that has it, too.
+fn registry() -> Result<Registry, RegistryError> {
+    Registry::default().with_metric(Headway)
 }
 // shown until here
 
+use std::error::Error;
+
+use interplay_scenarios::{Override, Scenario as Loaded};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
+use interplay_sweep::compare::{GroupBy, compare};
+use interplay_sweep::{RowTable, Shard, SweepOptions, TableColumn, sweep};
+use serde_json::{Value as Json, json};
+
+use crate::command::scratch;
+
+fn driven(expected: &str) -> Result<(Loaded, Report), Box<dyn Error>> {
+    let changes = [Override::Set(format!("expect.metric=[{expected}]"))];
+    let scenario = registry()?.load("lane-change/both-tough", &changes)?;
+    let report = run("headway", &scenario, Vec::new())?;
+    Ok((scenario, report))
+}
+
 #[test]
-fn a_metric_of_one_s_own_watches_a_run() {
-    let headway_s = |scenario| shortest_headway_s(scenario).expect("the run is finished");
-    let behind = headway_s("lane-change/both-tough").expect("the ego ends behind two others");
-    assert!(behind > 0.0 && behind < 2.0, "{behind} s");
-    assert_eq!(headway_s("lane-change/front-nice"), None, "nobody is ahead of the ego in its lane");
+fn a_metric_of_one_s_own_is_in_the_report_and_may_be_expected() -> Result<(), Box<dyn Error>> {
+    let at_least = "{ name = 'time_headway_s', vehicle = 'ego', at_least = 0.01 }";
+    let (_, report) = driven(&format!("{at_least}, {{ name = 'time_headway_s', at_least = 100.0 }}"))?;
+    let json = serde_json::to_value(&report)?;
+    let headway_s = json["vehicles"][0]["time_headway_s"].as_f64().ok_or("the ego ends behind others")?;
+    assert!((0.01..2.0).contains(&headway_s), "{headway_s}");
+    let of_metrics: Vec<&Json> = json["expectations"].as_array().ok_or("a list")?.iter().collect();
+    let judged = |what: &str| of_metrics.iter().find(|one| one["what"] == what).copied().ok_or(what.to_owned());
+    let ego = judged("metric.time_headway_s.ego.at_least")?;
+    assert_eq!((&ego["got"], &ego["passed"]), (&json!(headway_s), &json!(true)));
+    let all = judged("metric.time_headway_s.at_least")?;
+    assert_eq!((&all["passed"], all["got"]["vehicle"].is_string()), (&json!(false), true), "{all}");
+    Ok(())
+}
+
+#[test]
+fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Error>> {
+    let folder = scratch("own-metric");
+    let text = "scenario = ['lane-change/both-tough']\nplanner = ['idm', 'conservative']\nset = { 'expect' = {} }\n";
+    let registry = registry()?;
+    let plan = registry.sweep_plan_from_text("headways.toml", text, &folder)?;
+    let (folder, nothing) = (folder.join("out"), || ());
+    let options = SweepOptions {
+        folder: &folder,
+        shard: Shard::WHOLE,
+        keep: None,
+        checked: &nothing,
+        begin: &|_, _| (),
+        advance: &nothing,
+    };
+    let table = RowTable::read(&sweep(&plan, &options)?.table, &["time_headway_s".to_owned()])?;
+    let Some(TableColumn::Numbers(column)) = table.column("time_headway_s") else { return Err("no column".into()) };
+    let mut sorted: Vec<f64> = column.iter().copied().flatten().collect();
+    sorted.sort_by(f64::total_cmp);
+    assert_eq!(sorted.len(), 2, "both end behind somebody");
+    let compared = compare(&folder, Some("idm"), GroupBy::Family, registry.metrics())?;
+    let planners = &compared.groups[0].planners;
+    let mut least: Vec<f64> =
+        planners.iter().filter_map(|one| Some(one.figures.quantiles("time_headway_s")?.least)).collect();
+    least.sort_by(f64::total_cmp);
+    assert_eq!(least, sorted, "a run each");
+    let versus = planners.iter().find_map(|one| one.versus_baseline.as_ref()).ok_or("there are two planners")?;
+    let split = versus.metrics.get("time_headway_s");
+    assert_eq!(split.wins + split.losses, usize::from(sorted[0] < sorted[1]));
+    let told = interplay_presentation::report::comparison(&compared);
+    assert!(
+        told.contains("time headway s: least, 5 %, median") && told.contains("time headway s: better / worse"),
+        "{told}"
+    );
+    Ok(())
+}
+
+#[test]
+fn a_metric_that_is_not_there_or_is_there_already_is_refused() -> Result<(), Box<dyn Error>> {
+    let refused =
+        driven("{ name = 'time_hedway_s', at_least = 0.1 }").map(|_| ()).expect_err("a wrong name").to_string();
+    assert!(refused.contains("there is no metric") && refused.contains("time_headway_s"), "{refused}");
+    let wrong = driven("{ name = 'time_headway_s', is = true }").map(|_| ()).expect_err("a number").to_string();
+    assert!(wrong.contains("state `at_most` or `at_least`"), "{wrong}");
+    let wrong = driven("{ name = 'ego_gap_m', vehicle = 'ego', at_least = 0.0 }").map(|_| ()).expect_err("of the run");
+    assert!(wrong.to_string().contains("leave `vehicle` out"), "{wrong}");
+    let twice = registry()?.with_metric(Headway).map(|_| ()).expect_err("it is there");
+    assert_eq!(twice, RegistryError::MetricTaken("time_headway_s".to_owned()));
+    Ok(())
+}
+
+#[test]
+fn the_page_of_metrics_is_what_they_declare() -> Result<(), Box<dyn Error>> {
+    let page = interplay_simulation::measure::metric_table(Registry::standard().metrics());
+    let path = crate::architecture::root().join("docs/metrics.md");
+    if std::env::var_os("INTERPLAY_BLESS").is_some() {
+        std::fs::write(&path, &page)?;
+    }
+    let written = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(written == page, "docs/metrics.md is out of date: renew it with INTERPLAY_BLESS=1");
+    let own = interplay_simulation::measure::metric_table(registry()?.metrics());
+    assert!(own.contains("| `time_headway_s` | vehicles |  | s | quantiles, higher is better |"), "{own}");
+    Ok(())
 }

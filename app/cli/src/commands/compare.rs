@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use interplay_presentation::page::Page;
 use interplay_presentation::report;
+use interplay_scenarios::Registry;
 use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 
 use crate::output::error::{CommandError, write_file};
@@ -58,21 +59,21 @@ enum By {
 }
 
 impl Compare {
-    pub(crate) fn execute(self) -> ExitStatus {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
         if let Some(page) = self.page_path().filter(|page| Page::is_taken(page)) {
             print_error(&format!("`{}` is no page of Interplay's; choose another name for --page", page.display()));
             return ExitStatus::BadInput;
         }
         let by = if self.by == By::Family { GroupBy::Family } else { GroupBy::Scenario };
         match &self.second {
-            None => match compare(&self.first, self.baseline.as_deref(), by, &RegisteredMetrics::default()) {
+            None => match compare(&self.first, self.baseline.as_deref(), by, registry.metrics()) {
                 Ok(figures) => {
                     let page = |title: &str| report::comparison_page(title, &figures).map_err(CommandError::from);
                     self.show(|| json("the figures", &figures), || report::comparison(&figures), page)
                 }
                 Err(error) => gave_up(error),
             },
-            Some(second) => match compare_versions(&self.first, second, &RegisteredMetrics::default()) {
+            Some(second) => match compare_versions(&self.first, second, registry.metrics()) {
                 Ok(figures) => {
                     let page = |title: &str| Ok(report::version_comparison_page(title, &figures));
                     let text = || report::version_comparison(&figures);
@@ -124,8 +125,8 @@ fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
 }
 
 /// Compares the rows of a folder and writes their page, as a sweep does at its end.
-pub(crate) fn after_sweep(folder: &Path) -> ExitStatus {
+pub(crate) fn after_sweep(folder: &Path, registry: &Registry) -> ExitStatus {
     let compare =
         Compare { first: folder.to_owned(), second: None, baseline: None, by: By::Family, page: None, json: false };
-    compare.execute()
+    compare.execute(registry)
 }

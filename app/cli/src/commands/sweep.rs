@@ -132,7 +132,7 @@ impl Sweep {
             };
         }
         match self.run(&plan, shard, &folder) {
-            Ok(outcome) => said(&outcome, shard, &folder),
+            Ok(outcome) => said(&outcome, shard, &folder, registry),
             Err(error) => gave_up(error),
         }
     }
@@ -244,14 +244,14 @@ fn record(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), Stri
 }
 
 /// Says where the rows are; of a whole plan, also what they tell.
-fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path) -> ExitStatus {
+fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path, registry: &Registry) -> ExitStatus {
     let SweepOutcome { table, rows, made, unfinished } = outcome;
     let told = printed(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
     if *unfinished > 0 {
         print_error(&format!("{} could not be finished: see the column `error`", runs(*unfinished as u64)));
     }
     let compared = if shard == Shard::WHOLE {
-        let compared = after_sweep(folder);
+        let compared = after_sweep(folder, registry);
         compared.max(printed(&format!("next: interplay compare {} --by scenario\n", folder.display())))
     } else {
         printed(&format!("when all shards are there: interplay sweep merge {}\n", folder.display()))

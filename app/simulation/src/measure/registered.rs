@@ -1,29 +1,94 @@
 //! Which metrics a run measures: those that Interplay has, and those that a registry brought along.
 
 use std::any::Any;
+use std::sync::Arc;
 
-use interplay_scenarios::{DeclaredMetric, MetricDeclaration, RegisteredMetrics};
+use interplay_scenarios::{DeclaredMetric, MetricDeclaration, RegisteredMetrics, Registry, RegistryError};
 
 use super::metric::Metric;
 use super::metrics;
 
-/// A metric as the loader knows it; the way back to what computes it is its type.
-#[derive(Debug)]
-struct RegisteredMetric(Box<dyn Metric>);
+/// Keys of reports and of their vehicles, and endings of rows, that no metric may have.
+const TAKEN: [&str; 9] =
+    ["scenario", "seed", "name", "driver", "final", "beliefs", "peak_times_s", "plan_median_ms", "plan_p99_ms"];
 
-impl DeclaredMetric for RegisteredMetric {
-    fn declaration(&self) -> MetricDeclaration {
-        self.0.declaration()
+/// A metric as a registry knows it; the way back to what computes it is its type.
+#[derive(Debug)]
+enum KnownMetric {
+    /// One of Interplay.
+    Own(&'static dyn Metric),
+    /// One of another crate.
+    Foreign(Box<dyn Metric>),
+}
+
+impl KnownMetric {
+    fn metric(&self) -> &dyn Metric {
+        match self {
+            KnownMetric::Own(metric) => *metric,
+            KnownMetric::Foreign(metric) => &**metric,
+        }
     }
 }
 
-/// All metrics that are measured, in their order: those that Interplay has, and then the registered ones.
+impl DeclaredMetric for KnownMetric {
+    fn declaration(&self) -> MetricDeclaration {
+        self.metric().declaration()
+    }
+
+    fn version(&self) -> Option<&'static str> {
+        match self {
+            KnownMetric::Own(_) => None,
+            KnownMetric::Foreign(metric) => Some(metric.version()),
+        }
+    }
+}
+
+/// Adds metrics to a registry.
+pub trait RegisterMetrics: Sized {
+    /// The same registry with the metrics of Interplay declared, so that the names that expectations state are checked when a
+    /// scenario is loaded.
+    ///
+    /// # Errors
+    /// [`RegistryError::MetricTaken`] if one of them was declared by somebody else.
+    fn with_own_metrics(self) -> Result<Self, RegistryError>;
+
+    /// The same registry with a metric of another crate beside those of Interplay: `run` reports it, `sweep` has a column for it,
+    /// `compare` tells it, and `[[expect.metric]]` may bound it.
+    ///
+    /// # Errors
+    /// [`RegistryError::MetricTaken`] if its name or one of its keys is taken.
+    fn with_metric(self, metric: impl Metric + 'static) -> Result<Self, RegistryError>;
+}
+
+impl RegisterMetrics for Registry {
+    fn with_own_metrics(self) -> Result<Self, RegistryError> {
+        if self.metrics().0.iter().any(|metric| metric.version().is_none()) {
+            return Ok(self);
+        }
+        own().try_fold(self, |registry, metric| registry.with_declared_metric(Arc::new(KnownMetric::Own(metric))))
+    }
+
+    fn with_metric(self, metric: impl Metric + 'static) -> Result<Self, RegistryError> {
+        let name = metric.declaration().name;
+        if TAKEN.contains(&name) {
+            return Err(RegistryError::MetricTaken(name.to_owned()));
+        }
+        self.with_own_metrics()?.with_declared_metric(Arc::new(KnownMetric::Foreign(Box::new(metric))))
+    }
+}
+
+fn own() -> impl Iterator<Item = &'static dyn Metric> {
+    metrics::ALL.iter().copied().flatten().copied()
+}
+
+/// All metrics that are measured, in their order: those that Interplay has, and then the registered ones of other crates.
 pub fn metrics_of(registered: &RegisteredMetrics) -> impl Iterator<Item = &dyn Metric> {
-    let own = || metrics::ALL.iter().copied().flatten().copied();
-    let registered = registered.0.iter().filter_map(|metric| {
+    let foreign = registered.0.iter().filter_map(|metric| {
         let any: &dyn Any = &**metric;
-        any.downcast_ref::<RegisteredMetric>().map(|metric| &*metric.0)
+        match any.downcast_ref::<KnownMetric>()? {
+            KnownMetric::Own(_) => None,
+            KnownMetric::Foreign(metric) => Some(&**metric),
+        }
     });
-    let is_new = move |metric: &&dyn Metric| own().all(|own| own.declaration().name != metric.declaration().name);
-    own().chain(registered.filter(is_new))
+    own().map(|metric| -> &dyn Metric { metric }).chain(foreign)
 }

@@ -6,7 +6,6 @@ use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Registere
 use interplay_simulation::measure::metrics_of;
 
 use super::records::RunRecord;
-use crate::column::others_name;
 
 /// All that is compared.
 pub(super) struct ComparedColumns {
@@ -121,7 +120,7 @@ impl ComparedColumns {
         let key = declaration.compared_as();
         self.figures.push(figure(key.to_owned(), title.clone(), name.to_owned()));
         if others {
-            let column = others_name(declaration);
+            let column = declaration.others_name();
             self.figures.push(figure(format!("others_{key}"), format!("others {title}"), column));
         }
         self.splits.extend(better.map(|better| SplitColumn { key, title, column: name, better }));
