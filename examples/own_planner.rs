@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for planner in ["careful", "conservative", "negotiation"] {
         let scenario = registry.load("lane-keeping/nice", &[Override::Planner(planner.to_owned())])?;
         let report = run(planner, &scenario, Vec::new())?;
-        println!("{planner:12} order {}, smallest gap {:.2?} m", report.order.join(", "), report.min_gap_m);
+        println!("{planner:12} order {}, smallest gap {:.2?} m", report.order.join(", "), report.min_gap_m());
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::schema::{quantity_of, unit_of};
+use interplay_common::units::{quantity_of, unit_of};
 
 /// What is said of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
