@@ -50,7 +50,11 @@ impl Crate {
 
     fn read_items(&mut self, place: Place, items: &[Item], folder: &Path) {
         let mut module = Module::default();
-        for item in items {
+        // A macro that is given modules declares them, and lists what they hold.
+        let declared = items.iter().filter_map(|item| if let Item::Macro(call) = item { Some(call) } else { None });
+        let declared = declared.filter_map(|call| syn::parse2::<syn::File>(call.mac.tokens.clone()).ok());
+        let declared: Vec<Item> = declared.flat_map(|file| file.items).collect();
+        for item in items.iter().chain(&declared) {
             match item {
                 Item::Mod(child) if is_for_tests(&child.attrs) => {}
                 Item::Mod(child) => {

@@ -43,7 +43,9 @@ const PEAK_ACCELERATION: VehicleMetric = VehicleMetric::new(
     VehicleQuantity::OverTick(|tick| Some(acceleration(tick).abs())),
 );
 const PEAK_BRAKING: VehicleMetric = VehicleMetric::new(
-    MetricDeclaration::of_vehicle("peak_braking_mps2", Number, "Largest deceleration").better(Better::Lower).with_others(),
+    MetricDeclaration::of_vehicle("peak_braking_mps2", Number, "Largest deceleration")
+        .better(Better::Lower)
+        .with_others(),
     Fold::Peak,
     VehicleQuantity::OverTick(|tick| Some(-acceleration(tick))),
 );

@@ -23,7 +23,8 @@ struct FirstContact {
 
 impl Metric for ContactByEgo {
     fn declaration(&self) -> MetricDeclaration {
-        let doc = "Whether in its first contact the ego moved towards the other at least as fast as the other towards it";
+        let doc =
+            "Whether in its first contact the ego moved towards the other at least as fast as the other towards it";
         MetricDeclaration::of_run("contact_by_ego", Flag, doc)
     }
 
@@ -37,7 +38,8 @@ impl Measurement for FirstContact {
         let vehicles = &tick.frame.vehicles;
         let Some(ego) = vehicles.get(self.ego).filter(|_| self.by_ego.is_none()) else { return };
         let contact = tick.frame.collisions.iter().find(|contact| contact.between.contains(&ego.name));
-        let is_other = |name: &String| *name != ego.name && contact.is_some_and(|contact| contact.between.contains(name));
+        let is_other =
+            |name: &String| *name != ego.name && contact.is_some_and(|contact| contact.between.contains(name));
         if let Some(other) = vehicles.iter().find(|vehicle| is_other(&vehicle.name)) {
             self.by_ego = Some(ego.state.drives_into(&other.state));
         }
