@@ -14,6 +14,7 @@ mod milestones;
 mod planning;
 mod registered;
 mod right_of_way;
+mod run_metric;
 mod values;
 mod vehicle_metric;
 
@@ -33,6 +34,7 @@ pub use milestones::Milestones;
 pub use planning::Planning;
 pub use registered::{RegisterMetrics, metrics_of};
 pub use right_of_way::{Passage, Passages};
+pub use run_metric::LeastOfRun;
 pub use values::{Measured, MetricValue, MetricValues};
 pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 

@@ -43,6 +43,11 @@ impl Measured {
         Measured { value: value.map(MetricValue::Number), ..Measured::default() }
     }
 
+    /// A number of two vehicles at a time \[s\].
+    pub fn between(value: f64, between: [String; 2], time_s: f64) -> Self {
+        Measured { time_s: Some(time_s), between: Some(between), ..Measured::number(Some(value)) }
+    }
+
     /// The same value in a type that a metric is declared with.
     #[must_use]
     pub(super) fn of_kind(self, kind: MetricKind) -> Self {

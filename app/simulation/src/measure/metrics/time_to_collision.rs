@@ -1,77 +1,53 @@
 //! The shortest time to collision of any two vehicles in a run.
 
 use interplay_scenarios::MetricKind::Number;
-use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
+use interplay_scenarios::{MetricComparison, MetricDeclaration};
 
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
-use crate::measure::values::{Measured, MetricValue};
+use crate::measure::metric::{Metric, ObservedTick};
+use crate::measure::run_metric::LeastOfRun;
+use crate::measure::values::Measured;
 use crate::physics::{MovingFootprint, time_to_collision_s};
 
 /// Who touches only after a longer time than this is not on a collision course \[s\].
 const MAX_TIME_TO_COLLISION_S: f64 = 100.0;
 
-pub(super) const METRICS: &[&dyn Metric] = &[&TimeToCollision];
+const DOC: &str = "Shortest time until two footprints would touch if both vehicles kept their velocities; none if no two vehicles were \
+                   on a collision course";
 
-/// The shortest time to collision, at the beginnings of ticks: the time until two footprints would touch if both vehicles kept
-/// the velocity of the tick that begins; 0 where they touch already.
-///
-/// The velocity of a tick is the displacement of the mass centre in it over its length. Headings stay.
-#[derive(Clone, Copy, Debug)]
-struct TimeToCollision;
+pub(super) const METRICS: &[&dyn Metric] = &[&TIME_TO_COLLISION];
 
-/// The shortest time so far \[s\], when it was so, and of whom.
-#[derive(Clone, Debug)]
-struct ShortestSoFar(Option<(f64, f64, [String; 2])>);
+const TIME_TO_COLLISION: LeastOfRun = LeastOfRun {
+    declaration: MetricDeclaration {
+        report_key: Some("shortest_time_to_collision"),
+        ..MetricDeclaration::of_run("time_to_collision_s", Number, DOC).compared(MetricComparison::Quantiles)
+    },
+    quantity: shortest,
+};
 
-impl Metric for TimeToCollision {
-    fn declaration(&self) -> MetricDeclaration {
-        let doc = "Shortest time until two footprints would touch if both vehicles kept their velocities; none if no two vehicles \
-                   were on a collision course";
-        MetricDeclaration {
-            report_key: Some("shortest_time_to_collision"),
-            ..MetricDeclaration::of_run("time_to_collision_s", Number, doc).compared(MetricComparison::Quantiles)
-        }
-    }
-
-    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, _: usize) -> Box<dyn Measurement> {
-        Box::new(ShortestSoFar(None))
-    }
-}
-
-impl Measurement for ShortestSoFar {
-    fn observe(&mut self, tick: &ObservedTick<'_>) {
-        let pairs = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles);
-        let moving: Vec<MovingFootprint<'_>> = pairs
-            .map(|((before, after), vehicle)| {
-                let state = &before.state;
-                let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
-                MovingFootprint { body: &vehicle.body, state, velocity_mps }
-            })
-            .collect();
-        for (index, one) in moving.iter().enumerate() {
-            for (other_index, other) in moving.iter().enumerate().skip(index + 1) {
-                // Only a shorter time is of interest, which keeps the search small.
-                let within_s = self.0.as_ref().map_or(MAX_TIME_TO_COLLISION_S, |(shortest_s, ..)| *shortest_s);
-                if within_s <= 0.0 {
-                    return;
-                }
-                if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
-                    let between = [index, other_index].map(|index| tick.frame.vehicles[index].name.clone());
-                    self.0 = Some((s, tick.frame.time_s, between));
-                }
+/// The shortest time of any two, at the beginning of the tick: the time until two footprints would touch if both vehicles kept the
+/// velocity of the tick; 0 where they touch already. The velocity of a tick is the displacement of the mass centre in it over its
+/// length; headings stay. Only a time below `below_s` is of interest, which keeps the search small.
+fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
+    let vehicles = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles);
+    let moving = vehicles.map(|((before, after), vehicle)| {
+        let state = &before.state;
+        let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
+        MovingFootprint { body: &vehicle.body, state, velocity_mps }
+    });
+    let moving: Vec<MovingFootprint<'_>> = moving.collect();
+    let (mut within_s, mut found) = (below_s.min(MAX_TIME_TO_COLLISION_S), None);
+    for (index, one) in moving.iter().enumerate() {
+        for (other_index, other) in moving.iter().enumerate().skip(index + 1) {
+            if within_s <= 0.0 {
+                return found;
+            }
+            if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
+                let between = [index, other_index].map(|index| tick.frame.vehicles[index].name.clone());
+                (within_s, found) = (s, Some(Measured::between(s, between, tick.frame.time_s)));
             }
         }
     }
-
-    fn measured(&self) -> Measured {
-        let Some((s, time_s, between)) = self.0.clone() else { return Measured::default() };
-        let value = Some(MetricValue::Number(s));
-        Measured { value, time_s: Some(time_s), between: Some(between), is_peak: false }
-    }
-
-    fn fork(&self) -> Box<dyn Measurement> {
-        Box::new(self.clone())
-    }
+    found
 }
 
 #[cfg(test)]
@@ -81,12 +57,15 @@ mod tests {
 
     use super::*;
     use crate::frame::{Frame, VehicleFrame};
+    use crate::measure::metric::ObservedMoment;
+    use crate::measure::values::MetricValue;
 
     /// The ego behind and beside the others, seen once a second; only the front car is in its way.
     #[test]
     fn the_shortest_time_is_kept_with_its_pair() {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
-        let mut measure = ShortestSoFar(None);
+        let end = ObservedMoment { time_s: 0.0, vehicles: &[], states: &[], along_m: &[] };
+        let mut measure = TIME_TO_COLLISION.begin(&scenario, &end, 0);
         let state = |x_m, y_m, speed_mps| State { x_m, y_m, heading_rad: 0.0, speed_mps };
         // Closing speed and distance of bumpers of ego and front: 1 s, 0.5 s, 2 s, and parting.
         for (time_s, ahead_m, speed_mps) in [(0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, 2.0, 1.0), (3.0, 0.1, -1.0)] {
