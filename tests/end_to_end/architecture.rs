@@ -33,8 +33,8 @@ const ARROWS: &[(&str, &[&str])] = &[
             "app/presentation",
         ],
     ),
-    ("examples/own-planner", &["planners", "scenarios", "app/simulation", "app/cli"]),
-    ("tests", &["common", "planners", "building", "scenarios", "app/simulation", "app/cli"]),
+    ("examples/own-planner", &["planners", "scenarios", "app/simulation", "app/sweep", "app/cli"]),
+    ("tests", &["common", "planners", "building", "scenarios", "app/simulation", "app/sweep", "app/cli"]),
 ];
 
 /// Libraries that only one crate may depend on.

@@ -68,7 +68,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         Ok(registry) => run_command(&registry),
         Err(error) => {
             output::print_error(&error.to_string());
-            exit_status::ExitStatus::BadInput.into()
+            output::exit_status::ExitStatus::BadInput.into()
         }
     }
 }
