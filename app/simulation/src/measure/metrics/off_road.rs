@@ -13,7 +13,8 @@ const OFF_ROAD_WIDTHS: f64 = 0.03;
 
 const OFF_ROAD_DOC: &str = "Largest distance of a corner of the footprint beyond the edge of the road beside it; 0 if it never left \
                             the road";
-const LEAVES_ROAD_DOC: &str = "Whether a corner was beyond an edge by more than 3 % of the width of its body: 5 cm of a car";
+const LEAVES_ROAD_DOC: &str =
+    "Whether a corner was beyond an edge by more than 3 % of the width of its body: 5 cm of a car";
 
 pub(super) const METRICS: &[&dyn Metric] = &[&OFF_ROAD, &LEAVES_ROAD];
 
