@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ticks += 1;
         }
         let report = world.finish()?;
-        println!("the ego {name}: order {}, smallest gap {:.2?} m", report.order.join(", "), report.min_gap_m);
+        println!("the ego {name}: order {}, smallest gap {:.2?} m", report.order.join(", "), report.min_gap_m());
     }
     Ok(())
 }
