@@ -8,7 +8,7 @@ use interplay_scenarios::{Override, load};
 use interplay_simulation::Simulation;
 
 /// How many ticks the ego hesitates in the second world.
-const HESITATION_TICKS: usize = 10;
+const HESITATION_TICKS: usize = 25;
 
 /// Holds the wanted speed, or half a vehicle's distance a second to whoever is ahead in the lane.
 fn decide(scene: &Scene) -> Input {
