@@ -29,7 +29,7 @@
 //! assert_eq!(sweep(&plan, &options)?.made, 4);
 //! assert_eq!(sweep(&plan, &options)?.made, 0, "they are there");
 //!
-//! let figures = compare(folder.path(), Some("idm"), GroupBy::Scenario)?;
+//! let figures = compare(folder.path(), Some("idm"), GroupBy::Scenario, plan.metrics())?;
 //! assert_eq!(figures.runs, 4);
 //! # Ok(())
 //! # }
