@@ -1,5 +1,9 @@
 //! A planner of one's own: it waits in its lane until the gap in the lane of its goal is long enough.
 
+mod metric;
+
+pub use metric::WAITING_SHARE;
+
 // shown from here
 use interplay_planners::belief::Outlook;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};

@@ -1,12 +1,14 @@
-//! Every command of Interplay, with one more kind of driver.
+//! Every command of Interplay, with one more kind of driver and one more metric.
 
 // shown from here
 use std::process::ExitCode;
 
 use interplay_scenarios::{Registry, RegistryError};
+use interplay_simulation::measure::RegisterMetrics;
 
 fn main() -> Result<ExitCode, RegistryError> {
     let registry = Registry::default().with_driver::<own_planner::GapAcceptance>()?;
+    let registry = registry.with_metric(own_planner::WAITING_SHARE)?;
     Ok(interplay::main_with(&registry))
 }
 // shown until here

@@ -135,3 +135,21 @@ fn a_word_stands_for_one_kind() {
     let twice = Registry::default().with_driver::<GapAcceptance>().and_then(Registry::with_driver::<GapAcceptance>);
     assert_eq!(twice.err(), Some(RegistryError::KindTaken("gap-acceptance")));
 }
+
+/// The metric of this crate is in the report, may be bound, and is in the comparison.
+#[test]
+fn its_metric_is_treated_like_ours() {
+    let folder = tempdir().expect("a folder");
+    let bound = "expect.metric=[{ name = 'waiting_share', vehicle = 'ego', at_most = 0.5 }]";
+    let report = report(folder.path(), &["run", "lane-change/front-nice", "--set", bound], 0);
+    let share = report["vehicles"][0]["waiting_share"].as_f64().expect("a number");
+    assert!((0.0..0.5).contains(&share), "{share}");
+    let what = |one: &&Value| one["what"] == "metric.waiting_share.ego.at_most";
+    let judged = report["expectations"].as_array().expect("a list").iter().find(what).expect("it is judged");
+    assert_eq!((&judged["got"], &judged["passed"]), (&Value::from(share), &Value::from(true)));
+    let starts =
+        ["sweep", "--scenario", "lane-change/front-nice", "--planner", "idm", "--starts", "2", "--out", "rows"];
+    assert_eq!(command(folder.path(), &starts).status.code(), Some(0));
+    let compared = command(folder.path(), &["compare", "rows", "--json"]);
+    assert!(text(&compared.stdout).contains("waiting_share"), "{}", text(&compared.stdout));
+}
