@@ -4,13 +4,12 @@
 //!
 //! ```
 //! use interplay_presentation::report::summary;
-//! use interplay_scenarios::{Override, load};
+//! use interplay_scenarios::load;
 //! use interplay_simulation::run::run;
 //!
-//! let short = ["duration_s=0.5", "expect={}"].map(|change| Override::Set(change.to_owned()));
-//! let scenario = load("lane-change/front-nice", &short)?;
-//! let report = run("short", &scenario, Vec::new())?;
-//! assert!(summary(&scenario.title, &report).contains("0.5 s simulated"));
+//! let scenario = load("lane-change/front-nice", &[])?;
+//! let report = run("lane-change/front-nice", &scenario, Vec::new())?;
+//! assert!(summary(&scenario.title, &report).contains("12.0 s simulated"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -16,7 +16,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let folder = tempfile::tempdir()?;
 //! let text = "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'conservative']\nsamples = 2\n\
-//!     jitter = { speed_mps = 0.1 }\nset = { duration_s = 1.0, expect = {} }\n";
+//!     jitter = { speed_mps = 0.1 }\nset = { duration_s = 2.0, expect = {} }\n";
 //! let plan = SweepPlan::from_text("two planners", text, folder.path())?;
 //! let options = SweepOptions {
 //!     folder: folder.path(),
