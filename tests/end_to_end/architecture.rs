@@ -238,7 +238,7 @@ fn functions_are_short() {
         let lines: Vec<&str> = text.lines().collect();
         for (start, line) in lines.iter().enumerate() {
             let indent = line.len() - line.trim_start().len();
-            if !begins_function(line) || line.trim_end().ends_with('}') {
+            if !begins_function(line) || line.trim_end().ends_with(['}', ';']) {
                 continue;
             }
             let brace = format!("{}}}", " ".repeat(indent));

@@ -157,7 +157,7 @@ fn workflows_are_yaml_and_start_what_exists() {
         }
     }
     assert!(count >= 6 && started.contains("\n      - run: .ci/run\n"), "{count} files");
-    for word in started.split_whitespace().filter(|word| is_path(word)) {
+    for word in started.split_whitespace().filter(|word| is_path(word) && !word.contains('*')) {
         assert!(root.join(word).exists(), "a workflow or the justfile starts `{word}`");
     }
 }
