@@ -12,7 +12,7 @@
 //!   the safety ellipse's box: ahead, left, behind or right, as the other faces.
 //!
 //! The other's motion is its prediction; of a vehicle that the plan asks for something it is the proposed motion, which the
-//! plan relies on. Vehicles that the plan stays far from ([`RELEVANT_HALF_AXES`]) have no part in the class.
+//! plan relies on. Vehicles that the plan stays far from (`RELEVANT_HALF_AXES`) have no part in the class.
 
 mod log;
 mod planned_passing;
