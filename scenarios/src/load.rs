@@ -11,8 +11,9 @@ use crate::check::{consistency, shape};
 use crate::defaults::degrees;
 use crate::defaults::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::format::counterfactual::{Counterfactual, CounterfactualConfig};
-use crate::format::scenario_file::ScenarioFile;
+use crate::file_format::counterfactual::{Counterfactual, CounterfactualConfig};
+use crate::file_format::scenario_file::ScenarioFile;
+use crate::json_schema::SchemaNode;
 use crate::read::merge::merge_tables;
 use crate::read::overrides::Override;
 use crate::read::source::Source;
@@ -21,7 +22,6 @@ use crate::registry::Registry;
 use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
 use crate::scenario::Scenario;
-use crate::schema::SchemaNode;
 use crate::write::commented::make_paths_absolute;
 
 /// How many files may extend one another.

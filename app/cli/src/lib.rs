@@ -11,8 +11,8 @@
 //! }
 //! ```
 
-mod arguments;
 mod commands;
+mod flag_values;
 mod output;
 mod process;
 

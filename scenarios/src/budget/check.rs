@@ -2,7 +2,7 @@
 
 use super::RunCost;
 use crate::error::Fault;
-use crate::format::plant::Plant;
+use crate::file_format::plant::Plant;
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
 

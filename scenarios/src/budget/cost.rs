@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::format::plant::Plant;
+use crate::file_format::plant::Plant;
 use crate::scenario::Scenario;
 
 /// Size of a recording of nothing: the blueprint, descriptions and the road \[bytes\].

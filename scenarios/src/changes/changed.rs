@@ -6,9 +6,9 @@
 use std::sync::Arc;
 
 use crate::error::{Document, Fault, Place};
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::{lay_paths, lay_planner};
 use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
 const RANK: usize = 0;

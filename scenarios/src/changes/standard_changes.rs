@@ -9,10 +9,10 @@ use interplay_planners::{Driver, human::Style};
 use serde_json::Value as Json;
 
 use crate::error::LoadError;
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::Override;
 use crate::registry::Registry;
 use crate::scenario::{Scenario, Vehicle};
-use crate::schema::SchemaNode;
 
 /// The planners that an interactive vehicle is given instead of its own.
 const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", "idm"];

@@ -9,11 +9,11 @@ use crate::check::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::classes::VehicleClass;
 use crate::defaults::degrees;
 use crate::error::{Fault, quoted};
+use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
 use crate::scenario::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::scenario::swept_width;
 use crate::scenario::{Scenario, Vehicle};
-use crate::schema::SchemaNode;
 
 /// The widest lane, as a multiple of the width of a vehicle without a class \[-\]: a car of 1.8 m on a road of 6 m.
 const MAX_LANE_PER_BODY: f64 = 3.5;

@@ -12,8 +12,8 @@ use interplay_common::units::{quantity_of, unit_of};
 use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
+use crate::json_schema::SchemaNode;
 use crate::read::tree::{Table, TomlNode, TomlValue, kind_of};
-use crate::schema::SchemaNode;
 use crate::text::name;
 use crate::text::plain_text::is_plain;
 
@@ -342,6 +342,6 @@ mod tests {
             let closed = object.get("additionalProperties").is_some();
             assert_eq!(object.contains_key("properties"), closed, "a table that takes unknown keys: {schema}");
         }
-        walk(&crate::schema::complete(&[]));
+        walk(&crate::json_schema::complete(&[]));
     }
 }

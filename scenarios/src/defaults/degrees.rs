@@ -7,8 +7,8 @@
 use serde_json::{Value as Json, json};
 
 use crate::error::Fault;
+use crate::json_schema::{SchemaNode, TWIN_OF, in_degrees, rounded};
 use crate::read::tree::{TomlNode, TomlValue};
-use crate::schema::{SchemaNode, TWIN_OF, in_degrees, rounded};
 
 /// Puts radians in the place of the degrees of every twin.
 pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {

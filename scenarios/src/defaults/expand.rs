@@ -4,8 +4,8 @@ use serde_json::{Map, Value as Json, json};
 
 use super::fill::{fill_key, scaled};
 use crate::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
+use crate::json_schema::SchemaNode;
 use crate::road::StatedRoad;
-use crate::schema::SchemaNode;
 
 /// What of a scenario is scaled besides its vehicles.
 const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_jitter"];

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json};
 
 use super::similarity::factor;
-use crate::schema::SchemaNode;
+use crate::json_schema::SchemaNode;
 
 /// Writes the scaled default of every key that a table does not state, tables below it included. A table whose `kind` is
 /// open is left as it is.

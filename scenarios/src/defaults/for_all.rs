@@ -2,9 +2,9 @@
 
 use crate::check::shape;
 use crate::error::Fault;
+use crate::json_schema::SchemaNode;
 use crate::read::merge::merge_tables;
 use crate::read::tree::{Table, TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// The tree with `[defaults]` laid under every vehicle. The table itself stays.
 ///

@@ -4,8 +4,8 @@
 //! (`[[vehicle]]`: `name`). Two rules keep a variant from having to undo its parent: where a table names another `kind`, the
 //! keys that this kind does not know are dropped, and of two keys that exclude each other the later one removes the earlier.
 
+use crate::json_schema::SchemaNode;
 use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// Merges `over` into `under`, key by key; `schema` is what the format says of the table, if it knows it.
 pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: Table) -> Table {

@@ -11,10 +11,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use thiserror::Error;
 
-use crate::format::stated::Stated;
+use crate::file_format::stated::Stated;
+use crate::json_schema::{self, SchemaNode};
 use crate::metric::{DeclaredMetric, RegisteredMetrics};
 use crate::registry::foreign_kind::ForeignKind;
-use crate::schema::{self, SchemaNode};
 use crate::text::name;
 
 /// What a scenario file may name: the kinds of drivers, and with them the JSON Schema that files are checked against.
@@ -78,7 +78,11 @@ static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
 impl Default for Registry {
     /// The kinds of Interplay.
     fn default() -> Self {
-        Registry { drivers: Vec::new(), metrics: RegisteredMetrics::default(), schema: Arc::new(schema::complete(&[])) }
+        Registry {
+            drivers: Vec::new(),
+            metrics: RegisteredMetrics::default(),
+            schema: Arc::new(json_schema::complete(&[])),
+        }
     }
 }
 
@@ -108,7 +112,7 @@ impl Registry {
             return Err(RegistryError::NotAName(foreign.kind));
         }
         self.drivers.push(foreign);
-        self.schema = Arc::new(schema::complete(&self.drivers));
+        self.schema = Arc::new(json_schema::complete(&self.drivers));
         Ok(self)
     }
 
@@ -146,7 +150,7 @@ impl Registry {
 
     /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
     pub fn schema(&self) -> Json {
-        schema::of_file(&self.schema)
+        json_schema::of_file(&self.schema)
     }
 
     /// The schema of a whole scenario, all that it extends included.

@@ -6,8 +6,8 @@ use interplay_building::weather::Epw;
 use interplay_common::spelling::suggestion;
 
 use crate::error::{Fault, Place, quoted};
-use crate::format::building::DAY_S;
-use crate::format::weather::{EpwFile, EpwWeather};
+use crate::file_format::building::DAY_S;
+use crate::file_format::weather::{EpwFile, EpwWeather};
 use crate::read::regular_file::read_regular;
 use crate::read::stated_path::{base_in_words, path_beside};
 use crate::read::text_line::line_of;

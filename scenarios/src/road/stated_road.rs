@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json};
 
 use super::Road;
-use crate::schema::SchemaNode;
+use crate::json_schema::SchemaNode;
 
 /// The road of a scenario as its file states it.
 pub(crate) struct StatedRoad<'a> {

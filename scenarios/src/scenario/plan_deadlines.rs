@@ -2,7 +2,7 @@
 
 use interplay_planners::PlanDeadline;
 
-use crate::format::real_time::Deadline;
+use crate::file_format::real_time::Deadline;
 use crate::scenario::{Scenario, Vehicle};
 
 impl Scenario {

@@ -2,8 +2,8 @@
 
 use interplay_building::weather::Forecast;
 
-use crate::format::building_plant::BuildingPlant;
-use crate::format::weather::WeatherSource;
+use crate::file_format::building_plant::BuildingPlant;
+use crate::file_format::weather::WeatherSource;
 use crate::scenario::{Scenario, Vehicle};
 
 impl Scenario {

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use crate::error::{Fault, Place};
-use crate::format::start_jitter::StartJitter;
+use crate::file_format::start_jitter::StartJitter;
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::{SettingPath, lay_planner};
 use crate::read::tree::{Table, TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// A setting of a scenario, or the driver of its ego, and the value that a plan gives it.
 #[derive(Clone)]

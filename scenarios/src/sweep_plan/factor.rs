@@ -5,9 +5,9 @@ use interplay_common::spelling::nearest;
 
 use super::draw::UnitDraws;
 use crate::error::{Fault, Place, quoted};
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::SettingPath;
 use crate::read::tree::{Table, TomlNode, TomlValue, kind_of};
-use crate::schema::SchemaNode;
 use crate::sweep_plan::plan_file::Sampling;
 
 /// A path whose value varies.

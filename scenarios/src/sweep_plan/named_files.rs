@@ -1,6 +1,6 @@
 //! What the files say that a scenario only names: whoever compares scenarios must compare it, too.
 
-use crate::format::weather::WeatherSource;
+use crate::file_format::weather::WeatherSource;
 use crate::scenario::Scenario;
 
 /// The settings that name such files, by their first key.

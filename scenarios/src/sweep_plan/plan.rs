@@ -10,7 +10,7 @@ use super::factor::Factor;
 use super::named_files;
 use super::names::NamedScenario;
 use crate::error::{Fault, Place};
-use crate::format::start_jitter::StartJitter;
+use crate::file_format::start_jitter::StartJitter;
 use crate::load::assemble_on;
 use crate::metric::RegisteredMetrics;
 use crate::read::tree::{Table, TomlNode, TomlValue};

@@ -15,17 +15,17 @@ use super::plan::{PlannedScenario, SweepPlan};
 use super::samples;
 use crate::check::shape;
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::format::start_jitter::StartJitter;
+use crate::file_format::start_jitter::StartJitter;
+use crate::json_schema::{self, SchemaNode};
 use crate::load::{self, stated_counterfactuals};
 use crate::read::overrides::settings_of;
 use crate::read::source::Source;
 use crate::read::tree::{self, TomlNode, TomlValue};
 use crate::registry::Registry;
 use crate::resolve::placement::KnownRoads;
-use crate::schema::{self, SchemaNode};
 use crate::sweep_plan::plan_file::PlanFile;
 
-static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
+static SCHEMA: LazyLock<Json> = LazyLock::new(json_schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
 const EMBEDDED: [(&str, &str); 8] = [

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::schema_at;
 use crate::read::tree::{TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// The paths of the settings that a value replaces when it is laid over a scenario at a path; of a `kind`, with its word.
 ///

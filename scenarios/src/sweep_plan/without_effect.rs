@@ -15,9 +15,9 @@ use super::factor::Factor;
 use super::plan::{PlannedScenario, SweepPlan};
 use super::settings_below::{Removal, Rivals, settings_below};
 use crate::error::{Fault, Place, quoted};
+use crate::json_schema::SchemaNode;
 use crate::read::overrides::{OTHER_VEHICLES, SettingPath, ego_kind};
 use crate::read::tree::{Table, TomlNode, TomlValue};
-use crate::schema::SchemaNode;
 
 /// The settings that a value of a change replaces in a scenario; of a `kind`, with its word.
 type Settings = BTreeMap<String, Option<String>>;

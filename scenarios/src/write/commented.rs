@@ -12,11 +12,11 @@ use interplay_common::spelling::listed;
 use serde_json::{Map, Value as Json};
 
 use crate::error::LoadError;
+use crate::json_schema::{Concern, SchemaNode};
 use crate::load::tree;
 use crate::read::tree::{TomlNode, TomlValue};
 use crate::registry::Registry;
 use crate::resolve::weather_file::is_embedded_weather;
-use crate::schema::{Concern, SchemaNode};
 
 /// Columns of a comment.
 const WIDTH: usize = 110;

@@ -4,10 +4,10 @@ pub(crate) mod commented;
 
 use serde_json::{Map, Value as Json};
 
-use crate::format::counterfactual::Counterfactual;
-use crate::format::scenario_file::ScenarioFile;
-use crate::format::stated::Stated;
-use crate::format::vehicle_config::VehicleConfig;
+use crate::file_format::counterfactual::Counterfactual;
+use crate::file_format::scenario_file::ScenarioFile;
+use crate::file_format::stated::Stated;
+use crate::file_format::vehicle_config::VehicleConfig;
 use crate::scenario::{Scenario, Vehicle};
 use crate::write::commented::plain;
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use interplay_scenarios::{Registry, Scenario};
 
-use crate::arguments::files;
+use crate::flag_values::files;
 use crate::output::exit_status::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 

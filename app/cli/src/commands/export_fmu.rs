@@ -9,7 +9,7 @@ use interplay_presentation::figures::FrameLog;
 use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::run::run;
 
-use crate::arguments::files::{destroyed, is_same_file, short_name};
+use crate::flag_values::files::{destroyed, is_same_file, short_name};
 use crate::output::error::{CommandError, write_file};
 use crate::output::exit_status::ExitStatus;
 use crate::output::{print_error, print_load_error};

@@ -15,7 +15,7 @@ use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
 use thiserror::Error;
 
-use crate::arguments::files::{destroyed, is_page_file, is_same_file, short_name};
+use crate::flag_values::files::{destroyed, is_page_file, is_same_file, short_name};
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::program::this_program;

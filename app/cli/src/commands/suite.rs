@@ -13,8 +13,8 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use rayon::prelude::*;
 
-use crate::arguments::files::{self, ScenarioArgument, destroyed};
-use crate::arguments::values;
+use crate::flag_values::files::{self, ScenarioArgument, destroyed};
+use crate::flag_values::values;
 use crate::output::error::{CommandError, write_file};
 use crate::output::exit_status::ExitStatus;
 use crate::output::progress::Progress;

@@ -11,9 +11,9 @@ use interplay_simulation::run::run;
 use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
 use rayon::ThreadPool;
 
-use crate::arguments::plan_flags::PlanFlags;
-use crate::arguments::values;
 use crate::commands::compare::after_sweep;
+use crate::flag_values::plan_flags::PlanFlags;
+use crate::flag_values::values;
 use crate::output::exit_status::ExitStatus;
 use crate::output::progress::{CheckProgress, Progress};
 use crate::output::refusal::gave_up;

@@ -7,8 +7,8 @@ use interplay_presentation::report;
 use interplay_scenarios::{LoadError, Override, Registry, Scenario, StandardChange};
 use interplay_simulation::why::{WhyReport, why};
 
-use crate::arguments::files::short_name;
-use crate::arguments::values;
+use crate::flag_values::files::short_name;
+use crate::flag_values::values;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::progress::Progress;

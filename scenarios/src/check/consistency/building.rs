@@ -8,11 +8,11 @@ use interplay_building::network::{Network, NetworkError, Part};
 
 use super::zones;
 use crate::error::{Fault, quoted};
-use crate::format::building::{BuildingConfig, DAY_S};
-use crate::format::building_plant::BuildingPlant;
+use crate::file_format::building::{BuildingConfig, DAY_S};
+use crate::file_format::building_plant::BuildingPlant;
+use crate::json_schema::{Concern, SchemaNode};
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
-use crate::schema::{Concern, SchemaNode};
 
 /// The most steps that a building may take.
 const MAX_STEPS: usize = 100_000;

@@ -4,8 +4,8 @@ use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::{Fault, quoted};
-use crate::format::counterfactual::CounterfactualConfig;
-use crate::format::expect::{CounterfactualExpect, Expect};
+use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::expect::{CounterfactualExpect, Expect};
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
 

@@ -4,8 +4,8 @@ use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::quoted;
-use crate::format::expect::{ExpectedMetric, ExpectedYield};
-use crate::format::metric_bound::MetricBoundKey;
+use crate::file_format::expect::{ExpectedMetric, ExpectedYield};
+use crate::file_format::metric_bound::MetricBoundKey;
 use crate::metric::{MetricDeclaration, MetricKind, MetricSubject};
 use crate::scenario::Vehicle;
 use crate::text::readable::readable;

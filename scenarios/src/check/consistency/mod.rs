@@ -13,12 +13,12 @@ use interplay_planners::State;
 
 use crate::budget;
 use crate::error::{Fault, Place, quoted};
-use crate::format::lane_reference::LaneReference;
+use crate::file_format::lane_reference::LaneReference;
+use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
 use crate::scenario::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::scenario::{Scenario, Vehicle};
-use crate::schema::SchemaNode;
 use crate::text::readable::readable;
 use checker::Checker;
 

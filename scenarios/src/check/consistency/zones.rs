@@ -6,7 +6,7 @@ use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::{Fault, quoted};
-use crate::format::weather::{EpwWeather, WeatherSource};
+use crate::file_format::weather::{EpwWeather, WeatherSource};
 use crate::read::tree::TomlNode;
 use crate::resolve::timetable::TimetableError;
 use crate::scenario::Scenario;

@@ -12,10 +12,10 @@ use interplay_planners::road::network::RoadNetwork;
 
 use crate::check::consistency::curve_faults;
 use crate::error::Fault;
-use crate::format::vehicle_config::VehicleConfig;
+use crate::file_format::vehicle_config::VehicleConfig;
+use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
-use crate::schema::SchemaNode;
 pub(crate) use known_roads::KnownRoads;
 pub(crate) use written::Start;
 use written::VehicleAsWritten;

@@ -9,7 +9,7 @@ use interplay_planners::{Route, State};
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
 use crate::error::{Fault, quoted};
-use crate::format::lane_reference::LaneReference;
+use crate::file_format::lane_reference::LaneReference;
 use crate::road::to_centimetres;
 
 /// Cosine of the largest angle between a start and its lane.

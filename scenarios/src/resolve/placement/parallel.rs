@@ -7,7 +7,7 @@ use interplay_planners::{Route, State};
 use super::written::{Start, VehicleAsWritten, next_to};
 use crate::check::consistency::no_such_lane;
 use crate::error::Fault;
-use crate::format::lane_reference::LaneReference;
+use crate::file_format::lane_reference::LaneReference;
 use crate::road::Road;
 
 /// The state of a vehicle at its start.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use interplay_planners::{Route, State};
 
 use crate::error::{Fault, quoted};
-use crate::format::start::StartConfig;
-use crate::format::vehicle_config::VehicleConfig;
+use crate::file_format::start::StartConfig;
+use crate::file_format::vehicle_config::VehicleConfig;
+use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
-use crate::schema::SchemaNode;
 
 /// The state in which a vehicle starts, and its route.
 pub(crate) type Start = (State, Arc<Route>);

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
-use crate::format::expect::CounterfactualExpect;
+use crate::file_format::expect::CounterfactualExpect;
 use crate::scenario::Scenario;
 
 /// A second run of the scenario in which something is changed, and what is then expected.

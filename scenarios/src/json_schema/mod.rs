@@ -25,7 +25,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
 
-use crate::format::scenario_file::ScenarioFile;
+use crate::file_format::scenario_file::ScenarioFile;
 use crate::registry::Registry;
 use crate::registry::foreign_kind::ForeignKind;
 

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use interplay_common::bounds::Bound;
 use serde_json::Value as Json;
 
+use crate::json_schema::{SchemaNode, in_degrees};
 use crate::registry::Registry;
-use crate::schema::{SchemaNode, in_degrees};
 use crate::write::commented::{inline, toml};
 
 /// Defaults and examples longer than this are not shown: the section of the table has them key by key \[characters\].

@@ -4,7 +4,7 @@ use interplay_planners::State;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::format::lane_reference::LaneReference;
+use crate::file_format::lane_reference::LaneReference;
 
 /// Where a vehicle starts, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::format::expect::{Expect, ExpectedComfort, ExpectedMetric, ExpectedSpeed};
+use crate::file_format::expect::{Expect, ExpectedComfort, ExpectedMetric, ExpectedSpeed};
 
 /// A bound on a metric.
 #[derive(Clone, Debug, PartialEq)]

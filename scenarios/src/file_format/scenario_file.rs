@@ -12,16 +12,16 @@ use serde_json::json;
 
 use crate::budget::limits::BudgetLimits;
 use crate::classes::ScenarioScale;
-use crate::format::building::BuildingConfig;
-use crate::format::counterfactual::CounterfactualConfig;
-use crate::format::expect::Expect;
-use crate::format::plant::Plant;
-use crate::format::real_time::RealTime;
-use crate::format::start_jitter::StartJitter;
-use crate::format::stated::Stated;
-use crate::format::vehicle_config::VehicleConfig;
-use crate::format::vehicle_defaults::VehicleDefaults;
-use crate::format::weather::WeatherConfig;
+use crate::file_format::building::BuildingConfig;
+use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::expect::Expect;
+use crate::file_format::plant::Plant;
+use crate::file_format::real_time::RealTime;
+use crate::file_format::start_jitter::StartJitter;
+use crate::file_format::stated::Stated;
+use crate::file_format::vehicle_config::VehicleConfig;
+use crate::file_format::vehicle_defaults::VehicleDefaults;
+use crate::file_format::weather::WeatherConfig;
 use crate::road::Road;
 
 /// One scenario: agents, their world, and the expectations of the run.

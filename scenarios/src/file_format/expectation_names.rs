@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use serde_json::Value as Json;
 
-use crate::format::expect::Expect;
-use crate::format::metric_bound::MetricBound;
+use crate::file_format::expect::Expect;
+use crate::file_format::metric_bound::MetricBound;
 
 impl Expect {
     /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps`,

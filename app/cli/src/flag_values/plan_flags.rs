@@ -5,7 +5,7 @@ use std::num::NonZeroU64;
 
 use clap::Args;
 
-use crate::arguments::values;
+use crate::flag_values::values;
 
 /// Flags that make a plan.
 #[derive(Debug, Default, Args)]

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::classes::VehicleClass;
-use crate::format::stated::Stated;
-use crate::format::weights::Weights;
+use crate::file_format::stated::Stated;
+use crate::file_format::weights::Weights;
 
 /// What holds for every vehicle that does not state it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

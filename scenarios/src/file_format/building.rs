@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::format::building_plant::BuildingPlant;
+use crate::file_format::building_plant::BuildingPlant;
 
 /// A day \[s\].
 pub(crate) const DAY_S: f64 = 86_400.0;

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::classes::VehicleClass;
-use crate::format::start::StartConfig;
-use crate::format::stated::Stated;
-use crate::format::weights::Weights;
+use crate::file_format::start::StartConfig;
+use crate::file_format::stated::Stated;
+use crate::file_format::weights::Weights;
 use crate::resolve::default_driver;
 use crate::road::Branch;
 use crate::scenario::GoalConfig;
