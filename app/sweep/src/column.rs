@@ -10,7 +10,6 @@ use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
 use serde_json::{Value as Json, json};
 
 use crate::row::SweepRow;
-use crate::table::TableSchema;
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +23,9 @@ pub enum ColumnKind {
     /// A text.
     Text,
 }
+
+/// The name and the type of each column of a table.
+pub(crate) type TableSchema = Vec<(String, ColumnKind)>;
 
 /// A value of a row; none where there is nothing to say.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::column::{Cell, ColumnKind, TIMINGS};
+use crate::column::{Cell, ColumnKind, TIMINGS, TableSchema};
 use crate::error::SweepError;
 use crate::shard::Shard;
 use crate::sweep::{PLAN_NOTE, RUNS_FILE, SHARD_NOTE, table_path};
-use crate::table::{RowTable, TableReader, TableSchema, TableWriter};
+use crate::table::{RowTable, TableReader, TableWriter};
 
 /// What became of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,14 +8,14 @@ use std::sync::{Mutex, PoisonError};
 use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
 use rayon::prelude::*;
 
-use crate::column::{ColumnKind, schema};
+use crate::column::{ColumnKind, TableSchema, schema};
 use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
 use crate::row::SweepRow;
 use crate::shard::Shard;
-use crate::table::{TableSchema, write_rows};
+use crate::table::write_rows;
 
 /// The file with the rows of a whole plan.
 pub const RUNS_FILE: &str = "runs.parquet";

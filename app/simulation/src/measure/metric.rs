@@ -16,14 +16,14 @@ pub trait Metric: Debug + Send + Sync {
     /// What is said of it.
     fn declaration(&self) -> MetricDeclaration;
 
+    /// Begins to measure one run, with everybody at the start. `vehicle` is the index of the vehicle that is measured; for a metric
+    /// of the run, that of the ego.
+    fn begin(&self, scenario: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement>;
+
     /// What tells its values from those of earlier versions: rows of sweeps made with another one are made anew.
     fn version(&self) -> &'static str {
         ""
     }
-
-    /// Begins to measure one run, with everybody at the start. `vehicle` is the index of the vehicle that is measured; for a metric
-    /// of the run, that of the ego.
-    fn begin(&self, scenario: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement>;
 }
 
 /// A metric that is being measured in one run.

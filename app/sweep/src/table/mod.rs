@@ -10,13 +10,10 @@ use parquet::schema::types::{Type, TypePtr};
 pub(crate) use read::TableReader;
 pub(crate) use write::{TableWriter, write_rows};
 
-use crate::column::{Cell, ColumnKind};
+use crate::column::{Cell, ColumnKind, TableSchema};
 
 /// How many rows a row group has: what a reader has in memory at a time.
 pub(crate) const ROWS_PER_GROUP: usize = 10_000;
-
-/// The name and the type of each column.
-pub(crate) type TableSchema = Vec<(String, ColumnKind)>;
 
 /// Some values of one column, one for each row; none where a row has nothing to say.
 #[derive(Clone, Debug, PartialEq)]

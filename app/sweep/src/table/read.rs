@@ -9,8 +9,8 @@ use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::{RowTable, TableColumn, TableSchema};
-use crate::column::ColumnKind;
+use super::{RowTable, TableColumn};
+use crate::column::{ColumnKind, TableSchema};
 use crate::error::SweepError;
 
 /// A table that is open.

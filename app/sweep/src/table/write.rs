@@ -13,8 +13,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::{ROWS_PER_GROUP, TableColumn, TableSchema, column_type};
-use crate::column::{Cell, cells, schema};
+use super::{ROWS_PER_GROUP, TableColumn, column_type};
+use crate::column::{Cell, TableSchema, cells, schema};
 use crate::error::SweepError;
 use crate::row::SweepRow;
 
