@@ -10,7 +10,7 @@ use parquet::schema::types::{Type, TypePtr};
 pub(crate) use read::TableReader;
 pub(crate) use write::{TableWriter, write_rows};
 
-use crate::column::{Cell, ColumnKind, TableSchema};
+use crate::column::{Cell, ColumnKind};
 
 /// How many rows a row group has: what a reader has in memory at a time.
 pub(crate) const ROWS_PER_GROUP: usize = 10_000;
