@@ -92,7 +92,7 @@ fn errors_name_the_path_of_the_key() {
             "vehicle.ego.driver.stile",
             "`stile`",
         ),
-        (of(&|file| file.vehicles.clear()), "road", "no vehicles"),
+        (of(&|file| file.vehicles.clear()), "scenario", "nothing to simulate"),
         (first(of_json(json!({ "title": "A", "shows": "B", "vehicles": [] }))), "vehicles", "unknown key"),
     ];
     for ((path, message), expected_path, fragment) in cases {
