@@ -49,7 +49,7 @@
 //!     let forecast = surroundings.forecast(&model, steps, day);
 //!     let actual = surroundings.actual(&model, steps, day);
 //!     let record = run_day(&model, &mut temperatures_c, &mut *controller, &targets, &forecast, &actual)?;
-//!     costs.push(KeyFigures::of(&record, &targets, model.network().limits(), step_s).cost);
+//!     costs.push(KeyFigures::compute(&record, &targets, model.network().limits(), step_s).cost);
 //! }
 //! assert!(costs[4] < 0.5 * costs[0], "it has learned: {costs:?}");
 //! # Ok(())

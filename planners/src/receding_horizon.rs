@@ -1,7 +1,26 @@
 //! Model predictive control (MPC) in a receding horizon: each plan begins at the last one, shifted by one step.
 
-use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
-use crate::{Input, PlanEvent, Trajectory};
+use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust, StageError};
+use crate::{Input, PlanError, PlanEvent, Trajectory};
+
+impl From<DescentError> for PlanError {
+    fn from(error: DescentError) -> Self {
+        match error {
+            DescentError::Step { source: StageError::Infeasible { .. }, .. } => {
+                PlanError::Infeasible(error.to_string())
+            }
+            DescentError::Step { step, .. } => PlanError::Unsolved { status: error.to_string(), iterations: step },
+            DescentError::NotConverged(ref reached) => {
+                let iterations = reached.statistics.programmes;
+                PlanError::Unsolved { status: error.to_string(), iterations }
+            }
+            DescentError::NotBelow { .. } | DescentError::Settled(_) => {
+                PlanError::Unsolved { status: error.to_string(), iterations: 0 }
+            }
+            DescentError::NotFinite => PlanError::BadInput(error.to_string()),
+        }
+    }
+}
 
 /// An optimum with the problem that it solves.
 #[derive(Clone, Debug)]

@@ -39,13 +39,13 @@ pub struct BodyPart {
 }
 
 /// A rectangle along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
-pub type Share = [f64; 4];
+pub type BodyArea = [f64; 4];
 
 /// The rider of a bicycle.
-pub const RIDER: Share = [-0.28, 0.12, -0.8, 0.8];
+pub const RIDER: BodyArea = [-0.28, 0.12, -0.8, 0.8];
 
 /// The corners of a rectangle along and across a body.
-pub fn rectangle([rear, front, right, left]: Share) -> [[f64; 2]; 4] {
+pub fn rectangle([rear, front, right, left]: BodyArea) -> [[f64; 2]; 4] {
     [[rear, right], [front, right], [front, left], [rear, left]]
 }
 

@@ -8,7 +8,7 @@ use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
 use crate::frame::Frame;
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
 
 /// The identity of a vehicle: its index in the scenario, which is the order of everything that is listed, and its name.
 #[derive(Component, Clone, Debug)]

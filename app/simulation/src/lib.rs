@@ -33,16 +33,16 @@ pub mod day;
 mod external;
 pub mod frame;
 pub mod measure;
+mod not_copied;
 pub mod phases;
 pub mod physics;
 pub mod plan;
 pub mod predict;
 pub mod report;
 pub mod run;
-mod saved_run;
+mod run_error;
 pub mod sense;
 mod simulation;
-mod snapshot;
 pub mod spawn;
 pub mod time_points;
 pub mod watch;
@@ -55,7 +55,5 @@ pub mod worst_zones;
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
-pub use saved_run::SavedRunError;
-pub use simulation::Simulation;
-pub use snapshot::Snapshot;
-pub use world_state::NotCopied;
+pub use not_copied::NotCopied;
+pub use simulation::{SavedRunError, Simulation, Snapshot};

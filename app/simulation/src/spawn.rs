@@ -2,12 +2,33 @@
 
 use std::sync::Arc;
 
+use bevy_ecs::prelude::*;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
 use crate::components::{Committed, Driving, HandedIn, Identity, Motion, VehicleGoal, VehicleParameters};
 use crate::physics::{Physics, VehicleBody};
-use crate::world_state::VehicleState;
+
+/// All components of a vehicle.
+#[derive(Bundle, Debug)]
+pub struct VehicleState {
+    /// Index and name of the vehicle.
+    pub identity: Identity,
+    /// State, last input, and whether it has crashed.
+    pub motion: Motion,
+    /// Body, limits and route.
+    pub parameters: VehicleParameters,
+    /// The goal of the vehicle.
+    pub goal: VehicleGoal,
+    /// The driver with all that it remembers, and the sensor.
+    pub driving: Driving,
+    /// Inputs or a plan that were handed in from outside for the next tick.
+    pub handed_in: HandedIn,
+    /// The plan that it decided on last.
+    pub committed: Committed,
+    /// Body of the vehicle in the physics engine.
+    pub body: VehicleBody,
+}
 
 /// Every vehicle of a scenario at its start, in the scenario's order; each gets a body in `physics`.
 pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState> {

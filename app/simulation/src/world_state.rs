@@ -5,15 +5,15 @@
 
 use bevy_ecs::prelude::*;
 use interplay_scenarios::Scenario;
-use thiserror::Error;
 
-use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, Temperature};
+use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
 use crate::components::{
     Clock, Committed, CurrentFrame, Driving, HandedIn, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
 };
 use crate::measure::{BuildingMeasures, Measures};
+use crate::not_copied::NotCopied;
 use crate::physics::{Physics, VehicleBody};
-use crate::spawn;
+use crate::spawn::{self, VehicleState};
 use crate::time_points::TimePoint;
 use crate::watch::{Watcher, Watchers};
 
@@ -37,48 +37,6 @@ pub struct WorldState {
     pub physics: Physics,
     /// The building and what was measured of it; none without one.
     pub building: Option<(Building, BuildingMeasures)>,
-}
-
-/// All components of a vehicle.
-#[derive(Bundle, Debug)]
-pub struct VehicleState {
-    /// Index and name of the vehicle.
-    pub identity: Identity,
-    /// State, last input, and whether it has crashed.
-    pub motion: Motion,
-    /// Body, limits and route.
-    pub parameters: VehicleParameters,
-    /// The goal of the vehicle.
-    pub goal: VehicleGoal,
-    /// The driver with all that it remembers, and the sensor.
-    pub driving: Driving,
-    /// Inputs or a plan that were handed in from outside for the next tick.
-    pub handed_in: HandedIn,
-    /// The plan that it decided on last.
-    pub committed: Committed,
-    /// Body of the vehicle in the physics engine.
-    pub body: VehicleBody,
-}
-
-/// All components of a temperature of the building.
-#[derive(Clone, Debug)]
-pub struct NodeState {
-    /// Index of the temperature in the network.
-    pub node: Node,
-    /// How warm it is.
-    pub temperature: Temperature,
-    /// What heats it and how much heat it gets otherwise; none of a wall.
-    pub zone: Option<(Equipment, Gains)>,
-}
-
-/// Why a running world cannot be copied.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{who} cannot be copied: {why}")]
-pub struct NotCopied {
-    /// Which part of the world it is.
-    pub who: String,
-    /// Why the piece of state has no copy.
-    pub why: String,
 }
 
 impl WorldState {

@@ -60,6 +60,34 @@ impl Bayesian {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "bayesian"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Bayesian::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+
+    /// Checks that the range of `w_1` is not empty and lies above `w_4`.
+    fn check(&self, _: usize) -> Result<(), crate::DriverSettingError> {
+        let ordered = |key, lower: f64, upper_key, upper: f64| match lower <= upper {
+            true => Ok(()),
+            false => Err(crate::DriverSettingError::BoundsCrossed { key, lower, upper_key, upper }),
+        };
+        ordered("w_1_min", self.w_1_min, "w_1_max", self.w_1_max)?;
+        ordered("w_4", self.w_4, "w_1_min", self.w_1_min)
+    }
+}
+
 impl Drive for Bayesian {
     /// Makes a plan for the scene: chooses a partner, updates the beliefs about it, and solves the trajectory problem.
     ///

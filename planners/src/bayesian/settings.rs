@@ -3,10 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Bayesian;
-use crate::DriverSettingError;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -86,37 +82,10 @@ impl Default for Settings {
     }
 }
 
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "bayesian"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Bayesian::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
-    }
-
-    /// Checks that the range of `w_1` is not empty and lies above `w_4`.
-    fn check(&self, _: usize) -> Result<(), DriverSettingError> {
-        let ordered = |key, lower: f64, upper_key, upper: f64| match lower <= upper {
-            true => Ok(()),
-            false => Err(DriverSettingError::BoundsCrossed { key, lower, upper_key, upper }),
-        };
-        ordered("w_1_min", self.w_1_min, "w_1_max", self.w_1_max)?;
-        ordered("w_4", self.w_4, "w_1_min", self.w_1_min)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::DriverKind;
 
     /// The source's condition `w_1 ⪰ w_4`.
     #[test]

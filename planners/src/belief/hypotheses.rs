@@ -4,11 +4,11 @@
 //! plan of the others: it costs them the same, and no motion costs them less than it costs the tough one. Only where the plans
 //! may differ are they computed.
 
-use super::alternative::Outlook;
 use super::wishes::Wish;
 use crate::drive::Drive;
 use crate::driver_estimate::SAFETY_WEIGHTS;
 use crate::human::{self, Human};
+use crate::outlook::Outlook;
 use crate::{Goal, PlanError, Scene, Trajectory};
 
 /// Ellipses count as free below this difference of the costs, relative to `1 + cost`.

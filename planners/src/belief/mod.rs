@@ -22,7 +22,6 @@
 //! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan, and
 //! where tough and nice nearly coincide the normal driver has no plan of its own.
 
-mod alternative;
 pub mod diagnostics;
 mod evidence;
 mod hypotheses;
@@ -31,7 +30,7 @@ mod observed_driver;
 mod settings;
 mod wishes;
 
-pub use alternative::{Alternative, Outlook};
+pub use crate::outlook::{Alternative, Outlook};
 pub use settings::{Prior, Settings, StyleOdds};
 
 use std::collections::VecDeque;

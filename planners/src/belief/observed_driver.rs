@@ -1,6 +1,5 @@
 //! The belief about one observed driver.
 
-use super::alternative::{Alternative, Outlook};
 use super::evidence::Evidence;
 use super::hypotheses::{Continuing, WishfulHumans};
 use super::likelihood::{ObservedMotion, Spread};
@@ -9,6 +8,7 @@ use super::wishes::wishes;
 use crate::drive::Drive;
 use crate::driver_estimate::DriverModel;
 use crate::idm::{self, Idm};
+use crate::outlook::{Alternative, Outlook};
 use crate::predict::steadily_along;
 use crate::sensing::Sighting;
 use crate::{Agent, Bicycle, Input, Scene, State, Trajectory};

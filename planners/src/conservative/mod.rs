@@ -58,6 +58,24 @@ impl Conservative {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "conservative"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Conservative::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+}
+
 impl Drive for Conservative {
     /// Makes a plan that keeps out of the safety ellipses around the predictions of all other vehicles.
     ///

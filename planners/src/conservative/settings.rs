@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Conservative;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -24,23 +21,5 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings { passing_orders: HomotopySearch::Classes, prediction: Prediction::Plan }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "conservative"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Conservative::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
     }
 }

@@ -69,6 +69,28 @@ impl Contingency {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "contingency"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Contingency::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(crate::predict::Prediction::Inferred)
+    }
+
+    fn branches(&self) -> bool {
+        true
+    }
+}
+
 impl Drive for Contingency {
     /// Makes a plan with a continuation for each of the likeliest futures.
     ///

@@ -3,10 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Contingency;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
-use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
 /// A plan that branches: the ego infers what the others may do, decides now what holds for all of it, and has a continuation for
@@ -42,27 +38,5 @@ impl Default for Settings {
             told_apart_m: 0.05,
             passing_orders: HomotopySearch::Classes,
         }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "contingency"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Contingency::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(Prediction::Inferred)
-    }
-
-    fn branches(&self) -> bool {
-        true
     }
 }

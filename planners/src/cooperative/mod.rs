@@ -71,6 +71,28 @@ impl Cooperative {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "cooperative"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Cooperative::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+
+    fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
+        Some(Settings::shared_goal(self, goal))
+    }
+}
+
 impl Drive for Cooperative {
     /// Solves the joint problem and returns the plan of the ego.
     ///

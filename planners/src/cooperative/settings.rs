@@ -3,10 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Cooperative;
-use crate::Goal;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -28,27 +24,5 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: HomotopySearch::Classes }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "cooperative"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Cooperative::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
-    }
-
-    fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
-        Some(Settings::shared_goal(self, goal))
     }
 }

@@ -103,6 +103,24 @@ impl Game {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "game"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Game::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+}
+
 impl Drive for Game {
     /// Makes a plan for the scene: updates the beliefs, plays the game with the nearest partner, and expresses its
     /// solution by speed.

@@ -3,10 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Game;
 use super::prospect::ProspectTheory;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -175,23 +172,5 @@ impl Default for Settings {
             prediction: Prediction::Plan,
             passing_orders: HomotopySearch::Classes,
         }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "game"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Game::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
     }
 }

@@ -15,10 +15,9 @@
 //! plan relies on. Vehicles that the plan stays far from (`RELEVANT_HALF_AXES`) have no part in the class.
 
 mod log;
-mod planned_passing;
 
+pub use crate::planned_passing::{PassingSide, PlannedPassing};
 pub(crate) use log::HomotopyLog;
-pub use planned_passing::{PassingSide, PlannedPassing};
 
 use crate::encounter::PARALLEL_RAD;
 use crate::posing::ellipses;

@@ -114,6 +114,32 @@ impl Human {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "human"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Human::new(*self))
+    }
+
+    fn description(&self) -> String {
+        format!("{}, {}", self.kind(), self.manner())
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+
+    fn goes_first(&self) -> bool {
+        true
+    }
+}
+
 impl Drive for Human {
     /// Makes a plan for the scene as this driver sees it: late by its reaction time, and with the last decision while
     /// it hesitates.

@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Human;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -115,31 +112,5 @@ impl Settings {
     /// The safety weight: stated, or that of the style, or a nice driver's.
     pub fn weight(&self) -> f64 {
         self.safety_weight.unwrap_or_else(|| self.style.unwrap_or(Style::Nice).safety_weight())
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "human"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Human::new(*self))
-    }
-
-    fn description(&self) -> String {
-        format!("{}, {}", self.kind(), self.manner())
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
-    }
-
-    fn goes_first(&self) -> bool {
-        true
     }
 }

@@ -39,6 +39,32 @@ impl Idm {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "idm"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Idm::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+
+    fn goes_first(&self) -> bool {
+        true
+    }
+
+    fn can_be_asked(&self) -> bool {
+        false
+    }
+}
+
 impl Drive for Idm {
     /// Chooses a lane and makes a plan along it.
     ///

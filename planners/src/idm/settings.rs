@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Idm;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 
 /// The intelligent driver model with MOBIL; the defaults suit 1/10 scale cars.
@@ -71,31 +68,5 @@ pub struct Mobil {
 impl Default for Mobil {
     fn default() -> Self {
         Mobil { lane_width_m: None, politeness: 0.2, threshold_mps2: 0.05, safe_braking_mps2: 0.6, bias_mps2: 1.0 }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "idm"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Idm::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
-    }
-
-    fn goes_first(&self) -> bool {
-        true
-    }
-
-    fn can_be_asked(&self) -> bool {
-        false
     }
 }

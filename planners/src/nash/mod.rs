@@ -73,6 +73,24 @@ impl Nash {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "nash"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Nash::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+}
+
 impl Drive for Nash {
     /// Finds an equilibrium and returns the ego's part of it.
     ///

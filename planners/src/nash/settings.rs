@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Nash;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -46,23 +43,5 @@ impl Default for Settings {
             prediction: Prediction::ConstantVelocity,
             passing_orders: HomotopySearch::Classes,
         }
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "nash"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Nash::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
     }
 }

@@ -76,6 +76,37 @@ impl Negotiation {
     }
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "negotiation"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Negotiation::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<crate::predict::Prediction> {
+        Some(self.prediction)
+    }
+
+    /// Checks that plans reach beyond the steps during which the other is assumed to follow its prediction.
+    fn check(&self, horizon_steps: usize) -> Result<(), crate::DriverSettingError> {
+        if self.settled_steps < horizon_steps {
+            return Ok(());
+        }
+        Err(crate::DriverSettingError::BeyondHorizon {
+            key: "settled_steps",
+            steps: self.settled_steps,
+            horizon_steps,
+            because: "a plan must reach beyond the steps during which the other is assumed to follow the prediction",
+        })
+    }
+}
+
 impl Drive for Negotiation {
     /// Makes a plan and proposals for the scene.
     ///

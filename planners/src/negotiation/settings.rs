@@ -3,12 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Negotiation;
 use super::acceptance::Acceptance;
 use super::references::References;
-use crate::DriverSettingError;
-use crate::diagnostic::Explanation;
-use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -108,36 +104,5 @@ impl Settings {
     pub(super) fn least_weight(&self) -> f64 {
         let share = self.least_cost_ratio * self.ego_normaliser;
         share / (share + self.other_normaliser)
-    }
-}
-
-impl DriverKind for Settings {
-    fn kind(&self) -> &'static str {
-        "negotiation"
-    }
-
-    fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Negotiation::new(*self))
-    }
-
-    fn explanation(&self) -> &'static Explanation {
-        &super::diagnostics::EXPLANATION
-    }
-
-    fn prediction(&self) -> Option<Prediction> {
-        Some(self.prediction)
-    }
-
-    /// Checks that plans reach beyond the steps during which the other is assumed to follow its prediction.
-    fn check(&self, horizon_steps: usize) -> Result<(), DriverSettingError> {
-        if self.settled_steps < horizon_steps {
-            return Ok(());
-        }
-        Err(DriverSettingError::BeyondHorizon {
-            key: "settled_steps",
-            steps: self.settled_steps,
-            horizon_steps,
-            because: "a plan must reach beyond the steps during which the other is assumed to follow the prediction",
-        })
     }
 }

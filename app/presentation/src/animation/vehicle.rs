@@ -6,7 +6,7 @@ use interplay_scenarios::Vehicle;
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::SeenVehicle;
-use crate::body_shape::{BodyPart, RIDER, Share, Wheels, body_parts, light_depth, place_on, rectangle};
+use crate::body_shape::{BodyArea, BodyPart, RIDER, Wheels, body_parts, light_depth, place_on, rectangle};
 use crate::body_style::BodyStyle;
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
 use crate::signals::Turn;
@@ -33,7 +33,7 @@ impl Placed<'_> {
         self.place(place_on(self.body, share))
     }
 
-    fn rectangle(&self, share: Share) -> [[f64; 2]; 4] {
+    fn rectangle(&self, share: BodyArea) -> [[f64; 2]; 4] {
         rectangle(share).map(|corner| self.shared(corner))
     }
 

@@ -4,7 +4,7 @@ use interplay_planners::Body;
 use interplay_scenarios::Vehicle;
 
 use super::mesh::Mesh;
-use crate::body_shape::{RIDER, Share, Wheels, light_depth, place_on, rectangle};
+use crate::body_shape::{BodyArea, RIDER, Wheels, light_depth, place_on, rectangle};
 use crate::body_style::BodyStyle;
 use crate::palette::{Colour, GLASS, HEADLIGHT, TAIL_LIGHT, TYRE, darker};
 use crate::rectangle::rounded_corners;
@@ -104,12 +104,12 @@ impl Placed<'_> {
         corners.iter().map(|corner| self.place(*corner)).collect()
     }
 
-    fn rectangle(&self, share: Share) -> Vec<[f64; 2]> {
+    fn rectangle(&self, share: BodyArea) -> Vec<[f64; 2]> {
         self.ring(&rectangle(share))
     }
 
     /// A rectangle without its corners; `cut` is in widths of the body.
-    fn rounded(&self, share: Share, cut: f64) -> Vec<[f64; 2]> {
+    fn rounded(&self, share: BodyArea, cut: f64) -> Vec<[f64; 2]> {
         let corners = self.rectangle(share);
         rounded_corners(&corners, cut * self.0.width_m).flat_map(|[start, _, end]| [start, end]).collect()
     }

@@ -29,7 +29,7 @@ pub use failure::BuildingFailure;
 pub use learn::learn;
 use plant::ThermalPlant;
 
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
 pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
@@ -55,6 +55,17 @@ pub struct Equipment {
 /// Heat from people, sun and machines in a zone \[kW\].
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Gains(pub f64);
+
+/// All components of a temperature of the building.
+#[derive(Clone, Debug)]
+pub struct NodeState {
+    /// Index of the temperature in the network.
+    pub node: Node,
+    /// How warm it is.
+    pub temperature: Temperature,
+    /// What heats it and how much heat it gets otherwise; none of a wall.
+    pub zone: Option<(Equipment, Gains)>,
+}
 
 /// The building beside its zones: its physics, its surroundings, its controller.
 #[derive(Resource, Debug)]

@@ -10,8 +10,7 @@ use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario, TimetableErro
 use thiserror::Error;
 
 use super::plant::{NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
-use super::{Building, Equipment, Gains, Node, Temperature};
-use crate::world_state::NodeState;
+use super::{Building, Equipment, Gains, Node, NodeState, Temperature};
 
 /// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
 const OCCUPANCY_SEED_BIT: u64 = 1 << 40;

@@ -37,11 +37,12 @@ mod line_search;
 mod optimiser;
 mod optimum;
 mod qp_subproblem;
+mod search_setting;
 mod subproblem_solver;
 mod warm_start;
 
-pub use homotopy_search::HomotopySearch;
 pub use optimiser::Optimiser;
 pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
 pub use qp_subproblem::QpSubproblem;
+pub use search_setting::HomotopySearch;
 pub use warm_start::WarmStart;

@@ -3,8 +3,8 @@
 use super::comparison::Comparison;
 use super::descent::Descent;
 use super::exploration::{Exploration, GivesUp};
-use super::homotopy_search::HomotopySearch;
 use super::optimum::{DescentError, Optimum, Tolerances};
+use super::search_setting::HomotopySearch;
 use super::warm_start::WarmStart;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;

@@ -2,10 +2,10 @@
 
 use thiserror::Error;
 
+use crate::Trajectory;
 use crate::trajectory::cost::Cost;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StageError;
-use crate::{PlanError, Trajectory};
 
 /// Tolerances and limits at which a descent stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,25 +113,6 @@ pub enum DescentError {
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]
     NotFinite,
-}
-
-impl From<DescentError> for PlanError {
-    fn from(error: DescentError) -> Self {
-        match error {
-            DescentError::Step { source: StageError::Infeasible { .. }, .. } => {
-                PlanError::Infeasible(error.to_string())
-            }
-            DescentError::Step { step, .. } => PlanError::Unsolved { status: error.to_string(), iterations: step },
-            DescentError::NotConverged(ref reached) => {
-                let iterations = reached.statistics.programmes;
-                PlanError::Unsolved { status: error.to_string(), iterations }
-            }
-            DescentError::NotBelow { .. } | DescentError::Settled(_) => {
-                PlanError::Unsolved { status: error.to_string(), iterations: 0 }
-            }
-            DescentError::NotFinite => PlanError::BadInput(error.to_string()),
-        }
-    }
 }
 
 impl Optimum {

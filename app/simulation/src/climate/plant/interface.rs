@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use super::error::PlantError;
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
 
 /// The inputs of a building in one step, all held for the step. Lists have one number per zone, unless they say
 /// otherwise.

@@ -4,7 +4,7 @@ use interplay_building::discretise::Model;
 
 use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
 
 /// The thermal network of the scenario as the plant. It never fails.
 #[derive(Clone, Debug)]

@@ -14,7 +14,7 @@ use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
 use super::lines::Lines;
 use super::walls;
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
 
 /// Room of a number and of the rest in an answer \[bytes\].
 const NUMBER_BYTES: usize = 64;

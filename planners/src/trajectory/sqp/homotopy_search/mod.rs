@@ -20,7 +20,6 @@
 mod followed_road;
 mod global;
 mod motions;
-mod setting;
 mod start_outside;
 
 use super::comparison::{Round, Unfinished};
@@ -28,12 +27,12 @@ use super::exploration::{Exploration, GivesUp, replace};
 use super::homotopy_class::HomotopyClass;
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
+use super::search_setting::HomotopySearch;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
 use motions::for_each_motion;
-pub use setting::HomotopySearch;
 
 /// Most classes that are examined in one comparison, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;

@@ -1,5 +1,11 @@
 //! A world that is stepped from outside.
 
+mod saved_run;
+mod snapshot;
+
+pub use saved_run::SavedRunError;
+pub use snapshot::Snapshot;
+
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -8,17 +14,18 @@ use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Drive, Input};
 use interplay_scenarios::Scenario;
 
+use self::saved_run::HandedInput;
 use crate::climate::Building;
 use crate::components::{CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
-use crate::run::RunError;
-use crate::saved_run::HandedInput;
-use crate::snapshot::Snapshot;
+use crate::run_error::RunError;
+
+use crate::not_copied::NotCopied;
 use crate::time_points::TimePoints;
 use crate::watch::{Watcher, Watchers};
-use crate::world_state::{NotCopied, WorldState};
+use crate::world_state::WorldState;
 use crate::{phases, sense};
 
 /// A scenario as a world that can be stepped, looked at, steered from outside, copied and resumed.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use bevy_ecs::prelude::World;
 use interplay_scenarios::Scenario;
 
+use super::Simulation;
+use super::saved_run::HandedInput;
 use crate::measure::{BuildingMeasures, Measures};
-use crate::run::RunError;
-use crate::saved_run::HandedInput;
-use crate::simulation::Simulation;
+use crate::run_error::RunError;
 use crate::time_points::TimePoints;
 use crate::world_state::WorldState;
 

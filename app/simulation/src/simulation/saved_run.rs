@@ -9,11 +9,11 @@ use interplay_scenarios::{LoadError, Registry};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::Simulation;
+use super::snapshot::Snapshot;
 use crate::components::HandedIn;
-use crate::run::RunError;
-use crate::simulation::Simulation;
-use crate::snapshot::Snapshot;
-use crate::world_state::NotCopied;
+use crate::not_copied::NotCopied;
+use crate::run_error::RunError;
 
 /// The version of the form below.
 const FORMAT: u32 = 1;
