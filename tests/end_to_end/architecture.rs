@@ -230,6 +230,18 @@ fn files_are_short() {
     }
 }
 
+/// A module with parts is a folder with a `mod.rs`: no file stands beside a folder of its name.
+#[test]
+fn a_module_with_parts_is_a_folder() {
+    for file in all_rust_files() {
+        assert!(
+            !file.with_extension("").is_dir(),
+            "{} stands beside its folder: move it there, as `mod.rs`",
+            file.display()
+        );
+    }
+}
+
 /// Formatted code ends a function with a brace below its first line.
 #[test]
 fn functions_are_short() {
