@@ -18,7 +18,7 @@ const SOURCES: [&str; 9] = [
     "building/src",
     "scenarios/src",
     "app/simulation/src",
-    "app/sweep/src/measure.rs",
+    "app/sweep/src/measure",
     "app/sweep/src/row.rs",
 ];
 /// How much of the digest is kept \[bytes\].

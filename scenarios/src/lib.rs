@@ -53,12 +53,12 @@
 //! ```
 
 mod budget;
-mod changes;
 mod check;
 mod classes;
 mod defaults;
 mod error;
 mod file_format;
+mod files;
 mod json_schema;
 mod load;
 mod metric;
@@ -67,23 +67,23 @@ mod registry;
 mod resolve;
 mod road;
 mod scenario;
+mod standard_changes;
 mod sweep_plan;
 mod text;
 mod write;
 
 pub use budget::RunCost;
-pub use budget::limits::BudgetLimits;
-pub use changes::standard_changes::StandardChange;
-pub use check::remark::{ScenarioRemark, ScenarioRemarks};
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use error::{Fault, LoadError};
+pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use file_format::building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
-pub use file_format::counterfactual::{Counterfactual, CounterfactualConfig};
+pub use file_format::counterfactual::CounterfactualConfig;
 pub use file_format::expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedMetric,
     ExpectedSpeed, ExpectedYield, ExpectedZone,
 };
+pub use file_format::goal::GoalConfig;
 pub use file_format::lane_reference::LaneReference;
 pub use file_format::metric_bound::{MetricBound, MetricLimit};
 pub use file_format::plant::{Dynamic, Kinematic, Plant};
@@ -96,22 +96,23 @@ pub use file_format::vehicle_config::VehicleConfig;
 pub use file_format::vehicle_defaults::{GoalDefaults, VehicleDefaults};
 pub use file_format::weather::{EpwFile, EpwWeather, Synthetic, WeatherConfig, WeatherSource};
 pub use file_format::weights::Weights;
-pub use json_schema::reference::key_reference;
-pub use json_schema::schema;
+pub use files::{files, files_below};
 pub use load::{from_text, load};
 pub use metric::{
     Better, DeclaredMetric, MetricComparison, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics,
 };
 pub use read::embedded::{Embedded, embedded};
-pub use read::files::{files, files_below};
 pub use read::overrides::Override;
 pub use read::regular_file::{open_regular, read_regular};
 pub use read::source::Source;
-pub use registry::{Registry, RegistryError};
-pub use resolve::timetable::TimetableError;
+pub use registry::{Registry, RegistryError, schema};
 pub use road::*;
 pub use scenario::conflict_zones::ConflictZone;
-pub use scenario::{GoalConfig, Scenario, Vehicle};
+pub use scenario::remark::{ScenarioRemark, ScenarioRemarks};
+pub use scenario::timetable::TimetableError;
+pub use scenario::{Counterfactual, Scenario, Vehicle};
+pub use standard_changes::StandardChange;
 pub use sweep_plan::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
 pub use text::plain_text::is_plain;
 pub use text::readable::readable;
+pub use write::reference::key_reference;

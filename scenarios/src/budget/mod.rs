@@ -3,8 +3,6 @@
 //! A run that would take hours or fill a disk is refused before it begins, and the error names the key that makes it large.
 //! All numbers follow from the scenario alone, so the answer is the same on every machine.
 
-pub(crate) mod limits;
-
 mod check;
 mod cost;
 

@@ -1,6 +1,5 @@
 //! The checks of a file: its shape against the schema, and what it means. Remarks say what is allowed and may not have been meant.
 
 pub(crate) mod consistency;
-pub(crate) mod remark;
 pub(crate) mod remarks;
 pub(crate) mod shape;

@@ -5,13 +5,13 @@
 
 use interplay_planners::{Body, Driver, SafetyEllipse};
 
-use crate::check::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::classes::VehicleClass;
-use crate::defaults::degrees;
 use crate::error::{Fault, quoted};
 use crate::json_schema::SchemaNode;
+use crate::read::degrees;
 use crate::read::tree::TomlNode;
 use crate::scenario::narrowest_lane::{NarrowestLane, narrowest_lane};
+use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::swept_width;
 use crate::scenario::{Scenario, Vehicle};
 

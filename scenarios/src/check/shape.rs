@@ -342,6 +342,6 @@ mod tests {
             let closed = object.get("additionalProperties").is_some();
             assert_eq!(object.contains_key("properties"), closed, "a table that takes unknown keys: {schema}");
         }
-        walk(&crate::json_schema::complete(&[]));
+        walk(&crate::registry::complete(&[]));
     }
 }

@@ -10,8 +10,6 @@
 //! - `fill`: the defaults of a table, scaled, where it states nothing.
 //! - `expand`: all that depends on the size of a scenario.
 
-pub(crate) mod degrees;
-
 mod expand;
 mod fill;
 mod for_all;

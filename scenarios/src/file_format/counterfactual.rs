@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
 use crate::file_format::expect::CounterfactualExpect;
-use crate::scenario::Scenario;
 
 /// A second run of the scenario in which something is changed, and what is then expected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -27,13 +26,4 @@ pub struct CounterfactualConfig {
     #[serde(default)]
     #[schemars(example = json!({ "order_differs": true }))]
     pub expect: CounterfactualExpect,
-}
-
-/// A counterfactual with the scenario that is run for it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Counterfactual {
-    /// What it claims, what it changes, and what it expects of that.
-    pub stated: CounterfactualConfig,
-    /// The changed scenario; its expectations are the counterfactual's.
-    pub scenario: Scenario,
 }

@@ -1,10 +1,12 @@
 //! The file format: what each table of a scenario file may state.
 
+pub(crate) mod budget_limits;
 pub(crate) mod building;
 pub(crate) mod building_plant;
 pub(crate) mod counterfactual;
 pub(crate) mod expect;
 mod expectation_names;
+pub(crate) mod goal;
 pub(crate) mod lane_reference;
 pub(crate) mod metric_bound;
 pub(crate) mod plant;

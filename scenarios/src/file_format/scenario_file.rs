@@ -10,8 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::budget::limits::BudgetLimits;
 use crate::classes::ScenarioScale;
+use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;

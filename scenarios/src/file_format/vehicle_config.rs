@@ -1,17 +1,16 @@
 //! A vehicle as a file states it.
 
-use interplay_planners::{Body, Driver, Limits, SafetyEllipse, belief, sensing};
+use interplay_planners::{Body, Driver, Limits, SafetyEllipse, belief, human, sensing};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::classes::VehicleClass;
+use crate::file_format::goal::GoalConfig;
 use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::weights::Weights;
-use crate::resolve::default_driver;
 use crate::road::Branch;
-use crate::scenario::GoalConfig;
 use crate::text::name;
 
 /// One vehicle: start, goal, body, limits and driver.
@@ -70,4 +69,9 @@ impl VehicleConfig {
     pub fn new(name: &str, start: StartConfig) -> VehicleConfig {
         VehicleConfig { name: name.to_owned(), start, ..VehicleConfig::default() }
     }
+}
+
+/// Who drives a vehicle that states no driver.
+pub(crate) fn default_driver() -> Driver {
+    Driver::Human(human::Settings::default())
 }

@@ -1,6 +1,6 @@
 //! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
 //!
-//! It is generated from [`ScenarioFile`]. Whatever is said of a setting stands on its field: description, type and default, and as
+//! It is generated from [`ScenarioFile`](crate::ScenarioFile). Whatever is said of a setting stands on its field: description, type and default, and as
 //! `schemars` attributes its bounds, its example, and
 //!
 //! - `x-unit`: the unit of a number whose key does not end with one ([`interplay_common::units`]),
@@ -11,45 +11,31 @@
 //! - `x-radians`: the key in radians whose value it gives in degrees (`twins`),
 //! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
 //!
-//! [`complete`] describes a whole scenario, all that it extends included. [`of_file`] describes one file, which may leave to
+//! The schema of a registry describes a whole scenario, all that it extends included. [`of_file`] describes one file, which may leave to
 //! its parent whatever it does not state.
-
-pub(crate) mod reference;
 
 mod node;
 mod twins;
 
 use interplay_common::json_schema::kind_of;
 use interplay_common::units::unit_of;
-use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value as Json, json};
-
-use crate::file_format::scenario_file::ScenarioFile;
-use crate::registry::Registry;
-use crate::registry::foreign_kind::ForeignKind;
 
 pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
 
 /// The schema of a type of files, as the check reads it.
 pub(crate) fn generated<T: JsonSchema>() -> Json {
-    let generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.into_root_schema_for::<T>().to_value();
-    polish(&mut schema);
-    schema
+    generated_with::<T>(|_| Vec::new())
 }
 
-/// [`Registry::schema`] of what Interplay has.
-pub fn schema() -> Json {
-    Registry::standard().schema()
-}
-
-/// The schema of a whole scenario, all that it extends included, whose vehicles may have drivers of `foreign` kinds.
-pub(crate) fn complete(foreign: &[ForeignKind]) -> Json {
+/// The same with further kinds of drivers; `drivers` makes their schemas.
+pub(crate) fn generated_with<T: JsonSchema>(drivers: impl FnOnce(&mut SchemaGenerator) -> Vec<Json>) -> Json {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.root_schema_for::<ScenarioFile>().to_value();
-    let drivers: Vec<Json> = foreign.iter().map(|foreign| foreign.schema(&mut generator)).collect();
+    let mut schema = generator.root_schema_for::<T>().to_value();
+    let drivers = drivers(&mut generator);
     if let Some(definitions) = schema["$defs"].as_object_mut() {
         for (name, definition) in generator.take_definitions(true) {
             definitions.entry(name).or_insert(definition);
@@ -229,19 +215,7 @@ fn is_tagged(schema: &Map<String, Json>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use interplay_planners::Driver;
-
     use super::*;
-
-    #[test]
-    fn the_kinds_of_drivers_are_those_of_the_planners() {
-        let kinds = Registry::standard().driver_kinds();
-        assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
-        for kind in kinds {
-            let driver: Driver = serde_json::from_value(json!({ "kind": kind })).expect("every setting has a default");
-            assert_eq!(driver.kind(), kind);
-        }
-    }
 
     #[test]
     fn a_polished_description_ends_with_the_unit_once() {
@@ -256,21 +230,5 @@ mod tests {
         assert_eq!(property("gap_m")["description"], "Gap to the next [m]; 0 is none.");
         assert_eq!(property("weight")["description"], "What it costs [1/m²].");
         assert_eq!((&property("gap_m")["x-unit"], &property("weight")["x-unit"]), (&json!("m"), &json!("1/m²")));
-    }
-
-    #[test]
-    fn a_variant_may_leave_out_what_a_complete_file_must_state() {
-        let whole_scenario = complete(&[]);
-        let file = of_file(&whole_scenario);
-        let definitions = file["$defs"].to_string();
-        assert!(!definitions.contains("required"), "{definitions}");
-        let [variant, whole] = file["anyOf"].as_array().expect("two cases").as_slice() else { panic!("two cases") };
-        assert_eq!(variant, &json!({ "required": ["extends"] }));
-        assert_eq!(whole["not"], *variant);
-        assert_eq!(whole["required"], whole_scenario["required"]);
-        let vehicle = &whole["properties"]["vehicle"]["items"];
-        assert_eq!(vehicle["required"], json!(["name", "start"]));
-        assert_eq!(vehicle["properties"]["start"]["required"], json!(["speed_mps"]));
-        assert_eq!(vehicle["properties"]["driver"]["required"], json!(["kind"]));
     }
 }

@@ -1,7 +1,7 @@
 //! From a name to a tree of keys and values that knows where each is written: files, what they extend, and changes by flags.
 
+pub(crate) mod degrees;
 pub(crate) mod embedded;
-pub(crate) mod files;
 pub(crate) mod merge;
 pub(crate) mod overrides;
 pub(crate) mod regular_file;

@@ -11,7 +11,7 @@ use crate::error::{Document, Fault, Place, quoted};
 use crate::json_schema::SchemaNode;
 use crate::read::merge::merge_tables;
 use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};
-use crate::scenario::EGO;
+use crate::text::name::EGO;
 
 /// The most words that a path may have; bounds the depth of what `--set` can make.
 const MAX_PATH_STEPS: usize = 16;

@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Document, Fault, Place};
-use crate::write::commented::toml;
+use crate::text::toml_value::toml;
 
 /// A value and where it is written.
 #[derive(Clone, Debug)]

@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use thiserror::Error;
 
+use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::stated::Stated;
 use crate::json_schema::{self, SchemaNode};
 use crate::metric::{DeclaredMetric, RegisteredMetrics};
@@ -73,16 +74,24 @@ pub enum RegistryError {
     MetricTaken(String),
 }
 
+/// The schema of a whole scenario, all that it extends included, whose vehicles may have drivers of `foreign` kinds.
+pub(crate) fn complete(foreign: &[ForeignKind]) -> Json {
+    json_schema::generated_with::<ScenarioFile>(|generator| {
+        foreign.iter().map(|foreign| foreign.schema(generator)).collect()
+    })
+}
+
+/// [`Registry::schema`] of what Interplay has.
+pub fn schema() -> Json {
+    Registry::standard().schema()
+}
+
 static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
 
 impl Default for Registry {
     /// The kinds of Interplay.
     fn default() -> Self {
-        Registry {
-            drivers: Vec::new(),
-            metrics: RegisteredMetrics::default(),
-            schema: Arc::new(json_schema::complete(&[])),
-        }
+        Registry { drivers: Vec::new(), metrics: RegisteredMetrics::default(), schema: Arc::new(complete(&[])) }
     }
 }
 
@@ -112,7 +121,7 @@ impl Registry {
             return Err(RegistryError::NotAName(foreign.kind));
         }
         self.drivers.push(foreign);
-        self.schema = Arc::new(json_schema::complete(&self.drivers));
+        self.schema = Arc::new(complete(&self.drivers));
         Ok(self)
     }
 
@@ -175,5 +184,38 @@ impl Registry {
         let drivers = self.drivers.iter().map(|foreign| format!("{} {}\n", foreign.kind, foreign.version));
         let metrics = self.metrics.0.iter().filter_map(|metric| Some((metric.declaration().name, metric.version()?)));
         drivers.chain(metrics.map(|(name, version)| format!("{name} {version}\n"))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn the_kinds_of_drivers_are_those_of_the_planners() {
+        let kinds = Registry::standard().driver_kinds();
+        assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
+        for kind in kinds {
+            let driver: Driver = serde_json::from_value(json!({ "kind": kind })).expect("every setting has a default");
+            assert_eq!(driver.kind(), kind);
+        }
+    }
+
+    #[test]
+    fn a_variant_may_leave_out_what_a_complete_file_must_state() {
+        let whole_scenario = complete(&[]);
+        let file = json_schema::of_file(&whole_scenario);
+        let definitions = file["$defs"].to_string();
+        assert!(!definitions.contains("required"), "{definitions}");
+        let [variant, whole] = file["anyOf"].as_array().expect("two cases").as_slice() else { panic!("two cases") };
+        assert_eq!(variant, &json!({ "required": ["extends"] }));
+        assert_eq!(whole["not"], *variant);
+        assert_eq!(whole["required"], whole_scenario["required"]);
+        let vehicle = &whole["properties"]["vehicle"]["items"];
+        assert_eq!(vehicle["required"], json!(["name", "start"]));
+        assert_eq!(vehicle["properties"]["start"]["required"], json!(["speed_mps"]));
+        assert_eq!(vehicle["properties"]["driver"]["required"], json!(["kind"]));
     }
 }

@@ -2,23 +2,22 @@
 
 pub(crate) mod placement;
 pub(crate) mod tariff_file;
-pub(crate) mod timetable;
 pub(crate) mod weather_file;
 
 use serde::de::DeserializeOwned;
 
-use interplay_planners::{Driver, human};
+use interplay_planners::Driver;
 
-use crate::check::remark::ScenarioRemarks;
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
 use crate::file_format::scenario_file::{ScenarioFile, defaults};
 use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::VehicleConfig;
+use crate::file_format::vehicle_config::{VehicleConfig, default_driver};
 use crate::file_format::weather::{WeatherConfig, WeatherSource};
 use crate::read::tree::TomlNode;
 use crate::registry::Registry;
 use crate::resolve::placement::{KnownRoads, Placed, Start, place};
+use crate::scenario::remark::ScenarioRemarks;
 use crate::scenario::{Scenario, Vehicle};
 
 /// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.
@@ -160,9 +159,4 @@ impl Reader<'_> {
             goal: stated.goal,
         })
     }
-}
-
-/// Who drives a vehicle that states no driver.
-pub(crate) fn default_driver() -> Driver {
-    Driver::Human(human::Settings::default())
 }

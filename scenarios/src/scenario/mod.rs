@@ -6,8 +6,10 @@
 pub(crate) mod conflict_zones;
 pub(crate) mod narrowest_lane;
 pub(crate) mod plan_deadlines;
+pub(crate) mod remark;
 pub(crate) mod seed_dependence;
 pub(crate) mod swept_width;
+pub(crate) mod timetable;
 
 use std::sync::Arc;
 
@@ -22,16 +24,13 @@ use interplay_common::random::SplitMix64;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::sensing::{self, Sensor};
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use crate::budget::limits::BudgetLimits;
-use crate::check::remark::ScenarioRemarks;
 use crate::classes::{ScenarioScale, VehicleClass};
+use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
-use crate::file_format::counterfactual::Counterfactual;
+use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;
-use crate::file_format::lane_reference::LaneReference;
+use crate::file_format::goal::GoalConfig;
 use crate::file_format::plant::Plant;
 use crate::file_format::real_time::RealTime;
 use crate::file_format::start_jitter::StartJitter;
@@ -39,6 +38,8 @@ use crate::file_format::weather::WeatherSource;
 use crate::file_format::weights::Weights;
 use crate::metric::RegisteredMetrics;
 use crate::road::{Branch, Road};
+use crate::scenario::remark::ScenarioRemarks;
+use crate::text::name::EGO;
 
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,9 +170,6 @@ fn straight_route() -> Arc<Route> {
     Arc::new(Route::from(Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.0, end: None }))
 }
 
-/// The name that makes a vehicle the ego.
-pub(crate) const EGO: &str = "ego";
-
 /// One vehicle: start, route, goal, body, limits and driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vehicle {
@@ -239,18 +237,11 @@ impl Vehicle {
     }
 }
 
-/// The goal of a vehicle. What is not stated stays as at the start.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct GoalConfig {
-    /// The lane whose centre it aims at: its number from the right, 0 being the rightmost. On a road whose lanes have names, the
-    /// name of the lane to which it drives, by the shortest way.
-    #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
-    pub lane: Option<LaneReference>,
-    /// The lateral position that it aims at, on the road along x \[m\].
-    #[schemars(example = 0.555)]
-    pub y_m: Option<f64>,
-    /// The speed that it aims at \[m/s\].
-    #[schemars(example = 1.0)]
-    pub speed_mps: Option<f64>,
+/// A counterfactual with the scenario that is run for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterfactual {
+    /// What it claims, what it changes, and what it expects of that.
+    pub stated: CounterfactualConfig,
+    /// The changed scenario; its expectations are the counterfactual's.
+    pub scenario: Scenario,
 }

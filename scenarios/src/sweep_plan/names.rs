@@ -5,8 +5,8 @@ use std::path::Path;
 use interplay_common::spelling::suggestion;
 
 use crate::error::{Fault, Place, quoted};
+use crate::files::files_below;
 use crate::read::embedded::embedded;
-use crate::read::files::files_below;
 
 /// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]

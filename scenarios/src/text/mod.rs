@@ -3,3 +3,4 @@
 pub(crate) mod name;
 pub(crate) mod plain_text;
 pub(crate) mod readable;
+pub(crate) mod toml_value;

@@ -4,6 +4,9 @@
 
 use std::ops::RangeInclusive;
 
+/// The name that makes a vehicle the ego.
+pub(crate) const EGO: &str = "ego";
+
 /// The characters of a name, and what they are called.
 const CHARACTERS: [(RangeInclusive<char>, &str); 4] =
     [('a'..='z', "lower-case letters"), ('0'..='9', "digits"), ('_'..='_', "`_`"), ('-'..='-', "`-`")];

@@ -4,7 +4,6 @@
 //! default (`#step_s = 0.1`). Each sort of table is explained where it first appears; later ones state only their own.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
 
 use interplay_common::bounds::Bound;
@@ -13,10 +12,9 @@ use serde_json::{Map, Value as Json};
 
 use crate::error::LoadError;
 use crate::json_schema::{Concern, SchemaNode};
-use crate::load::tree;
-use crate::read::tree::{TomlNode, TomlValue};
+use crate::load::{make_paths_absolute, tree};
 use crate::registry::Registry;
-use crate::resolve::weather_file::is_embedded_weather;
+use crate::text::toml_value::toml;
 
 /// Columns of a comment.
 const WIDTH: usize = 110;
@@ -46,25 +44,6 @@ pub(crate) fn plain(stated: &Map<String, Json>) -> String {
     let mut writer = Writer { text: String::new(), explained: None, vehicles: true, building: true };
     writer.table("", Registry::standard().complete(), stated, true);
     writer.text
-}
-
-/// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
-pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
-    let TomlValue::Table(root) = &mut tree.value else { return };
-    for key in ["weather", "tariff"] {
-        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
-        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
-        let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
-        let TomlValue::Text(name) = &mut file.value else { continue };
-        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
-        let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
-        if !is_embedded_weather(name)
-            && !same
-            && let Ok(path) = real(&beside.join(&*name))
-        {
-            *name = path.to_string_lossy().into_owned();
-        }
-    }
 }
 
 struct Writer {
@@ -217,25 +196,4 @@ pub(crate) fn inline(property: SchemaNode, value: &Json) -> String {
     let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
     let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();
     format!("{{ {} }}", pairs.join(", "))
-}
-
-/// A value as TOML, on one line.
-pub(crate) fn toml(value: &Json) -> String {
-    match value {
-        Json::Null => String::new(),
-        Json::Bool(truth) => truth.to_string(),
-        Json::Number(number) if number.is_f64() => format!("{:?}", number.as_f64().unwrap_or_default()),
-        Json::Number(number) => number.to_string(),
-        Json::String(text) => toml::Value::String(text.clone()).to_string(),
-        Json::Array(items) => format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", ")),
-        Json::Object(table) if table.is_empty() => "{}".to_owned(),
-        Json::Object(table) => {
-            let pair = |(key, value): (&String, &Json)| {
-                let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-".contains(&b));
-                let key = if is_bare { key.clone() } else { toml(&Json::String(key.clone())) };
-                format!("{key} = {}", toml(value))
-            };
-            format!("{{ {} }}", table.iter().map(pair).collect::<Vec<_>>().join(", "))
-        }
-    }
 }

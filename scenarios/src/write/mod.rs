@@ -1,13 +1,14 @@
 //! From the scenario back to a file: everything is stated, and what the file reads back to is the same.
 
 pub(crate) mod commented;
+pub(crate) mod reference;
 
 use serde_json::{Map, Value as Json};
 
-use crate::file_format::counterfactual::Counterfactual;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
+use crate::scenario::Counterfactual;
 use crate::scenario::{Scenario, Vehicle};
 use crate::write::commented::plain;
 

@@ -36,15 +36,8 @@ const SHARED_NAMES: &[(&str, &str)] =
     &[("Settings", "each planner has its own, and its module is always named beside it: `idm::Settings`")];
 
 /// Levels that may have circles, by crate and parent module, and why.
-const ACCEPTED_CIRCLES: &[(&str, &str, &str)] = &[
-    ("app/simulation", "simulation", "a simulation makes snapshots, and a snapshot resumes simulations"),
-    (
-        "scenarios",
-        "",
-        "the folders show the stages of a file to whoever looks for something; the files in them formed no circle when they lay side by \
-         side, and which of them belong to a stage that others may use is to be sorted out",
-    ),
-];
+const ACCEPTED_CIRCLES: &[(&str, &str, &str)] =
+    &[("app/simulation", "simulation", "a simulation makes snapshots, and a snapshot resumes simulations")];
 
 /// Every library of the workspace.
 fn libraries() -> Vec<(String, Crate)> {

@@ -8,8 +8,8 @@ use super::checker::Checker;
 use crate::error::{Fault, quoted};
 use crate::file_format::weather::{EpwWeather, WeatherSource};
 use crate::read::tree::TomlNode;
-use crate::resolve::timetable::TimetableError;
 use crate::scenario::Scenario;
+use crate::scenario::timetable::TimetableError;
 
 /// Everything about zones, hours and prices that does not fit the building.
 pub(super) fn check(scenario: &Scenario, tree: &TomlNode, network: &Network) -> Vec<Fault> {

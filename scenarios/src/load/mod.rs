@@ -1,19 +1,21 @@
 //! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
 
+mod changed;
+
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json};
 
 use crate::budget;
-use crate::changes::changed;
 use crate::check::{consistency, shape};
-use crate::defaults::degrees;
 use crate::defaults::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::file_format::counterfactual::{Counterfactual, CounterfactualConfig};
+use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::json_schema::SchemaNode;
+use crate::read::degrees;
 use crate::read::merge::merge_tables;
 use crate::read::overrides::Override;
 use crate::read::source::Source;
@@ -21,8 +23,8 @@ use crate::read::tree::{self, Table, TomlNode, TomlValue};
 use crate::registry::Registry;
 use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
-use crate::scenario::Scenario;
-use crate::write::commented::make_paths_absolute;
+use crate::resolve::weather_file::is_embedded_weather;
+use crate::scenario::{Counterfactual, Scenario};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -298,4 +300,23 @@ fn refuse_cycle(parent: &Source, chain: &[Source], place: &Place) -> Result<(), 
         return Err(Fault::at(place, "one too many", message));
     }
     Ok(())
+}
+
+/// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
+pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
+    let TomlValue::Table(root) = &mut tree.value else { return };
+    for key in ["weather", "tariff"] {
+        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
+        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
+        let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
+        let TomlValue::Text(name) = &mut file.value else { continue };
+        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
+        if !is_embedded_weather(name)
+            && !same
+            && let Ok(path) = real(&beside.join(&*name))
+        {
+            *name = path.to_string_lossy().into_owned();
+        }
+    }
 }

@@ -10,7 +10,8 @@ use serde_json::Value as Json;
 
 use crate::json_schema::{SchemaNode, in_degrees};
 use crate::registry::Registry;
-use crate::write::commented::{inline, toml};
+use crate::text::toml_value::toml;
+use crate::write::commented::inline;
 
 /// Defaults and examples longer than this are not shown: the section of the table has them key by key \[characters\].
 const MAX_SHOWN: usize = 60;
