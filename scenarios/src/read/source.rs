@@ -10,6 +10,7 @@ use interplay_common::spelling::nearest;
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::read::embedded::{self, Embedded};
 use crate::read::regular_file::read_regular;
+use crate::streets::Street;
 
 /// The largest file that is read; a scenario takes a few kilobytes.
 const MAX_FILE_BYTES: u64 = 1 << 20;
@@ -19,6 +20,8 @@ const MAX_FILE_BYTES: u64 = 1 << 20;
 pub enum Source {
     /// An authored scenario, embedded in the binary.
     Embedded(&'static Embedded),
+    /// A street that is drawn from its name.
+    Street(Street),
     /// A file.
     File(PathBuf),
 }
@@ -38,6 +41,9 @@ impl Source {
         if let Some(file) = embedded::find(name_or_path) {
             return Ok(Source::Embedded(file));
         }
+        if let Some(street) = Street::named(name_or_path) {
+            return Ok(Source::Street(street));
+        }
         let path = PathBuf::from(name_or_path);
         if name_or_path.is_empty() || matches!(fs::exists(&path), Ok(false)) {
             let message = format!("there is no scenario and no file {}", quoted(name_or_path));
@@ -50,6 +56,7 @@ impl Source {
     pub(crate) fn parent(&self, extends: &str) -> Result<Source, Fault> {
         let folder = match self {
             Source::Embedded(file) => Path::new(file.name).parent(),
+            Source::Street(_) => None,
             Source::File(path) => path.parent(),
         };
         let beside = folder.unwrap_or(Path::new("")).join(extends);
@@ -60,9 +67,10 @@ impl Source {
                 let missing = || Fault::new(format!("there is no scenario {}", quoted(extends)));
                 found.map(Source::Embedded).ok_or_else(|| missing().help(other_names(extends)))
             }
-            Source::File(_) => match embedded::find(extends) {
-                Some(file) => Ok(Source::Embedded(file)),
-                None => Source::resolve(&beside.to_string_lossy()),
+            Source::Street(_) | Source::File(_) => match (embedded::find(extends), Street::named(extends)) {
+                (Some(file), _) => Ok(Source::Embedded(file)),
+                (None, Some(street)) => Ok(Source::Street(street)),
+                (None, None) => Source::resolve(&beside.to_string_lossy()),
             },
         }
     }
@@ -71,6 +79,7 @@ impl Source {
     pub fn name(&self) -> String {
         match self {
             Source::Embedded(file) => file.name.to_owned(),
+            Source::Street(street) => street.name(),
             Source::File(path) => path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
         }
     }
@@ -79,6 +88,7 @@ impl Source {
     pub(crate) fn title(&self) -> String {
         match self {
             Source::Embedded(file) => format!("{}.toml", file.name),
+            Source::Street(street) => format!("{}.toml", street.name()),
             Source::File(path) => path.display().to_string(),
         }
     }
@@ -87,6 +97,7 @@ impl Source {
     pub(crate) fn identity(&self) -> PathBuf {
         match self {
             Source::Embedded(file) => PathBuf::from(file.name),
+            Source::Street(street) => PathBuf::from(street.name()),
             Source::File(path) => fs::canonicalize(path).unwrap_or_else(|_| path.clone()),
         }
     }
@@ -95,6 +106,7 @@ impl Source {
     pub(crate) fn read(&self, rank: usize) -> Result<(Arc<Document>, String), Fault> {
         let text = match self {
             Source::Embedded(file) => file.text.to_owned(),
+            Source::Street(street) => street.text(),
             Source::File(path) => decoded(&self.title(), &read_bytes(path)?, rank)?,
         };
         if text.trim().is_empty() {

@@ -1,0 +1,131 @@
+//! Streets that nobody tuned for: ordinary scenes, each drawn from a seed.
+//!
+//! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario has a name: in `run`, `why`, plans of
+//! sweeps and `extends`. The same name is the same file for ever. Whoever changes a kind so that its draws change gives it another
+//! word, since rows of sweeps are compared by name.
+//!
+//! The ego of each street is a human of a drawn style; `--planner` gives it another driver. Each scene has a conflict in most of its
+//! draws: somebody stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
+
+mod draft;
+mod junctions;
+mod lanes;
+mod obstacles;
+
+use draft::Draft;
+
+/// One kind of street: its word, what it shows, and how a scene is drawn.
+struct StreetKind {
+    word: &'static str,
+    shows: &'static str,
+    draw: fn(&mut Draft),
+}
+
+/// All kinds.
+const KINDS: [StreetKind; 15] = [
+    StreetKind { word: "van", shows: "A van stands in the ego's lane", draw: obstacles::standing_van },
+    StreetKind {
+        word: "parked",
+        shows: "Vans are parked along a street with oncoming traffic",
+        draw: obstacles::parked_vans,
+    },
+    StreetKind { word: "bus", shows: "A bus stops, and goes on", draw: obstacles::bus },
+    StreetKind {
+        word: "crosser",
+        shows: "Somebody slow crosses the street and has priority",
+        draw: obstacles::crosser,
+    },
+    StreetKind {
+        word: "truck",
+        shows: "A slow truck drives ahead on a road with two directions",
+        draw: lanes::slow_truck,
+    },
+    StreetKind { word: "dense", shows: "The ego changes lanes in dense traffic", draw: lanes::dense },
+    StreetKind { word: "drop", shows: "The ego's lane ends", draw: lanes::lane_drop },
+    StreetKind { word: "ramp", shows: "The ego joins a motorway", draw: lanes::on_ramp },
+    StreetKind { word: "narrow", shows: "Two directions share one lane", draw: junctions::narrow_passage },
+    StreetKind { word: "ring", shows: "A roundabout with one lane", draw: junctions::ring },
+    StreetKind { word: "ring2", shows: "A roundabout with two lanes", draw: junctions::wide_ring },
+    StreetKind { word: "tee", shows: "A minor road joins a main one", draw: junctions::tee },
+    StreetKind { word: "crossing", shows: "A minor road crosses a main one", draw: junctions::crossing },
+    StreetKind { word: "equal", shows: "Four roads meet without signs: right before left", draw: junctions::equal },
+    StreetKind { word: "stop", shows: "A crossing where everybody stops", draw: junctions::all_way_stop },
+];
+
+/// The folder of names.
+const FOLDER: &str = "streets/";
+
+/// A street: a kind, and the number from which the rest is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Street {
+    kind: usize,
+    number: u32,
+}
+
+impl Street {
+    /// The words of all kinds.
+    pub fn kinds() -> impl Iterator<Item = &'static str> {
+        KINDS.iter().map(|kind| kind.word)
+    }
+
+    /// The street of a name such as `streets/ring/17`; none if it names no street.
+    pub fn named(name: &str) -> Option<Street> {
+        let (word, number) = name.strip_prefix(FOLDER)?.split_once('/')?;
+        let kind = KINDS.iter().position(|kind| kind.word == word)?;
+        let is_plain = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+        let number: u32 = is_plain.then(|| number.parse().ok())??;
+        Some(Street { kind, number }).filter(|street| street.name() == name)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> String {
+        format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)
+    }
+
+    /// The scenario file.
+    pub fn text(&self) -> String {
+        let kind = &KINDS[self.kind];
+        let mut draft = Draft::new(u64::from(self.number), self.kind as u64);
+        (kind.draw)(&mut draft);
+        draft.finished(&format!("{} {}", kind.word, self.number), kind.shows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load;
+
+    #[test]
+    fn names_lead_to_streets_and_back() {
+        for kind in Street::kinds() {
+            let name = format!("streets/{kind}/12");
+            assert_eq!(Street::named(&name).map(|street| street.name()), Some(name));
+        }
+        for wrong in ["streets/ring", "streets/ring/", "streets/ring/-1", "streets/ring/01", "streets/moon/1", "ring/1"]
+        {
+            assert_eq!(Street::named(wrong), None, "{wrong}");
+        }
+    }
+
+    /// Every street loads without a fault, with an ego that has something to do.
+    #[test]
+    fn every_street_is_a_sound_scenario() {
+        for kind in Street::kinds() {
+            for number in 0..40 {
+                let name = format!("streets/{kind}/{number}");
+                let scenario = load(&name, &[]).unwrap_or_else(|error| panic!("{name}: {:?}", error.faults()));
+                assert_eq!(scenario.ego().map(|ego| ego.name.as_str()), Some("ego"), "{name}");
+                assert!(scenario.vehicles.len() >= 2, "{name}");
+            }
+        }
+    }
+
+    /// Draws differ from number to number, and stay.
+    #[test]
+    fn numbers_give_different_streets() {
+        let text = |name: &str| Street::named(name).expect("a street").text();
+        assert_eq!(text("streets/tee/3"), text("streets/tee/3"));
+        assert_ne!(text("streets/tee/3"), text("streets/tee/4"));
+    }
+}
