@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::Limits;
 use crate::predict::constant_velocity;
+use crate::rules::RoadRules;
 use crate::{Agent, Body, Corridor, Goal, Input, SafetyEllipse, Scene, State};
 
 /// A vehicle at a place on a wide road in its direction, predicted at constant velocity.
@@ -19,6 +20,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         prediction: constant_velocity(&state, 30, 0.1),
         shared_goal: None,
         can_be_asked: true,
+        rules: RoadRules::default(),
     }
 }
 

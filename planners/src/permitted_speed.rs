@@ -1,6 +1,6 @@
 //! How fast a driver may go along its road, and comes up to a line: speed limits, curves and comfortable braking.
 
-use crate::{Agent, Limits};
+use crate::{Agent, Limits, Scene};
 
 /// Drivers brake for a speed limit with this share of their strongest braking.
 const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
@@ -10,6 +10,9 @@ const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
 
 /// Drivers come up to a line with this share of their strongest acceleration.
 const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
+
+/// No cap on the speed of a 1/10 scale car is lower \[m/s\].
+const CREEPING_MPS: f64 = 0.03;
 
 impl Agent {
     /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; infinite
@@ -60,6 +63,46 @@ impl Agent {
             speed_mps
         });
         speeds.collect()
+    }
+}
+
+impl Agent {
+    /// Highest permitted speeds at the stages of a plan, lowered to a comfortable approach to the line at which it has to wait; as they
+    /// are without one \[m/s\].
+    pub(crate) fn up_to_its_line(
+        &self,
+        permitted_mps: Vec<f64>,
+        wanted_mps: f64,
+        (horizon, step_s): (usize, f64),
+    ) -> Vec<f64> {
+        let Some(line_m) = self.rules.stop_line_m else { return permitted_mps };
+        let approach_mps = self.approach_speeds_mps(line_m, wanted_mps, horizon, step_s);
+        let permitted_mps = permitted_mps.into_iter().chain(std::iter::repeat(f64::INFINITY));
+        permitted_mps.zip(approach_mps).map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect()
+    }
+}
+
+impl Scene {
+    /// The speeds at `t = 1…N` that the planning vehicle must not exceed, empty for one that keeps no rules \[m/s\].
+    ///
+    /// They are the least of: what limits and curves permit where it is expected to be, what it wants (nobody may race to be ahead
+    /// of somebody), and a comfortable approach to the line at which it has to wait. From a speed above the first two they fall with
+    /// comfortable braking. They stay a little above zero, so that a plan has room within its bounds.
+    pub(crate) fn speed_caps_mps(&self) -> Vec<f64> {
+        let ego = &self.ego;
+        if !ego.rules.are_kept {
+            return Vec::new();
+        }
+        let near_m = ego.expected_along_m(self.horizon, self.step_s);
+        let permitted_mps = ego.permitted_speeds_mps(&near_m);
+        let creeping_mps = CREEPING_MPS * ego.body.scale.sqrt();
+        let (wanted_mps, braking_mps2) = (self.goal.target.speed_mps, ego.comfortable_braking_mps2());
+        let caps_mps = (0..self.horizon).map(|stage| {
+            let permitted_mps = permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY).min(wanted_mps);
+            permitted_mps.max(ego.state.speed_mps - braking_mps2 * self.step_s * (stage + 1) as f64)
+        });
+        let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, (self.horizon, self.step_s));
+        caps_mps.into_iter().map(|cap_mps| cap_mps.max(creeping_mps)).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::road::centre_line::FrenetPoint;
+use crate::rules::RoadRules;
 use crate::{Axes, Bicycle, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as the others see it.
@@ -26,6 +27,8 @@ pub struct Agent {
     pub shared_goal: Option<Goal>,
     /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
     pub can_be_asked: bool,
+    /// What the rules of the road ask of it now; nothing before they are judged.
+    pub rules: RoadRules,
 }
 
 /// The goal of a vehicle: a desired state, and the weights of its costs.

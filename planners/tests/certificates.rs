@@ -32,6 +32,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         prediction,
         shared_goal: None,
         can_be_asked: true,
+        rules: interplay_planners::rules::RoadRules::default(),
     }
 }
 
@@ -126,7 +127,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
     let drive = |other: Agent| {
         let crossing = other.state.heading_rad != 0.0;
         let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), other].map(|agent| RoadUser::new(agent, goal(), false));
-        let mut traffic = Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users: users.into() };
+        let mut traffic = Traffic { step_s: STEP_S, horizon: HORIZON, road_users: users.into(), ..Traffic::default() };
         let first = traffic.drive(|index, scene| match index {
             // The ego plans to drive on; the other does what it did.
             0 => Ok(Plan { trajectory: plan(scene, 0.0), ..Plan::default() }),
@@ -162,7 +163,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
 fn where_braking_does_harm_another_acceleration_is_chosen() {
     let crossing = agent("other", [0.45, -1.2, std::f64::consts::FRAC_PI_2, 1.0]);
     let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), crossing].map(|agent| RoadUser::new(agent, goal(), false));
-    let mut traffic = Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users: users.into() };
+    let mut traffic = Traffic { step_s: STEP_S, horizon: HORIZON, road_users: users.into(), ..Traffic::default() };
     let braking = last_resorts(&traffic.scene(0)).next().expect("full braking");
     assert!(Harm::measure(&traffic.scene(0), &braking).impact_mps > Some(0.5));
     let decisions = traffic.drive(|index, scene| match index {

@@ -180,6 +180,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             prediction: constant_velocity(&state, HORIZON, STEP_S),
             shared_goal: None,
             can_be_asked: true,
+            rules: interplay_planners::rules::RoadRules::default(),
         }
     })
 }

@@ -51,6 +51,7 @@ mod replacements;
 mod replay;
 mod sample_telemetry;
 mod similarity;
+mod streets;
 mod suite;
 mod sweep_plans;
 mod sweeps;

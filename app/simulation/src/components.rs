@@ -61,6 +61,8 @@ pub struct Driving {
     pub goes_first: bool,
     /// Whether it is told the plans of the others.
     pub knows_plans: bool,
+    /// Whether it keeps all rules of the road.
+    pub keeps_rules: bool,
     /// Sensor of the vehicle; `None` for one that sees everybody as it is.
     pub sensor: Option<Sensor>,
     /// The vehicles that the sensor sees in this tick.
@@ -73,7 +75,7 @@ impl Driving {
     /// # Errors
     /// [`NotCopied`] if the driver does not fork.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
-        let Driving { can_be_asked, goes_first, knows_plans, .. } = *self;
+        let Driving { can_be_asked, goes_first, knows_plans, keeps_rules, .. } = *self;
         let why =
             || NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() };
         Ok(Driving {
@@ -81,6 +83,7 @@ impl Driving {
             planner: self.planner.fork().ok_or_else(why)?,
             goes_first,
             knows_plans,
+            keeps_rules,
             sensor: self.sensor.clone(),
             sight: self.sight.clone(),
         })

@@ -1,6 +1,7 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
 use interplay_building::control::Design;
+use interplay_planners::rules::RoadRules;
 pub use interplay_planners::traffic::Origin;
 use interplay_planners::{Input, Plan, State, Trajectory};
 use serde::Serialize;
@@ -84,6 +85,8 @@ pub struct VehicleFrame {
     /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
     /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
     pub prediction: Trajectory,
+    /// What the rules of the road ask of it.
+    pub rules: RoadRules,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
 }

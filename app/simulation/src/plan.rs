@@ -43,6 +43,7 @@ pub fn plan(
     let seen = frame.vehicles.iter_mut().zip(&traffic.road_users);
     for ((vehicle, user), (.., committed)) in seen.zip(&mut drivers) {
         vehicle.prediction = user.agent.prediction.clone();
+        vehicle.rules = user.agent.rules.clone();
         committed.0 = user.committed.clone();
     }
 }

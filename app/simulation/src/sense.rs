@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::rules::{RoadRules, RuleBook};
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
@@ -29,7 +30,8 @@ pub fn sense(
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    sensed.0 = traffic(vehicles.iter(), &clock);
+    let rule_book = std::mem::take(&mut sensed.0.rule_book);
+    sensed.0 = traffic(vehicles.iter(), &clock, rule_book);
     let frames = sensed.0.road_users.iter().map(|user| VehicleFrame {
         name: user.agent.name.clone(),
         state: user.agent.state,
@@ -50,7 +52,8 @@ pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, sensed: Res<Sensed>)
 /// What the driver of a vehicle would be given at the next tick, before anybody has planned in it; none without that vehicle.
 pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
     let mut vehicles = world.try_query::<SeenParts>()?;
-    let mut traffic = traffic(vehicles.iter(world), world.get_resource()?);
+    let rule_book = world.get_resource::<Sensed>()?.0.rule_book.clone();
+    let mut traffic = traffic(vehicles.iter(world), world.get_resource()?, rule_book);
     traffic.predict();
     let scene = (vehicle < traffic.road_users.len()).then(|| traffic.scene(vehicle))?;
     let (.., driving, _) = vehicles.iter(world).find(|(identity, ..)| identity.index == vehicle)?;
@@ -64,6 +67,7 @@ fn traffic<'w>(
         Item = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed),
     >,
     clock: &Clock,
+    rule_book: RuleBook,
 ) -> Traffic {
     let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
@@ -78,13 +82,15 @@ fn traffic<'w>(
             prediction: Trajectory::default(),
             shared_goal: objective.shared,
             can_be_asked: driving.can_be_asked,
+            rules: RoadRules::default(),
         },
         goal: objective.goal,
         goes_first: driving.goes_first,
         knows_plans: driving.knows_plans,
+        keeps_rules: driving.keeps_rules,
         is_crashed: motion.crashed,
         committed: committed.0.clone(),
     });
     let road_users = road_users.collect();
-    Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users }
+    Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users, rule_book }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
@@ -54,6 +55,7 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
                 planner: vehicle.planner().with_deadline(scenario.plan_deadline(vehicle)),
                 goes_first: vehicle.driver.goes_first(),
                 knows_plans: vehicle.driver.knows_plans(),
+                keeps_rules: vehicle.rules == Some(RuleKeeping::Kept),
                 sensor: vehicle.sensor(scenario.seed),
                 sight: None,
             },

@@ -56,6 +56,7 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::obstacle::{Obstacle, ObstacleMemory};
 use crate::posing::ellipses;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
@@ -80,6 +81,7 @@ pub struct Human {
     perception: Perception,
     decision: Decision,
     arrivals: ArrivalMemory,
+    obstacles: ObstacleMemory,
     optimiser: Optimiser<Robust>,
     last: Option<Trajectory>,
 }
@@ -95,6 +97,7 @@ impl Human {
             perception: Perception::default(),
             decision: Decision::default(),
             arrivals: ArrivalMemory::default(),
+            obstacles: ObstacleMemory::default(),
             optimiser,
             last: None,
         }
@@ -153,12 +156,24 @@ impl Drive for Human {
         if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
+        let was_passing = self.obstacles.is_passing();
+        let passed = if wanted.ego.rules.are_kept {
+            let manoeuvre = self.obstacles.judge(&wanted);
+            manoeuvre.and_then(|manoeuvre| manoeuvre.passed_or_waited_for(&mut wanted))
+        } else {
+            // Right of way is kept in any case.
+            if let Some(line_m) = self.arrivals.stop_line_m(&wanted) {
+                wanted.to_mut().ego.rules.stop_before(line_m);
+            }
+            None
+        };
         let scene = wanted.as_ref();
-        let mut problem = pose(scene, &expected.others, &self.settings);
-        if let Some(line_m) = self.arrivals.stop_line_m(scene) {
-            wait_at(&mut problem, scene, line_m);
-        }
-        let optimum = self.optimiser.optimise_or_improve(&problem, &[guess(scene, self.last.as_ref())])?;
+        let problem = pose(scene, (&expected.others, passed.as_ref()), &self.settings);
+        let start = match &passed {
+            Some(obstacle) if !was_passing => obstacle.guess(scene),
+            _ => guess(scene, self.last.as_ref()),
+        };
+        let optimum = self.optimiser.optimise_or_improve(&problem, &[start])?;
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
@@ -183,32 +198,24 @@ impl Drive for Human {
 
 /// The problem that a driver poses who neither reacts late nor hesitates.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
-    pose(scene, &scene.others, settings)
+    pose(scene, (&scene.others, None), settings)
 }
 
-/// The problem of a driver who sees `scene` and yields to the others as `expected`, in the order of the scene.
-fn pose(scene: &Scene, expected: &[Agent], settings: &Settings) -> Problem {
+/// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and passes an obstacle.
+fn pose(scene: &Scene, (expected, passed): (&[Agent], Option<&Obstacle>), settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
-    terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, expected, settings)).map(Term::KeepOut));
+    let others = scene.others.iter().zip(expected);
+    let others: Vec<(&Agent, &Agent)> =
+        others.filter(|(other, _)| passed.is_none_or(|obstacle| obstacle.name != other.name)).collect();
+    let leader = leader(scene, others.iter().map(|(other, _)| *other));
+    let followed = leader.map(|leader| followed(scene, leader, settings)).unwrap_or_default();
+    let yielded_to = yielded_to(scene, leader, &others, settings);
+    let beside = passed.map(|obstacle| obstacle.keep_out(scene));
+    terms.extend(followed.into_iter().chain(yielded_to).chain(beside).map(Term::KeepOut));
+    let rules = &scene.ego.rules;
+    let line = rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, line_m));
+    terms.extend(line.map(Term::StopLine));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], shared_steps: 0, terms }
-}
-
-/// Makes the driver come to a line at a usual pace, and wait there.
-///
-/// Against a constant wanted speed the cheapest way to a line within the horizon is a slow and even one, at every step anew:
-/// the driver would creep for ever.
-fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
-    let ego = &scene.ego;
-    for term in &mut problem.terms {
-        if let Term::FrenetTracking(tracking) = term {
-            let approach_mps = ego.approach_speeds_mps(line_m, tracking.target.speed_mps, scene.horizon, scene.step_s);
-            let permitted_mps = std::mem::take(&mut tracking.permitted_mps);
-            let no_limits = std::iter::repeat(f64::INFINITY);
-            let permitted_mps = permitted_mps.into_iter().chain(no_limits).zip(approach_mps);
-            tracking.permitted_mps = permitted_mps.map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect();
-        }
-    }
-    problem.terms.push(Term::StopLine(ego.stop_line(0, line_m)));
 }
 
 /// The starting guess of an optimisation: the last plan one step later, or before the first plan a little braking.
@@ -224,8 +231,7 @@ fn steadily(scene: &Scene, share: f64) -> Vec<Input> {
 }
 
 /// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
-fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
-    let Some(leader) = leader(scene) else { return Vec::new() };
+fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> {
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
@@ -238,18 +244,17 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     vec![comfortable, firm]
 }
 
-/// Everybody who might cut in or cross, where the driver expects them.
-fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<KeepOut> {
+/// Those who might cut in or cross, where the driver expects them; `others` are pairs of a vehicle and what is expected of it.
+fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
     if weight == 0.0 {
         return Vec::new();
     }
-    let leader = leader(scene).map(|leader| &leader.name);
+    let leader = leader.map(|leader| &leader.name);
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let mut keep_outs = Vec::new();
-    let pairs = scene.others.iter().zip(expected);
     let concerns = |other: &Agent| ego.may_meet(other) && Some(&other.name) != leader && !behind(&other);
-    for (other, expected) in pairs.filter(|(other, _)| concerns(other)) {
+    for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
         if ego.crosses(other) {
@@ -259,8 +264,8 @@ fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<Kee
     keep_outs
 }
 
-/// The nearest vehicle ahead in the same lane.
-fn leader(scene: &Scene) -> Option<&Agent> {
-    let ahead = scene.others.iter().filter(|other| scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0);
+/// The nearest of some vehicles that is ahead in the same lane.
+fn leader<'a>(scene: &Scene, others: impl Iterator<Item = &'a Agent>) -> Option<&'a Agent> {
+    let ahead = others.filter(|other| scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0);
     ahead.min_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
 }

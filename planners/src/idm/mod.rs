@@ -12,8 +12,11 @@ mod settings;
 
 pub use settings::{Mobil, Settings};
 
+use std::borrow::Cow;
+
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::obstacle::{ObstacleMemory, swing_m};
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};
@@ -30,12 +33,13 @@ pub struct Idm {
     /// route come and go, and with them the number of a lane.
     lane_centre_m: Option<f64>,
     arrivals: ArrivalMemory,
+    obstacles: ObstacleMemory,
 }
 
 impl Idm {
     /// A driver who has not chosen a lane yet.
     pub fn new(settings: Settings) -> Self {
-        Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default() }
+        Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default(), obstacles: ObstacleMemory::default() }
     }
 }
 
@@ -71,8 +75,20 @@ impl Drive for Idm {
     /// # Errors
     /// Never.
     fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
-        let line_m = self.arrivals.stop_line_m(scene);
-        let scene = &along_the_road(self.settings.prediction.applied_to(scene).into_owned());
+        let mut seen = Cow::Borrowed(scene);
+        let passed = if scene.ego.rules.are_kept {
+            let manoeuvre = self.obstacles.judge(scene);
+            manoeuvre.and_then(|manoeuvre| manoeuvre.passed_or_waited_for(&mut seen))
+        } else {
+            if let Some(line_m) = self.arrivals.stop_line_m(scene) {
+                seen.to_mut().ego.rules.stop_before(line_m);
+            }
+            None
+        };
+        let line_m = seen.ego.rules.stop_line_m;
+        let scene = &mut along_the_road(self.settings.prediction.applied_to(scene).into_owned());
+        scene.others.retain(|other| passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
+        let (scene, swing_m) = (&*scene, swing_m(scene));
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
         let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));
         let is_near = |lane: &usize| !scene.ego.route.is_in_network() || lane.abs_diff(nearest_lane) <= 1;
@@ -86,6 +102,11 @@ impl Drive for Idm {
             let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
             // Straight roads have neither lines nor speed limits.
             let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
+            let front_m = along_m.map(|along_m| along_m + own.body.front_m);
+            let lateral_m = passed
+                .as_ref()
+                .zip(front_m)
+                .map_or(lateral, |(obstacle, front_m)| obstacle.lateral_m(front_m, lateral, swing_m));
             let line = line_m
                 .zip(along_m)
                 .map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
@@ -99,8 +120,8 @@ impl Drive for Idm {
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
                 steering_rad: match along_m {
-                    None => steer(own, state, lateral),
-                    Some(_) => steer_over_step(own, state, lateral, scene.step_s),
+                    None => steer(own, state, lateral_m),
+                    Some(_) => steer_over_step(own, state, lateral_m, scene.step_s),
                 },
             }
         });

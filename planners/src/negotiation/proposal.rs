@@ -97,6 +97,8 @@ fn participant(scene: &Scene, partner: &Agent, settings: &Settings) -> Participa
         model: Bicycle::new(&partner.body, scene.step_s),
         limits: partner.limits,
         steering_bounds_rad: partner.steering_bounds_rad(scene.horizon),
+        // Its known inputs may lead it beyond what the rules permit.
+        speed_caps_mps: Vec::new(),
         start: partner.state,
         previous_input: partner.previous_input,
         known_inputs: (0..settled).map(|t| inputs.get(t).copied().unwrap_or_default()).collect(),

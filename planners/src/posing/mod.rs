@@ -34,7 +34,7 @@ impl Agent {
     }
 
     /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
-    fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
+    pub(crate) fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
         if self.route.straight().is_some() {
             return Vec::new();
         }
@@ -68,6 +68,7 @@ impl Scene {
             model: self.model(),
             limits: self.ego.limits,
             steering_bounds_rad: self.ego.steering_bounds_rad(self.horizon),
+            speed_caps_mps: self.speed_caps_mps(),
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),
@@ -75,11 +76,17 @@ impl Scene {
         }
     }
 
-    /// What a goal and the road ask of the planning vehicle as number `vehicle` of a trajectory problem: comfort, tracking
-    /// (eq. 6.6) and road edges (eq. 6.7).
+    /// What a goal, the road and its rules ask of the planning vehicle as number `vehicle` of a trajectory problem: comfort, tracking
+    /// (eq. 6.6), road edges (eq. 6.7), and the line at which it has to wait.
     pub fn own_terms(&self, vehicle: usize, goal: &Goal) -> Vec<Term> {
         let comfort = Term::Comfort(Comfort { vehicle, weights: goal.comfort });
-        vec![comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))]
+        let rules = &self.ego.rules;
+        let line = rules
+            .stop_line_m
+            .filter(|_| rules.are_kept)
+            .map(|line_m| Term::StopLine(self.ego.stop_line(vehicle, line_m)));
+        let terms = [comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))];
+        terms.into_iter().chain(line).collect()
     }
 
     /// What the planning vehicle pays for deviations from a goal: in Frenet coordinates where its road is curved.
@@ -92,6 +99,7 @@ impl Scene {
         let wanted = route.locate(goal.target.position(), None);
         let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
         let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
+        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, (self.horizon, self.step_s));
         Term::FrenetTracking(FrenetTracking {
             vehicle,
             weights: goal.tracking,

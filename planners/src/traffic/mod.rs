@@ -35,6 +35,7 @@ pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
 use crate::predict::without_plans;
+use crate::rules::RuleBook;
 use crate::{Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
@@ -48,6 +49,8 @@ pub struct Traffic {
     pub horizon: usize,
     /// The road users, in the order in which they are listed.
     pub road_users: Vec<RoadUser>,
+    /// What has to be remembered in order to judge by the rules of the road; carried on from tick to tick.
+    pub rule_book: RuleBook,
 }
 
 /// What one vehicle decided in a tick.
@@ -64,9 +67,14 @@ pub struct Decision {
 }
 
 impl Traffic {
-    /// Writes into every agent's prediction what the others expect of it before it has planned in this tick.
+    /// Writes into every agent what the others expect of it before it has planned in this tick, and what the rules of the road ask
+    /// of it. To be called once a tick.
     pub fn predict(&mut self) {
-        let Traffic { horizon, step_s, .. } = *self;
+        let Traffic { tick, horizon, step_s, .. } = *self;
+        let rules = self.rule_book.judge((tick, step_s), &self.road_users);
+        for (user, rules) in self.road_users.iter_mut().zip(rules) {
+            user.agent.rules = rules;
+        }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = committed.prediction(agent, horizon, step_s);
         }

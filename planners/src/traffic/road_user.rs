@@ -14,6 +14,8 @@ pub struct RoadUser {
     pub goes_first: bool,
     /// Whether it is told the plans of the others.
     pub knows_plans: bool,
+    /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
+    pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
     /// The plan that it decided on last.
@@ -23,6 +25,14 @@ pub struct RoadUser {
 impl RoadUser {
     /// A vehicle that has not planned yet and is told the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
-        RoadUser { agent, goal, goes_first, knows_plans: true, is_crashed: false, committed: CommittedPlan::default() }
+        RoadUser {
+            agent,
+            goal,
+            goes_first,
+            knows_plans: true,
+            keeps_rules: false,
+            is_crashed: false,
+            committed: CommittedPlan::default(),
+        }
     }
 }

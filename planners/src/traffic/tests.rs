@@ -19,7 +19,7 @@ fn road_user(name: &str, x_m: f64, goes_first: bool) -> RoadUser {
 }
 
 fn traffic(road_users: Vec<RoadUser>) -> Traffic {
-    Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users }
+    Traffic { step_s: STEP_S, horizon: HORIZON, road_users, ..Traffic::default() }
 }
 
 /// A plan whose inputs are told apart by their number: 0.01, 0.02, … m/s².

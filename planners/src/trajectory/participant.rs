@@ -15,6 +15,9 @@ pub struct Participant {
     /// Largest steering angles at `t = 0…N−1` where they depend on the speed, which is the expected one; `N` long, or empty where
     /// `limits` alone bound the steering \[rad\].
     pub steering_bounds_rad: Vec<f64>,
+    /// Highest speeds at `t = 1…N` that the rules of the road permit, each within reach of the one before by braking; `N` long, or empty
+    /// where `limits` alone bound the speed \[m/s\].
+    pub speed_caps_mps: Vec<f64>,
     /// State at `t = 0`.
     pub start: State,
     /// Input applied before `t = 0`, for the first `Δu`.
@@ -85,6 +88,8 @@ impl Participant {
         let (limits, elapsed) = (&self.limits, self.model.step_s() * t as f64);
         let reachable_low = self.start.speed_mps + limits.acceleration_max_mps2 * elapsed;
         let reachable_high = self.start.speed_mps + limits.acceleration_min_mps2 * elapsed;
-        [limits.speed_min_mps.min(reachable_low), limits.speed_max_mps.max(reachable_high)]
+        let cap_mps = t.checked_sub(1).and_then(|stage| self.speed_caps_mps.get(stage)).copied();
+        let speed_max_mps = cap_mps.map_or(limits.speed_max_mps, |cap_mps| cap_mps.min(limits.speed_max_mps));
+        [limits.speed_min_mps.min(reachable_low), speed_max_mps.max(reachable_high)]
     }
 }

@@ -254,6 +254,7 @@ impl Vehicle {
                 lateral_acceleration_max_mps2: None,
             },
             steering_bounds_rad: Vec::new(),
+            speed_caps_mps: Vec::new(),
             start,
             previous_input: Input::from_array(self.previous_input),
             known_inputs: self.known_inputs.iter().copied().map(Input::from_array).collect(),

@@ -67,6 +67,7 @@ pub fn vehicle(
         prediction: constant_velocity(&state, HORIZON, STEP_S),
         shared_goal: None,
         can_be_asked: true,
+        rules: interplay_planners::rules::RoadRules::default(),
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
@@ -177,7 +178,7 @@ pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
     };
     let road_users = vehicles.iter().map(road_user).collect();
     let planners = vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
-    (Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users }, planners)
+    (Traffic { step_s: STEP_S, horizon: HORIZON, road_users, ..Traffic::default() }, planners)
 }
 
 /// Drives the vehicles through the loop of the application, with the bicycle as the plant.

@@ -1,5 +1,6 @@
 //! A vehicle as a file states it.
 
+use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse, belief, human, sensing};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -56,6 +57,11 @@ pub struct VehicleConfig {
     /// Its driver, `kind` choosing; by default a nice human.
     #[schemars(with = "Driver", default = "default_driver")]
     pub driver: Option<Stated<Driver>>,
+    /// Whether it keeps all rules of roads whose lanes have names, whoever drives it: speed limits, stop signs and right of way. It then
+    /// drives no faster than it wants, and a human or a driver after the intelligent driver model passes what stands in its way. Without
+    /// it these two keep right of way and signs, and planners settle the order themselves.
+    #[schemars(example = json!("kept"))]
+    pub rules: Option<RuleKeeping>,
     /// What it senses of the others; without it, it sees every state as it is.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
     pub sensing: Option<Stated<sensing::Settings>>,

@@ -1,5 +1,6 @@
 //! What a file may say of all its vehicles at once.
 
+use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,9 @@ pub struct VehicleDefaults {
     /// The ellipse around each other vehicle that a vehicle keeps out of.
     #[schemars(example = json!({ "along_m": 0.75 }))]
     pub safety: Option<Stated<SafetyEllipse>>,
+    /// Whether vehicles keep the rules of the road.
+    #[schemars(example = json!("kept"))]
+    pub rules: Option<RuleKeeping>,
     /// The driver. A vehicle with a driver of another `kind` takes nothing from it.
     #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
     pub driver: Option<Stated<Driver>>,

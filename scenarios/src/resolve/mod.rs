@@ -157,6 +157,7 @@ impl Reader<'_> {
             start,
             route,
             goal: stated.goal,
+            rules: stated.rules,
         })
     }
 }

@@ -22,6 +22,7 @@ use interplay_building::occupancy::Occupancy;
 use interplay_building::schedule::ZoneSchedule;
 use interplay_common::random::SplitMix64;
 use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::rules::RuleKeeping;
 use interplay_planners::sensing::{self, Sensor};
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief};
 
@@ -195,6 +196,8 @@ pub struct Vehicle {
     pub safety: SafetyEllipse,
     /// Its driver.
     pub driver: Driver,
+    /// Whether it keeps the rules of the road, if that is stated; otherwise its kind of driver says so.
+    pub rules: Option<RuleKeeping>,
     /// What it senses of the others; without it, it sees every state as it is.
     pub sensing: Option<sensing::Settings>,
     /// How it learns from the others' motion what they will do, where its driver infers that.

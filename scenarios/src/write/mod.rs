@@ -83,6 +83,7 @@ impl Vehicle {
             limits: Some(self.limits.into()),
             safety: Some(self.safety.into()),
             driver: Some(self.driver.clone().into()),
+            rules: self.rules,
             sensing: self.sensing.map(Stated::from),
             inference: self.inference.map(Stated::from),
         }

@@ -1,0 +1,165 @@
+//! Whether one vehicle has to wait for another one where their routes meet.
+
+use crate::Agent;
+use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
+
+/// Length of a car at 1/10 scale \[m\].
+const CAR_LENGTH_M: f64 = 0.45;
+
+/// A vehicle stands if it would come to rest within this share of a car's length, braking at [`REFERENCE_MPS2`].
+const STANDING_LENGTHS: f64 = 0.02;
+
+/// A driver stops this many lengths of a car before a line.
+const STOPPING_LENGTHS: f64 = 0.15;
+
+/// Time to spare between leaving a conflict and the other's arrival there: so often the time `√(length / 1 m/s²)`. For a
+/// 4.5 m long car 2.1 s.
+const SPARE_TIMES: f64 = 1.0;
+
+/// Acceleration that makes a time of a length \[m/s²\]. At any scale with equal accelerations, times grow alike.
+const REFERENCE_MPS2: f64 = 1.0;
+
+/// A driver enters a conflict with this share of its strongest acceleration.
+const ENTERING_SHARE: f64 = 0.6;
+
+/// A driver brakes for a line with at most this share of its strongest braking.
+const BRAKING_SHARE: f64 = 0.8;
+
+/// A vehicle and one of those that it meets, at one of their conflicts.
+pub(super) struct Pair<'a> {
+    ego: &'a Agent,
+    other: &'a Agent,
+    conflict: &'a RouteConflict,
+    /// Where the front of the vehicle is on its route \[m\].
+    own_front_m: f64,
+    /// Where the front of the other is on its own \[m\].
+    their_front_m: f64,
+    wanted_mps: f64,
+}
+
+/// What the order of arrival says of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Arrived {
+    /// Whether the vehicle is at its line.
+    pub own: bool,
+    /// Whether the other is at its line.
+    pub their: bool,
+    /// Whether the other came to its line before the vehicle came to its own; none unless both have.
+    pub they_came_first: Option<bool>,
+    /// Whether the other stands there and goes as soon as it may.
+    pub they_are_ready: bool,
+}
+
+impl<'a> Pair<'a> {
+    /// A vehicle that wants to drive at some speed, and another one.
+    pub(super) fn new([ego, other]: [&'a Agent; 2], conflict: &'a RouteConflict, wanted_mps: f64) -> Self {
+        Pair { ego, other, conflict, own_front_m: front_m(ego), their_front_m: front_m(other), wanted_mps }
+    }
+
+    /// Whether the other keeps the vehicle from the conflict.
+    pub(super) fn holds(&self, arrived: Arrived) -> bool {
+        let Pair { ego, other, conflict, own_front_m, their_front_m, .. } = *self;
+        if own_front_m > conflict.own_line_m
+            || own_front_m - length_m(ego) > conflict.own_m[1]
+            || their_front_m - length_m(other) > conflict.their_m[1]
+            || ego.shares_lane_with(other)
+        {
+            return false;
+        }
+        let is_committed = their_front_m > conflict.their_line_m;
+        match conflict.precedence {
+            _ if is_committed && conflict.kind != ConflictKind::Merging => self.comes_too_soon(),
+            Precedence::Own => false,
+            // Who has priority and stands at its line waits for somebody else, and goes when that one has passed.
+            Precedence::Other => self.comes_too_soon() || (is_standing(other) && arrived.they_are_ready),
+            Precedence::ByArrival => self.arrived_later(arrived),
+        }
+    }
+
+    /// Whether the other has arrived before the vehicle, or will.
+    fn arrived_later(&self, arrived: Arrived) -> bool {
+        if let Some(they_came_first) = arrived.they_came_first {
+            return they_came_first;
+        }
+        if arrived.own {
+            return self.their_front_m > self.conflict.their_line_m;
+        }
+        let own_m = self.conflict.own_line_m - self.own_front_m;
+        let their_m = self.conflict.their_line_m - self.their_front_m;
+        arrived.their || (their_m < own_m && self.comes_too_soon())
+    }
+
+    /// Whether the other, which may speed up, is in the conflict before the vehicle could have cleared it, with time to
+    /// spare.
+    fn comes_too_soon(&self) -> bool {
+        let Pair { ego, other, conflict, .. } = self;
+        let their_way_m = conflict.their_m[0] - self.their_front_m;
+        if their_way_m > 0.0 && is_standing(other) {
+            return false;
+        }
+        let their_mps2 = ENTERING_SHARE * other.limits.acceleration_max_mps2;
+        let their_s = time_s(their_way_m.max(0.0), other.state.speed_mps, self.wanted_mps, their_mps2);
+        let own_end_m = match conflict.kind {
+            // Whoever joins must be as fast as the one behind by then; half of the way is as good as that.
+            ConflictKind::Merging => conflict.own_meeting_m,
+            ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => conflict.own_m[1],
+        };
+        let own_way_m = own_end_m + length_m(ego) - self.own_front_m;
+        let own_s =
+            time_s(own_way_m, ego.state.speed_mps, self.wanted_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
+        their_s < own_s + SPARE_TIMES * (length_m(ego) / REFERENCE_MPS2).sqrt()
+    }
+}
+
+/// The ends of lanes at which the vehicle must stand once, and has not passed \[m\].
+pub(super) fn signed_lines(agent: &Agent) -> Vec<f64> {
+    let front_m = front_m(agent);
+    let signed = |sign: RightOfWay| matches!(sign, RightOfWay::Stop | RightOfWay::AllWayStop);
+    let legs = agent.route.legs.iter().filter(|leg| signed(leg.right_of_way) && leg.to_m >= front_m);
+    legs.map(|leg| leg.to_m).collect()
+}
+
+/// Where the front of a vehicle is on its route \[m\].
+pub(super) fn front_m(agent: &Agent) -> f64 {
+    agent.route.along(agent.state.position()) + agent.body.front_m
+}
+
+fn length_m(agent: &Agent) -> f64 {
+    agent.body.front_m + agent.body.rear_m
+}
+
+/// The length of a car of the scale of a vehicle, by which distances to lines are measured whatever the vehicle \[m\].
+pub(super) fn car_length_m(agent: &Agent) -> f64 {
+    CAR_LENGTH_M * agent.body.scale
+}
+
+/// Whether a vehicle stands, or as good as stands.
+pub(crate) fn is_standing(agent: &Agent) -> bool {
+    let speed_mps = agent.state.speed_mps;
+    speed_mps * speed_mps < 2.0 * REFERENCE_MPS2 * STANDING_LENGTHS * car_length_m(agent)
+}
+
+/// How far before a line a vehicle stops \[m\].
+pub(super) fn stopping_distance_m(agent: &Agent) -> f64 {
+    STOPPING_LENGTHS * car_length_m(agent)
+}
+
+/// Whether a vehicle can stop before a place.
+pub(super) fn can_stop(agent: &Agent, place_m: f64) -> bool {
+    let speed_mps = agent.state.speed_mps;
+    let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
+    // Whoever stands a little beyond still waits.
+    front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * car_length_m(agent)
+}
+
+/// The time for a way from a speed on, with a constant acceleration up to a wanted speed \[s\].
+fn time_s(way_m: f64, speed_mps: f64, wanted_mps: f64, acceleration_mps2: f64) -> f64 {
+    let most_mps = wanted_mps.max(speed_mps);
+    let until_s = (most_mps - speed_mps) / acceleration_mps2;
+    let until_m = 0.5 * (speed_mps + most_mps) * until_s;
+    if way_m <= until_m {
+        let root = (speed_mps * speed_mps + 2.0 * acceleration_mps2 * way_m.max(0.0)).sqrt();
+        return (root - speed_mps) / acceleration_mps2;
+    }
+    if most_mps > 0.0 { until_s + (way_m - until_m) / most_mps } else { f64::INFINITY }
+}
