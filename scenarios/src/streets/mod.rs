@@ -14,6 +14,8 @@ mod obstacles;
 
 use draft::Draft;
 
+use crate::text::pattern::fits;
+
 /// One kind of street: its word, what it shows, and how a scene is drawn.
 struct StreetKind {
     word: &'static str,
@@ -52,6 +54,9 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "stop", shows: "A crossing where everybody stops", draw: junctions::all_way_stop },
 ];
 
+/// A pattern stands for at most so many numbers of each kind.
+const MAX_NUMBERS: usize = 100_000;
+
 /// The folder of names.
 const FOLDER: &str = "streets/";
 
@@ -75,6 +80,23 @@ impl Street {
         let is_plain = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
         let number: u32 = is_plain.then(|| number.parse().ok())??;
         Some(Street { kind, number }).filter(|street| street.name() == name)
+    }
+
+    /// The streets of a pattern such as `streets/ring/0-19`, `streets/*/7` or `streets/t*/3`: of the kinds that fit, each number from the
+    /// first to the last. Empty if it is no such pattern.
+    pub(crate) fn matching(pattern: &str) -> Vec<Street> {
+        let Some((kinds, numbers)) = pattern.strip_prefix(FOLDER).and_then(|rest| rest.split_once('/')) else {
+            return Vec::new();
+        };
+        let (first, last) = numbers.split_once('-').unwrap_or((numbers, numbers));
+        let (Ok(first), Ok(last)) = (first.parse::<u32>(), last.parse::<u32>()) else { return Vec::new() };
+        let fitting = (0..KINDS.len()).filter(|kind| fits(kinds, KINDS[*kind].word));
+        fitting.flat_map(|kind| (first..=last).take(MAX_NUMBERS).map(move |number| Street { kind, number })).collect()
+    }
+
+    /// What rows of sweeps call its kind.
+    pub(crate) fn family(&self) -> String {
+        format!("{FOLDER}{}", KINDS[self.kind].word)
     }
 
     /// Its name.
@@ -105,6 +127,17 @@ mod tests {
         for wrong in ["streets/ring", "streets/ring/", "streets/ring/-1", "streets/ring/01", "streets/moon/1", "ring/1"]
         {
             assert_eq!(Street::named(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_pattern_stands_for_kinds_and_numbers() {
+        let names = |pattern: &str| Street::matching(pattern).iter().map(Street::name).collect::<Vec<_>>();
+        assert_eq!(names("streets/ring/3-5"), ["streets/ring/3", "streets/ring/4", "streets/ring/5"]);
+        assert_eq!(names("streets/ring*/7"), ["streets/ring/7", "streets/ring2/7"]);
+        assert_eq!(names("streets/*/0-1").len(), 2 * KINDS.len());
+        for wrong in ["streets/ring/5-3", "streets/moon/1", "streets/ring", "streets/ring/x", "ring/1"] {
+            assert!(names(wrong).is_empty(), "{wrong}");
         }
     }
 

@@ -7,6 +7,8 @@ use interplay_common::spelling::suggestion;
 use crate::error::{Fault, Place, quoted};
 use crate::files::files_below;
 use crate::read::embedded::embedded;
+use crate::streets::Street;
+use crate::text::pattern::fits;
 
 /// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,8 +21,8 @@ pub(super) struct NamedScenario {
     pub source: String,
 }
 
-/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, a file, or all .toml files below a
-/// folder, sorted by name. Paths are relative to `folder`.
+/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, streets, a file, or all .toml files below
+/// a folder, sorted by name. Paths are relative to `folder`.
 pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<NamedScenario>, Fault> {
     let matching = |fits: &dyn Fn(&str) -> bool| -> Vec<NamedScenario> {
         embedded().iter().filter(|file| fits(file.name)).map(|file| embedded_scenario(file.name)).collect()
@@ -32,6 +34,10 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
     };
     if !found.is_empty() {
         return Ok(found);
+    }
+    let streets = Street::matching(entry);
+    if !streets.is_empty() {
+        return Ok(streets.iter().map(street).collect());
     }
     let path = folder.join(entry);
     if path.is_dir() {
@@ -67,6 +73,10 @@ fn embedded_scenario(name: &str) -> NamedScenario {
     NamedScenario { name: name.to_owned(), family, source: name.to_owned() }
 }
 
+fn street(street: &Street) -> NamedScenario {
+    NamedScenario { name: street.name(), family: street.family(), source: street.name() }
+}
+
 fn in_folder(file: &Path, folder: &Path) -> NamedScenario {
     let name = file.strip_prefix(folder).unwrap_or(file).with_extension("").to_string_lossy().into_owned();
     let family = name.split('/').next().unwrap_or(&name).to_owned();
@@ -78,34 +88,4 @@ fn families() -> Vec<&'static str> {
     let mut found: Vec<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
     found.dedup();
     found
-}
-
-/// Whether a name fits a pattern, in which `*` stands for any characters but `/`.
-fn fits(pattern: &str, name: &str) -> bool {
-    match pattern.split_once('*') {
-        None => pattern == name,
-        Some((start, rest)) => name.strip_prefix(start).is_some_and(|name| {
-            let reach = name.find('/').unwrap_or(name.len());
-            (0..=reach).any(|end| name.is_char_boundary(end) && fits(rest, &name[end..]))
-        }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_star_stands_for_a_part_of_a_name() {
-        for (pattern, name, expected) in [
-            ("lane-change/*", "lane-change/front-nice", true),
-            ("*/nice", "intersection/nice", true),
-            ("*/nice", "lane-change/front-nice", false),
-            ("*nice", "intersection/nice", false),
-            ("*/*-nice", "lane-change/front-nice", true),
-            ("lane-change", "lane-change/front-nice", false),
-        ] {
-            assert_eq!(fits(pattern, name), expected, "{pattern} {name}");
-        }
-    }
 }

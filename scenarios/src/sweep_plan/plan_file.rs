@@ -14,7 +14,8 @@ pub(crate) struct PlanFile {
     #[serde(default)]
     #[schemars(example = &"Planners against styles")]
     pub title: Option<String>,
-    /// The scenarios: names of embedded ones, which may have `*` in them, their families, files, or folders of files.
+    /// The scenarios: names of embedded ones, which may have `*` in them, their families, streets such as
+    /// `streets/ring/0-19`, files, or folders of files.
     #[schemars(length(min = 1, max = 1000), example = vec!["lane-change/front-nice", "intersection"])]
     pub scenario: Vec<String>,
     /// Who drives the ego: kinds of drivers, or tables with a `name`, a `kind` and changes. Without it, as each file says.
