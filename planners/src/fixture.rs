@@ -21,6 +21,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         shared_goal: None,
         can_be_asked: true,
         rules: RoadRules::default(),
+        urgency: 1.0,
     }
 }
 

@@ -106,6 +106,7 @@ pub mod sensing;
 mod steering;
 pub mod traffic;
 pub mod trajectory;
+mod urgency;
 pub mod vehicle;
 
 pub use deadline::PlanDeadline;
@@ -120,4 +121,4 @@ pub use plan_violation::{PlanCondition, PlanViolation};
 pub use planner::Planner;
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};
-pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};
+pub use vehicle::{Bicycle, Body, ComfortLimits, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

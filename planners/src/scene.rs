@@ -29,6 +29,8 @@ pub struct Agent {
     pub can_be_asked: bool,
     /// What the rules of the road ask of it now; nothing before they are judged.
     pub rules: RoadRules,
+    /// How many times harder than is comfortable it has to brake now; 1 where comfort is enough, and before that is judged.
+    pub urgency: f64,
 }
 
 /// The goal of a vehicle: a desired state, and the weights of its costs.

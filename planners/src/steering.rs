@@ -46,6 +46,21 @@ pub(crate) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s:
     wanted_mps2.min(high).max(low)
 }
 
+impl Agent {
+    /// The input nearest to a wanted one to which a driver changes comfortably within a time, and harder where it must.
+    pub(crate) fn comfortably(&self, last: &Input, wanted: Input, step_s: f64) -> Input {
+        let Some(comfort) = self.limits.comfort else { return wanted };
+        let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
+        let turn_rad = comfort.steering_rate_radps * self.urgency * step_s;
+        let near = |last: f64, wanted: f64, most: f64| wanted.max(last - most).min(last + most);
+        let acceleration_mps2 = wanted.acceleration_mps2.max(-comfort.braking_mps2 * self.urgency);
+        Input {
+            acceleration_mps2: near(last.acceleration_mps2, acceleration_mps2, jerk_mps2),
+            steering_rad: near(last.steering_rad, wanted.steering_rad, turn_rad),
+        }
+    }
+}
+
 /// The motion that a rule `(t, state) ↦ input` leads to over the scene's horizon.
 pub(crate) fn roll_out(scene: &Scene, mut rule: impl FnMut(usize, &State) -> Input) -> Trajectory {
     let model = Bicycle::new(&scene.ego.body, scene.step_s);

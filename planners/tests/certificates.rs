@@ -33,6 +33,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         shared_goal: None,
         can_be_asked: true,
         rules: interplay_planners::rules::RoadRules::default(),
+        urgency: 1.0,
     }
 }
 

@@ -181,6 +181,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             shared_goal: None,
             can_be_asked: true,
             rules: interplay_planners::rules::RoadRules::default(),
+            urgency: 1.0,
         }
     })
 }

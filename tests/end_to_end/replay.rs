@@ -31,6 +31,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
         rules: now.rules.clone(),
+        urgency: now.urgency,
     })
     .collect()
 }

@@ -1,18 +1,36 @@
 //! Act: the first input of each plan is applied, within the vehicle's limits.
 
 use bevy_ecs::prelude::*;
+use interplay_planners::Input;
+use interplay_planners::traffic::applied_input;
 
-use crate::components::{CurrentFrame, Identity, Motion, Sensed};
+use crate::components::{Clock, CurrentFrame, Identity, Motion, Sensed, VehicleParameters};
 
-/// Hands the decided inputs to the plant.
+/// Hands the decided inputs to the plant. Where there are several ticks from one plan to the next, inputs change evenly from the last
+/// one to that of the plan, which they reach with the last of these ticks.
 pub fn act(
-    mut vehicles: Query<(&Identity, &mut Motion)>,
+    mut vehicles: Query<(&Identity, &VehicleParameters, &mut Motion)>,
+    clock: Res<Clock>,
     sensed: Res<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    let inputs = sensed.0.applied_inputs();
-    for (identity, mut motion) in &mut vehicles {
-        motion.input = inputs[identity.index];
-        current_frame.0.vehicles[identity.index].input = inputs[identity.index];
+    let ticks_left = clock.ticks_per_plan - clock.ticks_since_plan();
+    for (identity, VehicleParameters { body, limits, .. }, mut motion) in &mut vehicles {
+        let planned = sensed.0.road_users[identity.index].planned_input();
+        let wanted = towards(&motion.input, planned, ticks_left);
+        motion.input = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
+        current_frame.0.vehicles[identity.index].input = motion.input;
+    }
+}
+
+/// The next of so many inputs that change evenly from one to another.
+fn towards(last: &Input, planned: Input, ticks_left: usize) -> Input {
+    if ticks_left == 1 {
+        return planned;
+    }
+    let next = |last: f64, planned: f64| last + (planned - last) / ticks_left as f64;
+    Input {
+        acceleration_mps2: next(last.acceleration_mps2, planned.acceleration_mps2),
+        steering_rad: next(last.steering_rad, planned.steering_rad),
     }
 }

@@ -130,11 +130,28 @@ pub struct Clock {
     pub tick: usize,
     /// Length of a tick \[s\].
     pub step_s: f64,
-    /// Number of steps of a plan.
+    /// Number of stages of a plan.
     pub horizon: usize,
+    /// How many ticks there are from one plan to the next.
+    pub ticks_per_plan: usize,
 }
 
 impl Clock {
+    /// How many ticks have passed since vehicles planned: 0 where they plan in this one.
+    pub fn ticks_since_plan(&self) -> usize {
+        self.tick % self.ticks_per_plan
+    }
+
+    /// How often vehicles have planned before this tick.
+    pub fn plans(&self) -> usize {
+        self.tick.div_ceil(self.ticks_per_plan)
+    }
+
+    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    pub fn planning_period_s(&self) -> f64 {
+        self.step_s * self.ticks_per_plan as f64
+    }
+
     /// Simulated time at the start of this tick \[s\].
     pub fn time_s(&self) -> f64 {
         self.within_s(0.0)
@@ -166,7 +183,7 @@ mod tests {
 
     #[test]
     fn times_are_what_people_write() {
-        let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30 };
+        let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30, ticks_per_plan: 1 };
         for tick in 0..100_000_u32 {
             let written = format!("{}.{}", tick / 10, tick % 10);
             assert_eq!(format!("{:?}", clock(tick as usize).time_s()), written);

@@ -17,6 +17,8 @@ pub struct Frame {
     pub time_s: f64,
     /// Every vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleFrame>,
+    /// Whether the vehicles planned in this tick; otherwise they follow their last plans.
+    pub plans: bool,
     /// Events of the tick, in order.
     pub events: Vec<Event>,
     /// The contacts that began during the tick, in order.
@@ -87,6 +89,8 @@ pub struct VehicleFrame {
     pub prediction: Trajectory,
     /// What the rules of the road ask of it.
     pub rules: RoadRules,
+    /// How many times harder than is comfortable it had to brake when it planned; 1 where comfort was enough.
+    pub urgency: f64,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
 }

@@ -42,9 +42,9 @@ pub fn schedule() -> Schedule {
     schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
     schedule.add_systems((
         (
-            (sense::sense, sense::look).chain().in_set(Sense),
-            predict::predict.in_set(Predict),
-            plan::plan.in_set(Plan),
+            (sense::sense, sense::look.run_if(sense::plans_now)).chain().in_set(Sense),
+            predict::predict.in_set(Predict).run_if(sense::plans_now),
+            plan::plan.in_set(Plan).run_if(sense::plans_now),
             act::act.in_set(Act),
             physics::step.in_set(Physics),
             measure::measure.in_set(Measure),

@@ -44,6 +44,7 @@ pub fn plan(
     for ((vehicle, user), (.., committed)) in seen.zip(&mut drivers) {
         vehicle.prediction = user.agent.prediction.clone();
         vehicle.rules = user.agent.rules.clone();
+        vehicle.urgency = user.agent.urgency;
         committed.0 = user.committed.clone();
     }
 }

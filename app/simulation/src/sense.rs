@@ -23,6 +23,9 @@ type SeenParts = (
     &'static Committed,
 );
 
+/// The same of one vehicle.
+type SeenItem<'w> = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed);
+
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
     vehicles: Query<SeenParts>,
@@ -30,6 +33,9 @@ pub fn sense(
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
+    if clock.ticks_since_plan() > 0 {
+        return go_on(vehicles.iter(), &clock, (&mut sensed.0, &mut current_frame.0));
+    }
     let rule_book = std::mem::take(&mut sensed.0.rule_book);
     sensed.0 = traffic(vehicles.iter(), &clock, rule_book);
     let frames = sensed.0.road_users.iter().map(|user| VehicleFrame {
@@ -38,7 +44,31 @@ pub fn sense(
         ..VehicleFrame::default()
     });
     current_frame.0 =
-        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), ..Frame::default() };
+        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), plans: true, ..Frame::default() };
+}
+
+/// Between two plans only the states are new: everybody follows the last plan.
+fn go_on<'w>(
+    vehicles: impl Iterator<Item = SeenItem<'w>>,
+    clock: &Clock,
+    (traffic, frame): (&mut Traffic, &mut Frame),
+) {
+    let last = std::mem::take(&mut frame.vehicles);
+    *frame = Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: last, ..Frame::default() };
+    for vehicle in &mut frame.vehicles {
+        vehicle.plan.events.clear();
+        vehicle.plan.statistics = Default::default();
+        vehicle.plan_ms = 0.0;
+    }
+    for (identity, motion, ..) in vehicles {
+        traffic.road_users[identity.index].agent.state = motion.state;
+        frame.vehicles[identity.index].state = motion.state;
+    }
+}
+
+/// Whether vehicles plan in this tick.
+pub fn plans_now(clock: Res<Clock>) -> bool {
+    clock.ticks_since_plan() == 0
 }
 
 /// Lets every sensor measure the others. The plans that they will tell are joined to what is seen in the phase Plan.
@@ -62,13 +92,7 @@ pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
 }
 
 /// Everybody as plain values, in the scenario's order.
-fn traffic<'w>(
-    vehicles: impl Iterator<
-        Item = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed),
-    >,
-    clock: &Clock,
-    rule_book: RuleBook,
-) -> Traffic {
+fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule_book: RuleBook) -> Traffic {
     let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
     let road_users = sorted.into_iter().map(|(identity, motion, parameters, objective, driving, committed)| RoadUser {
@@ -83,6 +107,7 @@ fn traffic<'w>(
             shared_goal: objective.shared,
             can_be_asked: driving.can_be_asked,
             rules: RoadRules::default(),
+            urgency: 1.0,
         },
         goal: objective.goal,
         goes_first: driving.goes_first,
@@ -92,5 +117,6 @@ fn traffic<'w>(
         committed: committed.0.clone(),
     });
     let road_users = road_users.collect();
-    Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users, rule_book }
+    let step_s = clock.planning_period_s();
+    Traffic { tick: clock.plans(), step_s, horizon: clock.horizon, road_users, rule_book }
 }

@@ -59,7 +59,12 @@ impl WorldState {
         Ok(WorldState {
             vehicles,
             nodes,
-            clock: Clock { tick: 0, step_s: scenario.step_s, horizon: scenario.horizon_steps },
+            clock: Clock {
+                tick: 0,
+                step_s: scenario.step_s,
+                horizon: scenario.horizon_steps,
+                ticks_per_plan: scenario.ticks_per_plan,
+            },
             time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
             sensed: Sensed::default(),
             current_frame: CurrentFrame::default(),

@@ -96,3 +96,12 @@ pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> 
     let mut stages = 0..plan.states.len();
     if stages.next().is_none_or(touches) { None } else { stages.find(|stage| touches(*stage)) }
 }
+
+/// Whether a motion of the planning vehicle touches another where that is expected to be, and that one is ahead then.
+pub(crate) fn touches_ahead(scene: &Scene, motion: &Trajectory, other: &Agent) -> bool {
+    first_contact(scene, motion, other).is_some_and(|stage| {
+        let (here, there) = (&motion.states[stage], expected(other, stage));
+        let (sin, cos) = libm::sincos(here.heading_rad);
+        there.is_some_and(|there| (there.x_m - here.x_m) * cos + (there.y_m - here.y_m) * sin > 0.0)
+    })
+}

@@ -97,6 +97,7 @@ impl Drive for Idm {
         let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
         let lateral = lanes.centre_m(choice.lane);
         self.lane_centre_m = Some(lateral);
+        let mut before = own.previous_input;
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
             let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
@@ -117,13 +118,14 @@ impl Drive for Idm {
             let highest_mps2 =
                 along_m.and_then(|along_m| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s));
             let acceleration = highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2));
-            Input {
-                acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
-                steering_rad: match along_m {
-                    None => steer(own, state, lateral_m),
-                    Some(_) => steer_over_step(own, state, lateral_m, scene.step_s),
-                },
-            }
+            let steering_rad = match along_m {
+                None => steer(own, state, lateral_m),
+                Some(_) => steer_over_step(own, state, lateral_m, scene.step_s),
+            };
+            let wanted = Input { acceleration_mps2: acceleration, steering_rad };
+            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, scene.step_s);
+            before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, scene.step_s), steering_rad };
+            before
         });
         let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];

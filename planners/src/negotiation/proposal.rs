@@ -20,7 +20,7 @@
 use super::Settings;
 use crate::trajectory::terms::{Comfort, Persuasion, Tracking};
 use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term};
-use crate::{Agent, Axes, Bicycle, Goal, SafetyEllipse, Scene};
+use crate::{Agent, Axes, Bicycle, Goal, Limits, SafetyEllipse, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v) for 1/10 scale cars.
 const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
@@ -96,9 +96,12 @@ fn participant(scene: &Scene, partner: &Agent, settings: &Settings) -> Participa
     Participant {
         model: Bicycle::new(&partner.body, scene.step_s),
         limits: partner.limits,
-        steering_bounds_rad: partner.steering_bounds_rad(scene.horizon),
-        // Its known inputs may lead it beyond what the rules permit.
-        speed_caps_mps: Vec::new(),
+        // Its known inputs may lead it beyond what the rules permit and what is comfortable.
+        stage_bounds: Agent { limits: Limits { comfort: None, ..partner.limits }, ..partner.clone() }.stage_bounds(
+            scene.horizon,
+            scene.step_s,
+            &[],
+        ),
         start: partner.state,
         previous_input: partner.previous_input,
         known_inputs: (0..settled).map(|t| inputs.get(t).copied().unwrap_or_default()).collect(),

@@ -3,6 +3,7 @@
 //! [`JointVehicle`] and [`joint_problem`] do so for several vehicles that decide together.
 
 mod joint;
+mod stage_bounds;
 
 use std::sync::Arc;
 
@@ -14,6 +15,9 @@ use crate::trajectory::terms::{
 use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
 use crate::{Agent, Goal, Route, SafetyEllipse, Scene, Trajectory};
+
+/// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
+const MOST_LATERAL_URGENCY: f64 = 2.0;
 
 impl Agent {
     /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
@@ -45,13 +49,16 @@ impl Agent {
     /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on
     /// the speed \[rad\].
     pub(crate) fn steering_bounds_rad(&self, horizon: usize) -> Vec<f64> {
-        if self.limits.lateral_acceleration_max_mps2.is_none() {
-            return Vec::new();
-        }
+        let comfortable_mps2 = self
+            .limits
+            .comfort
+            .map(|comfort| comfort.lateral_acceleration_mps2 * self.urgency.min(MOST_LATERAL_URGENCY));
+        let bounds = self.limits.lateral_acceleration_max_mps2.into_iter().chain(comfortable_mps2);
+        let Some(most_mps2) = bounds.min_by(f64::total_cmp) else { return Vec::new() };
         let expected = self.prediction.states.iter().skip(1).map(|state| state.speed_mps);
         let last_mps = self.prediction.states.last().unwrap_or(&self.state).speed_mps;
         let speeds = std::iter::once(self.state.speed_mps).chain(expected).chain(std::iter::repeat(last_mps));
-        speeds.take(horizon).map(|speed_mps| self.limits.steering_max_at_rad(&self.body, speed_mps)).collect()
+        speeds.take(horizon).map(|speed_mps| self.limits.steering_at_rad(&self.body, speed_mps, most_mps2)).collect()
     }
 
     /// The slip angles with which it follows its route at arc lengths \[rad\].
@@ -67,8 +74,7 @@ impl Scene {
         Participant {
             model: self.model(),
             limits: self.ego.limits,
-            steering_bounds_rad: self.ego.steering_bounds_rad(self.horizon),
-            speed_caps_mps: self.speed_caps_mps(),
+            stage_bounds: self.ego.stage_bounds(self.horizon, self.step_s, &self.speed_caps_mps()),
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),

@@ -68,7 +68,7 @@ pub struct Decision {
 
 impl Traffic {
     /// Writes into every agent what the others expect of it before it has planned in this tick, and what the rules of the road ask
-    /// of it. To be called once a tick.
+    /// of it, and says how urgent it is for it to brake. To be called once a tick.
     pub fn predict(&mut self) {
         let Traffic { tick, horizon, step_s, .. } = *self;
         let rules = self.rule_book.judge((tick, step_s), &self.road_users);
@@ -77,6 +77,11 @@ impl Traffic {
         }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = committed.prediction(agent, horizon, step_s);
+        }
+        for vehicle in 0..self.road_users.len() {
+            if self.road_users[vehicle].agent.limits.comfort.is_some() {
+                self.road_users[vehicle].agent.urgency = self.moment(vehicle).urgency();
+            }
         }
     }
 
@@ -128,9 +133,9 @@ impl Traffic {
 
     /// The input that each vehicle applies after planning: the first one of its plan, within its limits.
     pub fn applied_inputs(&self) -> Vec<Input> {
-        let applied = |RoadUser { agent, committed, .. }: &RoadUser| {
-            let planned = committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
-            applied_input(&planned.copied().unwrap_or_default(), &agent.state, &agent.body, &agent.limits, self.step_s)
+        let applied = |user: &RoadUser| {
+            let agent = &user.agent;
+            applied_input(&user.planned_input(), &agent.state, &agent.body, &agent.limits, self.step_s)
         };
         self.road_users.iter().map(applied).collect()
     }

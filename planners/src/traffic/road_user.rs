@@ -1,7 +1,7 @@
 //! A vehicle with all that the loop keeps of it.
 
 use super::committed::CommittedPlan;
-use crate::{Agent, Goal};
+use crate::{Agent, Goal, Input};
 
 /// One vehicle of the closed loop: how the others see it, its goal, and its committed plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,5 +34,11 @@ impl RoadUser {
             is_crashed: false,
             committed: CommittedPlan::default(),
         }
+    }
+
+    /// The first input of its plan.
+    pub fn planned_input(&self) -> Input {
+        let planned = self.committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
+        planned.copied().unwrap_or_default()
     }
 }

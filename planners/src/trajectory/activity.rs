@@ -70,9 +70,10 @@ fn touches(problem: &Problem, iterate: &Iterate, vehicle: usize, stage: usize, k
 }
 
 fn is_at_input_bound(own: &Participant, iterate: &Iterate, participant: usize, stage: usize) -> bool {
-    let (input, limits) = (&iterate.inputs[participant][stage], &own.limits);
-    is_at_bound(input.acceleration_mps2, limits.acceleration_min_mps2, limits.acceleration_max_mps2)
-        || is_at_bound(input.steering_rad, -own.steering_max_rad(stage), own.steering_max_rad(stage))
+    let input = &iterate.inputs[participant][stage];
+    let ([least_mps2, most_mps2], [least_rad, most_rad]) =
+        (own.acceleration_bounds_mps2(stage), own.steering_bounds_rad(stage));
+    is_at_bound(input.acceleration_mps2, least_mps2, most_mps2) || is_at_bound(input.steering_rad, least_rad, most_rad)
 }
 
 fn is_at_bound(value: f64, low: f64, high: f64) -> bool {

@@ -15,6 +15,7 @@ mod problem;
 mod route_start;
 mod sqp;
 mod stage;
+mod stage_bounds;
 pub mod terms;
 
 pub use cost::{Cost, Violation};
@@ -29,4 +30,5 @@ pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
     StateCost, Structured, TrajectoryRow, VehicleStages, kkt,
 };
+pub use stage_bounds::StageBounds;
 pub use terms::Term;

@@ -1,6 +1,7 @@
 //! A vehicle whose inputs are decided, with its hard bounds.
 
 use super::route_start::RouteStart;
+use super::stage_bounds::StageBounds;
 use crate::road::centre_line::FrenetExpansion;
 use crate::{Bicycle, Input, Limits, State};
 
@@ -12,12 +13,8 @@ pub struct Participant {
     pub model: Bicycle,
     /// Hard bounds on inputs and speed.
     pub limits: Limits,
-    /// Largest steering angles at `t = 0…N−1` where they depend on the speed, which is the expected one; `N` long, or empty where
-    /// `limits` alone bound the steering \[rad\].
-    pub steering_bounds_rad: Vec<f64>,
-    /// Highest speeds at `t = 1…N` that the rules of the road permit, each within reach of the one before by braking; `N` long, or empty
-    /// where `limits` alone bound the speed \[m/s\].
-    pub speed_caps_mps: Vec<f64>,
+    /// Narrower bounds at each of the `N` stages; empty where `limits` alone hold.
+    pub stage_bounds: Vec<StageBounds>,
     /// State at `t = 0`.
     pub start: State,
     /// Input applied before `t = 0`, for the first `Δu`.
@@ -46,10 +43,10 @@ impl Participant {
                     self.known_inputs[t]
                 } else {
                     let wanted = guess.get(t).copied().unwrap_or_default();
-                    let bound_rad = self.steering_max_rad(t);
+                    let [least_rad, most_rad] = self.steering_bounds_rad(t);
                     Input {
                         acceleration_mps2: self.reachable_acceleration(t, speed, wanted.acceleration_mps2),
-                        steering_rad: wanted.steering_rad.clamp(-bound_rad, bound_rad),
+                        steering_rad: wanted.steering_rad.clamp(least_rad, most_rad),
                     }
                 };
                 speed += step * input.acceleration_mps2;
@@ -68,28 +65,39 @@ impl Participant {
         }
     }
 
-    /// The largest steering angle in step `t` \[rad\].
-    pub fn steering_max_rad(&self, t: usize) -> f64 {
-        self.steering_bounds_rad.get(t).copied().unwrap_or(self.limits.steering_max_rad)
+    /// Bounds on the steering angle in step `t` \[rad\].
+    pub fn steering_bounds_rad(&self, t: usize) -> [f64; 2] {
+        let most_rad = self.limits.steering_max_rad;
+        self.stage_bounds.get(t).map_or([-most_rad, most_rad], |bounds| bounds.steering_rad)
+    }
+
+    /// Bounds on the acceleration in step `t` \[m/s²\].
+    pub fn acceleration_bounds_mps2(&self, t: usize) -> [f64; 2] {
+        let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
+        self.stage_bounds
+            .get(t)
+            .map_or([acceleration_min_mps2, acceleration_max_mps2], |bounds| bounds.acceleration_mps2)
     }
 
     /// The acceleration in step `t`, at a speed, nearest to a wanted one that keeps itself and the next speed within bounds
     /// \[m/s²\].
     pub fn reachable_acceleration(&self, t: usize, speed_mps: f64, wanted_mps2: f64) -> f64 {
         let ([slowest, fastest], step_s) = (self.speed_bounds(t + 1), self.model.step_s());
-        let low = self.limits.acceleration_min_mps2.max((slowest - speed_mps) / step_s);
-        let high = self.limits.acceleration_max_mps2.min((fastest - speed_mps) / step_s);
+        let [least_mps2, most_mps2] = self.acceleration_bounds_mps2(t);
+        let low = least_mps2.max((slowest - speed_mps) / step_s);
+        let high = most_mps2.min((fastest - speed_mps) / step_s);
         wanted_mps2.min(high).max(low)
     }
 
     /// Bounds on the speed at time `t` \[m/s\]. A vehicle that is out of bounds now (a plant that is not the model may
     /// leave it so) is asked to come back no faster than it can.
     pub fn speed_bounds(&self, t: usize) -> [f64; 2] {
+        if let Some(bounds) = t.checked_sub(1).and_then(|stage| self.stage_bounds.get(stage)) {
+            return bounds.speed_mps;
+        }
         let (limits, elapsed) = (&self.limits, self.model.step_s() * t as f64);
         let reachable_low = self.start.speed_mps + limits.acceleration_max_mps2 * elapsed;
         let reachable_high = self.start.speed_mps + limits.acceleration_min_mps2 * elapsed;
-        let cap_mps = t.checked_sub(1).and_then(|stage| self.speed_caps_mps.get(stage)).copied();
-        let speed_max_mps = cap_mps.map_or(limits.speed_max_mps, |cap_mps| cap_mps.min(limits.speed_max_mps));
-        [limits.speed_min_mps.min(reachable_low), speed_max_mps.max(reachable_high)]
+        [limits.speed_min_mps.min(reachable_low), limits.speed_max_mps.max(reachable_high)]
     }
 }

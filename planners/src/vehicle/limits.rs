@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Body;
+use super::{Body, ComfortLimits};
 
 /// Hard bounds on input and speed (eq. 6.9). The default is Table 6.2.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +29,10 @@ pub struct Limits {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 100.0), example = 7.0)]
     pub lateral_acceleration_max_mps2: Option<f64>,
+    /// What is borne while nobody is in danger. Without it the driver uses all that the vehicle can do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = serde_json::json!({ "jerk_mps3": 3.0 }))]
+    pub comfort: Option<ComfortLimits>,
 }
 
 impl Limits {
@@ -37,7 +41,12 @@ impl Limits {
     /// The bicycle turns at `θ′ = v sin β/L_r` (eq. 6.3), so the lateral acceleration `v² sin β/L_r` bounds the slip angle `β`, and
     /// `tan δ = L/L_r tan β` the steering angle.
     pub fn steering_max_at_rad(&self, body: &Body, speed_mps: f64) -> f64 {
-        let Some(lateral_mps2) = self.lateral_acceleration_max_mps2 else { return self.steering_max_rad };
+        self.lateral_acceleration_max_mps2
+            .map_or(self.steering_max_rad, |most| self.steering_at_rad(body, speed_mps, most))
+    }
+
+    /// Largest steering angle of a body at a speed, with a largest lateral acceleration \[rad\].
+    pub(crate) fn steering_at_rad(&self, body: &Body, speed_mps: f64, lateral_mps2: f64) -> f64 {
         let sin_slip = lateral_mps2 * body.rear_axle_m / (speed_mps * speed_mps);
         if sin_slip.is_nan() || sin_slip >= 1.0 {
             return self.steering_max_rad;
@@ -56,6 +65,7 @@ impl Default for Limits {
             speed_min_mps: 0.0,
             speed_max_mps: 1.5,
             lateral_acceleration_max_mps2: None,
+            comfort: None,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod bicycle;
 mod body;
+mod comfort_limits;
 mod limits;
 mod pose_expansion;
 mod safety_ellipse;
@@ -11,6 +12,7 @@ mod steering_geometry;
 pub(crate) use bicycle::slip_on_curve_rad;
 pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
 pub use body::Body;
+pub use comfort_limits::ComfortLimits;
 pub use limits::Limits;
 pub use pose_expansion::PoseExpansion;
 pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, SafetyEllipse};

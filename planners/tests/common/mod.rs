@@ -60,8 +60,7 @@ pub fn lane_change(random: &mut SplitMix64) -> Vehicle {
     let participant = Participant {
         model: Bicycle::new(&Body::default(), 0.1),
         limits: Limits::default(),
-        steering_bounds_rad: Vec::new(),
-        speed_caps_mps: Vec::new(),
+        stage_bounds: Vec::new(),
         start: State {
             x_m: 0.0,
             y_m: 0.185 + random.uniform(-0.05, 0.05),

@@ -68,6 +68,7 @@ pub fn vehicle(
         shared_goal: None,
         can_be_asked: true,
         rules: interplay_planners::rules::RoadRules::default(),
+        urgency: 1.0,
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };

@@ -38,7 +38,7 @@ impl RunCost {
     /// What a scenario will make, without its counterfactuals.
     pub(crate) fn estimate(scenario: &Scenario) -> RunCost {
         let (vehicles, ticks) = (scenario.vehicles.len() as u64, scenario.tick_count() as u64);
-        let plans = vehicles * ticks;
+        let plans = vehicles * scenario.plan_count() as u64;
         let bodies_and_pairs = vehicles * (vehicles + 1) / 2;
         let sub_steps = match scenario.plant {
             Plant::Kinematic(_) => 1,

@@ -145,7 +145,7 @@ fn askew(vehicle: &Vehicle) -> Option<(String, String)> {
 
 /// Whether plans end before the vehicle could stop from its speed at the start, or from the one that it wants.
 fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
-    let horizon_s = scenario.step_s * scenario.horizon_steps as f64;
+    let horizon_s = scenario.planning_period_s() * scenario.horizon_steps as f64;
     let fastest_mps = vehicle.goal.speed_mps.unwrap_or(0.0).max(vehicle.start.speed_mps);
     let stop_s = fastest_mps / -vehicle.limits.acceleration_min_mps2;
     (horizon_s < stop_s).then(|| {
@@ -155,7 +155,7 @@ fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, Stri
             quoted(&vehicle.name),
             up(stop_s)
         );
-        let steps = (stop_s / scenario.step_s).ceil();
+        let steps = (stop_s / scenario.planning_period_s()).ceil();
         (
             message,
             format!("`horizon_steps = {steps}` works, or a `step_s` of {}", up(stop_s / scenario.horizon_steps as f64)),

@@ -46,11 +46,15 @@ pub struct ScenarioFile {
     /// Simulated time; 12 s at 1/10 scale, and `√λ` times as long at another `scale` \[s\].
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), default = "defaults::duration_s")]
     pub duration_s: Option<f64>,
-    /// Time from one tick to the next; all vehicles plan and move once a tick. It is 0.1 s at 1/10 scale, and `√λ` times as
+    /// Time from one tick to the next; all vehicles move once a tick. It is 0.1 s at 1/10 scale, and `√λ` times as
     /// long at another `scale`, so that a horizon of as many ticks covers the same motion \[s\].
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), default = "defaults::step_s")]
     pub step_s: Option<f64>,
-    /// Horizon of every plan, in ticks.
+    /// Time from one plan to the next, and length of a stage of a plan: a whole number of times `step_s`, by default once. Between two
+    /// plans inputs change evenly from one to the next \[s\].
+    #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), example = 0.3)]
+    pub planning_period_s: Option<f64>,
+    /// Horizon of every plan, in stages.
     #[schemars(range(min = 2, max = 200), extend("x-concerns" = "vehicles"), default = "defaults::horizon_steps")]
     pub horizon_steps: Option<usize>,
     /// Seed of all random numbers.

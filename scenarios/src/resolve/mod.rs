@@ -19,6 +19,7 @@ use crate::registry::Registry;
 use crate::resolve::placement::{KnownRoads, Placed, Start, place};
 use crate::scenario::remark::ScenarioRemarks;
 use crate::scenario::{Scenario, Vehicle};
+use crate::text::readable::readable;
 
 /// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.
 /// `tree` says where it is written.
@@ -61,6 +62,7 @@ fn read(
         scale: file.scale,
         duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
         step_s: file.step_s.unwrap_or_else(defaults::step_s),
+        ticks_per_plan: 1,
         horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
         seed: file.seed.unwrap_or_else(defaults::seed),
         real_time: reader.optional("real_time", file.real_time)?,
@@ -83,9 +85,27 @@ fn read(
         remarks: ScenarioRemarks::default(),
         metrics: registry.metrics().clone(),
     };
+    if let Some(period_s) = file.planning_period_s {
+        scenario.ticks_per_plan = ticks_per_plan(period_s, scenario.step_s, tree)?;
+    }
     let weather = reader.or_default("weather", file.weather)?;
     let unread = read_named_files(&mut scenario, weather, tree);
     Ok((scenario, unread))
+}
+
+/// How many ticks there are from one plan to the next.
+fn ticks_per_plan(period_s: f64, step_s: f64, tree: &TomlNode) -> Result<usize, Vec<Fault>> {
+    let ticks = (period_s / step_s).round();
+    if ticks >= 1.0 && (ticks * step_s - period_s).abs() <= 1e-6 * period_s {
+        return Ok(ticks as usize);
+    }
+    let message = format!(
+        "`planning_period_s` ({}) is no whole number of times `step_s` ({})",
+        readable(period_s),
+        readable(step_s)
+    );
+    let help = format!("{} works", readable(step_s * ticks.max(1.0)));
+    Err(vec![Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help)])
 }
 
 /// Puts what the weather file and the table of prices say in the place of their names; returns what is wrong with them.

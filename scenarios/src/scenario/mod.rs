@@ -57,6 +57,8 @@ pub struct Scenario {
     pub duration_s: f64,
     /// Time from one tick of the vehicles to the next \[s\].
     pub step_s: f64,
+    /// How many ticks there are from one plan to the next.
+    pub ticks_per_plan: usize,
     /// Horizon of every plan, in ticks.
     pub horizon_steps: usize,
     /// Seed of all random numbers.
@@ -137,6 +139,16 @@ impl Scenario {
             return 0;
         }
         (self.duration_s / self.step_s).round() as usize
+    }
+
+    /// How often each vehicle plans.
+    pub fn plan_count(&self) -> usize {
+        self.tick_count().div_ceil(self.ticks_per_plan)
+    }
+
+    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    pub fn planning_period_s(&self) -> f64 {
+        self.step_s * self.ticks_per_plan as f64
     }
 
     /// How many days of the building are simulated; 0 without a building.

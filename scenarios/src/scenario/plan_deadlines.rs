@@ -10,7 +10,7 @@ impl Scenario {
     /// by a computer's clock.
     pub fn plan_budget_ms(&self, vehicle: &Vehicle) -> Option<f64> {
         let real_time = self.real_time.filter(|_| !vehicle.driver.goes_first())?;
-        Some(real_time.plan_budget_ms.unwrap_or(1e3 * self.step_s))
+        Some(real_time.plan_budget_ms.unwrap_or(1e3 * self.planning_period_s()))
     }
 
     /// The deadline of a vehicle's plans, if it is enforced.

@@ -27,6 +27,7 @@ impl Scenario {
             scale: self.scale.filter(|_| drives),
             duration_s: drives.then_some(self.duration_s),
             step_s: drives.then_some(self.step_s),
+            planning_period_s: (drives && self.ticks_per_plan > 1).then(|| self.planning_period_s()),
             horizon_steps: drives.then_some(self.horizon_steps),
             seed: Some(self.seed),
             real_time: self.real_time.map(Stated::from),

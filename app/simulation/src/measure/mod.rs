@@ -154,7 +154,9 @@ pub fn measure(
         after[identity.index] = motion.state;
     }
     for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
-        measured.planning.observe(vehicle);
+        if frame.plans {
+            measured.planning.observe(vehicle);
+        }
         measured.beliefs.observe(&vehicle.plan.beliefs, frame.time_s);
         if measured.completion.observe(state, clock.time_s()) {
             frame.events.push(milestones::arrival(&vehicle.name, measured.completion.crosses()));

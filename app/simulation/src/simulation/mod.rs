@@ -16,7 +16,7 @@ use interplay_scenarios::Scenario;
 
 use self::saved_run::HandedInput;
 use crate::climate::Building;
-use crate::components::{CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
+use crate::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
@@ -128,12 +128,15 @@ impl Simulation {
         }
         let mut ahead = self.time_points.clone();
         let Some(time_point) = ahead.next() else { return Ok(None) };
-        if time_point.vehicles {
+        if time_point.vehicles && self.world.resource::<Clock>().ticks_since_plan() == 0 {
             self.refuse_without_input()?;
         }
         let tick = self.time_points.passed();
         self.time_points = ahead;
-        self.world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
+        let mut frame = self.world.resource_mut::<CurrentFrame>();
+        // Vehicles that do not plan in this tick go on with what they planned.
+        let vehicles = std::mem::take(&mut frame.0.vehicles);
+        frame.0 = Frame { tick, time_s: time_point.time_s, vehicles, ..Frame::default() };
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();

@@ -183,7 +183,6 @@ fn pose_vehicle(
     stages: &mut VehicleStages,
 ) {
     let (states, inputs) = (&iterate.states[vehicle], &iterate.inputs[vehicle]);
-    let limits = &participant.limits;
     stages.first = participant.first();
     stages.jacobians.clear();
     stages.changes.clear();
@@ -192,13 +191,15 @@ fn pose_vehicle(
     stages.curvatures.clear();
     stages.curvatures.resize(problem.horizon, DynamicsCurvature::default());
     for k in 0..problem.horizon {
-        let (input, steering_max_rad) = (inputs[k].to_array(), participant.steering_max_rad(k));
+        let input = inputs[k].to_array();
+        let bounds = [participant.acceleration_bounds_mps2(k), participant.steering_bounds_rad(k)];
+        let within = |axis: usize| {
+            let [lower, upper] = bounds[axis].map(|bound| bound - input[axis]);
+            Interval { lower, upper }
+        };
         stages.jacobians.push(participant.model.jacobian(&states[k], &inputs[k]));
         stages.changes.push(problem.input_change(vehicle, k, iterate));
-        stages.input_boxes.push([
-            Interval { lower: limits.acceleration_min_mps2 - input[0], upper: limits.acceleration_max_mps2 - input[0] },
-            Interval { lower: -steering_max_rad - input[1], upper: steering_max_rad - input[1] },
-        ]);
+        stages.input_boxes.push([within(0), within(1)]);
         let [slowest, fastest] = participant.speed_bounds(k + 1);
         let speed = states[k + 1].speed_mps;
         stages.speed_boxes.push(Interval { lower: slowest - speed, upper: fastest - speed });

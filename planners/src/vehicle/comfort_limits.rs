@@ -1,0 +1,29 @@
+//! What people bear: bounds within which a vehicle is driven unless safety asks for more.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Bounds that are kept while nobody is in danger; what is measured of people on roads is below them in 95 of 100 cases
+/// (`docs/people.md`). The default is that of a real car.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ComfortLimits {
+    /// Strongest braking, positive \[m/s²\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub braking_mps2: f64,
+    /// Largest change of the acceleration per second \[m/s³\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub jerk_mps3: f64,
+    /// Largest lateral acceleration \[m/s²\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub lateral_acceleration_mps2: f64,
+    /// Largest change of the steering angle per second; 0.7 rad/s are 40 °/s \[rad/s\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub steering_rate_radps: f64,
+}
+
+impl Default for ComfortLimits {
+    fn default() -> Self {
+        ComfortLimits { braking_mps2: 3.0, jerk_mps3: 3.0, lateral_acceleration_mps2: 2.5, steering_rate_radps: 0.7 }
+    }
+}
