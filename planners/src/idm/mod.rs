@@ -8,6 +8,7 @@ mod car_following;
 pub mod diagnostics;
 mod lanes;
 mod mobil;
+mod motion;
 mod settings;
 
 pub use settings::{Mobil, Settings};
@@ -16,14 +17,13 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
-use crate::obstacle::{ObstacleMemory, swing_m};
+use crate::obstacle::ObstacleMemory;
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
-use crate::steering::{admissible, roll_out, steer, steer_over_step};
-use crate::{Input, Plan, PlanError, PlanEvent, Scene};
-use car_following::Leader;
+use crate::{Plan, PlanError, PlanEvent, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
+use motion::Motion;
 
 /// A driver that follows the intelligent driver model (IDM) and changes lanes by MOBIL.
 #[derive(Clone, Debug)]
@@ -40,6 +40,14 @@ impl Idm {
     /// A driver who has not chosen a lane yet.
     pub fn new(settings: Settings) -> Self {
         Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default(), obstacles: ObstacleMemory::default() }
+    }
+
+    /// The lane it is in: the chosen one, while that is near.
+    fn lane(&self, scene: &Scene, lanes: &Lanes) -> usize {
+        let route = &scene.ego.route;
+        let nearest = lanes.at(route.across(scene.ego.state.position()));
+        let is_near = |lane: &usize| !route.is_in_network() || lane.abs_diff(nearest) <= 1;
+        self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).unwrap_or(nearest)
     }
 }
 
@@ -85,49 +93,24 @@ impl Drive for Idm {
             }
             None
         };
+        let whole = along_the_road(self.settings.prediction.applied_to(scene).into_owned());
+        let mut minded = whole.clone();
+        minded.others.retain(|other| passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
+        let lanes = Lanes::of_road(&minded, &self.settings.mobil);
+        let now = self.lane(&minded, &lanes);
+        let choice = mobil::choose(&minded, &self.settings, now);
+        self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
-        let scene = &mut along_the_road(self.settings.prediction.applied_to(scene).into_owned());
-        scene.others.retain(|other| passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
-        let (scene, swing_m) = (&*scene, swing_m(scene));
-        let lanes = Lanes::of_road(scene, &self.settings.mobil);
-        let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));
-        let is_near = |lane: &usize| !scene.ego.route.is_in_network() || lane.abs_diff(nearest_lane) <= 1;
-        let now = self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).unwrap_or(nearest_lane);
-        let choice = mobil::choose(scene, &self.settings, now);
-        let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
-        let lateral = lanes.centre_m(choice.lane);
-        self.lane_centre_m = Some(lateral);
-        let mut before = own.previous_input;
-        let trajectory = roll_out(scene, |t, state| {
-            // In the lane that it leaves it minds the vehicle ahead until it is out of it.
-            let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
-            // Straight roads have neither lines nor speed limits.
-            let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
-            let front_m = along_m.map(|along_m| along_m + own.body.front_m);
-            let lateral_m = passed
-                .as_ref()
-                .zip(front_m)
-                .map_or(lateral, |(obstacle, front_m)| obstacle.lateral_m(front_m, lateral, swing_m));
-            let line = line_m
-                .zip(along_m)
-                .map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
-            let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
-            let wanted_mps = permitted_mps.map_or(wanted, |permitted_mps| permitted_mps.min(wanted));
-            let acceleration = self.settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
-            // On a free road the model brakes too weakly for a limit ahead.
-            let highest_mps2 =
-                along_m.and_then(|along_m| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s));
-            let acceleration = highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2));
-            let steering_rad = match along_m {
-                None => steer(own, state, lateral_m),
-                Some(_) => steer_over_step(own, state, lateral_m, scene.step_s),
-            };
-            let wanted = Input { acceleration_mps2: acceleration, steering_rad };
-            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, scene.step_s);
-            before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, scene.step_s), steering_rad };
-            before
-        });
-        let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);
+        let from_to = [now, choice.lane];
+        let motion =
+            Motion { settings: &self.settings, scene: &minded, lanes, from_to, line_m, passed: passed.as_ref() };
+        let mut trajectory = motion.driven();
+        if let Some(obstacle) = passed.as_ref().filter(|obstacle| obstacle.is_touched_by(&whole, &trajectory)) {
+            let behind_m = obstacle.line_m(&whole);
+            let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
+            trajectory = Motion { scene: &whole, line_m, passed: None, ..motion }.driven();
+        }
+        let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
         diagnostics.extend(ahead.map(|leader| GAP.is(leader.gap_m)));
         let events = (choice.lane != now)
@@ -152,10 +135,6 @@ fn along_the_road(mut scene: Scene) -> Scene {
     let Scene { ego, others, .. } = &mut scene;
     others.retain(|other| ego.relation(other) == Relation::Alongside);
     scene
-}
-
-fn nearest(leaders: [Option<Leader>; 3]) -> Option<Leader> {
-    leaders.into_iter().flatten().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
 }
 
 #[cfg(test)]

@@ -11,12 +11,13 @@ mod room;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use crate::certificate::touches_ahead;
 use crate::posing::ellipses;
 use crate::rules::is_standing;
 use crate::steering::{admissible, roll_out, steer};
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
-use crate::{Agent, Input, SafetyEllipse, Scene};
+use crate::{Agent, Body, Input, SafetyEllipse, Scene, Trajectory};
 
 /// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.7 m of a real one.
 const SIDE_M: f64 = 0.07;
@@ -207,6 +208,13 @@ impl Obstacle {
             }
         });
         motion.inputs
+    }
+
+    /// Whether a motion of the planning vehicle touches it, or leaves less than half of the free space to the side.
+    pub(crate) fn is_touched_by(&self, scene: &Scene, motion: &Trajectory) -> bool {
+        let Some(other) = scene.others.iter().find(|other| other.name == self.name) else { return false };
+        let body = Body { width_m: other.body.width_m + SIDE_M * scene.ego.body.scale, ..other.body };
+        touches_ahead(scene, motion, &Agent { body, ..other.clone() })
     }
 
     /// What keeps the driver beside it.

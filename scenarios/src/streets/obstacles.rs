@@ -111,8 +111,9 @@ pub(super) fn crosser(draft: &mut Draft) {
     ));
     let (along_m, speed_mps) = (draft.between(50.0, 100.0), draft.between(0.6, 1.0) * limit_mps);
     draft.ego("street-in", along_m, speed_mps, (Some("street-out"), limit_mps));
+    let speed_mps = draft.between(1.0, 3.5);
     for (name, from_m) in [("walker", 8.0), ("second", 1.0)].iter().take(draft.count(1, 2)) {
-        let (along_m, speed_mps) = (from_m + draft.between(0.0, 5.0), draft.between(1.0, 3.5));
+        let along_m = from_m + draft.between(0.0, 4.5);
         draft.vehicle(Draftee {
             name,
             class: "bicycle",

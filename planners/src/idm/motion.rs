@@ -1,0 +1,70 @@
+//! The motion of a driver who has chosen a lane.
+
+use super::Settings;
+use super::car_following::Leader;
+use super::lanes::{Lanes, leader};
+use crate::obstacle::{Obstacle, swing_m};
+use crate::steering::{admissible, roll_out, steer, steer_over_step};
+use crate::{Input, Scene, State, Trajectory};
+
+/// The steering law needs so many times the way of a planner to change its lateral place.
+const SWINGS: f64 = 2.0;
+
+/// How a driver drives.
+pub(super) struct Motion<'a> {
+    pub settings: &'a Settings,
+    /// What it minds: everybody on the same road but what it passes.
+    pub scene: &'a Scene,
+    pub lanes: Lanes,
+    /// The lane it is in, and the one it drives in or changes to.
+    pub from_to: [usize; 2],
+    /// Where it has to wait \[m\].
+    pub line_m: Option<f64>,
+    pub passed: Option<&'a Obstacle>,
+}
+
+impl Motion<'_> {
+    /// The motion over the horizon of the scene.
+    pub fn driven(&self) -> Trajectory {
+        let (own, step_s) = (&self.scene.ego, self.scene.step_s);
+        let swing_m = SWINGS * swing_m(self.scene);
+        let lane_m = self.lanes.centre_m(self.from_to[1]);
+        let mut before = own.previous_input;
+        roll_out(self.scene, |t, state| {
+            // Straight roads have neither lines nor speed limits.
+            let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
+            let front_m = along_m.map(|along_m| along_m + own.body.front_m);
+            let passed = self.passed.zip(front_m);
+            let lateral_m = passed.map_or(lane_m, |(obstacle, front_m)| obstacle.lateral_m(front_m, lane_m, swing_m));
+            let steering_rad = match along_m {
+                None => steer(own, state, lateral_m),
+                Some(_) => steer_over_step(own, state, lateral_m, step_s),
+            };
+            let wanted = Input { acceleration_mps2: self.acceleration_mps2(t, state, along_m), steering_rad };
+            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, step_s);
+            before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad };
+            before
+        })
+    }
+
+    /// What the model wants behind whoever is ahead, within what is permitted.
+    fn acceleration_mps2(&self, t: usize, state: &State, along_m: Option<f64>) -> f64 {
+        let Motion { settings, scene, lanes, from_to, .. } = self;
+        let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);
+        // In the lane that it leaves it minds the vehicle ahead until it is out of it.
+        let [left, taken] = from_to.map(|lane| leader(scene, lanes, lane, state, t));
+        let line = self.line_m.zip(along_m);
+        let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
+        let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
+        let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
+        let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+        // On a free road the model brakes too weakly for a limit ahead.
+        let highest_mps2 =
+            along_m.and_then(|along_m| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s));
+        highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2))
+    }
+}
+
+fn nearest(leaders: [Option<Leader>; 3]) -> Option<Leader> {
+    leaders.into_iter().flatten().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
