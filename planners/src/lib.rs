@@ -104,6 +104,7 @@ mod scene;
 pub mod scripted;
 pub mod sensing;
 mod steering;
+mod time_gap;
 pub mod traffic;
 pub mod trajectory;
 mod urgency;

@@ -8,6 +8,9 @@ const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
 /// Drivers take curves with this share of their largest lateral acceleration.
 const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
 
+/// And with this share of the lateral acceleration that they bear.
+const IN_CURVES_SHARE: f64 = 0.9;
+
 /// Drivers come up to a line with this share of their strongest acceleration.
 const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
 
@@ -28,7 +31,9 @@ impl Agent {
     pub(crate) fn permitted_speed_mps(&self, along_m: f64) -> Option<f64> {
         let braking_mps2 = self.comfortable_braking_mps2();
         let permitted_mps = self.route.permitted_speed_mps(along_m, braking_mps2);
-        let lateral_mps2 = self.limits.lateral_acceleration_max_mps2.map(|most| COMFORTABLE_LATERAL_SHARE * most);
+        let of_tyres = self.limits.lateral_acceleration_max_mps2.map(|most| COMFORTABLE_LATERAL_SHARE * most);
+        let borne = self.limits.comfort.map(|comfort| IN_CURVES_SHARE * comfort.lateral_acceleration_mps2);
+        let lateral_mps2 = of_tyres.into_iter().chain(borne).min_by(f64::total_cmp);
         let in_curves_mps = lateral_mps2.and_then(|most| self.route.curve_speed_mps(along_m, most, braking_mps2));
         permitted_mps.into_iter().chain(in_curves_mps).min_by(f64::total_cmp)
     }

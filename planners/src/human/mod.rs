@@ -233,9 +233,14 @@ fn steadily(scene: &Scene, share: f64) -> Vec<Input> {
 /// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
 fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> {
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
-    let comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
+    let mut comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
-    let ellipse = SafetyEllipse { along_m: LEADER_LENGTH_RATIO * along_m, across_m: LEADER_WIDTH_RATIO * across_m };
+    let axes_m = scene.following_axes_m(leader, settings.weight());
+    if let Some([along_m, _]) = axes_m {
+        comfortable.ellipses = ellipses(SafetyEllipse { along_m, across_m }, &scene.ego.route, &comfortable.centres);
+    }
+    let firm_m = axes_m.map_or(LEADER_LENGTH_RATIO * along_m, |[_, firm_m]| firm_m);
+    let ellipse = SafetyEllipse { along_m: firm_m, across_m: LEADER_WIDTH_RATIO * across_m };
     let firm = KeepOut {
         ellipses: ellipses(ellipse, &scene.ego.route, &comfortable.centres),
         penalty: Penalty::EXACT,
@@ -247,12 +252,14 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
 /// Those who might cut in or cross, where the driver expects them; `others` are pairs of a vehicle and what is expected of it.
 fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
-    if weight == 0.0 {
-        return Vec::new();
-    }
     let leader = leader.map(|leader| &leader.name);
+    let beside = others.iter().filter(|(other, _)| Some(&other.name) != leader);
+    let mut keep_outs: Vec<KeepOut> =
+        beside.filter_map(|(_, expected)| scene.lane_change_keep_out(expected, weight)).collect();
+    if weight == 0.0 {
+        return keep_outs;
+    }
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
-    let mut keep_outs = Vec::new();
     let concerns = |other: &Agent| ego.may_meet(other) && Some(&other.name) != leader && !behind(&other);
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);

@@ -29,7 +29,7 @@ pub fn joint_problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
         participants.push(view.participant());
         terms.extend(view.own_terms(vehicle, goal));
         terms.extend(strangers.iter().map(|other| {
-            let keep_out = view.keep_out(&other.prediction, &other.route, Penalty::EXACT);
+            let keep_out = view.safety_around(other, Penalty::EXACT);
             Term::KeepOut(KeepOut { vehicle, ..keep_out })
         }));
     }

@@ -20,10 +20,19 @@ pub struct ComfortLimits {
     /// Largest change of the steering angle per second; 0.7 rad/s are 40 °/s \[rad/s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub steering_rate_radps: f64,
+    /// Time gap to whoever drives ahead, on top of the gap at standstill \[s\].
+    #[schemars(range(min = 0.0))]
+    pub time_gap_s: f64,
 }
 
 impl Default for ComfortLimits {
     fn default() -> Self {
-        ComfortLimits { braking_mps2: 3.0, jerk_mps3: 3.0, lateral_acceleration_mps2: 2.5, steering_rate_radps: 0.7 }
+        ComfortLimits {
+            braking_mps2: 3.0,
+            jerk_mps3: 3.0,
+            lateral_acceleration_mps2: 2.5,
+            steering_rate_radps: 0.7,
+            time_gap_s: 1.15,
+        }
     }
 }

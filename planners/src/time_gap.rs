@@ -1,0 +1,94 @@
+//! The time gap that drivers who know comfort keep to those on the same road.
+//!
+//! Of recorded people, gaps between bumpers in steady following are 3.5 m + 1.15 s · v, and time gaps spread from 0.6 to 3.7 s
+//! (`docs/people.md`). A human keeps the more, the more safety weighs for it. Nobody pulls into a gap below a least one,
+//! ahead or behind.
+
+use crate::posing::ellipses;
+use crate::relation::Relation;
+use crate::trajectory::Penalty;
+use crate::trajectory::terms::KeepOut;
+use crate::vehicle::OrientedEllipse;
+use crate::{Agent, SafetyEllipse, Scene};
+
+/// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
+const STANDSTILL_GAP_M: f64 = 0.35;
+/// A driver of safety weight 0 keeps this share of the usual time gap, and a nice one this one.
+const GAP_SHARES: [f64; 2] = [0.6, 1.4];
+/// The weight of a nice driver, up to which shares grow with the logarithm.
+const NICE_WEIGHT: f64 = 50.0;
+/// Nobody drives nearer than this share of the usual time gap who can help it.
+const FIRM_SHARE: f64 = 0.45;
+/// The least gap ahead or behind for a change of lane, as a share of the usual time gap: 1 s.
+const ACCEPTED_SHARE: f64 = 0.85;
+/// A planner keeps this share of the usual time gap besides its safety ellipse.
+const PLANNER_SHARE: f64 = 0.7;
+/// A gap that is shorter grows by this much in a second.
+const OPENING: f64 = 0.1;
+/// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
+const ASIDE_M: f64 = 0.04;
+
+/// The share of the usual time gap that a driver keeps, by its safety weight.
+fn share_of(weight: f64) -> f64 {
+    let [tough, nice] = GAP_SHARES;
+    let politeness = (libm::log1p(weight) / libm::log1p(NICE_WEIGHT)).min(1.0);
+    tough + (nice - tough) * politeness
+}
+
+impl Scene {
+    /// Half the length of an ellipse around another vehicle at whose end there is a gap between bumpers \[m\].
+    fn half_axis_m(&self, other: &Agent, gap_m: f64) -> f64 {
+        let (ego, body) = (&self.ego.body, &other.body);
+        0.5 * (ego.front_m + ego.rear_m + body.front_m + body.rear_m) + gap_m
+    }
+
+    /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, and
+    /// the firm one; none for a driver who knows no comfort \[m\].
+    pub(crate) fn following_axes_m(&self, leader: &Agent, weight: f64) -> Option<[f64; 2]> {
+        let time_gap_s = self.ego.limits.comfort?.time_gap_s;
+        let (standstill_m, speed_mps) = (STANDSTILL_GAP_M * self.ego.body.scale, self.ego.state.speed_mps);
+        let comfortable_m = standstill_m + share_of(weight) * time_gap_s * speed_mps;
+        let firm_m = 0.5 * standstill_m + FIRM_SHARE * time_gap_s * speed_mps;
+        Some([comfortable_m, firm_m].map(|gap_m| self.half_axis_m(leader, gap_m)))
+    }
+
+    /// What keeps a driver who knows comfort from pulling out right ahead of somebody in another lane of its road, or right behind: an
+    /// ellipse as wide as both bodies.
+    pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
+        let comfort = self.ego.limits.comfort?;
+        let ego = &self.ego;
+        if !matches!(ego.relation(other), Relation::Alongside) || ego.shares_lane_with(other) {
+            return None;
+        }
+        let least_s = ACCEPTED_SHARE * comfort.time_gap_s * (0.5 + 0.5 * share_of(weight));
+        let along_m = self.half_axis_m(other, least_s * ego.state.speed_mps.max(other.state.speed_mps));
+        let across_m = 0.5 * (ego.body.width_m + other.body.width_m) + ASIDE_M * ego.body.scale;
+        let centres = self.centres(&other.prediction);
+        let ellipses = ellipses(SafetyEllipse { along_m, across_m }, &other.route, &centres);
+        Some(KeepOut { vehicle: 0, ellipses, centres, penalty: Penalty::EXACT })
+    }
+
+    /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
+    /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
+    pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
+        let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
+        let Some(comfort) = self.ego.limits.comfort else { return keep_out };
+        let (ego, lead_m) = (&self.ego, self.ego.lead_of(other));
+        let is_in_lane = ego.shares_lane_with(other);
+        if !matches!(ego.relation(other), Relation::Alongside) || (is_in_lane && lead_m < 0.0) {
+            return keep_out;
+        }
+        let speed_mps = if lead_m < 0.0 { other.state.speed_mps } else { ego.state.speed_mps };
+        let wanted_m = PLANNER_SHARE * comfort.time_gap_s * speed_mps;
+        let now_m = (lead_m - self.goal.safety.along_m).max(0.0);
+        let longer_m = |stage: usize| {
+            let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
+            if is_in_lane { wanted_m.min(now_m + opened_m) } else { wanted_m }
+        };
+        let longer = |(stage, ellipse): (usize, &OrientedEllipse)| {
+            let SafetyEllipse { along_m, across_m } = ellipse.shape();
+            SafetyEllipse { along_m: along_m + longer_m(stage), across_m }.oriented(ellipse.heading_rad())
+        };
+        KeepOut { ellipses: keep_out.ellipses.iter().enumerate().map(longer).collect(), ..keep_out }
+    }
+}
