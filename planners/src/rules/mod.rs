@@ -34,6 +34,8 @@ use crate::traffic::RoadUser;
 pub enum RuleKeeping {
     /// It keeps all of them, whoever drives it, drives no faster than it wants, and passes what stands in its way.
     Kept,
+    /// It keeps none of them, for studies of who yields; humans and drivers after the intelligent driver model still keep right of way.
+    Ignored,
 }
 
 /// What the rules of the road ask of a vehicle now.

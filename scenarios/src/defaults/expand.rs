@@ -3,6 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::fill::{fill_key, scaled};
+use super::people;
 use crate::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
 use crate::json_schema::SchemaNode;
 use crate::road::StatedRoad;
@@ -17,6 +18,10 @@ pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
     let Some(root) = scenario.as_object_mut() else { return };
     root.remove("defaults");
     let size = size(root, schema);
+    let of_people = size.filter(|size| people::are_people(root, size.is_full));
+    if let Some(Size { scale, .. }) = of_people {
+        people::state_steps(root, scale);
+    }
     if let Some(Size { scale, is_full }) = size {
         // Where it is not stated, it is one of these two.
         root.entry("scale").or_insert_with(|| json!(if is_full { NamedScale::Full } else { NamedScale::Tenth }));
@@ -35,8 +40,16 @@ pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
         if let Some(lane_width_m) = lane_width_m {
             state_lane_width(vehicle, lane_width_m);
         }
+        if let (Some(Size { scale, .. }), Some(schema)) = (of_people, vehicle_schema(schema)) {
+            vehicle.entry("driver").or_insert_with(|| json!({ "kind": "human" }));
+            people::state_habits(vehicle, schema, scale);
+        }
         expand_vehicle(vehicle, size, schema);
     }
+}
+
+fn vehicle_schema(schema: SchemaNode<'_>) -> Option<SchemaNode<'_>> {
+    schema.property("vehicle").and_then(SchemaNode::entries)
 }
 
 /// The size of a scenario.
@@ -98,7 +111,7 @@ fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>, schema: S
     let class = stated.unwrap_or_else(|| VehicleClass::of_scale(size.is_some_and(|size| size.is_full)));
     let of_scenario = size.filter(|size| stated.is_none() && !size.is_full).map(|size| size.scale);
     let scale = own_scale.or(of_scenario).unwrap_or_else(|| class.scale());
-    let Some(schema) = schema.property("vehicle").and_then(SchemaNode::entries) else { return };
+    let Some(schema) = vehicle_schema(schema) else { return };
     let dimensions = serde_json::to_value(class.dimensions()).unwrap_or_default();
     let mut dimensions = scaled(schema, &dimensions, scale / class.scale());
     dimensions["body"]["scale"] = json!(scale);

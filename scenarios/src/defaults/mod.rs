@@ -8,11 +8,13 @@
 //! - `for_all`: `[defaults]`, laid under every vehicle.
 //! - `similarity`: by how much a unit is scaled.
 //! - `fill`: the defaults of a table, scaled, where it states nothing.
+//! - `people`: what people do on real roads.
 //! - `expand`: all that depends on the size of a scenario.
 
 mod expand;
 mod fill;
 mod for_all;
+mod people;
 mod similarity;
 
 pub(crate) use expand::expand;

@@ -3,6 +3,7 @@
 pub(crate) mod budget_limits;
 pub(crate) mod building;
 pub(crate) mod building_plant;
+pub(crate) mod conduct;
 pub(crate) mod counterfactual;
 pub(crate) mod expect;
 mod expectation_names;

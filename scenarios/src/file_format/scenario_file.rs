@@ -13,6 +13,7 @@ use serde_json::json;
 use crate::classes::ScenarioScale;
 use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
+use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::plant::Plant;
@@ -43,6 +44,11 @@ pub struct ScenarioFile {
     /// size; networks of lanes do unless all their lanes begin narrower than 1 m. Otherwise it is 1/10 scale.
     #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]
     pub scale: Option<ScenarioScale>,
+    /// How drivers behave where the file says nothing of it: `"people"` keep within comfort and to time gaps and rules, need 0.6 s to
+    /// react, and move in steps of 0.1 s with a plan every 0.3 s; `"source"` are the drivers of the dissertation. By default people where
+    /// everything is of full size and no `figure` is reproduced.
+    #[schemars(extend("x-concerns" = "vehicles"), example = &"people")]
+    pub conduct: Option<Conduct>,
     /// Simulated time; 12 s at 1/10 scale, and `√λ` times as long at another `scale` \[s\].
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), default = "defaults::duration_s")]
     pub duration_s: Option<f64>,

@@ -60,6 +60,7 @@ fn read(
         shows: file.shows,
         figure: file.figure,
         scale: file.scale,
+        conduct: file.conduct,
         duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
         step_s: file.step_s.unwrap_or_else(defaults::step_s),
         ticks_per_plan: 1,

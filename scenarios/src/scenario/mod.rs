@@ -29,6 +29,7 @@ use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyE
 use crate::classes::{ScenarioScale, VehicleClass};
 use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
+use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::goal::GoalConfig;
@@ -53,6 +54,8 @@ pub struct Scenario {
     pub figure: Option<String>,
     /// The size to which its defaults are scaled; none for the defaults of 1/10 scale as they are.
     pub scale: Option<ScenarioScale>,
+    /// How drivers behave where the file says nothing of it, if it states that.
+    pub conduct: Option<Conduct>,
     /// Simulated time of the vehicles \[s\].
     pub duration_s: f64,
     /// Time from one tick of the vehicles to the next \[s\].

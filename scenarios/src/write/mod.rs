@@ -25,6 +25,7 @@ impl Scenario {
             shows: self.shows.clone(),
             figure: self.figure.clone(),
             scale: self.scale.filter(|_| drives),
+            conduct: self.conduct.filter(|_| drives),
             duration_s: drives.then_some(self.duration_s),
             step_s: drives.then_some(self.step_s),
             planning_period_s: (drives && self.ticks_per_plan > 1).then(|| self.planning_period_s()),

@@ -1,0 +1,61 @@
+//! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
+//! which that shows.
+
+use interplay_planners::ComfortLimits;
+use serde_json::{Map, Value as Json, json};
+
+use super::fill::scaled;
+use crate::classes::FULL_SCALE;
+use crate::file_format::conduct::Conduct;
+use crate::json_schema::SchemaNode;
+
+/// Time from one tick to the next, and from one plan to the next, for real cars \[s\].
+const STEPS_S: [f64; 2] = [0.1, 0.3];
+
+/// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
+/// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000).
+fn driver_defaults(kind: &str) -> Json {
+    match kind {
+        "human" => json!({ "reaction_s": 0.6 }),
+        "idm" => json!({ "headway_s": 1.5, "gap_m": 2.0, "acceleration_mps2": 1.4, "braking_mps2": 2.0 }),
+        _ => json!({}),
+    }
+}
+
+/// Whether drivers are people: as stated, or else where everything is of full size and no figure of the source is reproduced.
+pub(super) fn are_people(root: &Map<String, Json>, is_full: bool) -> bool {
+    let stated: Option<Conduct> = root.get("conduct").and_then(|stated| serde_json::from_value(stated.clone()).ok());
+    stated.map_or(is_full && !root.contains_key("figure"), |stated| stated == Conduct::People)
+}
+
+/// Writes the time steps into a scenario that states none.
+pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
+    if root.contains_key("step_s") {
+        return;
+    }
+    let times = STEPS_S.map(|full_s| full_s * (scale / FULL_SCALE).sqrt());
+    for (key, time_s) in ["step_s", "planning_period_s"].into_iter().zip(times) {
+        root.entry(key).or_insert(json!(time_s));
+    }
+}
+
+/// Writes into a vehicle what its driver does; `schema` is that of vehicles.
+pub(super) fn state_habits(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
+    let ratio = scale / FULL_SCALE;
+    vehicle.entry("rules").or_insert(json!("kept"));
+    if let Some(limits) = vehicle.entry("limits").or_insert_with(|| json!({})).as_object_mut() {
+        let comfort = schema.property("limits").and_then(|limits| limits.property("comfort"));
+        let real = serde_json::to_value(ComfortLimits::default()).unwrap_or_default();
+        limits
+            .entry("comfort")
+            .or_insert_with(|| comfort.map_or_else(|| real.clone(), |key| scaled(key, &real, ratio)));
+    }
+    let Some(driver) = vehicle.get_mut("driver").and_then(Json::as_object_mut) else { return };
+    let Some(kind) = driver.get("kind").and_then(Json::as_str).map(str::to_owned) else { return };
+    let of_kind = schema.property("driver").and_then(|driver| driver.of_kind(&kind));
+    let Json::Object(defaults) = driver_defaults(&kind) else { return };
+    for (key, value) in defaults {
+        let property = of_kind.and_then(|kind| kind.property(&key));
+        driver.entry(key).or_insert_with(|| property.map_or_else(|| value.clone(), |key| scaled(key, &value, ratio)));
+    }
+}
