@@ -11,6 +11,9 @@ const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
 /// And with this share of the lateral acceleration that they bear.
 const IN_CURVES_SHARE: f64 = 0.9;
 
+/// Of an acceleration that ends evenly over a step remains this share of its effect.
+const ROLLING_ON_SHARE: f64 = 0.5;
+
 /// Drivers come up to a line with this share of their strongest acceleration.
 const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
 
@@ -102,8 +105,14 @@ impl Scene {
         let permitted_mps = ego.permitted_speeds_mps(&near_m);
         let creeping_mps = CREEPING_MPS * ego.body.scale.sqrt();
         let (wanted_mps, braking_mps2) = (self.goal.target.speed_mps, ego.comfortable_braking_mps2());
+        // Where accelerations change evenly over a step, one that goes on adds this much.
+        let rolls_on_mps = ego
+            .limits
+            .comfort
+            .map_or(0.0, |_| ROLLING_ON_SHARE * ego.previous_input.acceleration_mps2.max(0.0) * self.step_s);
         let caps_mps = (0..self.horizon).map(|stage| {
-            let permitted_mps = permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY).min(wanted_mps);
+            let permitted_mps =
+                permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY).min(wanted_mps) - rolls_on_mps;
             permitted_mps.max(ego.state.speed_mps - braking_mps2 * self.step_s * (stage + 1) as f64)
         });
         let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, (self.horizon, self.step_s));

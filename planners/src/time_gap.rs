@@ -62,16 +62,30 @@ impl Scene {
         }
         let least_s = ACCEPTED_SHARE * comfort.time_gap_s * (0.5 + 0.5 * share_of(weight));
         let along_m = self.half_axis_m(other, least_s * ego.state.speed_mps.max(other.state.speed_mps));
-        let across_m = 0.5 * (ego.body.width_m + other.body.width_m) + ASIDE_M * ego.body.scale;
+        Some(self.narrow(other, along_m, Penalty::EXACT))
+    }
+
+    /// An ellipse as wide as both bodies.
+    fn narrow(&self, other: &Agent, along_m: f64, penalty: Penalty) -> KeepOut {
+        let across_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
         let centres = self.centres(&other.prediction);
         let ellipses = ellipses(SafetyEllipse { along_m, across_m }, &other.route, &centres);
-        Some(KeepOut { vehicle: 0, ellipses, centres, penalty: Penalty::EXACT })
+        KeepOut { vehicle: 0, ellipses, centres, penalty }
+    }
+
+    /// What keeps the planning vehicle from touching somebody who waits for it.
+    pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
+        let width_m = 0.5 * (self.ego.body.width_m + other.body.width_m);
+        self.narrow(other, self.half_axis_m(other, 0.0).max(width_m), penalty)
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
+        if self.ego.is_waited_for_by(other) {
+            return self.beside(other, penalty);
+        }
         let Some(comfort) = self.ego.limits.comfort else { return keep_out };
         let (ego, lead_m) = (&self.ego, self.ego.lead_of(other));
         let is_in_lane = ego.shares_lane_with(other);

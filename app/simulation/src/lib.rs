@@ -44,6 +44,7 @@ mod run_error;
 pub mod sense;
 mod simulation;
 pub mod spawn;
+pub mod standing;
 pub mod time_points;
 pub mod watch;
 pub mod why;

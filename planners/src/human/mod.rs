@@ -260,7 +260,9 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
         return keep_outs;
     }
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
-    let concerns = |other: &Agent| ego.may_meet(other) && Some(&other.name) != leader && !behind(&other);
+    let concerns = |other: &Agent| {
+        !ego.is_waited_for_by(other) && ego.may_meet(other) && Some(&other.name) != leader && !behind(&other)
+    };
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));

@@ -55,6 +55,10 @@ impl Motion<'_> {
         let [left, taken] = from_to.map(|lane| leader(scene, lanes, lane, state, t));
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
+        // Brakes take hold only after a while where jerk is bounded.
+        let ahead_m =
+            own.limits.comfort.map_or(0.0, |comfort| 0.5 * comfort.braking_mps2 / comfort.jerk_mps3 * state.speed_mps);
+        let along_m = along_m.map(|along_m| along_m + ahead_m);
         let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));

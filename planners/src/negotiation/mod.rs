@@ -192,7 +192,8 @@ impl Negotiation {
             Some(accepted)
         };
         let answers: Vec<Option<f64>> = pairs.map(answer).collect();
-        self.selection.record(&answers, fallback_cost, settings);
+        let answer_steps = (settings.answer_s / scene.step_s).round() as usize;
+        self.selection.record(&answers, fallback_cost, (settings, answer_steps));
         answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
     }
 

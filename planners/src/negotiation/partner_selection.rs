@@ -58,9 +58,19 @@ impl PartnerSelection {
 
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
     /// fallback costs now. Who has been asked long enough is not asked again.
-    pub(super) fn record(&mut self, accepted: &[Option<f64>], fallback_cost: Option<f64>, settings: &Settings) {
-        let dearer = self.fallback.dearer(fallback_cost);
-        for (asked, accepted) in self.asked.iter_mut().zip(accepted) {
+    pub(super) fn record(
+        &mut self,
+        accepted: &[Option<f64>],
+        fallback_cost: Option<f64>,
+        (settings, answer_steps): (&Settings, usize),
+    ) {
+        let pairs = self.asked.iter_mut().zip(accepted);
+        let had_time = pairs.map(|(asked, accepted)| accepted.is_some() && asked.patience.has_answered(answer_steps));
+        let had_time: Vec<bool> = had_time.collect();
+        let counts = answer_steps == 0 || had_time.contains(&true);
+        let dearer = if counts { self.fallback.dearer(fallback_cost) } else { 0.0 };
+        let answers = accepted.iter().zip(&had_time).map(|(accepted, had_time)| accepted.filter(|_| *had_time));
+        for (asked, accepted) in self.asked.iter_mut().zip(answers) {
             if accepted.is_some_and(|accepted| asked.patience.ends(accepted, dearer, settings)) {
                 self.refused.push(asked.name.clone());
             }

@@ -5,6 +5,8 @@
 //! an ego that asks drives as if it were granted what it asks for, and with each refusal the fallback that it will need becomes dearer.
 //! Where that goes beyond a share of what the cheapest fallback cost since the first question to anybody, it asks no longer. Both are
 //! free of units and scale.
+//!
+//! Neither begins before the other could have answered (`answer_s`): what it does until then says nothing about what it was asked.
 
 use super::settings::Settings;
 
@@ -15,10 +17,17 @@ const REFUSAL_ACCEPTANCE: f64 = 0.5;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patience {
     last_acceptance: Option<f64>,
+    answers: usize,
     steps_without_progress: usize,
 }
 
 impl Patience {
+    /// Whether the vehicle has had the time to answer, of so many steps; one more has passed.
+    pub(super) fn has_answered(&mut self, answer_steps: usize) -> bool {
+        self.answers += 1;
+        self.answers > answer_steps
+    }
+
     /// Whether the vehicle is not to be asked any more, after an answer and where the fallback has become `dearer` by this share.
     pub(super) fn ends(&mut self, accepted: f64, dearer: f64, settings: &Settings) -> bool {
         let no_progress = accepted < REFUSAL_ACCEPTANCE

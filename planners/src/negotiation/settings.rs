@@ -25,6 +25,10 @@ pub struct Settings {
     /// Steps without progress after which the next vehicle is asked, or nobody if it was the last.
     #[schemars(range(min = 1))]
     pub patience_steps: usize,
+    /// Time in which the other cannot have answered: patience with it, and the price of patience, begin after it. At least its reaction
+    /// time, and three answers; 0 among drivers who react at once \[s\].
+    #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
+    pub answer_s: f64,
     /// By which share the conservative plan may be dearer than the cheapest one since the ego first asked anybody. Where it is
     /// dearer, a vehicle that makes no progress is not asked any more. The source has no such end: with 1000000 the steps alone
     /// count.
@@ -81,6 +85,7 @@ impl Default for Settings {
             gamma: 1.0,
             epsilon: 0.01,
             patience_steps: 5,
+            answer_s: 0.0,
             retreat_dearer_at_most: 0.1,
             clear_lead_m: 0.2,
             partners_at_most: 1,

@@ -21,6 +21,8 @@ use crate::{Agent, Body, Input, SafetyEllipse, Scene, Trajectory};
 
 /// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.7 m of a real one.
 const SIDE_M: f64 = 0.07;
+/// Of it, a plan keeps at least this share.
+const KEPT_SIDE_SHARE: f64 = 0.9;
 /// A vehicle in the way reaches within this distance of the path, for 1/10 scale cars \[m\].
 const NEAR_PATH_M: f64 = 0.02;
 /// An obstacle is looked for as far ahead as a driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
@@ -30,7 +32,7 @@ const PARKED_S: f64 = 4.0;
 /// Somebody who has another one ahead within this many lengths of a car stands in a queue.
 const QUEUE_LENGTHS: f64 = 2.5;
 /// A driver waits this many lengths of its body behind an obstacle.
-const WAITING_LENGTHS: f64 = 1.2;
+const WAITING_LENGTHS: f64 = 2.2;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
 /// An ellipse `a × b` around a body that is `l` long contains it where `a = 1.8 l / 2` and `b` reaches this multiple of the way from
@@ -231,7 +233,7 @@ impl Obstacle {
     pub(crate) fn ellipse(&self, scale: f64) -> SafetyEllipse {
         let along_m = ELLIPSE_LENGTH_RATIO * self.reach_m[0];
         let share = (1.0 - ELLIPSE_LENGTH_RATIO.powi(-2)).sqrt();
-        SafetyEllipse { along_m, across_m: (self.reach_m[1] + 0.5 * SIDE_M * scale) / share }
+        SafetyEllipse { along_m, across_m: (self.reach_m[1] + KEPT_SIDE_SHARE * SIDE_M * scale) / share }
     }
 
     /// The lateral position at which a driver is who passes it, at an arc length \[m\]; `own_m` is where it is otherwise.

@@ -26,6 +26,7 @@ use right_of_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::Agent;
 use crate::traffic::RoadUser;
 
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
@@ -60,6 +61,18 @@ pub struct RuleBook {
 struct Hold {
     by: usize,
     line_m: f64,
+}
+
+impl Agent {
+    /// Whether the rules hold another vehicle for this one.
+    pub(crate) fn is_waited_for_by(&self, other: &Agent) -> bool {
+        other.rules.waits_for.contains(&self.name)
+    }
+
+    /// Whether the rules say which of two vehicles goes first now: there is nothing to negotiate.
+    pub(crate) fn has_order_with(&self, other: &Agent) -> bool {
+        self.is_waited_for_by(other) || other.is_waited_for_by(self)
+    }
 }
 
 impl RoadRules {

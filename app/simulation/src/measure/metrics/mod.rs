@@ -21,6 +21,9 @@ metrics! {
     mod off_road;
     mod speeding;
     mod steering_rate;
+    mod time_gap;
+    mod rules;
+    mod standing;
 }
 
 #[cfg(test)]

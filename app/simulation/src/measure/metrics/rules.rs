@@ -1,0 +1,177 @@
+//! Rules of the road that a vehicle breaks, as its driven motion shows: nothing of this is known to planners.
+//!
+//! - **Stop signs**: it drives past the line of a stop sign without having stood within a car's length of it.
+//! - **Right of way**: somebody who goes first comes to a conflict less than a second of a real car after the vehicle has left it, or is
+//!   in it together with the vehicle, although the vehicle was not in it when the other could still have been let through.
+//! - **Speed limits**: it is more than 0.5 m/s of a real car faster than its lane permits and has not been so since the start.
+
+use interplay_planners::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
+use interplay_scenarios::MetricKind::Count;
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario, Vehicle};
+
+use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::values::{Measured, MetricValue};
+
+/// Slower than this a real car stands \[m/s\].
+const STANDING_MPS: f64 = 0.3;
+/// Above a limit by this a real car speeds \[m/s\].
+const SPEEDING_MPS: f64 = 0.5;
+/// Least time between leaving a conflict and the arrival of who goes first, for a real car \[s\].
+const SPARE_S: f64 = 1.0;
+/// Lengths of a real car are so many times those for which bodies have scale 1.
+const REAL: f64 = 10.0;
+
+const DOC: &str = "How often it breaks a rule of the road: passes a stop sign without standing, takes somebody's right of way, or \
+                   exceeds a speed limit";
+
+pub(super) const METRICS: &[&dyn Metric] = &[&RulesBroken];
+
+#[derive(Clone, Copy, Debug)]
+struct RulesBroken;
+
+impl Metric for RulesBroken {
+    fn declaration(&self) -> MetricDeclaration {
+        MetricDeclaration::of_vehicle("rules_broken", Count, DOC).compared(MetricComparison::Sum).with_others()
+    }
+
+    fn begin(&self, _: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        let stated = &start.vehicles[vehicle];
+        let scale = stated.body.scale / REAL;
+        let signs = stop_signs(stated).into_iter().map(|line_m| Sign { line_m, has_stood: false, is_past: false });
+        let others = start.vehicles.iter().enumerate().filter(|(other, _)| *other != vehicle);
+        let taken = others.flat_map(|(other, theirs)| {
+            let conflicts = stated.route.conflicts_with(&theirs.route).filter(|conflict| is_theirs(conflict));
+            conflicts.map(move |conflict| Crossing {
+                other,
+                conflict: conflict.clone(),
+                was_entered: false,
+                left_s: None,
+                is_settled: false,
+            })
+        });
+        let mut broken = Broken {
+            vehicle,
+            scale,
+            signs: signs.collect(),
+            crossings: taken.collect(),
+            // Who starts too fast, or past a line, is not blamed for the start.
+            is_speeding: speeding_mps(stated, start.along_m[vehicle], start.states[vehicle].speed_mps) > 0.0,
+            count: 0,
+        };
+        for sign in &mut broken.signs {
+            sign.is_past = start.along_m[vehicle] + stated.body.front_m > sign.line_m;
+        }
+        for crossing in &mut broken.crossings {
+            crossing.is_settled = start.along_m[vehicle] + stated.body.front_m > crossing.conflict.own_line_m;
+        }
+        Box::new(broken)
+    }
+}
+
+/// The lines of stop signs on a vehicle's way \[m\].
+fn stop_signs(vehicle: &Vehicle) -> Vec<f64> {
+    let signed = |sign: RightOfWay| matches!(sign, RightOfWay::Stop | RightOfWay::AllWayStop);
+    vehicle.route.legs.iter().filter(|leg| signed(leg.right_of_way)).map(|leg| leg.to_m).collect()
+}
+
+/// Whether the other one goes first at a conflict in which both cannot be.
+fn is_theirs(conflict: &RouteConflict) -> bool {
+    conflict.precedence == Precedence::Other && conflict.kind != ConflictKind::Diverging
+}
+
+/// How far above the limit of its lane a speed is; negative below it and where there is none \[m/s\].
+fn speeding_mps(vehicle: &Vehicle, along_m: f64, speed_mps: f64) -> f64 {
+    let limit_mps = vehicle.route.leg(along_m).and_then(|leg| leg.speed_limit_mps);
+    limit_mps.map_or(f64::NEG_INFINITY, |limit_mps| speed_mps - limit_mps)
+}
+
+/// The line of a stop sign.
+#[derive(Clone, Copy, Debug)]
+struct Sign {
+    line_m: f64,
+    has_stood: bool,
+    is_past: bool,
+}
+
+/// A conflict at which another vehicle goes first.
+#[derive(Clone, Debug)]
+struct Crossing {
+    other: usize,
+    conflict: RouteConflict,
+    /// Whether the vehicle was in it before.
+    was_entered: bool,
+    /// When the vehicle's rear left it; where routes merge, when its front came to it \[s\].
+    left_s: Option<f64>,
+    /// Nothing can be broken any more.
+    is_settled: bool,
+}
+
+/// What one vehicle has broken so far.
+#[derive(Clone, Debug)]
+struct Broken {
+    vehicle: usize,
+    /// Ratio of its lengths to those of a real car.
+    scale: f64,
+    signs: Vec<Sign>,
+    crossings: Vec<Crossing>,
+    is_speeding: bool,
+    count: u64,
+}
+
+impl Measurement for Broken {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let moment = &tick.end;
+        let (vehicle, along_m) = (&moment.vehicles[self.vehicle], moment.along_m[self.vehicle]);
+        let speed_mps = moment.states[self.vehicle].speed_mps;
+        let excess_mps = speeding_mps(vehicle, along_m, speed_mps);
+        let is_fast = excess_mps > SPEEDING_MPS * self.scale.sqrt();
+        self.count += u64::from(is_fast && !self.is_speeding);
+        self.is_speeding = is_fast || (self.is_speeding && excess_mps > 0.0);
+        let front_m = along_m + vehicle.body.front_m;
+        let near_m = vehicle.body.front_m + vehicle.body.rear_m;
+        for sign in self.signs.iter_mut().filter(|sign| !sign.is_past) {
+            sign.has_stood |= speed_mps < STANDING_MPS * self.scale.sqrt() && front_m > sign.line_m - near_m;
+            sign.is_past = front_m > sign.line_m + 0.5 * self.scale;
+            self.count += u64::from(sign.is_past && !sign.has_stood);
+        }
+        let spare_s = SPARE_S * self.scale.sqrt();
+        for crossing in self.crossings.iter_mut().filter(|crossing| !crossing.is_settled) {
+            self.count += u64::from(crossing.is_taken(moment, self.vehicle, spare_s));
+        }
+    }
+
+    fn measured(&self) -> Measured {
+        Measured { value: Some(MetricValue::Count(self.count)), ..Measured::default() }
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(self.clone())
+    }
+}
+
+impl Crossing {
+    /// Whether the vehicle has now taken the other's right of way.
+    fn is_taken(&mut self, moment: &ObservedMoment<'_>, vehicle: usize, spare_s: f64) -> bool {
+        let ends_m = |vehicle: usize| {
+            let (along_m, body) = (moment.along_m[vehicle], &moment.vehicles[vehicle].body);
+            [along_m - body.rear_m, along_m + body.front_m]
+        };
+        let ([own_rear_m, own_front_m], [_, their_front_m]) = (ends_m(vehicle), ends_m(self.other));
+        let (own_m, their_m) = (self.conflict.own_m, self.conflict.their_m);
+        let has_entered = own_front_m > own_m[0];
+        if !has_entered {
+            return false;
+        }
+        let is_merging = self.conflict.kind == ConflictKind::Merging;
+        if self.left_s.is_none() && (is_merging || own_rear_m > own_m[1]) {
+            self.left_s = Some(moment.time_s);
+        }
+        let within_s = self.left_s.map_or(0.0, |left_s| moment.time_s - left_s);
+        let is_there = their_front_m > their_m[0];
+        // Whoever was there before the vehicle was let go.
+        let was_there = !self.was_entered && is_there;
+        self.was_entered = true;
+        self.is_settled = was_there || is_there || within_s >= spare_s;
+        is_there && !was_there && within_s < spare_s
+    }
+}

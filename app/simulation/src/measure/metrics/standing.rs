@@ -1,0 +1,80 @@
+//! How long a vehicle stands that wants to drive, without a reason that shows ([`Standing`]).
+
+use interplay_scenarios::MetricKind::{Count, Number};
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
+
+use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::values::{Measured, MetricValue};
+use crate::standing::Standing;
+
+/// Who stands longer without a reason is stuck, for a real car \[s\].
+const STUCK_S: f64 = 10.0;
+/// Lengths of a real car are so many times those for which bodies have scale 1.
+const REAL: f64 = 10.0;
+
+const DOC_LONGEST: &str = "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
+const DOC_DEADLOCKS: &str = "How often it stands so for more than 10 s, of a real car";
+
+pub(super) const METRICS: &[&dyn Metric] = &[
+    &StandingMetric {
+        declaration: MetricDeclaration::of_vehicle("unexplained_standing_s", Number, DOC_LONGEST),
+        value: |standing| MetricValue::Number(standing.longest_s),
+    },
+    &StandingMetric {
+        declaration: MetricDeclaration::of_vehicle("deadlocks", Count, DOC_DEADLOCKS)
+            .compared(MetricComparison::Sum)
+            .with_others(),
+        value: |standing| MetricValue::Count(standing.deadlocks),
+    },
+];
+
+#[derive(Clone, Copy, Debug)]
+struct StandingMetric {
+    declaration: MetricDeclaration,
+    value: fn(&StandingSoFar) -> MetricValue,
+}
+
+impl Metric for StandingMetric {
+    fn declaration(&self) -> MetricDeclaration {
+        self.declaration
+    }
+
+    fn begin(&self, scenario: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        let scale = scenario.vehicles[vehicle].body.scale / REAL;
+        let (value, stuck_s) = (self.value, STUCK_S * scale.sqrt());
+        Box::new(StandingSoFar { value, vehicle, stuck_s, now_s: 0.0, longest_s: 0.0, deadlocks: 0 })
+    }
+}
+
+/// How long one vehicle has stood.
+#[derive(Clone, Copy, Debug)]
+struct StandingSoFar {
+    value: fn(&StandingSoFar) -> MetricValue,
+    vehicle: usize,
+    stuck_s: f64,
+    now_s: f64,
+    longest_s: f64,
+    deadlocks: u64,
+}
+
+impl Measurement for StandingSoFar {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let standing = Standing::of(tick.end.vehicles, tick.frame);
+        if !standing.stands(self.vehicle) || standing.reason(self.vehicle).is_some() {
+            self.now_s = 0.0;
+            return;
+        }
+        let before_s = self.now_s;
+        self.now_s += tick.step_s;
+        self.longest_s = self.longest_s.max(self.now_s);
+        self.deadlocks += u64::from(before_s <= self.stuck_s && self.now_s > self.stuck_s);
+    }
+
+    fn measured(&self) -> Measured {
+        Measured { value: Some((self.value)(self)), ..Measured::default() }
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(*self)
+    }
+}

@@ -1,0 +1,110 @@
+//! How much time a vehicle keeps to the one ahead: the gap between bumpers, along its route, over its speed.
+
+use interplay_planners::{Route, State};
+use interplay_scenarios::MetricKind::Number;
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
+
+use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::values::Measured;
+
+/// Who is further ahead than this is not followed, for a real car \[m\].
+const FOLLOWED_M: f64 = 90.0;
+/// Who drives more slowly than this queues and does not follow, for a real car \[m/s\].
+const SLOWEST_MPS: f64 = 2.0;
+/// A gap below this is short, for a real car \[s\].
+const SHORT_S: f64 = 0.5;
+/// Lengths of a real car are so many times those for which bodies have scale 1.
+const REAL: f64 = 10.0;
+
+const DOC_SHORT: &str = "Share of the time behind somebody during which the time gap is below 0.5 s, of a real car; none for who \
+                         follows nobody";
+const DOC_MEDIAN: &str = "Median of its time gaps to the vehicle ahead";
+
+pub(super) const METRICS: &[&dyn Metric] = &[
+    &TimeGap { declaration: MetricDeclaration::of_vehicle("short_gap_share", Number, DOC_SHORT), fold: short_share },
+    &TimeGap {
+        declaration: MetricDeclaration::of_vehicle("median_time_gap_s", Number, DOC_MEDIAN)
+            .compared(MetricComparison::Quantiles),
+        fold: median,
+    },
+];
+
+/// A metric of all time gaps of a vehicle.
+#[derive(Clone, Copy, Debug)]
+struct TimeGap {
+    declaration: MetricDeclaration,
+    /// The number, of the gaps in ascending order as times of a real car \[s\], none of which is missing, and of the ratio of times.
+    fold: fn(&[f64], f64) -> f64,
+}
+
+impl Metric for TimeGap {
+    fn declaration(&self) -> MetricDeclaration {
+        self.declaration
+    }
+
+    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        Box::new(TimeGaps { fold: self.fold, vehicle, ratio: 1.0, gaps_s: Vec::new() })
+    }
+}
+
+/// The gaps of one vehicle so far.
+#[derive(Clone, Debug)]
+struct TimeGaps {
+    fold: fn(&[f64], f64) -> f64,
+    vehicle: usize,
+    /// Ratio of its times to those of a real car.
+    ratio: f64,
+    /// As times of a real car \[s\].
+    gaps_s: Vec<f64>,
+}
+
+impl Measurement for TimeGaps {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let scale = tick.end.vehicles[self.vehicle].body.scale / REAL;
+        self.ratio = scale.sqrt();
+        self.gaps_s.extend(time_gap_s(tick, self.vehicle, scale).map(|gap_s| gap_s / scale.sqrt()));
+    }
+
+    fn measured(&self) -> Measured {
+        let mut sorted = self.gaps_s.clone();
+        sorted.sort_by(f64::total_cmp);
+        Measured::number((!sorted.is_empty()).then(|| (self.fold)(&sorted, self.ratio)))
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(self.clone())
+    }
+}
+
+fn short_share(sorted_s: &[f64], _: f64) -> f64 {
+    sorted_s.partition_point(|gap_s| *gap_s < SHORT_S) as f64 / sorted_s.len() as f64
+}
+
+fn median(sorted_s: &[f64], ratio: f64) -> f64 {
+    ratio * sorted_s[sorted_s.len() / 2]
+}
+
+/// The gap to the nearest vehicle ahead in the same lane and direction, over the speed \[s\]; none without one, or for who is slow.
+fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64> {
+    let (stated, states) = (&tick.end.vehicles[vehicle], tick.end.states);
+    let (own, own_m) = (&states[vehicle], tick.end.along_m[vehicle]);
+    if own.speed_mps < SLOWEST_MPS * scale.sqrt() {
+        return None;
+    }
+    let own_across_m = stated.route.across(own.position());
+    let others = tick.end.vehicles.iter().zip(states).enumerate().filter(|(index, _)| *index != vehicle);
+    let gaps = others.filter_map(|(_, (other, state))| {
+        let (ahead_m, across_m) = ahead(&stated.route, own_m, state)?;
+        let reach_m = 0.5 * (stated.body.width_m + other.body.width_m);
+        let gap_m = ahead_m - stated.body.front_m - other.body.rear_m;
+        ((across_m - own_across_m).abs() < reach_m && gap_m < FOLLOWED_M * scale).then_some(gap_m.max(0.0))
+    });
+    gaps.min_by(f64::total_cmp).map(|gap_m| gap_m / own.speed_mps)
+}
+
+/// How far a vehicle is ahead along a route and where it is across it, if it drives in its direction \[m\].
+fn ahead(route: &Route, own_m: f64, state: &State) -> Option<(f64, f64)> {
+    let at = route.locate(state.position(), None);
+    let is_along = libm::cos(state.heading_rad - at.heading_rad) > std::f64::consts::FRAC_1_SQRT_2;
+    (is_along && at.along_m > own_m).then_some((at.along_m - own_m, at.across_m))
+}

@@ -1,0 +1,181 @@
+//! Why somebody stands who wants to drive, as far as that shows: from where everybody is and from what the rules ask.
+
+use interplay_planners::{Route, State};
+use interplay_scenarios::Vehicle;
+
+use crate::frame::Frame;
+
+/// Slower than this a real car stands \[m/s\].
+const STANDING_MPS: f64 = 0.3;
+/// Who wants to drive no faster than this does not want to drive, of a real car \[m/s\].
+const LEAST_WANTED_MPS: f64 = 0.5;
+/// A line or a vehicle that somebody waits at is within this distance of its front, for a real car \[m\].
+const NEAR_M: f64 = 15.0;
+/// Who comes the other way keeps a real car from passing an obstacle from this distance on \[m\].
+const ONCOMING_M: f64 = 150.0;
+/// Space that passing takes beside both bodies, for a real car \[m\].
+const ASIDE_M: f64 = 0.7;
+/// Lengths of a real car are so many times those for which bodies have scale 1.
+const REAL: f64 = 10.0;
+
+/// Why somebody stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StandingReason {
+    /// A sign asks for it.
+    Sign,
+    /// It gives way to these vehicles.
+    GivesWay(Vec<String>),
+    /// Somebody stands or drives ahead of it.
+    Behind(String),
+    /// It waits for somebody before it passes an obstacle.
+    Passing {
+        /// For whom.
+        waits_for: String,
+        /// What stands in the way.
+        obstacle: String,
+    },
+    /// There is no room beside an obstacle.
+    NoRoom(String),
+}
+
+impl StandingReason {
+    /// Those whom it names, for whom somebody waits.
+    fn waits_for(&self) -> Vec<&str> {
+        match self {
+            StandingReason::Sign | StandingReason::NoRoom(_) => Vec::new(),
+            StandingReason::GivesWay(names) => names.iter().map(String::as_str).collect(),
+            StandingReason::Behind(name) | StandingReason::Passing { waits_for: name, .. } => vec![name],
+        }
+    }
+}
+
+impl std::fmt::Display for StandingReason {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            StandingReason::Sign => write!(formatter, "stops at the sign"),
+            StandingReason::GivesWay(names) => write!(formatter, "gives way to {}", names.join(", ")),
+            StandingReason::Behind(name) => write!(formatter, "waits behind {name}"),
+            StandingReason::Passing { waits_for, obstacle } => {
+                write!(formatter, "waits for {waits_for} before it passes {obstacle}")
+            }
+            StandingReason::NoRoom(name) => write!(formatter, "has no room to pass {name}"),
+        }
+    }
+}
+
+/// All vehicles of a moment, of whom some may stand.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing<'a> {
+    vehicles: &'a [Vehicle],
+    frame: &'a Frame,
+}
+
+impl<'a> Standing<'a> {
+    /// The vehicles of a frame.
+    pub fn of(vehicles: &'a [Vehicle], frame: &'a Frame) -> Self {
+        Standing { vehicles, frame }
+    }
+
+    /// Whether a vehicle stands although it wants to drive.
+    pub fn stands(&self, index: usize) -> bool {
+        let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());
+        self.wants_to_drive(index)
+            && self.state(index).speed_mps < STANDING_MPS * times
+            && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
+    }
+
+    /// Why a vehicle stands; none where nothing says so, or where those who wait for one another wait in a circle.
+    pub fn reason(&self, index: usize) -> Option<StandingReason> {
+        self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
+    }
+
+    /// Whether whoever is waited for moves, or waits for somebody who does.
+    fn ends(&self, reason: &StandingReason, passed: &mut Vec<usize>) -> bool {
+        let names = reason.waits_for();
+        let indices = names.iter().filter_map(|name| self.vehicles.iter().position(|vehicle| vehicle.name == *name));
+        names.is_empty()
+            || indices.into_iter().any(|index| {
+                if passed.contains(&index) {
+                    return false;
+                }
+                passed.push(index);
+                !self.stands(index) || self.plain_reason(index).is_some_and(|reason| self.ends(&reason, passed))
+            })
+    }
+
+    fn plain_reason(&self, index: usize) -> Option<StandingReason> {
+        let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
+        let front_m = self.along_m(index) + vehicle.body.front_m;
+        let rules = &self.frame.vehicles[index].rules;
+        if let Some(obstacle) = self.ahead(index, NEAR_M * scale) {
+            if self.wants_to_drive(obstacle) {
+                return Some(StandingReason::Behind(self.vehicles[obstacle].name.clone()));
+            }
+            if let Some(reason) = self.before_passing(index, obstacle) {
+                return Some(reason);
+            }
+        }
+        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
+        line_m.map(|_| match rules.waits_for.as_slice() {
+            [] => StandingReason::Sign,
+            names => StandingReason::GivesWay(names.to_vec()),
+        })
+    }
+
+    /// Why an obstacle is not passed.
+    fn before_passing(&self, index: usize, obstacle: usize) -> Option<StandingReason> {
+        let (own, other) = (&self.vehicles[index], &self.vehicles[obstacle]);
+        let at = own.route.locate(self.state(obstacle).position(), None);
+        let [right_m, left_m] = own.route.edges_before_end_m(at.along_m);
+        let needed_m = 0.5 * other.body.width_m + own.body.width_m + ASIDE_M * self.scale(index);
+        let name = || other.name.clone();
+        if left_m - at.across_m < needed_m && at.across_m - right_m < needed_m {
+            return Some(StandingReason::NoRoom(name()));
+        }
+        let reach_m = ONCOMING_M * self.scale(index);
+        let others = (0..self.vehicles.len()).filter(|other| *other != index && *other != obstacle);
+        let comes = |other: &usize| {
+            let place = own.route.locate(self.state(*other).position(), None);
+            let beside = (place.across_m - at.across_m).abs() > 0.5 * self.vehicles[*other].body.width_m;
+            let speed_mps = self.state(*other).speed_mps;
+            let is_near = (place.along_m - at.along_m).abs() < reach_m;
+            is_near && beside && speed_mps > STANDING_MPS && (right_m..=left_m).contains(&place.across_m)
+        };
+        let waits_for = others.into_iter().find(comes)?;
+        Some(StandingReason::Passing { waits_for: self.vehicles[waits_for].name.clone(), obstacle: name() })
+    }
+
+    /// The nearest vehicle ahead in the same lane, within a distance between bumpers.
+    fn ahead(&self, index: usize, within_m: f64) -> Option<usize> {
+        let (own, own_m) = (&self.vehicles[index], self.along_m(index));
+        let across_m = own.route.across(self.state(index).position());
+        let others = (0..self.vehicles.len()).filter(|other| *other != index).filter_map(|other| {
+            let body = &self.vehicles[other].body;
+            let at = own.route.locate(self.state(other).position(), None);
+            let gap_m = at.along_m - own_m - own.body.front_m - body.rear_m.max(body.front_m);
+            let reach_m = 0.5 * (own.body.width_m + body.width_m);
+            let is_ahead = at.along_m > own_m && gap_m < within_m && (at.across_m - across_m).abs() < reach_m;
+            is_ahead.then_some((other, gap_m))
+        });
+        others.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+    }
+
+    fn wants_to_drive(&self, index: usize) -> bool {
+        let vehicle = &self.vehicles[index];
+        let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
+        wanted_mps > LEAST_WANTED_MPS * self.scale(index).sqrt()
+    }
+
+    fn state(&self, index: usize) -> &State {
+        &self.frame.vehicles[index].state
+    }
+
+    fn along_m(&self, index: usize) -> f64 {
+        let route: &Route = &self.vehicles[index].route;
+        route.along(self.state(index).position())
+    }
+
+    fn scale(&self, index: usize) -> f64 {
+        self.vehicles[index].body.scale / REAL
+    }
+}
