@@ -6,6 +6,7 @@
 
 use crate::posing::ellipses;
 use crate::relation::Relation;
+use crate::road::network::ConflictKind;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
 use crate::vehicle::OrientedEllipse;
@@ -25,6 +26,8 @@ const ACCEPTED_SHARE: f64 = 0.85;
 const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
 const OPENING: f64 = 0.1;
+/// The ellipse around somebody beside whom one drives is so many times as long as both bodies.
+const BESIDE_LENGTH_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 const ASIDE_M: f64 = 0.04;
 
@@ -73,17 +76,31 @@ impl Scene {
         KeepOut { vehicle: 0, ellipses, centres, penalty }
     }
 
-    /// What keeps the planning vehicle from touching somebody who waits for it.
+    /// Whether somebody comes the other way, whom a driver who knows comfort passes side by side.
+    pub(crate) fn meets_in_its_lane(&self, other: &Agent) -> bool {
+        let is_head_on =
+            |relation| matches!(relation, Relation::Conflict(conflict) if conflict.kind == ConflictKind::HeadOn);
+        self.ego.limits.comfort.is_some() && is_head_on(self.ego.relation(other))
+    }
+
+    /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
-        let width_m = 0.5 * (self.ego.body.width_m + other.body.width_m);
-        self.narrow(other, self.half_axis_m(other, 0.0).max(width_m), penalty)
+        // An ellipse so much longer than the bodies contains their corners if it is that much wider.
+        let ratio = BESIDE_LENGTH_RATIO;
+        let keep_out = self.narrow(other, ratio * self.half_axis_m(other, 0.0), penalty);
+        let wider = |ellipse: &OrientedEllipse| {
+            let SafetyEllipse { along_m, across_m } = ellipse.shape();
+            let across_m = across_m / (1.0 - 1.0 / (ratio * ratio)).sqrt();
+            SafetyEllipse { along_m, across_m }.oriented(ellipse.heading_rad())
+        };
+        KeepOut { ellipses: keep_out.ellipses.iter().map(wider).collect(), ..keep_out }
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
-        if self.ego.is_waited_for_by(other) {
+        if self.ego.is_waited_for_by(other) || self.meets_in_its_lane(other) {
             return self.beside(other, penalty);
         }
         let Some(comfort) = self.ego.limits.comfort else { return keep_out };

@@ -2,7 +2,7 @@
 
 use crate::certificate::touches_ahead;
 use crate::steering::{admissible, roll_out, steer};
-use crate::{Agent, Input, Scene};
+use crate::{Agent, Input, Scene, Trajectory};
 
 /// A driver who must brake does so by this much harder than is just enough.
 const RESERVE: f64 = 1.15;
@@ -16,8 +16,8 @@ impl Scene {
     /// no comfort.
     ///
     /// Braking is needed behind whoever drives ahead in the same lane, if that one brakes comfortably to a stop or as it does now,
-    /// and before the line at which the vehicle has to wait. Where neither comfortable braking nor the present speed keeps it from
-    /// touching somebody ahead, it may do all that it can.
+    /// and before the line at which the vehicle has to wait. Where neither its last plan nor comfortable braking nor the present speed
+    /// keeps it from touching somebody ahead, it may do all that it can.
     pub(crate) fn urgency(&self) -> f64 {
         let ego = &self.ego;
         let Some(comfort) = ego.limits.comfort else { return 1.0 };
@@ -29,16 +29,16 @@ impl Scene {
         });
         let needed_mps2 = behind.chain(line).fold(0.0, f64::max);
         let ratio = (RESERVE * needed_mps2 / comfort.braking_mps2).clamp(1.0, MOST);
-        let motions = [-comfort.braking_mps2, 0.0];
-        let is_in_danger = motions.into_iter().all(|mps2| {
-            let motion = self.changing_comfortably_to(mps2, comfort.jerk_mps3);
-            self.others.iter().any(|other| touches_ahead(self, &motion, other))
-        });
+        let touches = |motion: &Trajectory| self.others.iter().any(|other| touches_ahead(self, motion, other));
+        let is_in_danger = touches(&ego.prediction)
+            && [-comfort.braking_mps2, 0.0]
+                .into_iter()
+                .all(|mps2| touches(&self.changing_comfortably_to(mps2, comfort.jerk_mps3)));
         if is_in_danger { MOST } else { ratio }
     }
 
     /// The motion along the road at the present lateral place, with an acceleration that is approached comfortably.
-    fn changing_comfortably_to(&self, wanted_mps2: f64, jerk_mps3: f64) -> crate::Trajectory {
+    fn changing_comfortably_to(&self, wanted_mps2: f64, jerk_mps3: f64) -> Trajectory {
         let ego = &self.ego;
         let across_m = ego.route.across(ego.state.position());
         let mut acceleration_mps2 = ego.previous_input.acceleration_mps2;

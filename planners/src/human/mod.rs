@@ -156,10 +156,10 @@ impl Drive for Human {
         if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
-        let was_passing = self.obstacles.is_passing();
-        let passed = if wanted.ego.rules.are_kept {
+        let was_passing = self.obstacles.passing().map(str::to_owned);
+        let met = if wanted.ego.rules.are_kept {
             let manoeuvre = self.obstacles.judge(&wanted);
-            manoeuvre.and_then(|manoeuvre| manoeuvre.passed_or_waited_for(&mut wanted))
+            manoeuvre.map(|manoeuvre| manoeuvre.laid_over(&mut wanted))
         } else {
             // Right of way is kept in any case.
             if let Some(line_m) = self.arrivals.stop_line_m(&wanted) {
@@ -168,9 +168,9 @@ impl Drive for Human {
             None
         };
         let scene = wanted.as_ref();
-        let problem = pose(scene, (&expected.others, passed.as_ref()), &self.settings);
-        let start = match &passed {
-            Some(obstacle) if !was_passing => obstacle.guess(scene),
+        let problem = pose(scene, (&expected.others, met.as_ref()), &self.settings);
+        let start = match &met {
+            Some((obstacle, true)) if was_passing.as_ref() != Some(&obstacle.name) => obstacle.guess(scene),
             _ => guess(scene, self.last.as_ref()),
         };
         let optimum = self.optimiser.optimise_or_improve(&problem, &[start])?;
@@ -201,16 +201,21 @@ pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
     pose(scene, (&scene.others, None), settings)
 }
 
-/// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and passes an obstacle.
-fn pose(scene: &Scene, (expected, passed): (&[Agent], Option<&Obstacle>), settings: &Settings) -> Problem {
+/// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and meets an obstacle, which it passes or not.
+fn pose(scene: &Scene, (expected, met): (&[Agent], Option<&(Obstacle, bool)>), settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
-    let others: Vec<(&Agent, &Agent)> =
-        others.filter(|(other, _)| passed.is_none_or(|obstacle| obstacle.name != other.name)).collect();
+    // Whoever comes the other way was looked at before passing was allowed, and is at every tick.
+    let is_minded = |other: &Agent| {
+        met.is_none_or(|(obstacle, is_passed)| {
+            obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
+        })
+    };
+    let others: Vec<(&Agent, &Agent)> = others.filter(|(other, _)| is_minded(other)).collect();
     let leader = leader(scene, others.iter().map(|(other, _)| *other));
     let followed = leader.map(|leader| followed(scene, leader, settings)).unwrap_or_default();
     let yielded_to = yielded_to(scene, leader, &others, settings);
-    let beside = passed.map(|obstacle| obstacle.keep_out(scene));
+    let beside = met.map(|(obstacle, _)| obstacle.keep_out(scene));
     terms.extend(followed.into_iter().chain(yielded_to).chain(beside).map(Term::KeepOut));
     let rules = &scene.ego.rules;
     let line = rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, line_m));
@@ -265,6 +270,11 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
     };
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
+        if scene.meets_in_its_lane(other) {
+            let expected = Agent { prediction: predicted, ..(*expected).clone() };
+            keep_outs.push(scene.beside(&expected, Penalty::EXACT));
+            continue;
+        }
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
         if ego.crosses(other) {
             keep_outs.push(scene.keep_out(&predicted, &ego.route, Penalty::hinge(weight)));

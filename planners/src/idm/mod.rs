@@ -17,7 +17,7 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
-use crate::obstacle::ObstacleMemory;
+use crate::obstacle::{Obstacle, ObstacleMemory};
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
 use crate::{Plan, PlanError, PlanEvent, Scene};
@@ -84,9 +84,11 @@ impl Drive for Idm {
     /// Never.
     fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let mut seen = Cow::Borrowed(scene);
+        let was_passing = self.obstacles.passing().map(str::to_owned);
         let passed = if scene.ego.rules.are_kept {
             let manoeuvre = self.obstacles.judge(scene);
-            manoeuvre.and_then(|manoeuvre| manoeuvre.passed_or_waited_for(&mut seen))
+            let met = manoeuvre.map(|manoeuvre| manoeuvre.laid_over(&mut seen));
+            met.filter(|(_, is_passed)| *is_passed).map(|(obstacle, _)| obstacle)
         } else {
             if let Some(line_m) = self.arrivals.stop_line_m(scene) {
                 seen.to_mut().ego.rules.stop_before(line_m);
@@ -105,7 +107,10 @@ impl Drive for Idm {
         let motion =
             Motion { settings: &self.settings, scene: &minded, lanes, from_to, line_m, passed: passed.as_ref() };
         let mut trajectory = motion.driven();
-        if let Some(obstacle) = passed.as_ref().filter(|obstacle| obstacle.is_touched_by(&whole, &trajectory)) {
+        // Who has begun to pass goes on unless it would touch.
+        let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
+        let is_touched = |obstacle: &&Obstacle| obstacle.is_touched_by(&whole, &trajectory, spaces(obstacle));
+        if let Some(obstacle) = passed.as_ref().filter(is_touched) {
             let behind_m = obstacle.line_m(&whole);
             let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
             trajectory = Motion { scene: &whole, line_m, passed: None, ..motion }.driven();

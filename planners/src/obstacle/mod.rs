@@ -64,14 +64,14 @@ pub(crate) enum Manoeuvre {
 }
 
 impl Manoeuvre {
-    /// The obstacle, if it is passed; otherwise the planning vehicle of `scene` has to stay behind it.
-    pub(crate) fn passed_or_waited_for(self, scene: &mut Cow<'_, Scene>) -> Option<Obstacle> {
+    /// The obstacle, and whether it is passed; if it is not, the planning vehicle of `scene` has to stay behind it.
+    pub(crate) fn laid_over(self, scene: &mut Cow<'_, Scene>) -> (Obstacle, bool) {
         match self {
-            Manoeuvre::Pass(obstacle) => Some(obstacle),
+            Manoeuvre::Pass(obstacle) => (obstacle, true),
             Manoeuvre::Wait(obstacle, _) => {
                 let line_m = obstacle.line_m(scene);
                 scene.to_mut().ego.rules.stop_before(line_m);
-                None
+                (obstacle, false)
             }
         }
     }
@@ -87,9 +87,9 @@ pub(crate) struct ObstacleMemory {
 }
 
 impl ObstacleMemory {
-    /// Whether an obstacle is being passed.
-    pub(crate) fn is_passing(&self) -> bool {
-        self.passing.is_some()
+    /// The name of what is being passed.
+    pub(crate) fn passing(&self) -> Option<&str> {
+        self.passing.as_deref()
     }
 
     /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
@@ -212,10 +212,10 @@ impl Obstacle {
         motion.inputs
     }
 
-    /// Whether a motion of the planning vehicle touches it, or leaves less than half of the free space to the side.
-    pub(crate) fn is_touched_by(&self, scene: &Scene, motion: &Trajectory) -> bool {
+    /// Whether a motion of the planning vehicle touches it, or comes nearer than half of a free space at each side.
+    pub(crate) fn is_touched_by(&self, scene: &Scene, motion: &Trajectory, spaces: f64) -> bool {
         let Some(other) = scene.others.iter().find(|other| other.name == self.name) else { return false };
-        let body = Body { width_m: other.body.width_m + SIDE_M * scene.ego.body.scale, ..other.body };
+        let body = Body { width_m: other.body.width_m + spaces * SIDE_M * scene.ego.body.scale, ..other.body };
         touches_ahead(scene, motion, &Agent { body, ..other.clone() })
     }
 
@@ -240,11 +240,6 @@ impl Obstacle {
     pub(crate) fn lateral_m(&self, along_m: f64, own_m: f64, swing_m: f64) -> f64 {
         let [from_m, to_m] = [self.along_m[0] - swing_m, self.along_m[1] + self.reach_m[0]];
         if (from_m..to_m).contains(&along_m) { self.pass_at_m } else { own_m }
-    }
-
-    /// Whether an arc length is beside it, so that a driver there passes on whatever comes.
-    fn is_beside(&self, front_m: f64) -> bool {
-        front_m > self.along_m[0]
     }
 }
 

@@ -19,10 +19,18 @@ use crate::{Agent, Goal, Route, SafetyEllipse, Scene, Trajectory};
 /// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
 const MOST_LATERAL_URGENCY: f64 = 2.0;
 
+/// Leaving the road costs people so many times what it costs the drivers of the source: more than to come near somebody, for which a
+/// plan would otherwise trade the road.
+const PEOPLE_ON_ROAD: f64 = 5.0;
+
 impl Agent {
     /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
     pub fn road_edge(&self, vehicle: usize) -> RoadEdge {
-        let (route, penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
+        let (route, mut penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
+        if self.limits.comfort.is_some() {
+            let Penalty { linear, quadratic } = penalty;
+            penalty = Penalty { linear: PEOPLE_ON_ROAD * linear, quadratic: PEOPLE_ON_ROAD * quadratic };
+        }
         RoadEdge { vehicle, body: self.body, route, penalty }
     }
 
@@ -33,7 +41,8 @@ impl Agent {
             front_m: self.body.front_m,
             route: Arc::clone(&self.route),
             line_m,
-            penalty: Penalty::ROAD_EDGE,
+            // Nobody leaves the road in order to stay before a line.
+            penalty: if self.rules.are_kept { Penalty::road_edge(self.body.scale) } else { Penalty::ROAD_EDGE },
         }
     }
 

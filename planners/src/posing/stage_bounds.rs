@@ -12,6 +12,9 @@ use crate::trajectory::StageBounds;
 use crate::vehicle::ComfortLimits;
 use crate::{Agent, Limits};
 
+/// A vehicle stands still with this share of comfortable braking.
+const LEAST_BRAKING_SHARE: f64 = 0.1;
+
 impl Agent {
     /// The bounds at the stages of a plan, with highest speeds at `t = 1…N` where there are any; empty where the limits of the
     /// body alone bound everything.
@@ -52,6 +55,10 @@ impl Agent {
         let least_mps2 = acceleration_min_mps2.max(-comfort.braking_mps2 * self.urgency);
         let last = &self.previous_input;
         let jerk_mps3 = comfort.jerk_mps3 * self.urgency * self.urgency;
+        // Brakes are released before the vehicle stands: with the jerk j there is time for it, and as much again, from a speed of b²/j on.
+        let released_mps2 =
+            (2.0 * jerk_mps3 * self.state.speed_mps.max(0.0)).sqrt().max(LEAST_BRAKING_SHARE * comfort.braking_mps2);
+        let least_mps2 = if t == 0 { least_mps2.max(-released_mps2) } else { least_mps2 };
         StageBounds {
             acceleration_mps2: shared(
                 [least_mps2, acceleration_max_mps2],

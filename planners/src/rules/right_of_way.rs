@@ -7,7 +7,7 @@ use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
 const CAR_LENGTH_M: f64 = 0.45;
 
 /// A vehicle stands if it would come to rest within this share of a car's length, braking at [`REFERENCE_MPS2`].
-const STANDING_LENGTHS: f64 = 0.02;
+const STANDING_LENGTHS: f64 = 0.008;
 
 /// A driver stops this many lengths of a car before a line.
 const STOPPING_LENGTHS: f64 = 0.15;

@@ -10,7 +10,10 @@ use crate::file_format::conduct::Conduct;
 use crate::json_schema::SchemaNode;
 
 /// Time from one tick to the next, and from one plan to the next, for real cars \[s\].
-const STEPS_S: [f64; 2] = [0.1, 0.3];
+const STEPS_S: [f64; 2] = [0.1, 0.2];
+
+/// Stages of a plan: 8 s of a real car.
+const HORIZON_STEPS: usize = 40;
 
 /// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
 /// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000).
@@ -38,6 +41,7 @@ pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
     for (key, time_s) in ["step_s", "planning_period_s"].into_iter().zip(times) {
         root.entry(key).or_insert(json!(time_s));
     }
+    root.entry("horizon_steps").or_insert(json!(HORIZON_STEPS));
 }
 
 /// Writes into a vehicle what its driver does; `schema` is that of vehicles.

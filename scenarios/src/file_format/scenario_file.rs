@@ -45,7 +45,7 @@ pub struct ScenarioFile {
     #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]
     pub scale: Option<ScenarioScale>,
     /// How drivers behave where the file says nothing of it: `"people"` keep within comfort and to time gaps and rules, need 0.6 s to
-    /// react, and move in steps of 0.1 s with a plan every 0.3 s; `"source"` are the drivers of the dissertation. By default people where
+    /// react, and move in steps of 0.1 s with a plan of 8 s every 0.2 s; `"source"` are the drivers of the dissertation. By default people where
     /// everything is of full size and no `figure` is reproduced.
     #[schemars(extend("x-concerns" = "vehicles"), example = &"people")]
     pub conduct: Option<Conduct>,
