@@ -51,6 +51,15 @@ impl Agent {
         Some(((permitted_mps - speed_mps) / step_s).max(-self.comfortable_braking_mps2() * excess * excess))
     }
 
+    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
+    pub(crate) fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
+        if self.route.straight().is_some() {
+            return Vec::new();
+        }
+        let here_m = self.route.along(self.state.position());
+        (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
+    }
+
     /// With what it brakes for a speed limit \[m/s²\].
     fn comfortable_braking_mps2(&self) -> f64 {
         COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs()

@@ -79,6 +79,18 @@ impl Agent {
     }
 }
 
+impl Agent {
+    /// Whether the rules hold another vehicle for this one.
+    pub(crate) fn is_waited_for_by(&self, other: &Agent) -> bool {
+        other.rules.waits_for.contains(&self.name)
+    }
+
+    /// Whether the rules say which of two vehicles goes first now: there is nothing to negotiate.
+    pub(crate) fn has_order_with(&self, other: &Agent) -> bool {
+        self.is_waited_for_by(other) || other.is_waited_for_by(self)
+    }
+}
+
 /// The arc length of a vehicle's rear on its own route \[m\].
 fn rear_m(agent: &Agent) -> f64 {
     agent.route.along(agent.state.position()) - agent.body.rear_m

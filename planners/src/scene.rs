@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::road::centre_line::FrenetPoint;
-use crate::rules::RoadRules;
+use crate::road_rules::RoadRules;
 use crate::{Axes, Bicycle, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as the others see it.

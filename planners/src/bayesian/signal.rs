@@ -20,7 +20,7 @@
 
 use super::belief::PersuasionBelief;
 use super::{Settings, value};
-use crate::posing::ellipses;
+use crate::clearance::ellipses;
 use crate::trajectory::terms::{DistanceCost, FrenetTracking, Tracking};
 use crate::trajectory::{Problem, Term};
 use crate::vehicle::OrientedEllipse;

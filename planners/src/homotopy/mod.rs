@@ -19,8 +19,8 @@ mod log;
 pub use crate::planned_passing::{PassingSide, PlannedPassing};
 pub(crate) use log::HomotopyLog;
 
+use crate::clearance::ellipses;
 use crate::encounter::PARALLEL_RAD;
-use crate::posing::ellipses;
 use crate::relation::Relation;
 use crate::road::network::RouteConflict;
 use crate::{Agent, Axes, Plan, Scene, State};

@@ -55,9 +55,9 @@ pub use settings::{Settings, Style};
 use std::borrow::Cow;
 
 use crate::belief::Outlook;
+use crate::clearance::ellipses;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::obstacle::{Obstacle, ObstacleMemory};
-use crate::posing::ellipses;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
 use crate::trajectory::terms::KeepOut;

@@ -1,6 +1,6 @@
 //! Whether there is room to pass an obstacle: nobody else comes to the part of the road that is borrowed before the driver is back.
 
-use super::{Obstacle, swing_m};
+use super::standing::{Obstacle, swing_m};
 use crate::rules::is_standing;
 use crate::{Agent, Scene};
 

@@ -9,15 +9,11 @@ use std::sync::Arc;
 
 pub use joint::{JointVehicle, joint_problem};
 
-use crate::trajectory::terms::{
-    Comfort, FrenetTarget, FrenetTracking, KeepOut, RoadEdge, Separation, StopLine, Tracking,
-};
+use crate::clearance::ellipses;
+use crate::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, Separation, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, RouteStart, Term};
-use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
-use crate::{Agent, Goal, Route, SafetyEllipse, Scene, Trajectory};
-
-/// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
-const MOST_LATERAL_URGENCY: f64 = 2.0;
+use crate::vehicle::slip_on_curve_rad;
+use crate::{Agent, Goal, SafetyEllipse, Scene};
 
 /// Leaving the road costs people so many times what it costs the drivers of the source: more than to come near somebody, for which a
 /// plan would otherwise trade the road.
@@ -44,30 +40,6 @@ impl Agent {
             // Nobody leaves the road in order to stay before a line.
             penalty: if self.rules.are_kept { Penalty::road_edge(self.body.scale) } else { Penalty::ROAD_EDGE },
         }
-    }
-
-    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
-    pub(crate) fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
-        if self.route.straight().is_some() {
-            return Vec::new();
-        }
-        let here_m = self.route.along(self.state.position());
-        (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
-    }
-
-    /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on
-    /// the speed \[rad\].
-    pub(crate) fn steering_bounds_rad(&self, horizon: usize) -> Vec<f64> {
-        let comfortable_mps2 = self
-            .limits
-            .comfort
-            .map(|comfort| comfort.lateral_acceleration_mps2 * self.urgency.min(MOST_LATERAL_URGENCY));
-        let bounds = self.limits.lateral_acceleration_max_mps2.into_iter().chain(comfortable_mps2);
-        let Some(most_mps2) = bounds.min_by(f64::total_cmp) else { return Vec::new() };
-        let expected = self.prediction.states.iter().skip(1).map(|state| state.speed_mps);
-        let last_mps = self.prediction.states.last().unwrap_or(&self.state).speed_mps;
-        let speeds = std::iter::once(self.state.speed_mps).chain(expected).chain(std::iter::repeat(last_mps));
-        speeds.take(horizon).map(|speed_mps| self.limits.steering_at_rad(&self.body, speed_mps, most_mps2)).collect()
     }
 
     /// The slip angles with which it follows its route at arc lengths \[rad\].
@@ -128,13 +100,6 @@ impl Scene {
         })
     }
 
-    /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
-    /// Each ellipse lies along `route`.
-    pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
-        let centres = self.centres(prediction);
-        KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
-    }
-
     /// Vehicle number `vehicle` of a joint problem keeps out of ellipses of the size `safety` around vehicle number `from`, each
     /// along the road where that one is predicted.
     pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
@@ -145,13 +110,5 @@ impl Scene {
     /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
     pub fn exact_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
         others.into_iter().map(|other| Term::KeepOut(self.safety_around(other, Penalty::EXACT)))
-    }
-}
-
-/// A safety ellipse around each centre, along a road.
-pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
-    match route.straight() {
-        Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
-        None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
     }
 }

@@ -12,6 +12,9 @@ use crate::trajectory::StageBounds;
 use crate::vehicle::ComfortLimits;
 use crate::{Agent, Limits};
 
+/// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
+const MOST_LATERAL_URGENCY: f64 = 2.0;
+
 /// A vehicle stands still with this share of comfortable braking.
 const LEAST_BRAKING_SHARE: f64 = 0.1;
 
@@ -43,6 +46,21 @@ impl Agent {
         bounds
     }
 
+    /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on
+    /// the speed \[rad\].
+    pub(crate) fn steering_bounds_rad(&self, horizon: usize) -> Vec<f64> {
+        let comfortable_mps2 = self
+            .limits
+            .comfort
+            .map(|comfort| comfort.lateral_acceleration_mps2 * self.urgency.min(MOST_LATERAL_URGENCY));
+        let bounds = self.limits.lateral_acceleration_max_mps2.into_iter().chain(comfortable_mps2);
+        let Some(most_mps2) = bounds.min_by(f64::total_cmp) else { return Vec::new() };
+        let expected = self.prediction.states.iter().skip(1).map(|state| state.speed_mps);
+        let last_mps = self.prediction.states.last().unwrap_or(&self.state).speed_mps;
+        let speeds = std::iter::once(self.state.speed_mps).chain(expected).chain(std::iter::repeat(last_mps));
+        speeds.take(horizon).map(|speed_mps| self.limits.steering_at_rad(&self.body, speed_mps, most_mps2)).collect()
+    }
+
     fn highest_speed_mps(&self, t: usize, caps_mps: &[f64]) -> f64 {
         caps_mps.get(t).map_or(self.limits.speed_max_mps, |cap_mps| cap_mps.min(self.limits.speed_max_mps))
     }
@@ -55,9 +73,10 @@ impl Agent {
         let least_mps2 = acceleration_min_mps2.max(-comfort.braking_mps2 * self.urgency);
         let last = &self.previous_input;
         let jerk_mps3 = comfort.jerk_mps3 * self.urgency * self.urgency;
-        // Brakes are released before the vehicle stands: with the jerk j there is time for it, and as much again, from a speed of b²/j on.
+        // Brakes are released before the vehicle stands: with the jerk j there is time for it from a speed of b²/2j on.
+        let next_mps = self.state.speed_mps + step_s * last.acceleration_mps2.min(0.0);
         let released_mps2 =
-            (2.0 * jerk_mps3 * self.state.speed_mps.max(0.0)).sqrt().max(LEAST_BRAKING_SHARE * comfort.braking_mps2);
+            (2.0 * jerk_mps3 * next_mps.max(0.0)).sqrt().max(LEAST_BRAKING_SHARE * comfort.braking_mps2);
         let least_mps2 = if t == 0 { least_mps2.max(-released_mps2) } else { least_mps2 };
         StageBounds {
             acceleration_mps2: shared(

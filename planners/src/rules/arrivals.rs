@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use super::Obliged;
 use super::right_of_way::{car_length_m, front_m, is_standing, signed_lines};
 use crate::Agent;
-use crate::traffic::RoadUser;
 
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
@@ -44,16 +44,16 @@ struct Arrival {
 
 impl Arrivals {
     /// Looks at everybody.
-    pub(super) fn note_all(&mut self, (tick, step_s): (usize, f64), users: &[RoadUser]) {
+    pub(super) fn note_all(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) {
         for user in users {
             let others = users.iter().filter(|other| other.agent.name != user.agent.name);
             let lines: Vec<f64> = others
                 .flat_map(|other| user.agent.route.conflicts_with(&other.agent.route))
                 .map(|conflict| conflict.own_line_m)
-                .chain(signed_lines(&user.agent))
+                .chain(signed_lines(user.agent))
                 .collect();
             let known = self.0.entry(user.agent.name.clone()).or_default();
-            known.note(&user.agent, &lines, (tick, step_s));
+            known.note(user.agent, &lines, (tick, step_s));
         }
     }
 
@@ -63,10 +63,10 @@ impl Arrivals {
     }
 
     /// Whether a vehicle stands at its line and will go when it may: it wants to drive and has not let its turn pass.
-    pub(super) fn is_ready(&self, user: &RoadUser) -> bool {
-        let length_m = car_length_m(&user.agent);
+    pub(super) fn is_ready(&self, user: &Obliged<'_>) -> bool {
+        let length_m = car_length_m(user.agent);
         let Some(known) = self.0.get(&user.agent.name).filter(|known| known.arrival.is_some()) else { return false };
-        user.goal.target.speed_mps > LEAST_WANTED_LENGTHS * length_m && known.stood_s < TURN_TIMES * length_m.sqrt()
+        user.wanted_mps > LEAST_WANTED_LENGTHS * length_m && known.stood_s < TURN_TIMES * length_m.sqrt()
     }
 
     /// Whether a vehicle has stood at a line.

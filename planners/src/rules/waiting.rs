@@ -1,6 +1,13 @@
 //! Who waits for whom, and how circles of waiting are broken.
 
-use super::Hold;
+/// One vehicle that another one has to wait for, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hold {
+    /// The number of the other one.
+    pub by: usize,
+    /// Where it waits \[m\].
+    pub line_m: f64,
+}
 
 /// Lets one vehicle of each circle go in which everybody waits for another one of the same circle and for nobody else: the first
 /// one in the order of `turns`. Nobody is let go before all of the circle have a turn.

@@ -35,7 +35,7 @@ pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
 use crate::predict::without_plans;
-use crate::rules::RuleBook;
+use crate::rules::{Obliged, RuleBook};
 use crate::{Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
@@ -71,7 +71,12 @@ impl Traffic {
     /// of it, and says how urgent it is for it to brake. To be called once a tick.
     pub fn predict(&mut self) {
         let Traffic { tick, horizon, step_s, .. } = *self;
-        let rules = self.rule_book.judge((tick, step_s), &self.road_users);
+        let obliged = self.road_users.iter().map(|user| Obliged {
+            agent: &user.agent,
+            wanted_mps: user.goal.target.speed_mps,
+            keeps_rules: user.keeps_rules,
+        });
+        let rules = self.rule_book.judge((tick, step_s), &obliged.collect::<Vec<_>>());
         for (user, rules) in self.road_users.iter_mut().zip(rules) {
             user.agent.rules = rules;
         }

@@ -4,13 +4,12 @@
 //! (`docs/people.md`). A human keeps the more, the more safety weighs for it. Nobody pulls into a gap below a least one,
 //! ahead or behind.
 
-use crate::posing::ellipses;
 use crate::relation::Relation;
 use crate::road::network::ConflictKind;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
 use crate::vehicle::OrientedEllipse;
-use crate::{Agent, SafetyEllipse, Scene};
+use crate::{Agent, Route, SafetyEllipse, Scene, Trajectory};
 
 /// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
 const STANDSTILL_GAP_M: f64 = 0.35;
@@ -39,6 +38,13 @@ fn share_of(weight: f64) -> f64 {
 }
 
 impl Scene {
+    /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
+    /// Each ellipse lies along `route`.
+    pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
+        let centres = self.centres(prediction);
+        KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
+    }
+
     /// Half the length of an ellipse around another vehicle at whose end there is a gap between bumpers \[m\].
     fn half_axis_m(&self, other: &Agent, gap_m: f64) -> f64 {
         let (ego, body) = (&self.ego.body, &other.body);
@@ -121,5 +127,13 @@ impl Scene {
             SafetyEllipse { along_m: along_m + longer_m(stage), across_m }.oriented(ellipse.heading_rad())
         };
         KeepOut { ellipses: keep_out.ellipses.iter().enumerate().map(longer).collect(), ..keep_out }
+    }
+}
+
+/// A safety ellipse around each centre, along a road.
+pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
+    match route.straight() {
+        Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
+        None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
     }
 }

@@ -1,0 +1,32 @@
+//! What the rules of the road ask of a vehicle, as a value.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RuleKeeping {
+    /// It keeps all of them, whoever drives it, drives no faster than it wants, and passes what stands in its way.
+    Kept,
+    /// It keeps none of them, for studies of who yields; humans and drivers after the intelligent driver model still keep right of way.
+    Ignored,
+}
+
+/// What the rules of the road ask of a vehicle now.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RoadRules {
+    /// Whether its driver keeps all of them, speed limits too, and drives no faster than it wants.
+    pub are_kept: bool,
+    /// How far along its route the front may come now; none if nothing holds it \[m\].
+    pub stop_line_m: Option<f64>,
+    /// Whom it waits for there; empty where a sign alone holds it.
+    pub waits_for: Vec<String>,
+}
+
+impl RoadRules {
+    /// Its front has to stay before one more line \[m\].
+    pub(crate) fn stop_before(&mut self, line_m: f64) {
+        self.stop_line_m = Some(self.stop_line_m.map_or(line_m, |nearest_m| nearest_m.min(line_m)));
+    }
+}
