@@ -53,7 +53,8 @@ fn a_full_size_scenario_needs_no_numbers_of_its_vehicles() {
     assert_eq!((one.body, one.limits, one.safety), (other.body, other.limits, other.safety));
     assert_eq!((one.weights, &one.driver), (other.weights, &other.driver));
     assert_eq!((one.body.width_m, one.body.scale, other.class), (1.8, 10.0, Some(VehicleClass::Car)));
-    assert_eq!((by_scale.step_s, by_scale.step_s), (by_class.step_s, 0.1 * 10.0_f64.sqrt()));
+    let times = |scenario: &Scenario| (scenario.step_s, scenario.planning_period_s(), scenario.horizon_steps);
+    assert_eq!((times(&by_scale), times(&by_scale)), (times(&by_class), (0.1, 0.2, 40)));
     assert_eq!(remarks(&by_scale), Vec::<String>::new());
 }
 
@@ -101,6 +102,12 @@ fn idm_drivers_know_the_lanes_of_their_road() {
     let scenario = with_car("scale = 'full'\n[road]\nkind = 'lanes'\nlane_width_m = 3.5", "driver = { kind = 'idm' }");
     let Driver::Idm(settings) = &scenario.vehicles[0].driver else { panic!("another driver") };
     assert_eq!((settings.mobil.lane_width_m, settings.gap_m), (Some(3.5), 2.0));
+    assert_eq!((settings.headway_s, settings.acceleration_mps2), (1.5, 1.4), "the values of the literature");
+    let source = with_car(
+        "scale = 'full'\nconduct = 'source'\n[road]\nkind = 'lanes'\nlane_width_m = 3.5",
+        "driver = { kind = 'idm' }",
+    );
+    let Driver::Idm(settings) = &source.vehicles[0].driver else { panic!("another driver") };
     assert!((settings.headway_s - 0.8 * 10.0_f64.sqrt()).abs() < 1e-12);
 }
 
@@ -145,14 +152,14 @@ fn each_remark_names_its_place_and_what_would_work() {
         (
             "scale = 'full'\nhorizon_steps = 10",
             "goal.speed_mps = 32",
-            "plans reach 3.16 s ahead, but vehicle `car` needs 5 s to stop from 32 m/s (size.toml:10); \
-             `horizon_steps = 16` works, or a `step_s` of 0.5",
+            "plans reach 2 s ahead, but vehicle `car` needs 5 s to stop from 32 m/s (size.toml:10); \
+             `horizon_steps = 25` works, or a `planning_period_s` of 0.5",
         ),
         (
             "scale = 'full'\nhorizon_steps = 10",
             "start.speed_mps = 32\ngoal.speed_mps = 10",
-            "plans reach 3.16 s ahead, but vehicle `car` needs 5 s to stop from 32 m/s (size.toml:10); \
-             `horizon_steps = 16` works, or a `step_s` of 0.5",
+            "plans reach 2 s ahead, but vehicle `car` needs 5 s to stop from 32 m/s (size.toml:10); \
+             `horizon_steps = 25` works, or a `planning_period_s` of 0.5",
         ),
         (
             "scale = 'full'",
@@ -187,9 +194,9 @@ fn the_width_of_lanes_chooses_the_size() {
     let size = |road: &str, start: &str, more: &str| {
         let scenario = loaded(&on_road(road, start, more), &[]);
         assert_eq!(remarks(&scenario), Vec::<String>::new(), "{road}");
-        (scenario.vehicles[0].body.width_m, scenario.step_s)
+        (scenario.vehicles[0].body.width_m, scenario.planning_period_s())
     };
-    let (full, tenth) = ((1.8, 0.1 * 10.0_f64.sqrt()), (0.19, 0.1));
+    let (full, tenth) = ((1.8, 0.2), (0.19, 0.1));
     assert_eq!(size("kind = 'lanes'\nlane_width_m = 3.5", "0", "goal.speed_mps = 25"), full);
     assert_eq!(size("kind = 'lanes'\nlane_width_m = 2", "0", "class = 'bicycle'").1, full.1);
     let curve = "kind = 'curve'\nlane_width_m = 3.5\npieces = [{ straight_m = 60 }, { turn_deg = 45, radius_m = 60 }]";
@@ -201,11 +208,11 @@ fn the_width_of_lanes_chooses_the_size() {
     assert_eq!(size(&network("3.5"), "'a'", ""), full);
     let slow = |text: String| text.replace("speed_mps = 3", "speed_mps = 1");
     let scenario = loaded(&slow(on_road(&network("0.37"), "'a'", "")), &[]);
-    assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), tenth);
+    assert_eq!((scenario.vehicles[0].body.width_m, scenario.planning_period_s()), tenth);
     let small = "kind = 't-junction'\nlane_width_m = 0.37";
     let text = slow(on_road(small, "'west-in'", "goal.lane = 'east-out'")).replace("along_m = 10", "along_m = 1");
     let scenario = loaded(&text, &[]);
-    assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), tenth);
+    assert_eq!((scenario.vehicles[0].body.width_m, scenario.planning_period_s()), tenth);
 }
 
 /// What is stated goes before the width of the lanes.
@@ -219,7 +226,7 @@ fn a_scale_a_class_or_a_body_goes_before_the_width_of_lanes() {
         (format!("[defaults.body]\nfront_m = 0.21\n{wide}"), ""),
     ] {
         let scenario = with_car(&between, &format!("start.speed_mps = 1\n{more}"));
-        assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), (0.19, 0.1), "{between} {more}");
+        assert_eq!((scenario.vehicles[0].body.width_m, scenario.planning_period_s()), (0.19, 0.1), "{between} {more}");
     }
 }
 

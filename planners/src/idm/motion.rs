@@ -8,7 +8,10 @@ use crate::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::{Input, Scene, State, Trajectory};
 
 /// The steering law needs so many times the way of a planner to change its lateral place.
-const SWINGS: f64 = 2.0;
+const SWINGS: f64 = 3.0;
+
+/// A driver looks ahead by so many times the way on which comfortable braking builds up.
+const LOOKING_AHEAD: f64 = 0.75;
 
 /// How a driver drives.
 pub(super) struct Motion<'a> {
@@ -55,16 +58,20 @@ impl Motion<'_> {
         let [left, taken] = from_to.map(|lane| leader(scene, lanes, lane, state, t));
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
-        // Brakes take hold only after a while where jerk is bounded.
-        let ahead_m =
-            own.limits.comfort.map_or(0.0, |comfort| 0.5 * comfort.braking_mps2 / comfort.jerk_mps3 * state.speed_mps);
-        let along_m = along_m.map(|along_m| along_m + ahead_m);
-        let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
+        // Brakes take hold only after a while where jerk is bounded: a lower limit ahead counts already.
+        let ahead_m = own
+            .limits
+            .comfort
+            .map_or(0.0, |comfort| LOOKING_AHEAD * comfort.braking_mps2 / comfort.jerk_mps3 * state.speed_mps);
+        let places_m = along_m.map(|along_m| [along_m, along_m + ahead_m]);
+        let least = |found: [Option<f64>; 2]| found.into_iter().flatten().min_by(f64::total_cmp);
+        let permitted_mps =
+            places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
         // On a free road the model brakes too weakly for a limit ahead.
-        let highest_mps2 =
-            along_m.and_then(|along_m| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s));
+        let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
+        let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));
         highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2))
     }
 }

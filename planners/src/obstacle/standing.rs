@@ -7,10 +7,10 @@ use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
 use crate::{Agent, Body, Input, SafetyEllipse, Scene, Trajectory};
 
-/// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.7 m of a real one.
-const SIDE_M: f64 = 0.07;
+/// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.9 m of a real one.
+const SIDE_M: f64 = 0.09;
 /// Of it, a plan keeps at least this share.
-const KEPT_SIDE_SHARE: f64 = 0.9;
+const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 const WAITING_LENGTHS: f64 = 2.2;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.

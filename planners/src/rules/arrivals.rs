@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::Obliged;
+use super::obliged::Obliged;
 use super::right_of_way::{car_length_m, front_m, is_standing, signed_lines};
 use crate::Agent;
 

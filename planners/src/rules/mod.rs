@@ -16,27 +16,17 @@
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
 
 mod arrivals;
+mod obliged;
 mod right_of_way;
 mod waiting;
 
 use arrivals::Arrivals;
+pub(crate) use obliged::Obliged;
 pub(crate) use right_of_way::is_standing;
 use right_of_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 
-use crate::Agent;
 pub use crate::road_rules::{RoadRules, RuleKeeping};
 use waiting::Hold;
-
-/// A road user as the rules see it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Obliged<'a> {
-    /// The vehicle.
-    pub agent: &'a Agent,
-    /// How fast it wants to drive \[m/s\].
-    pub wanted_mps: f64,
-    /// Whether it keeps the rules.
-    pub keeps_rules: bool,
-}
 
 /// What has to be remembered of the past to judge the present: who has arrived where, and when.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -155,10 +155,11 @@ fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, Stri
             quoted(&vehicle.name),
             up(stop_s)
         );
+        let key = if scenario.ticks_per_plan > 1 { "planning_period_s" } else { "step_s" };
         let steps = (stop_s / scenario.planning_period_s()).ceil();
         (
             message,
-            format!("`horizon_steps = {steps}` works, or a `step_s` of {}", up(stop_s / scenario.horizon_steps as f64)),
+            format!("`horizon_steps = {steps}` works, or a `{key}` of {}", up(stop_s / scenario.horizon_steps as f64)),
         )
     })
 }
