@@ -12,7 +12,8 @@ const STUCK_S: f64 = 10.0;
 /// Lengths of a real car are so many times those for which bodies have scale 1.
 const REAL: f64 = 10.0;
 
-const DOC_LONGEST: &str = "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
+const DOC_LONGEST: &str =
+    "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
 const DOC_DEADLOCKS: &str = "How often it stands so for more than 10 s, of a real car";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
