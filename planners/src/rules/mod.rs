@@ -1,6 +1,6 @@
 //! The rules of the road: what they ask of each vehicle now, worked out once a tick from where everybody is.
 //!
-//! [`RuleBook::judge`] looks at all vehicles of a network together and says of each where it must wait and for whom
+//! `RuleBook::judge` looks at all vehicles of a network together and says of each where it must wait and for whom
 //! ([`RoadRules`]). It is part of the traffic and not of a driver, so all drivers are asked the same, whoever they are. Drivers who
 //! keep the rules find the answer on their [`Agent`](crate::Agent): as a speed that no plan may exceed (`speed_caps`) and as a line.
 //!
