@@ -106,7 +106,7 @@ impl Scene {
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
-        if self.ego.is_waited_for_by(other) || self.meets_in_its_lane(other) {
+        if self.ego.is_waited_for_by(other) {
             return self.beside(other, penalty);
         }
         let Some(comfort) = self.ego.limits.comfort else { return keep_out };

@@ -12,6 +12,9 @@ const SAME_ROAD_RAD: f64 = 0.1;
 /// A vehicle whose heading differs by at most this from a lane drives along it \[rad\].
 const ALONG_LANE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
+/// A 1/10 scale car below this speed stands \[m/s\].
+const STANDING_MPS: f64 = 0.085;
+
 /// How the ways of two vehicles are related where they are now, seen by the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Relation<'a> {
@@ -89,6 +92,11 @@ impl Agent {
     pub(crate) fn has_order_with(&self, other: &Agent) -> bool {
         self.is_waited_for_by(other) || other.is_waited_for_by(self)
     }
+}
+
+/// Whether a vehicle stands, or as good as stands.
+pub(crate) fn is_standing(agent: &Agent) -> bool {
+    agent.state.speed_mps < STANDING_MPS * agent.body.time_ratio()
 }
 
 /// The arc length of a vehicle's rear on its own route \[m\].

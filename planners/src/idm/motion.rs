@@ -10,6 +10,9 @@ use crate::{Input, Scene, State, Trajectory};
 /// The steering law needs so many times the way of a planner to change its lateral place.
 const SWINGS: f64 = 3.0;
 
+/// It aims so many times as far to the side, which it does not quite reach.
+const AIM: f64 = 1.1;
+
 /// A driver looks ahead by so many times the way on which comfortable braking builds up.
 const LOOKING_AHEAD: f64 = 0.75;
 
@@ -38,7 +41,9 @@ impl Motion<'_> {
             let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
             let front_m = along_m.map(|along_m| along_m + own.body.front_m);
             let passed = self.passed.zip(front_m);
-            let lateral_m = passed.map_or(lane_m, |(obstacle, front_m)| obstacle.lateral_m(front_m, lane_m, swing_m));
+            let beside_m =
+                |(obstacle, front_m): (&Obstacle, f64)| obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m;
+            let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
             let steering_rad = match along_m {
                 None => steer(own, state, lateral_m),
                 Some(_) => steer_over_step(own, state, lateral_m, step_s),

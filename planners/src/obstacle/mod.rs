@@ -14,7 +14,7 @@ pub(crate) use standing::{Obstacle, swing_m};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::rules::is_standing;
+use crate::relation::is_standing;
 use crate::{Agent, Scene};
 
 /// A vehicle in the way reaches within this distance of the path, for 1/10 scale cars \[m\].
@@ -52,7 +52,7 @@ impl Manoeuvre {
 }
 
 /// What a driver remembers of those who stand.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ObstacleMemory {
     /// Since which tick each has been standing; 0 if it stood when it was first seen.
     standing_since: BTreeMap<String, usize>,

@@ -1,7 +1,7 @@
 //! Whether there is room to pass an obstacle: nobody else comes to the part of the road that is borrowed before the driver is back.
 
 use super::standing::{Obstacle, swing_m};
-use crate::rules::is_standing;
+use crate::relation::is_standing;
 use crate::{Agent, Scene};
 
 /// Time to spare before somebody else is there, for 1/10 scale cars \[s\]: 2.5 s of a real one.

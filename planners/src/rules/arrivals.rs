@@ -4,8 +4,9 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::obliged::Obliged;
-use super::right_of_way::{car_length_m, front_m, is_standing, signed_lines};
+use super::right_of_way::{car_length_m, front_m, signed_lines};
 use crate::Agent;
+use crate::relation::is_standing;
 
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;

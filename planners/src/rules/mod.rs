@@ -22,9 +22,12 @@ mod waiting;
 
 use arrivals::Arrivals;
 pub(crate) use obliged::Obliged;
-pub(crate) use right_of_way::is_standing;
 use right_of_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 
+use std::collections::BTreeMap;
+
+use crate::Scene;
+use crate::obstacle::{Manoeuvre, ObstacleMemory};
 pub use crate::road_rules::{RoadRules, RuleKeeping};
 use waiting::Hold;
 
@@ -32,6 +35,8 @@ use waiting::Hold;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RuleBook {
     arrivals: Arrivals,
+    /// Of each who keeps the rules: what stands in its way.
+    obstacles: BTreeMap<String, ObstacleMemory>,
 }
 
 impl RuleBook {
@@ -46,6 +51,16 @@ impl RuleBook {
         waiting::release(&mut holds, &turns);
         let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, holds);
         users.iter().zip(&holds).map(asked).collect()
+    }
+
+    /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while nobody
+    /// comes. To be called once a tick.
+    pub(crate) fn hold_behind_obstacle(&mut self, scene: &Scene, rules: &mut RoadRules) {
+        let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
+        if let Some(Manoeuvre::Wait(obstacle, waits_for)) = memory.judge(scene) {
+            rules.stop_before(obstacle.line_m(scene));
+            rules.waits_for.extend(waits_for);
+        }
     }
 
     /// Everybody that a vehicle has to wait for, judged in pairs.

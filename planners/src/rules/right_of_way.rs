@@ -1,13 +1,11 @@
 //! Whether one vehicle has to wait for another one where their routes meet.
 
 use crate::Agent;
+use crate::relation::is_standing;
 use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
 
 /// Length of a car at 1/10 scale \[m\].
 const CAR_LENGTH_M: f64 = 0.45;
-
-/// A vehicle stands if it would come to rest within this share of a car's length, braking at [`REFERENCE_MPS2`].
-const STANDING_LENGTHS: f64 = 0.008;
 
 /// A driver stops this many lengths of a car before a line.
 const STOPPING_LENGTHS: f64 = 0.15;
@@ -131,12 +129,6 @@ fn length_m(agent: &Agent) -> f64 {
 /// The length of a car of the scale of a vehicle, by which distances to lines are measured whatever the vehicle \[m\].
 pub(super) fn car_length_m(agent: &Agent) -> f64 {
     CAR_LENGTH_M * agent.body.scale
-}
-
-/// Whether a vehicle stands, or as good as stands.
-pub(crate) fn is_standing(agent: &Agent) -> bool {
-    let speed_mps = agent.state.speed_mps;
-    speed_mps * speed_mps < 2.0 * REFERENCE_MPS2 * STANDING_LENGTHS * car_length_m(agent)
 }
 
 /// How far before a line a vehicle stops \[m\].

@@ -84,6 +84,10 @@ impl Traffic {
             agent.prediction = committed.prediction(agent, horizon, step_s);
         }
         for vehicle in 0..self.road_users.len() {
+            if self.road_users[vehicle].keeps_rules {
+                let (scene, user) = (self.moment(vehicle), &mut self.road_users[vehicle]);
+                self.rule_book.hold_behind_obstacle(&scene, &mut user.agent.rules);
+            }
             if self.road_users[vehicle].agent.limits.comfort.is_some() {
                 self.road_users[vehicle].agent.urgency = self.moment(vehicle).urgency();
             }

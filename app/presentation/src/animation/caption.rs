@@ -3,6 +3,7 @@
 use interplay_planners::PlannedPassing;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
+use interplay_simulation::standing::Standing;
 
 use super::scene::DrivingRun;
 use crate::contact::numbers;
@@ -76,10 +77,14 @@ fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
     Some(format!("{} {}", frame.vehicles[vehicle].name, sentence))
 }
 
-/// How the ego passes the others by its plan.
+/// How the ego passes the others by its plan; if it stands by the rules of the road, why.
 fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let index = run.scenario.ego_index();
     let ego = &frame.vehicles[index];
+    let standing = Standing::of(&run.scenario.vehicles, frame);
+    if let Some(reason) = standing.reason(index).filter(|_| ego.rules.are_kept && standing.stands(index)) {
+        return Some(format!("{} {reason}", ego.name));
+    }
     let said = ego.plan.homotopy_class.iter().filter(|passing| is_said(run.scenario, index, passing));
     let passings: Vec<String> = said.map(PlannedPassing::sentence).collect();
     (!passings.is_empty()).then(|| format!("{} {}", ego.name, passings.join(", ")))
