@@ -28,6 +28,7 @@
 //! ```
 //! use interplay_planners::belief::Outlook;
 //! use interplay_planners::predict::constant_velocity;
+//! use interplay_planners::rules::RoadRules;
 //! use interplay_planners::{
 //!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State, conservative,
 //! };
@@ -45,6 +46,8 @@
 //!         prediction: constant_velocity(&state, horizon, step_s),
 //!         shared_goal: None,
 //!         can_be_asked: true,
+//!         rules: RoadRules::default(),
+//!         urgency: 1.0,
 //!     }
 //! };
 //! let (ego, leader) = (agent("ego", 0.0, 1.2), agent("leader", 1.2, 0.4));
