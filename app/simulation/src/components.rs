@@ -7,7 +7,7 @@ use interplay_planners::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
-use crate::frame::Frame;
+use crate::frame::{Frame, VehicleFrame};
 use crate::not_copied::NotCopied;
 
 /// The identity of a vehicle: its index in the scenario, which is the order of everything that is listed, and its name.
@@ -172,6 +172,10 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
 /// All vehicles as plain values, in the scenario's order; sensed anew every tick.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Sensed(pub Traffic);
+
+/// What the vehicles planned last, for the ticks until they plan again; empty where they plan in every tick.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct FollowedPlans(pub Vec<VehicleFrame>);
 
 /// The frame of the current tick, which the phases fill in.
 #[derive(Resource, Clone, Debug, Default)]

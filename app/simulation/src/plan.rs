@@ -4,16 +4,20 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::Plan;
 use interplay_planners::traffic::{Decision, Origin};
+use interplay_planners::trajectory::Statistics;
 
-use crate::components::{Committed, CurrentFrame, Driving, HandedIn, Identity, Sensed};
+use crate::components::{Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed};
 use crate::external;
-use crate::frame::{Event, Frame, Level};
+use crate::frame::{Event, Frame, Level, VehicleFrame};
 
 /// Lets every driver decide.
 pub fn plan(
     mut vehicles: Query<(&Identity, &mut Driving, &mut HandedIn, &mut Committed)>,
+    clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
+    mut followed: ResMut<FollowedPlans>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let mut drivers: Vec<_> = vehicles.iter_mut().collect();
@@ -47,6 +51,15 @@ pub fn plan(
         vehicle.urgency = user.agent.urgency;
         committed.0 = user.committed.clone();
     }
+    if clock.ticks_per_plan > 1 {
+        followed.0 = frame.vehicles.iter().map(as_followed).collect();
+    }
+}
+
+/// What the frame of a vehicle is in the ticks in which it follows its plan: what happened while it planned is told once.
+fn as_followed(planned: &VehicleFrame) -> VehicleFrame {
+    let plan = Plan { events: Vec::new(), statistics: Statistics::default(), ..planned.plan.clone() };
+    VehicleFrame { plan, plan_ms: 0.0, ..planned.clone() }
 }
 
 /// Notes what a planner reports, or why it found no plan and what happens instead.

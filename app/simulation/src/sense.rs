@@ -9,7 +9,7 @@ use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
 use crate::components::{
-    Clock, Committed, CurrentFrame, Driving, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
+    Clock, Committed, CurrentFrame, Driving, FollowedPlans, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
 };
 use crate::frame::{Frame, VehicleFrame};
 
@@ -29,12 +29,12 @@ type SeenItem<'w> = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w Vehicl
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
     vehicles: Query<SeenParts>,
-    clock: Res<Clock>,
+    (clock, followed): (Res<Clock>, Res<FollowedPlans>),
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     if clock.ticks_since_plan() > 0 {
-        return go_on(vehicles.iter(), &clock, (&mut sensed.0, &mut current_frame.0));
+        return go_on(vehicles.iter(), (&clock, &followed), (&mut sensed.0, &mut current_frame.0));
     }
     let rule_book = std::mem::take(&mut sensed.0.rule_book);
     sensed.0 = traffic(vehicles.iter(), &clock, rule_book);
@@ -50,16 +50,10 @@ pub fn sense(
 /// Between two plans only the states are new: everybody follows the last plan.
 fn go_on<'w>(
     vehicles: impl Iterator<Item = SeenItem<'w>>,
-    clock: &Clock,
+    (clock, followed): (&Clock, &FollowedPlans),
     (traffic, frame): (&mut Traffic, &mut Frame),
 ) {
-    let last = std::mem::take(&mut frame.vehicles);
-    *frame = Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: last, ..Frame::default() };
-    for vehicle in &mut frame.vehicles {
-        vehicle.plan.events.clear();
-        vehicle.plan.statistics = Default::default();
-        vehicle.plan_ms = 0.0;
-    }
+    *frame = Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: followed.0.clone(), ..Frame::default() };
     for (identity, motion, ..) in vehicles {
         traffic.road_users[identity.index].agent.state = motion.state;
         frame.vehicles[identity.index].state = motion.state;

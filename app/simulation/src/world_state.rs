@@ -8,7 +8,8 @@ use interplay_scenarios::Scenario;
 
 use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
 use crate::components::{
-    Clock, Committed, CurrentFrame, Driving, HandedIn, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
+    Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Motion, Sensed, VehicleGoal,
+    VehicleParameters,
 };
 use crate::measure::{BuildingMeasures, Measures};
 use crate::not_copied::NotCopied;
@@ -29,6 +30,8 @@ pub struct WorldState {
     pub time_point: TimePoint,
     /// The traffic as it was sensed last.
     pub sensed: Sensed,
+    /// The plans that vehicles follow.
+    pub followed_plans: FollowedPlans,
     /// The last frame.
     pub current_frame: CurrentFrame,
     /// Measures of the vehicles so far.
@@ -67,6 +70,7 @@ impl WorldState {
             },
             time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
             sensed: Sensed::default(),
+            followed_plans: FollowedPlans::default(),
             current_frame: CurrentFrame::default(),
             measures: Measures::new(scenario),
             physics,
@@ -111,6 +115,7 @@ impl WorldState {
             clock: *world.resource(),
             time_point: *world.resource(),
             sensed: world.resource::<Sensed>().clone(),
+            followed_plans: world.resource::<FollowedPlans>().clone(),
             current_frame: world.resource::<CurrentFrame>().clone(),
             measures: world.resource::<Measures>().clone(),
             physics: world.resource::<Physics>().fork(),
@@ -131,6 +136,7 @@ impl WorldState {
         world.insert_resource(self.clock);
         world.insert_resource(self.time_point);
         world.insert_resource(self.sensed);
+        world.insert_resource(self.followed_plans);
         world.insert_resource(self.current_frame);
         world.insert_resource(self.measures);
         world.insert_resource(self.physics);
@@ -163,7 +169,7 @@ mod tests {
     use std::any::TypeId;
     use std::collections::BTreeMap;
 
-    use interplay_scenarios::load;
+    use interplay_scenarios::{Override, load};
 
     use super::*;
     use crate::simulation::Simulation;
@@ -197,5 +203,28 @@ mod tests {
         assert!(known.iter().all(|known| running.contains_key(&Some(*known))), "{running:?}");
         assert!(running.len() >= 20, "{running:?}");
         assert_eq!(running, copied);
+    }
+
+    /// Vehicles are in the frames of their own ticks only, and in all of these, whether they plan in each of them or follow a plan.
+    #[test]
+    fn steps_of_the_building_alone_have_no_vehicles() {
+        for period_s in ["0.1", "0.2"] {
+            let changes =
+                [Override::Set("iterations=1".to_owned()), Override::Set(format!("planning_period_s={period_s}"))];
+            let scenario = load("mixed/garage", &changes).expect("authored");
+            let mut simulation = Simulation::new(&scenario).expect("a world");
+            let mut driven = 0;
+            while let Some(frame) = simulation.step().expect("the run goes on") {
+                let drives = frame.time_s < scenario.duration_s;
+                assert_eq!(
+                    frame.vehicles.len(),
+                    if drives { scenario.vehicles.len() } else { 0 },
+                    "{} s",
+                    frame.time_s
+                );
+                driven += usize::from(drives);
+            }
+            assert_eq!(driven, scenario.tick_count());
+        }
     }
 }

@@ -133,10 +133,7 @@ impl Simulation {
         }
         let tick = self.time_points.passed();
         self.time_points = ahead;
-        let mut frame = self.world.resource_mut::<CurrentFrame>();
-        // Vehicles that do not plan in this tick go on with what they planned.
-        let vehicles = std::mem::take(&mut frame.0.vehicles);
-        frame.0 = Frame { tick, time_s: time_point.time_s, vehicles, ..Frame::default() };
+        self.world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();
