@@ -85,6 +85,7 @@ pub mod external;
 mod fixture;
 mod foreign_driver;
 pub mod game;
+mod giving_way;
 pub mod homotopy;
 pub mod human;
 pub mod idm;

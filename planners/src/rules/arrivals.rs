@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::obliged::Obliged;
-use super::right_of_way::{car_length_m, front_m, signed_lines};
 use crate::Agent;
+use crate::giving_way::{car_length_m, front_m, signed_lines};
 use crate::relation::is_standing;
 
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.

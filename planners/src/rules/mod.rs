@@ -17,17 +17,17 @@
 
 mod arrivals;
 mod obliged;
-mod right_of_way;
 mod waiting;
 
 use arrivals::Arrivals;
 pub(crate) use obliged::Obliged;
-use right_of_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 
 use std::collections::BTreeMap;
 
 use crate::Scene;
+use crate::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::obstacle::{Manoeuvre, ObstacleMemory};
+use crate::relation::is_standing;
 pub use crate::road_rules::{RoadRules, RuleKeeping};
 use waiting::Hold;
 
@@ -55,11 +55,12 @@ impl RuleBook {
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while nobody
     /// comes. To be called once a tick.
-    pub(crate) fn hold_behind_obstacle(&mut self, scene: &Scene, rules: &mut RoadRules) {
+    pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         if let Some(Manoeuvre::Wait(obstacle, waits_for)) = memory.judge(scene) {
-            rules.stop_before(obstacle.line_m(scene));
-            rules.waits_for.extend(waits_for);
+            let line_m = obstacle.line_m(scene);
+            scene.ego.rules.stop_before(line_m);
+            scene.ego.rules.waits_for.extend(waits_for);
         }
     }
 
@@ -78,9 +79,10 @@ impl RuleBook {
                     their: self.arrivals.has_arrived(other.agent),
                     they_came_first: self.arrivals.came_before([other.agent, ego]),
                     they_are_ready: self.arrivals.is_ready(other),
+                    they_win_ties: false,
                 };
                 let before_m = conflict.own_line_m - stopping_distance_m(ego);
-                let pair = Pair::new([ego, other.agent], conflict, wanted_mps);
+                let pair = Pair::new([ego, other.agent], conflict, (wanted_mps, is_standing(other.agent)));
                 if can_stop(ego, before_m) && pair.holds(arrived) {
                     found.push(Hold { by, line_m: conflict.own_line_m });
                 }

@@ -36,7 +36,7 @@ pub use road_user::RoadUser;
 
 use crate::predict::without_plans;
 use crate::rules::{Obliged, RuleBook};
-use crate::{Bicycle, Input, Plan, PlanError, Scene};
+use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,13 +84,16 @@ impl Traffic {
             agent.prediction = committed.prediction(agent, horizon, step_s);
         }
         for vehicle in 0..self.road_users.len() {
-            if self.road_users[vehicle].keeps_rules {
-                let (scene, user) = (self.moment(vehicle), &mut self.road_users[vehicle]);
-                self.rule_book.hold_behind_obstacle(&scene, &mut user.agent.rules);
+            let RoadUser { agent, keeps_rules, .. } = &self.road_users[vehicle];
+            if !keeps_rules && agent.limits.comfort.is_none() {
+                continue;
             }
-            if self.road_users[vehicle].agent.limits.comfort.is_some() {
-                self.road_users[vehicle].agent.urgency = self.moment(vehicle).urgency();
+            let (keeps_rules, mut scene) = (*keeps_rules, self.moment(vehicle));
+            if keeps_rules {
+                self.rule_book.hold_behind_obstacle(&mut scene);
             }
+            let urgency = scene.urgency();
+            self.road_users[vehicle].agent = Agent { urgency, ..scene.ego };
         }
     }
 

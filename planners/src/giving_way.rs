@@ -1,7 +1,9 @@
-//! Whether one vehicle has to wait for another one where their routes meet.
+//! Whether one vehicle has to wait for another one where their routes meet, by what is known of who has arrived.
+//!
+//! The rules that all vehicles are judged by (`rules`) and drivers who only keep the right of way (`right_of_way`) ask it; they differ in
+//! whom they remember, and in who counts as standing.
 
 use crate::Agent;
-use crate::relation::is_standing;
 use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
 
 /// Length of a car at 1/10 scale \[m\].
@@ -24,7 +26,7 @@ const ENTERING_SHARE: f64 = 0.6;
 const BRAKING_SHARE: f64 = 0.8;
 
 /// A vehicle and one of those that it meets, at one of their conflicts.
-pub(super) struct Pair<'a> {
+pub(crate) struct Pair<'a> {
     ego: &'a Agent,
     other: &'a Agent,
     conflict: &'a RouteConflict,
@@ -33,29 +35,37 @@ pub(super) struct Pair<'a> {
     /// Where the front of the other is on its own \[m\].
     their_front_m: f64,
     wanted_mps: f64,
+    /// Whether the other stands.
+    they_stand: bool,
 }
 
 /// What the order of arrival says of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Arrived {
+pub(crate) struct Arrived {
     /// Whether the vehicle is at its line.
     pub own: bool,
     /// Whether the other is at its line.
     pub their: bool,
     /// Whether the other came to its line before the vehicle came to its own; none unless both have.
     pub they_came_first: Option<bool>,
-    /// Whether the other stands there and goes as soon as it may.
+    /// Whether the other goes as soon as it may, if it stands.
     pub they_are_ready: bool,
+    /// Whether the other goes first if both are as far from their lines.
+    pub they_win_ties: bool,
 }
 
 impl<'a> Pair<'a> {
-    /// A vehicle that wants to drive at some speed, and another one.
-    pub(super) fn new([ego, other]: [&'a Agent; 2], conflict: &'a RouteConflict, wanted_mps: f64) -> Self {
-        Pair { ego, other, conflict, own_front_m: front_m(ego), their_front_m: front_m(other), wanted_mps }
+    /// A vehicle that wants to drive at some speed, and another one, which stands or not.
+    pub(crate) fn new(
+        [ego, other]: [&'a Agent; 2],
+        conflict: &'a RouteConflict,
+        (wanted_mps, they_stand): (f64, bool),
+    ) -> Self {
+        Pair { ego, other, conflict, own_front_m: front_m(ego), their_front_m: front_m(other), wanted_mps, they_stand }
     }
 
     /// Whether the other keeps the vehicle from the conflict.
-    pub(super) fn holds(&self, arrived: Arrived) -> bool {
+    pub(crate) fn holds(&self, arrived: Arrived) -> bool {
         let Pair { ego, other, conflict, own_front_m, their_front_m, .. } = *self;
         if own_front_m > conflict.own_line_m
             || own_front_m - length_m(ego) > conflict.own_m[1]
@@ -69,7 +79,7 @@ impl<'a> Pair<'a> {
             _ if is_committed && conflict.kind != ConflictKind::Merging => self.comes_too_soon(),
             Precedence::Own => false,
             // Who has priority and stands at its line waits for somebody else, and goes when that one has passed.
-            Precedence::Other => self.comes_too_soon() || (is_standing(other) && arrived.they_are_ready),
+            Precedence::Other => self.comes_too_soon() || (self.they_stand && arrived.they_are_ready),
             Precedence::ByArrival => self.arrived_later(arrived),
         }
     }
@@ -84,7 +94,8 @@ impl<'a> Pair<'a> {
         }
         let own_m = self.conflict.own_line_m - self.own_front_m;
         let their_m = self.conflict.their_line_m - self.their_front_m;
-        arrived.their || (their_m < own_m && self.comes_too_soon())
+        let is_nearer = their_m < own_m || (their_m == own_m && arrived.they_win_ties);
+        arrived.their || (is_nearer && self.comes_too_soon())
     }
 
     /// Whether the other, which may speed up, is in the conflict before the vehicle could have cleared it, with time to
@@ -92,7 +103,7 @@ impl<'a> Pair<'a> {
     fn comes_too_soon(&self) -> bool {
         let Pair { ego, other, conflict, .. } = self;
         let their_way_m = conflict.their_m[0] - self.their_front_m;
-        if their_way_m > 0.0 && is_standing(other) {
+        if their_way_m > 0.0 && self.they_stand {
             return false;
         }
         let their_mps2 = ENTERING_SHARE * other.limits.acceleration_max_mps2;
@@ -110,7 +121,7 @@ impl<'a> Pair<'a> {
 }
 
 /// The ends of lanes at which the vehicle must stand once, and has not passed \[m\].
-pub(super) fn signed_lines(agent: &Agent) -> Vec<f64> {
+pub(crate) fn signed_lines(agent: &Agent) -> Vec<f64> {
     let front_m = front_m(agent);
     let signed = |sign: RightOfWay| matches!(sign, RightOfWay::Stop | RightOfWay::AllWayStop);
     let legs = agent.route.legs.iter().filter(|leg| signed(leg.right_of_way) && leg.to_m >= front_m);
@@ -118,7 +129,7 @@ pub(super) fn signed_lines(agent: &Agent) -> Vec<f64> {
 }
 
 /// Where the front of a vehicle is on its route \[m\].
-pub(super) fn front_m(agent: &Agent) -> f64 {
+pub(crate) fn front_m(agent: &Agent) -> f64 {
     agent.route.along(agent.state.position()) + agent.body.front_m
 }
 
@@ -127,17 +138,17 @@ fn length_m(agent: &Agent) -> f64 {
 }
 
 /// The length of a car of the scale of a vehicle, by which distances to lines are measured whatever the vehicle \[m\].
-pub(super) fn car_length_m(agent: &Agent) -> f64 {
+pub(crate) fn car_length_m(agent: &Agent) -> f64 {
     CAR_LENGTH_M * agent.body.scale
 }
 
 /// How far before a line a vehicle stops \[m\].
-pub(super) fn stopping_distance_m(agent: &Agent) -> f64 {
+pub(crate) fn stopping_distance_m(agent: &Agent) -> f64 {
     STOPPING_LENGTHS * car_length_m(agent)
 }
 
 /// Whether a vehicle can stop before a place.
-pub(super) fn can_stop(agent: &Agent, place_m: f64) -> bool {
+pub(crate) fn can_stop(agent: &Agent, place_m: f64) -> bool {
     let speed_mps = agent.state.speed_mps;
     let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
     // Whoever stands a little beyond still waits.
