@@ -25,8 +25,8 @@ const ACCEPTED_SHARE: f64 = 0.85;
 const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
 const OPENING: f64 = 0.1;
-/// The ellipse around somebody beside whom one drives is so many times as long as both bodies.
-const BESIDE_LENGTH_RATIO: f64 = 1.8;
+/// An ellipse that contains two bodies is so many times as long as they are.
+const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 const ASIDE_M: f64 = 0.04;
 
@@ -71,15 +71,14 @@ impl Scene {
         }
         let least_s = ACCEPTED_SHARE * comfort.time_gap_s * (0.5 + 0.5 * share_of(weight));
         let along_m = self.half_axis_m(other, least_s * ego.state.speed_mps.max(other.state.speed_mps));
-        Some(self.narrow(other, along_m, Penalty::EXACT))
+        let across_m = 0.5 * (ego.body.width_m + other.body.width_m) + ASIDE_M * ego.body.scale;
+        Some(self.around(other, SafetyEllipse { along_m, across_m }, Penalty::EXACT))
     }
 
-    /// An ellipse as wide as both bodies.
-    fn narrow(&self, other: &Agent, along_m: f64, penalty: Penalty) -> KeepOut {
-        let across_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
+    /// An ellipse around a prediction of another vehicle.
+    fn around(&self, other: &Agent, ellipse: SafetyEllipse, penalty: Penalty) -> KeepOut {
         let centres = self.centres(&other.prediction);
-        let ellipses = ellipses(SafetyEllipse { along_m, across_m }, &other.route, &centres);
-        KeepOut { vehicle: 0, ellipses, centres, penalty }
+        KeepOut { vehicle: 0, ellipses: ellipses(ellipse, &other.route, &centres), centres, penalty }
     }
 
     /// Whether somebody comes the other way, whom a driver who knows comfort passes side by side.
@@ -91,24 +90,17 @@ impl Scene {
 
     /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
-        // An ellipse so much longer than the bodies contains their corners if it is that much wider.
-        let ratio = BESIDE_LENGTH_RATIO;
-        let keep_out = self.narrow(other, ratio * self.half_axis_m(other, 0.0), penalty);
-        let wider = |ellipse: &OrientedEllipse| {
-            let SafetyEllipse { along_m, across_m } = ellipse.shape();
-            let across_m = across_m / (1.0 - 1.0 / (ratio * ratio)).sqrt();
-            SafetyEllipse { along_m, across_m }.oriented(ellipse.heading_rad())
-        };
-        KeepOut { ellipses: keep_out.ellipses.iter().map(wider).collect(), ..keep_out }
+        let beside_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
+        self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
-        let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
         if self.ego.is_waited_for_by(other) {
             return self.beside(other, penalty);
         }
+        let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
         let Some(comfort) = self.ego.limits.comfort else { return keep_out };
         let (ego, lead_m) = (&self.ego, self.ego.lead_of(other));
         let is_in_lane = ego.shares_lane_with(other);
@@ -128,6 +120,13 @@ impl Scene {
         };
         KeepOut { ellipses: keep_out.ellipses.iter().enumerate().map(longer).collect(), ..keep_out }
     }
+}
+
+/// The ellipse that contains the rectangle of a half length and a half width, and is not much wider beside its middle \[m\].
+pub(crate) fn containing(half_length_m: f64, half_width_m: f64) -> SafetyEllipse {
+    // The corner is on it: `(1/1.8)² + (w/b)² = 1`.
+    let share = (1.0 - CONTAINING_RATIO.powi(-2)).sqrt();
+    SafetyEllipse { along_m: CONTAINING_RATIO * half_length_m, across_m: half_width_m / share }
 }
 
 /// A safety ellipse around each centre, along a road.

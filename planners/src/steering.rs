@@ -46,9 +46,6 @@ pub(crate) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s:
     wanted_mps2.min(high).max(low)
 }
 
-/// A vehicle stands still with this share of comfortable braking.
-const LEAST_BRAKING_SHARE: f64 = 0.1;
-
 impl Agent {
     /// The input nearest to a wanted one to which a driver changes comfortably within a time, and harder where it must.
     pub(crate) fn comfortably(&self, last: &Input, wanted: Input, (speed_mps, step_s): (f64, f64)) -> Input {
@@ -56,12 +53,8 @@ impl Agent {
         let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
         let turn_rad = comfort.steering_rate_radps * self.urgency * step_s;
         let near = |last: f64, wanted: f64, most: f64| wanted.max(last - most).min(last + most);
-        // Brakes are released before the vehicle stands.
-        let next_mps = (speed_mps + step_s * last.acceleration_mps2.min(0.0)).max(0.0);
-        let released_mps2 = (2.0 * comfort.jerk_mps3 * next_mps).sqrt() * self.urgency;
-        let least_mps2 =
-            -(comfort.braking_mps2 * self.urgency).min(released_mps2.max(LEAST_BRAKING_SHARE * comfort.braking_mps2));
-        let acceleration_mps2 = wanted.acceleration_mps2.max(least_mps2);
+        let next_mps = speed_mps + step_s * last.acceleration_mps2.min(0.0);
+        let acceleration_mps2 = wanted.acceleration_mps2.max(-comfort.braking_at_mps2(self.urgency, next_mps));
         Input {
             acceleration_mps2: near(last.acceleration_mps2, acceleration_mps2, jerk_mps2),
             steering_rad: near(last.steering_rad, wanted.steering_rad, turn_rad),

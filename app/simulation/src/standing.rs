@@ -6,7 +6,7 @@ use interplay_scenarios::Vehicle;
 use crate::frame::Frame;
 
 /// Slower than this a real car stands \[m/s\].
-const STANDING_MPS: f64 = 0.3;
+pub(crate) const STANDING_MPS: f64 = 0.3;
 /// Who wants to drive no faster than this does not want to drive, of a real car \[m/s\].
 const LEAST_WANTED_MPS: f64 = 0.5;
 /// A line or a vehicle that somebody waits at is within this distance of its front, for a real car \[m\].
@@ -15,8 +15,6 @@ const NEAR_M: f64 = 15.0;
 const ONCOMING_M: f64 = 150.0;
 /// Space that passing takes beside both bodies, for a real car \[m\].
 const ASIDE_M: f64 = 0.7;
-/// Lengths of a real car are so many times those for which bodies have scale 1.
-const REAL: f64 = 10.0;
 
 /// Why somebody stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -176,6 +174,6 @@ impl<'a> Standing<'a> {
     }
 
     fn scale(&self, index: usize) -> f64 {
-        self.vehicles[index].body.scale / REAL
+        self.vehicles[index].body.real_ratio()
     }
 }

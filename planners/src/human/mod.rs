@@ -1,6 +1,6 @@
 //! The human driver: model-predictive control with a safety weight.
 //!
-//! At each step the driver minimises the sum of these terms over the inputs `u_0…u_{N−1}`. There is no other term.
+//! At each step the driver of the source minimises the sum of these terms over the inputs `u_0…u_{N−1}`. There is no other term.
 //!
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
@@ -33,6 +33,11 @@
 //!
 //! On a network of lanes every driver keeps to the right of way, whatever its style (module `right_of_way`). While it must
 //! wait at a line, its desired speed is at most that of a comfortable approach.
+//!
+//! A driver who knows comfort ([`ComfortLimits`](crate::ComfortLimits)), as people on real roads do, differs in what is around others
+//! (module `clearance`): the ellipses of following and of the firm wall grow with the speed, an exact one keeps it from pulling into a short
+//! gap, and whoever comes the other way is passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
+//! `obstacle`), beside an exact ellipse around the body.
 //!
 //! Drivers differ from this one by their settings:
 //!

@@ -1,11 +1,11 @@
 //! A vehicle that stands in the way: where it is, and how it is passed.
 
 use crate::certificate::touches_ahead;
-use crate::clearance::ellipses;
+use crate::clearance::{containing, ellipses};
 use crate::steering::{admissible, roll_out, steer};
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
-use crate::{Agent, Body, Input, SafetyEllipse, Scene, Trajectory};
+use crate::{Agent, Body, Input, Scene, Trajectory};
 
 /// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.9 m of a real one.
 const SIDE_M: f64 = 0.09;
@@ -15,9 +15,10 @@ const KEPT_SIDE_SHARE: f64 = 0.75;
 const WAITING_LENGTHS: f64 = 2.2;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
-/// An ellipse `a × b` around a body that is `l` long contains it where `a = 1.8 l / 2` and `b` reaches this multiple of the way from
-/// corner to corner; see [`Obstacle::ellipse`].
-const ELLIPSE_LENGTH_RATIO: f64 = 1.8;
+/// A driver swings out over this many lengths of its body,
+const SWING_LENGTHS: f64 = 1.5;
+/// and over what it drives in this time of 1/10 scale cars \[s\].
+const SWING_S: f64 = 0.6;
 
 /// Something that stands in the way and is no queue.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,21 +76,15 @@ impl Obstacle {
         touches_ahead(scene, motion, &Agent { body, ..other.clone() })
     }
 
-    /// What keeps the driver beside it.
+    /// What keeps the driver beside it: the middle of its body stays out of an ellipse that contains all places at which the bodies would be
+    /// nearer to each other than the free space to the side.
     pub(crate) fn keep_out(&self, scene: &Scene) -> KeepOut {
         let route = &scene.ego.route;
         let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
         let centres = vec![route.position(middle_m, self.across_m); scene.horizon];
-        let ellipse = self.ellipse(scene.ego.body.scale);
+        let [length_m, width_m] = self.reach_m;
+        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * SIDE_M * scene.ego.body.scale);
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
-    }
-
-    /// The ellipse around its middle that the middle of the driver's body stays out of: it contains all places at which the bodies would
-    /// be nearer to each other than the free space to the side.
-    pub(crate) fn ellipse(&self, scale: f64) -> SafetyEllipse {
-        let along_m = ELLIPSE_LENGTH_RATIO * self.reach_m[0];
-        let share = (1.0 - ELLIPSE_LENGTH_RATIO.powi(-2)).sqrt();
-        SafetyEllipse { along_m, across_m: (self.reach_m[1] + KEPT_SIDE_SHARE * SIDE_M * scale) / share }
     }
 
     /// The lateral position at which a driver is who passes it, at an arc length \[m\]; `own_m` is where it is otherwise.
@@ -104,7 +99,3 @@ pub(crate) fn swing_m(scene: &Scene) -> f64 {
     let ego = &scene.ego;
     SWING_LENGTHS * (ego.body.front_m + ego.body.rear_m) + SWING_S * ego.body.time_ratio() * ego.state.speed_mps
 }
-
-/// A driver swings out over this many lengths of its body, and over what it drives in this time of 1/10 scale cars \[s\].
-const SWING_LENGTHS: f64 = 1.5;
-const SWING_S: f64 = 0.6;

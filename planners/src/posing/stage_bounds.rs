@@ -15,9 +15,6 @@ use crate::{Agent, Limits};
 /// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
 const MOST_LATERAL_URGENCY: f64 = 2.0;
 
-/// A vehicle stands still with this share of comfortable braking.
-const LEAST_BRAKING_SHARE: f64 = 0.1;
-
 impl Agent {
     /// The bounds at the stages of a plan, with highest speeds at `t = 1…N` where there are any; empty where the limits of the
     /// body alone bound everything.
@@ -38,10 +35,12 @@ impl Agent {
                 limits.comfort.map_or(bounds, |comfort| self.comfortable(bounds, &comfort, (t, step_s)))
             })
             .collect();
-        if limits.comfort.is_none() {
-            self.within_reach_of_the_body(&mut bounds, step_s);
-        } else {
+        if limits.comfort.is_some() {
             self.within_reach(&mut bounds, step_s);
+            return bounds;
+        }
+        for (t, StageBounds { speed_mps, .. }) in bounds.iter_mut().enumerate() {
+            *speed_mps = limits.speeds_within_reach(*speed_mps, self.state.speed_mps, step_s * (t + 1) as f64);
         }
         bounds
     }
@@ -70,14 +69,12 @@ impl Agent {
         let until_s = step_s * (t + 1) as f64;
         let around = |last: f64, rate: f64| [last - rate * until_s, last + rate * until_s];
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
-        let least_mps2 = acceleration_min_mps2.max(-comfort.braking_mps2 * self.urgency);
         let last = &self.previous_input;
         let jerk_mps3 = comfort.jerk_mps3 * self.urgency * self.urgency;
-        // Brakes are released before the vehicle stands: with the jerk j there is time for it from a speed of b²/2j on.
+        // What is driven releases the brakes before the vehicle stands.
         let next_mps = self.state.speed_mps + step_s * last.acceleration_mps2.min(0.0);
-        let released_mps2 =
-            (2.0 * jerk_mps3 * next_mps.max(0.0)).sqrt().max(LEAST_BRAKING_SHARE * comfort.braking_mps2);
-        let least_mps2 = if t == 0 { least_mps2.max(-released_mps2) } else { least_mps2 };
+        let speed_mps = if t == 0 { next_mps } else { f64::INFINITY };
+        let least_mps2 = acceleration_min_mps2.max(-comfort.braking_at_mps2(self.urgency, speed_mps));
         StageBounds {
             acceleration_mps2: shared(
                 [least_mps2, acceleration_max_mps2],
@@ -93,19 +90,8 @@ impl Agent {
         }
     }
 
-    /// Widens bounds on the speed for a vehicle that is out of them now (a plant that is not the model may leave it so): it is asked
-    /// to come back no faster than it can.
-    fn within_reach_of_the_body(&self, bounds: &mut [StageBounds], step_s: f64) {
-        let limits = &self.limits;
-        for (t, StageBounds { speed_mps: [slowest, fastest], .. }) in bounds.iter_mut().enumerate() {
-            let elapsed_s = step_s * (t + 1) as f64;
-            *slowest = slowest.min(self.state.speed_mps + limits.acceleration_max_mps2 * elapsed_s);
-            *fastest = fastest.max(self.state.speed_mps + limits.acceleration_min_mps2 * elapsed_s);
-        }
-    }
-
-    /// The same where the bounds on the acceleration differ from stage to stage; and from each allowed speed the next ones can be
-    /// reached.
+    /// Widens bounds on the speed for a vehicle that is out of them now, as [`Limits::speeds_within_reach`] does, where the bounds on the
+    /// acceleration differ from stage to stage; and from each allowed speed the next ones can be reached.
     fn within_reach(&self, bounds: &mut [StageBounds], step_s: f64) {
         let [mut lowest_mps, mut highest_mps] = [self.state.speed_mps; 2];
         for StageBounds { acceleration_mps2: [low, high], speed_mps: [slowest, fastest], .. } in bounds.iter_mut() {

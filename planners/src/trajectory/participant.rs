@@ -89,15 +89,12 @@ impl Participant {
         wanted_mps2.min(high).max(low)
     }
 
-    /// Bounds on the speed at time `t` \[m/s\]. A vehicle that is out of bounds now (a plant that is not the model may
-    /// leave it so) is asked to come back no faster than it can.
+    /// Bounds on the speed at time `t` \[m/s\].
     pub fn speed_bounds(&self, t: usize) -> [f64; 2] {
         if let Some(bounds) = t.checked_sub(1).and_then(|stage| self.stage_bounds.get(stage)) {
             return bounds.speed_mps;
         }
-        let (limits, elapsed) = (&self.limits, self.model.step_s() * t as f64);
-        let reachable_low = self.start.speed_mps + limits.acceleration_max_mps2 * elapsed;
-        let reachable_high = self.start.speed_mps + limits.acceleration_min_mps2 * elapsed;
-        [limits.speed_min_mps.min(reachable_low), limits.speed_max_mps.max(reachable_high)]
+        let (limits, elapsed_s) = (&self.limits, self.model.step_s() * t as f64);
+        limits.speeds_within_reach([limits.speed_min_mps, limits.speed_max_mps], self.start.speed_mps, elapsed_s)
     }
 }

@@ -37,6 +37,9 @@ impl Default for Body {
 }
 
 impl Body {
+    /// The `scale` of a real car.
+    pub const REAL_SCALE: f64 = 10.0;
+
     /// Distance between the axles, `L = L_f + L_r` \[m\].
     pub fn wheelbase_m(&self) -> f64 {
         self.front_axle_m + self.rear_axle_m
@@ -46,6 +49,11 @@ impl Body {
     /// accelerations are the same. It is also the ratio of speeds.
     pub fn time_ratio(&self) -> f64 {
         self.scale.sqrt()
+    }
+
+    /// Ratio of its lengths to those of a real car; those of times and speeds are its root.
+    pub fn real_ratio(&self) -> f64 {
+        self.scale / Self::REAL_SCALE
     }
 
     /// The corners in the body's own frame (x forward, y left), in the order of eq. 6.7: front right, front left,

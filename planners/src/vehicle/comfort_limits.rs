@@ -25,6 +25,20 @@ pub struct ComfortLimits {
     pub time_gap_s: f64,
 }
 
+/// A vehicle stands still with this share of comfortable braking.
+const LEAST_BRAKING_SHARE: f64 = 0.1;
+
+impl ComfortLimits {
+    /// Strongest braking of a driver to whom it is that urgent, positive, at a speed that it will have \[m/s²\].
+    ///
+    /// Brakes are released before the vehicle stands: with the jerk `j` there is time for it from a speed of `b²/2j` on.
+    pub(crate) fn braking_at_mps2(&self, urgency: f64, speed_mps: f64) -> f64 {
+        let jerk_mps3 = self.jerk_mps3 * urgency * urgency;
+        let released_mps2 = (2.0 * jerk_mps3 * speed_mps.max(0.0)).sqrt().max(LEAST_BRAKING_SHARE * self.braking_mps2);
+        released_mps2.min(self.braking_mps2 * urgency)
+    }
+}
+
 impl Default for ComfortLimits {
     fn default() -> Self {
         ComfortLimits {

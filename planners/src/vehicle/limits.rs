@@ -45,6 +45,14 @@ impl Limits {
             .map_or(self.steering_max_rad, |most| self.steering_at_rad(body, speed_mps, most))
     }
 
+    /// Bounds on the speed some time after a speed. A vehicle that is out of bounds (a plant that is not the model may leave it so) is
+    /// asked to come back no faster than it can \[m/s\].
+    pub(crate) fn speeds_within_reach(&self, [slowest, fastest]: [f64; 2], speed_mps: f64, elapsed_s: f64) -> [f64; 2] {
+        let reachable_low = speed_mps + self.acceleration_max_mps2 * elapsed_s;
+        let reachable_high = speed_mps + self.acceleration_min_mps2 * elapsed_s;
+        [slowest.min(reachable_low), fastest.max(reachable_high)]
+    }
+
     /// Largest steering angle of a body at a speed, with a largest lateral acceleration \[rad\].
     pub(crate) fn steering_at_rad(&self, body: &Body, speed_mps: f64, lateral_mps2: f64) -> f64 {
         let sin_slip = lateral_mps2 * body.rear_axle_m / (speed_mps * speed_mps);

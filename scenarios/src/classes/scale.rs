@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use interplay_planners::Body;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +27,7 @@ pub enum NamedScale {
 }
 
 /// Full size as a multiple of 1/10 scale.
-pub(crate) const FULL_SCALE: f64 = 10.0;
+pub(crate) const FULL_SCALE: f64 = Body::REAL_SCALE;
 
 impl ScenarioScale {
     /// The ratio `λ` of lengths to those of 1/10 scale cars.

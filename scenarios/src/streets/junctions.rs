@@ -19,20 +19,7 @@ fn approach(draft: &mut Draft, arms: &[&str], others: usize, (suffix, limit_mps)
         let (lane, goal) = (format!("{from}-in{suffix}"), format!("{to}-out{suffix}"));
         let speed_mps = draft.between(0.55, 0.95) * limit_mps;
         let along_m = draft.between(12.0, 48.0);
-        if *name == "ego" {
-            draft.ego(&lane, along_m, speed_mps, (Some(&goal), 0.9 * limit_mps));
-        } else {
-            draft.vehicle(Draftee {
-                name,
-                class: "car",
-                lane: &lane,
-                along_m,
-                speed_mps,
-                to: Some(&goal),
-                wanted_mps: 0.9 * limit_mps,
-                driver: None,
-            });
-        }
+        drive_through(draft, name, [&lane, &goal], (along_m, speed_mps, 0.9 * limit_mps));
     }
 }
 
@@ -127,19 +114,21 @@ pub(super) fn equal(draft: &mut Draft) {
         let side = free.remove(draft.count(0, free.len() - 1));
         let (lane, goal) = (format!("{side}-in"), format!("{side}-out"));
         let (along_m, speed_mps) = (draft.between(40.0, 75.0), draft.between(0.5, 0.9) * limit_mps);
-        if *name == "ego" {
-            draft.ego(&lane, along_m, speed_mps, (Some(&goal), 0.9 * limit_mps));
-        } else {
-            draft.vehicle(Draftee {
-                name,
-                class: "car",
-                lane: &lane,
-                along_m,
-                speed_mps,
-                to: Some(&goal),
-                wanted_mps: 0.9 * limit_mps,
-                driver: None,
-            });
-        }
+        drive_through(draft, name, [&lane, &goal], (along_m, speed_mps, 0.9 * limit_mps));
+    }
+}
+
+/// Somebody on its way from one lane to another: the ego, or one of the others.
+fn drive_through(
+    draft: &mut Draft,
+    name: &str,
+    [lane, goal]: [&str; 2],
+    (along_m, speed_mps, wanted_mps): (f64, f64, f64),
+) {
+    if name == "ego" {
+        draft.ego(lane, along_m, speed_mps, (Some(goal), wanted_mps));
+    } else {
+        let (class, to, driver) = ("car", Some(goal), None);
+        draft.vehicle(Draftee { name, class, lane, along_m, speed_mps, to, wanted_mps, driver });
     }
 }

@@ -11,15 +11,12 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario, Vehicle
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
+use crate::standing::STANDING_MPS;
 
-/// Slower than this a real car stands \[m/s\].
-const STANDING_MPS: f64 = 0.3;
 /// Above a limit by this a real car speeds \[m/s\].
 const SPEEDING_MPS: f64 = 0.5;
 /// Least time between leaving a conflict and the arrival of who goes first, for a real car \[s\].
 const SPARE_S: f64 = 1.0;
-/// Lengths of a real car are so many times those for which bodies have scale 1.
-const REAL: f64 = 10.0;
 
 const DOC: &str = "How often it breaks a rule of the road: passes a stop sign without standing, takes somebody's right of way, or \
                    exceeds a speed limit";
@@ -36,7 +33,7 @@ impl Metric for RulesBroken {
 
     fn begin(&self, _: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
         let stated = &start.vehicles[vehicle];
-        let scale = stated.body.scale / REAL;
+        let scale = stated.body.real_ratio();
         let signs = stop_signs(stated).into_iter().map(|line_m| Sign { line_m, has_stood: false, is_past: false });
         let others = start.vehicles.iter().enumerate().filter(|(other, _)| *other != vehicle);
         let taken = others.flat_map(|(other, theirs)| {

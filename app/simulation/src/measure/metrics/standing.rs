@@ -9,8 +9,6 @@ use crate::standing::Standing;
 
 /// Who stands longer without a reason is stuck, for a real car \[s\].
 const STUCK_S: f64 = 10.0;
-/// Lengths of a real car are so many times those for which bodies have scale 1.
-const REAL: f64 = 10.0;
 
 const DOC_LONGEST: &str =
     "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
@@ -41,7 +39,7 @@ impl Metric for StandingMetric {
     }
 
     fn begin(&self, scenario: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
-        let scale = scenario.vehicles[vehicle].body.scale / REAL;
+        let scale = scenario.vehicles[vehicle].body.real_ratio();
         let (value, stuck_s) = (self.value, STUCK_S * scale.sqrt());
         Box::new(StandingSoFar { value, vehicle, stuck_s, now_s: 0.0, longest_s: 0.0, deadlocks: 0 })
     }

@@ -13,8 +13,6 @@ const FOLLOWED_M: f64 = 90.0;
 const SLOWEST_MPS: f64 = 2.0;
 /// A gap below this is short, for a real car \[s\].
 const SHORT_S: f64 = 0.5;
-/// Lengths of a real car are so many times those for which bodies have scale 1.
-const REAL: f64 = 10.0;
 
 const DOC_SHORT: &str = "Share of the time behind somebody during which the time gap is below 0.5 s, of a real car; none for who \
                          follows nobody";
@@ -60,7 +58,7 @@ struct TimeGaps {
 
 impl Measurement for TimeGaps {
     fn observe(&mut self, tick: &ObservedTick<'_>) {
-        let scale = tick.end.vehicles[self.vehicle].body.scale / REAL;
+        let scale = tick.end.vehicles[self.vehicle].body.real_ratio();
         self.ratio = scale.sqrt();
         self.gaps_s.extend(time_gap_s(tick, self.vehicle, scale).map(|gap_s| gap_s / scale.sqrt()));
     }
