@@ -29,6 +29,8 @@ const OPENING: f64 = 0.1;
 const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 const ASIDE_M: f64 = 0.04;
+/// Somebody beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
+const BEYOND_LINE_M: f64 = 0.03;
 
 /// The share of the usual time gap that a driver keeps, by its safety weight.
 fn share_of(weight: f64) -> f64 {
@@ -66,7 +68,8 @@ impl Scene {
     pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
         let comfort = self.ego.limits.comfort?;
         let ego = &self.ego;
-        if !matches!(ego.relation(other), Relation::Alongside) || ego.shares_lane_with(other) {
+        let is_same_way = libm::cos(other.state.heading_rad - ego.route.heading_at(other.state.position())) > 0.0;
+        if !matches!(ego.relation(other), Relation::Alongside) || ego.shares_lane_with(other) || !is_same_way {
             return None;
         }
         let least_s = ACCEPTED_SHARE * comfort.time_gap_s * (0.5 + 0.5 * share_of(weight));
@@ -86,6 +89,21 @@ impl Scene {
         let is_head_on =
             |relation| matches!(relation, Relation::Conflict(conflict) if conflict.kind == ConflictKind::HeadOn);
         self.ego.limits.comfort.is_some() && is_head_on(self.ego.relation(other))
+    }
+
+    /// Whether somebody comes the other way and is not expected in the lane in which the planning vehicle stays: its lines alone keep
+    /// the two apart.
+    pub(crate) fn is_parted_by_lane_line(&self, other: &Agent) -> bool {
+        let ego = &self.ego;
+        if !ego.rules.stays_in_lane || !self.meets_in_its_lane(other) {
+            return false;
+        }
+        let tolerance_m = BEYOND_LINE_M * ego.body.scale;
+        let positions: Vec<[f64; 2]> = other.prediction.states.iter().map(|state| state.position()).collect();
+        ego.route.locate_all(&positions).all(|at| {
+            let lane_m = ego.route.half_width.value(at.along_m);
+            at.across_m.abs() + tolerance_m > lane_m + 0.5 * other.body.width_m
+        })
     }
 
     /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way.

@@ -103,6 +103,11 @@ impl PartnerSequence {
 }
 
 impl PartnerChoice<'_> {
+    /// Whether what the partner does may be an answer: it has been the partner for longer than `answer_s`.
+    pub(crate) fn may_have_answered(&self, answer_s: f64, step_s: f64) -> bool {
+        self.steps as f64 * step_s >= answer_s
+    }
+
     /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
     pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<PlanEvent> {
         self.is_new.then(|| partner_event(self.partner.map(|partner| &*partner.name), does, to_do))

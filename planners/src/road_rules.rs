@@ -18,6 +18,8 @@ pub enum RuleKeeping {
 pub struct RoadRules {
     /// Whether its driver keeps all of them, speed limits too, and drives no faster than it wants.
     pub are_kept: bool,
+    /// Whether it has to stay in the lane of its route: it is in it, and nothing slow or standing there is a reason to leave it.
+    pub stays_in_lane: bool,
     /// How far along its route the front may come now; none if nothing holds it \[m\].
     pub stop_line_m: Option<f64>,
     /// Whom it waits for there; empty where a sign alone holds it.

@@ -96,7 +96,7 @@ impl Drive for Bayesian {
     fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
-        self.observe(&choice, outlook);
+        self.observe(&choice, scene.step_s, outlook);
         let problem = problem(scene, choice.partner, self.last.as_ref(), &self.belief, &self.settings);
         let Solved { problem, optimum, event } =
             conservative::solve_or_fall_back(&mut self.optimiser, scene, problem, self.last.as_ref())?;
@@ -124,12 +124,13 @@ impl Drive for Bayesian {
 
 impl Bayesian {
     /// Updates the belief about the vehicle to persuade.
-    fn observe(&mut self, choice: &PartnerChoice, outlook: &Outlook) {
+    fn observe(&mut self, choice: &PartnerChoice, step_s: f64, outlook: &Outlook) {
         if choice.is_new {
             self.belief = PersuasionBelief::initial(&self.settings);
             self.partner_plan = None;
         }
-        if let (Some(partner), Some(before)) = (choice.partner, &self.partner_plan) {
+        let before = self.partner_plan.as_ref().filter(|_| choice.may_have_answered(self.settings.answer_s, step_s));
+        if let (Some(partner), Some(before)) = (choice.partner, before) {
             let estimate = outlook.estimate(&partner.name);
             self.belief.observe(partner, before, estimate, &self.settings);
         }

@@ -52,6 +52,10 @@ pub struct Settings {
     #[schemars(range(min = 0.001, max = 1.0), extend("x-unit" = "dimensionless"))]
     #[schemars(extend("x-mechanism" = { "keeping its lead": 1.0 }))]
     pub ahead_share: f64,
+    /// Time in which the other cannot have answered: until it has passed, what the other does is no evidence. At least its reaction
+    /// time; 0 among drivers who react at once \[s\].
+    #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
+    pub answer_s: f64,
     /// A vehicle that is this far ahead in the target lane is not persuaded any more \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -75,6 +79,7 @@ impl Default for Settings {
             impression_variance: 0.1,
             value: ReplyValue::Linear,
             ahead_share: 0.3,
+            answer_s: 0.0,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
             passing_orders: HomotopySearch::Classes,

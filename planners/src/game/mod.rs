@@ -140,7 +140,8 @@ impl Drive for Game {
         let meeting = choice.partner.and_then(|other| Some((other, Meeting::find(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
         if let Some((other, meeting)) = meeting {
-            let ego_behaviour = self.watch(scene, other, usual, &meeting);
+            let has_answered = choice.may_have_answered(self.settings.answer_s, scene.step_s);
+            let ego_behaviour = self.watch(scene, (other, has_answered), usual, &meeting);
             let played = self.play();
             self.intentions.own = played.solution.ego;
             expressed =
@@ -172,8 +173,15 @@ impl Drive for Game {
 }
 
 impl Game {
-    /// Renews both beliefs; returns what the next belief about the ego will be judged by.
-    fn watch(&mut self, scene: &Scene, other: &Agent, usual: f64, meeting: &Meeting) -> ObservedBehaviour {
+    /// Renews both beliefs, that about the other only where it `has_answered`; returns what the next belief about the ego will be
+    /// judged by.
+    fn watch(
+        &mut self,
+        scene: &Scene,
+        (other, has_answered): (&Agent, bool),
+        usual: f64,
+        meeting: &Meeting,
+    ) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
         let ego_mps =
             plan.map_or(scene.ego.state.speed_mps, |plan| self.mean_speed_mps(&scene.ego, &plan, scene.step_s));
@@ -187,7 +195,7 @@ impl Game {
         let Intentions { other, seen: own, .. } = self.intentions;
         let prior = forget(other, self.settings.forgetting, usual);
         let beliefs = (
-            seen.behaviour.posterior(prior, seen.observed),
+            if has_answered { seen.behaviour.posterior(prior, seen.observed) } else { other },
             shown.behaviour.posterior(self.prior(own), shown.observed),
         );
         // The next beliefs use the speeds of this step, so what is expressed now must use them too.

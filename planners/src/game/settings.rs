@@ -126,6 +126,10 @@ pub struct Settings {
     /// `as-printed` \[s\].
     #[schemars(range(min = 0.0))]
     pub later_expression_s: f64,
+    /// Time in which the other cannot have answered: until it has passed, what the other does is no evidence. At least its reaction
+    /// time; 0 among drivers who react at once \[s\].
+    #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
+    pub answer_s: f64,
     /// With a vehicle that is this far ahead in the target lane nothing is left to play for \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -168,6 +172,7 @@ impl Default for Settings {
             expressed_speed: ExpressedSpeed::OfStates,
             slack_weight: 0.5,
             later_expression_s: 2.5,
+            answer_s: 0.0,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
             passing_orders: HomotopySearch::Classes,

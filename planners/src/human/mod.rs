@@ -114,6 +114,14 @@ impl Human {
         self
     }
 
+    /// Whether the last plan leads nowhere: less far than its vehicle is long. Behind an obstacle that may be passed, a descent that
+    /// begins there stays there.
+    fn is_stuck(&self, scene: &Scene) -> bool {
+        let body = &scene.ego.body;
+        let ends = self.last.as_ref().and_then(|last| Some([last.states.first()?, last.states.last()?]));
+        ends.is_some_and(|[from, to]| libm::hypot(to.x_m - from.x_m, to.y_m - from.y_m) < body.front_m + body.rear_m)
+    }
+
     /// A driver of another safety weight who remembers the same.
     pub(crate) fn with_safety_weight(&self, safety_weight: f64) -> Human {
         let mut human = self.clone();
@@ -175,7 +183,9 @@ impl Drive for Human {
         let scene = wanted.as_ref();
         let problem = pose(scene, (&expected.others, met.as_ref()), &self.settings);
         let start = match &met {
-            Some((obstacle, true)) if was_passing.as_ref() != Some(&obstacle.name) => obstacle.guess(scene),
+            Some((obstacle, true)) if was_passing.as_ref() != Some(&obstacle.name) || self.is_stuck(scene) => {
+                obstacle.guess(scene)
+            }
             _ => guess(scene, self.last.as_ref()),
         };
         let optimum = self.optimiser.optimise_or_improve(&problem, &[start])?;
@@ -277,7 +287,9 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
         if scene.meets_in_its_lane(other) {
             let expected = Agent { prediction: predicted, ..(*expected).clone() };
-            keep_outs.push(scene.beside(&expected, Penalty::EXACT));
+            if !scene.is_parted_by_lane_line(&expected) {
+                keep_outs.push(scene.beside(&expected, Penalty::EXACT));
+            }
             continue;
         }
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));

@@ -33,7 +33,7 @@ impl Motion<'_> {
     /// The motion over the horizon of the scene.
     pub fn driven(&self) -> Trajectory {
         let (own, step_s) = (&self.scene.ego, self.scene.step_s);
-        let swing_m = SWINGS * swing_m(self.scene);
+        let swing_m = SWINGS * swing_m(self.scene, self.scene.ego.state.speed_mps);
         let lane_m = self.lanes.centre_m(self.from_to[1]);
         let mut before = own.previous_input;
         roll_out(self.scene, |t, state| {

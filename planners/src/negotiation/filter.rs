@@ -2,7 +2,8 @@
 //!
 //! The negotiated input is applied only if, from the state it leads to and with the others one step further along their
 //! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every
-//! intervention is recorded. A plan that itself violates much is not applied either.
+//! intervention is recorded, with its reason. A plan that itself violates much is not applied either. Nothing but safety is judged: how
+//! well a plan persuades is no reason to refuse it.
 
 use crate::conservative::problem;
 use crate::trajectory::HomotopySearch;
@@ -13,8 +14,8 @@ use crate::{Agent, Scene};
 pub(super) const MAX_VIOLATION: f64 = 2e-3;
 /// It may also need this much more than the fallback needs now.
 const MAX_VIOLATION_GROWTH: f64 = 1.2;
-/// A proposal that itself violates safety by this much is refused. So is one that leaves the road by this many metres, or falls
-/// short of persuasion by this many square metres, at 1/10 scale: its descent has ended where nothing is solved.
+/// A proposal that itself violates safety by this much is refused. So is one that leaves the road by this many metres at 1/10 scale:
+/// its descent has ended where nothing is solved.
 const MAX_OWN_VIOLATION: f64 = 0.05;
 
 #[derive(Clone, Debug)]
@@ -29,20 +30,22 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Whether the first input of `optimum` may be applied.
-    pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, fallback: &Optimum) -> bool {
-        let scale = scene.ego.body.scale;
-        let scales = [(Violation::Safety, 1.0), (Violation::RoadEdge, scale), (Violation::Persuasion, scale * scale)];
-        if scales.iter().any(|(kind, unit)| optimum.cost.violation(*kind) > MAX_OWN_VIOLATION * unit) {
-            return false;
+    /// Why the first input of `optimum` may not be applied; `None` if it may.
+    pub(super) fn refuses(&mut self, scene: &Scene, optimum: &Optimum, fallback: &Optimum) -> Option<&'static str> {
+        let violates = |kind, unit: f64| optimum.cost.violation(kind) > MAX_OWN_VIOLATION * unit;
+        if violates(Violation::Safety, 1.0) {
+            return Some("its proposal comes too near to another vehicle");
+        }
+        if violates(Violation::RoadEdge, scene.ego.body.scale) {
+            return Some("its proposal leaves the road");
         }
         let next = successor(scene, optimum);
         let others: Vec<&Agent> = next.others.iter().collect();
         let keep = fallback.trajectory(0).shifted().inputs;
         let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * fallback.cost.violation(Violation::Safety));
-        self.optimiser
-            .optimise(&problem(&next, &others), &[keep])
-            .is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed)
+        let after = self.optimiser.optimise(&problem(&next, &others), &[keep]);
+        let is_safe = after.is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed);
+        (!is_safe).then_some("no cautious plan would be left after its next step")
     }
 }
 

@@ -9,7 +9,8 @@
 //! 5. stays nearer to what it first proposed than to its first fallback, the more the better it was received
 //!    ([`persuasion()`], eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to each other that is asked at once (`proposal`, eq. 6.24);
-//! 7. applies the first input only if a conservative plan still exists after it (`filter`).
+//! 7. goes behind instead, and asks no more, where that has become cheaper by what it concedes ([`Concedes::Order`]);
+//! 8. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
 mod concession;
@@ -27,7 +28,7 @@ pub use acceptance::Acceptance;
 pub use persuasion::persuasion;
 pub use proposal::{AskedPartner, optimiser, problem};
 pub use references::References;
-pub use settings::Settings;
+pub use settings::{Concedes, Settings};
 
 use crate::belief::Outlook;
 use crate::conservative::{self, Conservative};
@@ -40,6 +41,7 @@ use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanEventKind, Proposal, Scene};
+use concession::Concession;
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
 use partner_selection::PartnerSelection;
@@ -135,6 +137,14 @@ impl Drive for Negotiation {
                 return Ok(Plan { events, ..conservative::answer(fallback?) });
             }
         };
+        if let Some(fallback) =
+            fallback.as_ref().ok().filter(|fallback| self.concedes(scene, &partners, &optimum, fallback))
+        {
+            let names: Vec<&str> = partners.iter().map(|partner| &*partner.name).collect();
+            events.push(PlanEvent::note(format!("concedes: goes behind {}", names.join(", "))));
+            self.selection.give_up();
+            return Ok(Plan { events, ..conservative::answer(fallback.clone()) });
+        }
         self.remember(&optimum, &fallback, &partners);
         let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
@@ -210,14 +220,35 @@ impl Negotiation {
         partners: &[&Agent],
         persuasion: Option<Persuasion>,
     ) -> Result<Solved, PlanError> {
-        let pairs = partners.iter().zip(&self.negotiations);
-        let asked: Vec<AskedPartner> = pairs
-            .map(|(agent, (_, negotiation))| AskedPartner { agent, weight: negotiation.concession.weight() })
-            .collect();
+        let asked = match self.settings.concedes {
+            Concedes::Cost => self.asked(partners),
+            Concedes::Order => {
+                let weight = Concession::default().weight();
+                partners.iter().map(|agent| AskedPartner { agent, weight }).collect()
+            }
+        };
         let problem = problem(scene, &asked, persuasion, &self.settings);
         let keep = self.guess(&problem, partners);
         let optimum = self.optimiser.optimise(&problem, &keep)?;
         Ok(Solved { problem, optimum, event: None })
+    }
+
+    /// Those that are asked, with the weight that concession to each has left to the ego's cost.
+    fn asked<'a>(&self, partners: &[&'a Agent]) -> Vec<AskedPartner<'a>> {
+        let pairs = partners.iter().zip(&self.negotiations);
+        pairs.map(|(agent, (_, negotiation))| AskedPartner { agent, weight: negotiation.concession.weight() }).collect()
+    }
+
+    /// Whether the ego rather goes behind: at the weights that concession has left, its fallback, with the others as they are
+    /// predicted, costs less than its proposal.
+    fn concedes(&self, scene: &Scene, partners: &[&Agent], proposal: &Optimum, fallback: &Solved) -> bool {
+        if self.settings.concedes != Concedes::Order || !self.settings.concession {
+            return false;
+        }
+        let problem = problem(scene, &self.asked(partners), None, &self.settings);
+        let predicted = partners.iter().map(|partner| partner.prediction.inputs.clone());
+        let behind: Vec<_> = std::iter::once(fallback.optimum.trajectory(0).inputs).chain(predicted).collect();
+        problem.cost_of(&behind) < problem.cost_of(&proposal.iterate.inputs)
     }
 
     /// The starting guess: the plans of the last round one step later. The others may plan differently by now, so that the last
@@ -289,12 +320,12 @@ impl Negotiation {
             return;
         };
         plan.statistics.add(&fallback.statistics);
-        let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, fallback);
-        if refused {
+        let refused = if self.settings.safety_filter { self.filter.refuses(scene, optimum, fallback) } else { None };
+        if let Some(reason) = refused {
             plan.trajectory = fallback.trajectory(0);
-            plan.events.push(PlanEvent::note("drives cautiously: its safety filter asks for it"));
+            plan.events.push(PlanEvent::note(format!("drives cautiously: {reason}")));
         }
-        plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
+        plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused.is_some()))));
     }
 }
 

@@ -56,6 +56,11 @@ impl PartnerSelection {
         self.asked.iter().any(|asked| asked.name == name)
     }
 
+    /// Asks those that are asked no more.
+    pub(super) fn give_up(&mut self) {
+        self.refused.extend(self.asked.drain(..).map(|asked| asked.name));
+    }
+
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
     /// fallback costs now. Who has been asked long enough is not asked again.
     pub(super) fn record(

@@ -8,6 +8,19 @@ use super::references::References;
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
+/// What concession changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Concedes {
+    /// The weight of the ego's cost in its problem, as printed: the less it counts, the more the ego accelerates to get out of the
+    /// other's way.
+    #[default]
+    Cost,
+    /// The choice between going first and going behind: the conceded weight compares the proposal with the conservative plan, and the
+    /// ego drives the latter, and asks no more, once it is the cheaper one. Within its way it drives as if it had conceded nothing.
+    Order,
+}
+
 /// Negotiation with concession and persuasion (chapter 6).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -62,6 +75,8 @@ pub struct Settings {
     /// Whether the ego concedes (eq. 6.18); without it the weight of its own cost stays at 0.5.
     #[schemars(extend("x-mechanism" = { "concession": false }))]
     pub concession: bool,
+    /// What concession changes.
+    pub concedes: Concedes,
     /// Whether the persuasion constraint is imposed (eq. 6.23).
     #[schemars(extend("x-mechanism" = { "persuasion": false }))]
     pub persuasion: bool,
@@ -95,6 +110,7 @@ impl Default for Settings {
             least_cost_ratio: 0.1,
             acceptance: Acceptance::Willingness,
             concession: true,
+            concedes: Concedes::Cost,
             persuasion: true,
             references: References::LastRound,
             safety_filter: true,

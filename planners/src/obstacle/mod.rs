@@ -51,19 +51,28 @@ impl Manoeuvre {
     }
 }
 
+/// A manoeuvre that has begun.
+#[derive(Clone, Debug, PartialEq)]
+struct Passing {
+    /// The nearest obstacle of the row.
+    name: String,
+    /// Where the row ends that there was room to pass, along the driver's route \[m\].
+    until_m: f64,
+}
+
 /// What a driver remembers of those who stand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ObstacleMemory {
     /// Since which tick each has been standing; 0 if it stood when it was first seen.
     standing_since: BTreeMap<String, usize>,
     /// Who is being passed.
-    passing: Option<String>,
+    passing: Option<Passing>,
 }
 
 impl ObstacleMemory {
     /// The name of what is being passed.
     pub(crate) fn passing(&self) -> Option<&str> {
-        self.passing.as_deref()
+        self.passing.as_ref().map(|passing| &*passing.name)
     }
 
     /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
@@ -78,17 +87,19 @@ impl ObstacleMemory {
             self.passing = None;
             return None;
         };
-        // Whoever is still out of its lane behind one obstacle has begun to pass the next one of a row.
         let out_m =
             scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
         let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
-        let is_under_way = self.passing.as_ref().is_some_and(|name| *name == obstacle.name || is_out);
+        // Whoever has begun to pass a row goes on to the next one of it. Nor does one come back who overtakes somebody slow, who stops.
+        let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
+            || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {
             return Some(Manoeuvre::Wait(obstacle, None));
         };
-        match room::in_the_way(scene, &obstacle, is_under_way) {
+        let until_m = room::end_of_row_m(scene, &obstacle);
+        match room::in_the_way(scene, &obstacle, until_m, is_under_way) {
             None => {
-                self.passing = Some(obstacle.name.clone());
+                self.passing = Some(Passing { name: obstacle.name.clone(), until_m });
                 Some(Manoeuvre::Pass(obstacle))
             }
             Some(other) => {

@@ -1,6 +1,6 @@
 //! Whether there is room to pass an obstacle: nobody else comes to the part of the road that is borrowed before the driver is back.
 
-use super::standing::{Obstacle, swing_m};
+use super::standing::{Obstacle, WAITING_LENGTHS, swing_m};
 use crate::relation::is_standing;
 use crate::{Agent, Scene};
 
@@ -9,25 +9,28 @@ const SPARE_S: f64 = 0.8;
 /// The same for a driver who has begun to pass and could still stop before the obstacle.
 const SPARE_UNDER_WAY_S: f64 = 0.0;
 /// Who has begun to pass and would have to brake harder than this to stop before the obstacle goes on \[m/s²\].
-const STOPPING_MPS2: f64 = 1.5;
+const STOPPING_MPS2: f64 = 2.5;
 /// A driver passes with this share of its strongest acceleration.
 const ACCELERATION_SHARE: f64 = 0.3;
-/// Obstacles with less than so many times the way of a change of place between them are passed together.
-const ROW_SWINGS: f64 = 2.5;
 /// A driver who passes drives at most this share of the speed that it wants.
 const SPEED_SHARE: f64 = 0.8;
 
-/// Who would be in the way of passing an obstacle; none if nobody is, or if the driver has gone too far to go back.
-pub(super) fn in_the_way<'a>(scene: &'a Scene, obstacle: &Obstacle, is_under_way: bool) -> Option<&'a Agent> {
+/// Who would be in the way of passing an obstacle and its row, which ends at `end_m`; none if nobody is, or if the driver has gone too
+/// far to go back.
+pub(super) fn in_the_way<'a>(
+    scene: &'a Scene,
+    obstacle: &Obstacle,
+    end_m: f64,
+    is_under_way: bool,
+) -> Option<&'a Agent> {
     let ego = &scene.ego;
     let own_m = ego.route.along(ego.state.position());
     let room_m = obstacle.along_m[0] - own_m - ego.body.front_m;
     if is_under_way && ego.state.speed_mps * ego.state.speed_mps > 2.0 * STOPPING_MPS2 * room_m {
         return None;
     }
-    let swing_m = swing_m(scene);
+    let swing_m = swing_m(scene, ego.state.speed_mps);
     // From where the driver leaves its lane to where its rear is back in it.
-    let end_m = end_of_row_m(scene, obstacle, swing_m);
     let zone_m = [(obstacle.along_m[0] - swing_m).max(own_m), end_m + swing_m + ego.body.rear_m];
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
     let until_s = time_s(scene, zone_m[1] - own_m) + spare_s;
@@ -35,9 +38,11 @@ pub(super) fn in_the_way<'a>(scene: &'a Scene, obstacle: &Obstacle, is_under_way
     others.into_iter().find(|other| comes_into(scene, other, obstacle, (zone_m, until_s)))
 }
 
-/// Where a row of obstacles ends that begins with one and between which a driver does not come back into its lane \[m\].
-fn end_of_row_m(scene: &Scene, obstacle: &Obstacle, swing_m: f64) -> f64 {
+/// Where a row of obstacles ends that begins with one and between which there is no room to come back into the lane and to wait \[m\].
+pub(super) fn end_of_row_m(scene: &Scene, obstacle: &Obstacle) -> f64 {
     let ego = &scene.ego;
+    let length_m = ego.body.front_m + ego.body.rear_m;
+    let room_m = swing_m(scene, SPEED_SHARE * scene.goal.target.speed_mps) + (1.0 + WAITING_LENGTHS) * length_m;
     let standing = scene.others.iter().filter(|other| is_standing(other)).filter_map(|other| {
         let at = ego.route.locate(other.state.position(), None);
         let is_in_row = (at.across_m - obstacle.across_m).abs() < 0.5 * (ego.body.width_m + other.body.width_m);
@@ -45,8 +50,7 @@ fn end_of_row_m(scene: &Scene, obstacle: &Obstacle, swing_m: f64) -> f64 {
     });
     let mut row: Vec<[f64; 2]> = standing.filter(|[from_m, _]| *from_m > obstacle.along_m[0]).collect();
     row.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let joined =
-        |end_m: f64, [from_m, to_m]: [f64; 2]| if from_m < end_m + ROW_SWINGS * swing_m { to_m } else { end_m };
+    let joined = |end_m: f64, [from_m, to_m]: [f64; 2]| if from_m < end_m + room_m { to_m } else { end_m };
     row.into_iter().fold(obstacle.along_m[1], joined)
 }
 

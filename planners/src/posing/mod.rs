@@ -30,6 +30,13 @@ impl Agent {
         RoadEdge { vehicle, body: self.body, route, penalty }
     }
 
+    /// The lines of its lane where it stays in it, as number `vehicle` of a trajectory problem.
+    fn lane_lines(&self, vehicle: usize) -> Option<RoadEdge> {
+        let lane = self.route.own_lane().filter(|_| self.rules.stays_in_lane)?;
+        let penalty = Penalty::lane_line(self.body.scale);
+        Some(RoadEdge { vehicle, body: self.body, route: Arc::clone(lane), penalty })
+    }
+
     /// A line that its front stays before, as number `vehicle` of a trajectory problem.
     pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64) -> StopLine {
         StopLine {
@@ -73,7 +80,7 @@ impl Scene {
             .filter(|_| rules.are_kept)
             .map(|line_m| Term::StopLine(self.ego.stop_line(vehicle, line_m)));
         let terms = [comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))];
-        terms.into_iter().chain(line).collect()
+        terms.into_iter().chain(line).chain(self.ego.lane_lines(vehicle).map(Term::RoadEdge)).collect()
     }
 
     /// What the planning vehicle pays for deviations from a goal: in Frenet coordinates where its road is curved.

@@ -175,6 +175,19 @@ impl Profile {
         }
     }
 
+    /// The profile with the opposite sign, without the end of a lane.
+    pub(super) fn mirrored(&self) -> Profile {
+        Profile(match &self.0 {
+            Form::Constant(value) => Form::Constant(-value),
+            Form::LaneEnd { edge_m, .. } => Form::Constant(-edge_m),
+            Form::Stretches(stretches) => {
+                let mirrored =
+                    |stretch: &Stretch| Stretch { coefficients: stretch.coefficients.map(|c| -c), ..*stretch };
+                Form::Stretches(stretches.iter().map(mirrored).collect())
+            }
+        })
+    }
+
     /// The value everywhere, if it is the same.
     pub(super) fn as_constant(&self) -> Option<f64> {
         match &self.0 {

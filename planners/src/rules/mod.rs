@@ -16,6 +16,7 @@
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
 
 mod arrivals;
+mod lane;
 mod obliged;
 mod waiting;
 
@@ -57,10 +58,14 @@ impl RuleBook {
     /// comes. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
-        if let Some(Manoeuvre::Wait(obstacle, waits_for)) = memory.judge(scene) {
-            let line_m = obstacle.line_m(scene);
-            scene.ego.rules.stop_before(line_m);
-            scene.ego.rules.waits_for.extend(waits_for);
+        match memory.judge(scene) {
+            Some(Manoeuvre::Wait(obstacle, waits_for)) => {
+                let line_m = obstacle.line_m(scene);
+                scene.ego.rules.stop_before(line_m);
+                scene.ego.rules.waits_for.extend(waits_for);
+            }
+            Some(Manoeuvre::Pass(_)) => scene.ego.rules.stays_in_lane = false,
+            None => {}
         }
     }
 
@@ -109,6 +114,8 @@ impl RuleBook {
                 waits_for.push(name.clone());
             }
         }
-        RoadRules { are_kept: user.keeps_rules, stop_line_m: nearest_m.map(|line_m| line_m - before_m), waits_for }
+        let stays_in_lane = lane::stays_in_lane(user, users);
+        let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
+        RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, waits_for }
     }
 }

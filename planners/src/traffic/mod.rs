@@ -74,6 +74,7 @@ impl Traffic {
         let obliged = self.road_users.iter().map(|user| Obliged {
             agent: &user.agent,
             wanted_mps: user.goal.target.speed_mps,
+            lateral_goal_m: user.agent.route.across(user.goal.target.position()),
             keeps_rules: user.keeps_rules,
         });
         let rules = self.rule_book.judge((tick, step_s), &obliged.collect::<Vec<_>>());

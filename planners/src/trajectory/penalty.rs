@@ -33,6 +33,12 @@ impl Penalty {
     /// out of an ellipse; from 2·10³ on it stays on the road (`scenarios` `intersection/late` with `hesitation_s`).
     pub const ROAD_EDGE: Penalty = Penalty { linear: 2e3, quadratic: 2e3 };
 
+    /// The penalty of the lines of the own lane of a vehicle whose lengths are `scale` times those of a 1/10 scale car: firm, and small
+    /// beside those of safety and of the road's edges.
+    pub fn lane_line(scale: f64) -> Penalty {
+        Penalty { linear: 100.0 / scale, quadratic: 100.0 / (scale * scale) }
+    }
+
     /// [`Penalty::ROAD_EDGE`] of a vehicle whose lengths are `scale` times those of a 1/10 scale car.
     pub fn road_edge(scale: f64) -> Penalty {
         let Penalty { linear, quadratic } = Penalty::ROAD_EDGE;

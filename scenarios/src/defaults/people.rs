@@ -21,7 +21,8 @@ fn driver_defaults(kind: &str) -> Json {
     match kind {
         "human" => json!({ "reaction_s": 0.6 }),
         "idm" => json!({ "headway_s": 1.5, "gap_m": 2.0, "acceleration_mps2": 1.4, "braking_mps2": 2.0 }),
-        "negotiation" => json!({ "answer_s": 0.9 }),
+        "negotiation" => json!({ "answer_s": 0.9, "concedes": "order" }),
+        "bayesian" | "game" => json!({ "answer_s": 0.9 }),
         _ => json!({}),
     }
 }

@@ -29,6 +29,8 @@ pub struct Route {
     /// The right and the left edge of the part of the strip that is driven in the direction of the route \[m\]; none where that
     /// is all of it.
     pub(super) same_direction: Option<[Profile; 2]>,
+    /// The same line with the edges of the lane that it is on; none for a route that stands alone.
+    pub(super) own_lane: Option<Arc<Route>>,
     /// Its number in a set of routes that know where they meet; none for one that stands alone.
     pub(super) number: Option<usize>,
     /// Where it meets the others of that set.
@@ -81,6 +83,7 @@ impl From<Corridor> for Route {
             half_width: Profile::constant(0.5 * (left_m - right_m)),
             legs: Vec::new(),
             same_direction: None,
+            own_lane: None,
             number: None,
             conflicts: Vec::new(),
             straight: Some(corridor),
@@ -109,12 +112,18 @@ impl Route {
             half_width,
             legs,
             same_direction: None,
+            own_lane: None,
             number: None,
             conflicts,
             straight: None,
             max_curvature_1pm,
             bends,
         }
+    }
+
+    /// The same line with no more room than the lane that it is on; none for a route that stands alone.
+    pub fn own_lane(&self) -> Option<&Arc<Route>> {
+        self.own_lane.as_ref()
     }
 
     /// The same strip as a straight road, if it is one.

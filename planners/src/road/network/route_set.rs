@@ -52,6 +52,9 @@ impl Route {
         let known: Vec<Vec<RouteConflict>> = distinct.iter().map(|own| with_all(own, &distinct)).collect();
         for (route, conflicts) in distinct.iter_mut().zip(known) {
             route.conflicts = conflicts;
+            let (centre, half_width) = (route.centre.clone(), route.half_width.clone());
+            route.own_lane =
+                Some(Arc::new(Route::curved(centre, half_width.mirrored(), half_width.clone(), half_width)));
         }
         let routes: Vec<Arc<Route>> = distinct.into_iter().map(Arc::new).collect();
         numbers.into_iter().map(|number| Arc::clone(&routes[number])).collect()

@@ -1,0 +1,58 @@
+//! Who stays in its lane.
+
+use super::obliged::Obliged;
+use crate::Agent;
+use crate::relation::is_standing;
+use crate::road::centre_line::FrenetPoint;
+
+/// Of the lane, a vehicle that stays in it may be beyond the line by this much now, for 1/10 scale cars \[m\].
+const BEYOND_LINE_M: f64 = 0.02;
+/// Somebody ahead who drives with less than this share of the wanted speed may be overtaken.
+const SLOW_SHARE: f64 = 0.75;
+/// Somebody ahead is looked for as far as the driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
+const LOOK_AHEAD_S: f64 = 2.5;
+/// Who overtakes drives this many of its lengths further than the other, besides the distance between them.
+const OVERTAKING_LENGTHS: f64 = 6.0;
+/// Time to spare before somebody who comes the other way is there, for 1/10 scale cars \[s\].
+const SPARE_S: f64 = 0.8;
+
+/// Whether a road user has to stay in the lane of its route: it is in it, no lane beside is its aim, and there is nobody slow ahead
+/// whom it could overtake before anybody comes. What stands in the lane is no reason yet: it may be a queue.
+pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
+    let ego = &user.agent;
+    let Some(lane) = ego.route.own_lane() else { return false };
+    let tolerance_m = BEYOND_LINE_M * ego.body.scale;
+    if !lane.contains(&ego.body, &ego.state, tolerance_m) || user.lateral_goal_m.abs() >= tolerance_m {
+        return false;
+    }
+    let own_m = ego.route.along(ego.state.position());
+    let others = users.iter().filter(|other| other.agent.name != ego.name);
+    let places = others.map(|other| (other.agent, ego.route.locate(other.agent.state.position(), None)));
+    let places: Vec<(&Agent, FrenetPoint)> = places.collect();
+    let times = places.iter().filter_map(|(other, at)| overtaking_s(user, own_m, other, at));
+    let Some(time_s) = times.reduce(f64::max) else { return true };
+    places.iter().any(|(other, at)| comes_within(user, own_m, (other, at), time_s))
+}
+
+/// How long it takes to overtake somebody who drives slowly ahead in the lane; none of all others \[s\].
+fn overtaking_s(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint) -> Option<f64> {
+    let ego = &user.agent;
+    let lead_m = at.along_m - own_m;
+    let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * user.wanted_mps + ego.body.front_m + other.body.rear_m;
+    let is_in_lane = at.across_m.abs() < 0.5 * (ego.body.width_m + other.body.width_m);
+    let (sin, cos) = libm::sincos(other.state.heading_rad - at.heading_rad);
+    let [along_mps, across_mps] = [cos, sin].map(|share| share * other.state.speed_mps);
+    let is_slow = along_mps < SLOW_SHARE * user.wanted_mps && across_mps.abs() <= along_mps;
+    let is_ahead = (0.0..reach_m).contains(&lead_m) && is_in_lane && is_slow && !is_standing(other);
+    let length_m = ego.body.front_m + ego.body.rear_m;
+    is_ahead.then(|| (lead_m + OVERTAKING_LENGTHS * length_m) / (user.wanted_mps - along_mps))
+}
+
+/// Whether somebody comes the other way within a time.
+fn comes_within(user: &Obliged<'_>, own_m: f64, (other, at): (&Agent, &FrenetPoint), time_s: f64) -> bool {
+    let ego = &user.agent;
+    let comes_mps = -other.state.speed_mps * libm::cos(other.state.heading_rad - at.heading_rad);
+    let lead_m = at.along_m - own_m;
+    let time_s = time_s + SPARE_S * ego.body.time_ratio();
+    comes_mps > 0.0 && lead_m > 0.0 && lead_m < (user.wanted_mps + comes_mps) * time_s
+}
