@@ -112,6 +112,12 @@ impl Scene {
         self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
     }
 
+    /// Whether the safety ellipse around another vehicle concerns the planning vehicle; to somebody who knows comfort it does not once
+    /// their ways do not meet any more.
+    pub(crate) fn minds(&self, other: &Agent) -> bool {
+        self.ego.limits.comfort.is_none() || self.ego.may_meet(other)
+    }
+
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {

@@ -5,6 +5,9 @@ use crate::{Agent, Limits, Scene};
 /// Drivers brake for a speed limit with this share of their strongest braking.
 const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
 
+/// And with this share of the braking that they bear, so that there is room to brake later or harder.
+const BORNE_BRAKING_SHARE: f64 = 0.7;
+
 /// Drivers take curves with this share of their largest lateral acceleration.
 const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
 
@@ -60,15 +63,17 @@ impl Agent {
         (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
     }
 
-    /// With what it brakes for a speed limit \[m/s²\].
+    /// With what it brakes for a speed limit or a line \[m/s²\].
     fn comfortable_braking_mps2(&self) -> f64 {
-        COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs()
+        let strongest_mps2 = COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs();
+        let borne_mps2 = self.limits.comfort.map(|comfort| BORNE_BRAKING_SHARE * comfort.braking_mps2);
+        borne_mps2.map_or(strongest_mps2, |borne_mps2| borne_mps2.min(strongest_mps2))
     }
 
     /// The speeds at `t = 1…N` of a comfortable approach to a line at which its front stops, from its present speed on \[m/s\].
     pub(crate) fn approach_speeds_mps(&self, line_m: f64, wanted_mps: f64, horizon: usize, step_s: f64) -> Vec<f64> {
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
-        let braking_mps2 = COMFORTABLE_BRAKING_SHARE * acceleration_min_mps2.abs();
+        let braking_mps2 = self.comfortable_braking_mps2();
         let mut speed_mps = self.state.speed_mps;
         let mut room_m = line_m - self.body.front_m - self.route.along(self.state.position());
         let speeds = (0..horizon).map(|_| {

@@ -8,6 +8,8 @@ use crate::{Agent, Route, State};
 
 /// Headings that differ by more than this belong to different roads \[rad\].
 const SAME_ROAD_RAD: f64 = 0.1;
+/// Ways on one strip at a larger angle cross \[rad\].
+const ACROSS_RAD: f64 = 1.05;
 
 /// A vehicle whose heading differs by at most this from a lane drives along it \[rad\].
 const ALONG_LANE_RAD: f64 = std::f64::consts::FRAC_PI_6;
@@ -118,9 +120,12 @@ fn is_along(route: &Route, state: &State) -> bool {
     libm::cos(state.heading_rad - route.heading_at(state.position())) > libm::cos(ALONG_LANE_RAD)
 }
 
-/// Whether any part of `other` is on the strip that `agent` may use.
+/// Whether any part of `other` is on the strip that `agent` may use, and its way does not lead across it there.
 fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
     let at = agent.route.locate(other.state.position(), None);
+    if libm::cos(other.route.heading_at(other.state.position()) - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
+        return false;
+    }
     let [right_m, left_m] = agent.route.edges_before_end_m(at.along_m);
     let half_m = 0.5 * other.body.width_m;
     (right_m - half_m..=left_m + half_m).contains(&at.across_m)

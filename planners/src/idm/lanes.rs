@@ -2,12 +2,19 @@
 //!
 //! A vehicle that is partly in a lane counts as being in it; a lane that ends counts as a standing vehicle at its end.
 
+use std::cmp::Ordering;
+
 use super::Mobil;
 use super::car_following::Leader;
 use crate::{Agent, Scene, State};
 
 /// What is missing of the width of a lane beside the route may be up to this share.
 const LEAST_LANE_SHARE: f64 = 0.1;
+
+/// A lane beside the route is looked at as far as the driver comes in this time, for 1/10 scale cars \[s\],
+const LOOK_AHEAD_S: f64 = 3.0;
+/// at so many places.
+const LOOKS: usize = 20;
 
 /// Width of lanes where nothing is said of it, for 1/10 scale cars \[m\].
 const LANE_WIDTH_M: f64 = 0.37;
@@ -18,6 +25,8 @@ pub(super) struct Lanes {
     right_m: f64,
     pub(super) width_m: f64,
     pub(super) count: usize,
+    /// On a route of a network: which lane it follows, and where the first lane to the right and to the left of it end \[m\].
+    ends: Option<(usize, [Option<f64>; 2])>,
 }
 
 impl Lanes {
@@ -26,19 +35,43 @@ impl Lanes {
         let road = &scene.ego.route;
         let along_m = road.along(scene.ego.state.position());
         if road.is_in_network() {
-            return Lanes::beside_route(road.same_direction_edges_m(along_m), 2.0 * road.half_width.value(along_m));
+            return Lanes::beside_route(scene, along_m);
         }
         let [right_m, left_m] = road.edges_before_end_m(along_m);
         let width_m = mobil.lane_width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
         let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
-        Lanes { right_m, width_m, count }
+        Lanes { right_m, width_m, count, ends: None }
     }
 
     /// The lane that the route follows, and those beside it that have room between the edges.
-    fn beside_route([right_m, left_m]: [f64; 2], width_m: f64) -> Lanes {
+    fn beside_route(scene: &Scene, along_m: f64) -> Lanes {
+        let (ego, road) = (&scene.ego, &scene.ego.route);
+        let width_m = 2.0 * road.half_width.value(along_m);
         let on_side = |room_m: f64| (room_m / width_m - 0.5 + LEAST_LANE_SHARE).floor().max(0.0) as usize;
-        let (to_right, to_left) = (on_side(-right_m), on_side(left_m));
-        Lanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count: to_right + 1 + to_left }
+        let beside = |at_m: f64| {
+            let [right_m, left_m] = road.same_direction_edges_m(at_m);
+            [on_side(-right_m), on_side(left_m)]
+        };
+        let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * scene.goal.target.speed_mps.max(ego.state.speed_mps);
+        let ahead: Vec<(f64, [usize; 2])> = (0..=LOOKS)
+            .map(|look| along_m + reach_m * look as f64 / LOOKS as f64)
+            .take_while(|at_m| *at_m <= road.end_m())
+            .map(|at_m| (at_m, beside(at_m)))
+            .collect();
+        let [to_right, to_left] = beside(along_m);
+        let ends = [0, 1].map(|side| ahead.iter().find(|(_, lanes)| lanes[side] == 0).map(|(at_m, _)| *at_m));
+        let count = to_right + 1 + to_left;
+        Lanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count, ends: Some((to_right, ends)) }
+    }
+
+    /// Where a lane beside the route ends \[m\]; none if it does not end soon.
+    fn end_m(&self, lane: usize) -> Option<f64> {
+        let (own, [right_m, left_m]) = self.ends?;
+        match lane.cmp(&own) {
+            Ordering::Less => right_m,
+            Ordering::Equal => None,
+            Ordering::Greater => left_m,
+        }
     }
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
@@ -80,7 +113,8 @@ pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t
         .lane_end()
         .filter(|_| lane == 0)
         .map(|end| Leader { gap_m: end.end_m - 3.0 * end.taper_m - own - ego.body.front_m, speed_mps: 0.0 });
-    vehicles.chain(end).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+    let ends = lanes.end_m(lane).map(|end_m| Leader { gap_m: end_m - own - ego.body.front_m, speed_mps: 0.0 });
+    vehicles.chain(end).chain(ends).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
 }
 
 /// The nearest vehicle behind the ego in a lane, now.

@@ -28,7 +28,7 @@ pub fn joint_problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
         let view = Scene { ego: agent.clone(), goal: *goal, others: Vec::new(), ..*scene };
         participants.push(view.participant());
         terms.extend(view.own_terms(vehicle, goal));
-        terms.extend(strangers.iter().map(|other| {
+        terms.extend(strangers.iter().filter(|other| view.minds(other)).map(|other| {
             let keep_out = view.safety_around(other, Penalty::EXACT);
             Term::KeepOut(KeepOut { vehicle, ..keep_out })
         }));

@@ -116,6 +116,7 @@ impl Scene {
 
     /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
     pub fn exact_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
-        others.into_iter().map(|other| Term::KeepOut(self.safety_around(other, Penalty::EXACT)))
+        let minded = others.into_iter().filter(|other| self.minds(other));
+        minded.map(|other| Term::KeepOut(self.safety_around(other, Penalty::EXACT)))
     }
 }
