@@ -1,7 +1,7 @@
 //! Model predictive control (MPC) in a receding horizon: each plan begins at the last one, shifted by one step.
 
 use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust, StageError};
-use crate::{Input, PlanError, PlanEvent, Trajectory};
+use crate::{Input, PlanError, PlanEvent, Scene, Trajectory};
 
 impl From<DescentError> for PlanError {
     fn from(error: DescentError) -> Self {
@@ -31,16 +31,16 @@ pub(crate) struct Solved {
     pub event: Option<PlanEvent>,
 }
 
-/// Solves a problem from the last plan, shifted by one step, and compares the homotopy classes.
+/// Solves a problem from a guess ([`guess`]) and compares the homotopy classes.
 ///
 /// # Errors
 /// [`DescentError`] if no homotopy class has an optimum.
 pub(crate) fn solve(
     optimiser: &mut Optimiser<Robust>,
     problem: Problem,
-    last: Option<&Trajectory>,
+    guess: Vec<Input>,
 ) -> Result<Solved, DescentError> {
-    let optimum = optimiser.optimise(&problem, &[guess(last)])?;
+    let optimum = optimiser.optimise(&problem, &[guess])?;
     Ok(Solved { problem, optimum, event: None })
 }
 
@@ -51,13 +51,15 @@ pub(crate) fn solve(
 pub(crate) fn solve_or_improve(
     optimiser: &mut Optimiser<Robust>,
     problem: Problem,
-    last: Option<&Trajectory>,
+    guess: Vec<Input>,
 ) -> Result<Solved, DescentError> {
-    let optimum = optimiser.optimise_or_improve(&problem, &[guess(last)])?;
+    let optimum = optimiser.optimise_or_improve(&problem, &[guess])?;
     Ok(Solved { problem, optimum, event: None })
 }
 
-/// The last plan, one step later.
-fn guess(last: Option<&Trajectory>) -> Vec<Input> {
-    last.map_or_else(Vec::new, Trajectory::later_inputs)
+/// From where a descent begins: the last plan, one step later; or past an obstacle that is passed now, if the last plan stays behind it.
+pub(crate) fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
+    let Some(last) = last else { return Vec::new() };
+    let passed = scene.ego.rules.passes.as_ref().filter(|obstacle| obstacle.keeps_back(scene, last));
+    passed.map_or_else(|| last.later_inputs(), |obstacle| obstacle.guess(scene))
 }

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::obstacle::Obstacle;
+
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -22,6 +24,8 @@ pub struct RoadRules {
     pub stays_in_lane: bool,
     /// How far along its route the front may come now; none if nothing holds it \[m\].
     pub stop_line_m: Option<f64>,
+    /// What stands in its lane and is passed now; there is room.
+    pub passes: Option<Obstacle>,
     /// Whom it waits for there; empty where a sign alone holds it.
     pub waits_for: Vec<String>,
 }

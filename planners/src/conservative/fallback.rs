@@ -15,7 +15,8 @@ pub(crate) fn solve_or_fall_back(
     problem: Problem,
     last: Option<&Trajectory>,
 ) -> Result<Solved, DescentError> {
-    receding_horizon::solve(optimiser, problem, last).or_else(|error| fall_back(optimiser, scene, last, &error))
+    receding_horizon::solve(optimiser, problem, receding_horizon::guess(scene, last))
+        .or_else(|error| fall_back(optimiser, scene, last, &error))
 }
 
 /// Solves the conservative problem. The event of the result states the error `because` of which it is solved.
@@ -29,7 +30,8 @@ pub(crate) fn fall_back(
     because: &DescentError,
 ) -> Result<Solved, DescentError> {
     let others: Vec<&Agent> = scene.others.iter().collect();
-    let solved = receding_horizon::solve_or_improve(optimiser, problem(scene, &others), last)?;
+    let solved =
+        receding_horizon::solve_or_improve(optimiser, problem(scene, &others), receding_horizon::guess(scene, last))?;
     let event =
         PlanEvent { kind: PlanEventKind::Fallback(because.to_string()), text: "drives a conservative plan".to_owned() };
     Ok(Solved { event: Some(event), ..solved })

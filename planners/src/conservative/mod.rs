@@ -102,7 +102,8 @@ impl Conservative {
         let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
-        let solved = receding_horizon::solve_or_improve(&mut self.optimiser, problem, self.last.as_ref())?;
+        let guess = receding_horizon::guess(scene, self.last.as_ref());
+        let solved = receding_horizon::solve_or_improve(&mut self.optimiser, problem, guess)?;
         self.last = Some(solved.optimum.trajectory(0));
         Ok(solved)
     }

@@ -25,6 +25,7 @@ use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::receding_horizon;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
@@ -101,7 +102,7 @@ impl Drive for Contingency {
         let shared_steps = shared_steps(&futures, self.settings.told_apart_m, outlook.delay, scene.horizon);
         let problem = problem(scene, &futures, shared_steps);
         let likeliest = likeliest(&futures);
-        match self.optimiser.optimise(&problem, &self.guess(&futures)) {
+        match self.optimiser.optimise(&problem, &self.guess(scene, &futures)) {
             Ok(optimum) => {
                 let motions = futures.iter().enumerate();
                 self.last = motions.map(|(i, of)| (of.hypotheses.clone(), optimum.trajectory(i))).collect();
@@ -128,10 +129,10 @@ impl Drive for Contingency {
 
 impl Contingency {
     /// The last motion in each future, a step later; in a new one, that of the first.
-    fn guess(&self, futures: &[Future]) -> Vec<Vec<Input>> {
+    fn guess(&self, scene: &Scene, futures: &[Future]) -> Vec<Vec<Input>> {
         let guess = futures.iter().map(|future| {
             let same = self.last.iter().find(|(hypotheses, _)| *hypotheses == future.hypotheses);
-            same.or(self.last.first()).map_or_else(Vec::new, |(_, motion)| motion.later_inputs())
+            receding_horizon::guess(scene, same.or(self.last.first()).map(|(_, motion)| motion))
         });
         guess.collect()
     }

@@ -114,14 +114,6 @@ impl Human {
         self
     }
 
-    /// Whether the last plan leads nowhere: less far than its vehicle is long. Behind an obstacle that may be passed, a descent that
-    /// begins there stays there.
-    fn is_stuck(&self, scene: &Scene) -> bool {
-        let body = &scene.ego.body;
-        let ends = self.last.as_ref().and_then(|last| Some([last.states.first()?, last.states.last()?]));
-        ends.is_some_and(|[from, to]| libm::hypot(to.x_m - from.x_m, to.y_m - from.y_m) < body.front_m + body.rear_m)
-    }
-
     /// A driver of another safety weight who remembers the same.
     pub(crate) fn with_safety_weight(&self, safety_weight: f64) -> Human {
         let mut human = self.clone();
@@ -182,8 +174,10 @@ impl Drive for Human {
         };
         let scene = wanted.as_ref();
         let problem = pose(scene, (&expected.others, met.as_ref()), &self.settings);
+        let is_kept_back =
+            |obstacle: &Obstacle| self.last.as_ref().is_some_and(|last| obstacle.keeps_back(scene, last));
         let start = match &met {
-            Some((obstacle, true)) if was_passing.as_ref() != Some(&obstacle.name) || self.is_stuck(scene) => {
+            Some((obstacle, true)) if was_passing.as_ref() != Some(&obstacle.name) || is_kept_back(obstacle) => {
                 obstacle.guess(scene)
             }
             _ => guess(scene, self.last.as_ref()),

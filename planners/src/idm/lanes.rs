@@ -65,7 +65,7 @@ impl Lanes {
     }
 
     /// Where a lane beside the route ends \[m\]; none if it does not end soon.
-    fn end_m(&self, lane: usize) -> Option<f64> {
+    pub(super) fn end_m(&self, lane: usize) -> Option<f64> {
         let (own, [right_m, left_m]) = self.ends?;
         match lane.cmp(&own) {
             Ordering::Less => right_m,

@@ -31,7 +31,9 @@ pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoi
     if off_centre.abs() > 0.25 * lanes.width_m {
         return LaneChoice { incentive_mps2: 0.0, ..best };
     }
-    for lane in [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count)].into_iter().flatten() {
+    let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count)].into_iter().flatten();
+    // Nobody changes to a lane that will have to be left again.
+    for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
         let change = Change { scene, settings, lanes, now, lane };
         let advantage = change.advantage() + nearer * mobil.bias_mps2 - mobil.threshold_mps2;

@@ -23,6 +23,7 @@ use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::posing::{JointVehicle, joint_problem};
+use crate::receding_horizon;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
@@ -103,7 +104,7 @@ impl Drive for Nash {
         let plays = |name: &str| self.refusals.plays(name, self.settings.patience_steps);
         let players = players(scene, &self.seen, &self.settings, plays);
         let problem = joint_problem(scene, &players);
-        let guess = self.guess(&players);
+        let guess = self.guess(scene, &players);
         match equilibrium(&mut self.joint, &mut self.responses, &problem, &guess) {
             Ok(equilibrium) => {
                 let named = players.iter().enumerate();
@@ -132,10 +133,14 @@ impl Drive for Nash {
 
 impl Nash {
     /// The last motion of each player one step later; of one that did not play, its prediction.
-    fn guess(&self, players: &[JointVehicle]) -> Vec<Vec<Input>> {
+    fn guess(&self, scene: &Scene, players: &[JointVehicle]) -> Vec<Vec<Input>> {
         let guess = players.iter().map(|player| {
             let last = self.last.iter().find(|(name, _)| *name == player.agent.name);
-            last.map_or_else(|| player.agent.prediction.inputs.clone(), |(_, motion)| motion.later_inputs())
+            match last {
+                Some((name, motion)) if *name == scene.ego.name => receding_horizon::guess(scene, Some(motion)),
+                Some((_, motion)) => motion.later_inputs(),
+                None => player.agent.prediction.inputs.clone(),
+            }
         });
         guess.collect()
     }

@@ -9,7 +9,8 @@
 mod room;
 mod standing;
 
-pub(crate) use standing::{Obstacle, swing_m};
+pub use standing::Obstacle;
+pub(crate) use standing::swing_m;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -22,7 +22,7 @@ const SWING_S: f64 = 0.6;
 
 /// Something that stands in the way and is no queue.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Obstacle {
+pub struct Obstacle {
     /// The vehicle.
     pub name: String,
     /// Where it begins and ends, along the driver's route \[m\].
@@ -74,6 +74,13 @@ impl Obstacle {
             }
         });
         motion.inputs
+    }
+
+    /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays
+    /// there.
+    pub(crate) fn keeps_back(&self, scene: &Scene, plan: &Trajectory) -> bool {
+        let (body, ends) = (&scene.ego.body, plan.states.first().zip(plan.states.last()));
+        ends.is_none_or(|(from, to)| libm::hypot(to.x_m - from.x_m, to.y_m - from.y_m) < body.front_m + body.rear_m)
     }
 
     /// Whether a motion of the planning vehicle touches it, or comes nearer than half of a free space at each side.

@@ -27,6 +27,7 @@ use std::collections::BTreeMap;
 
 use crate::Scene;
 use crate::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
+pub use crate::obstacle::Obstacle;
 use crate::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::relation::is_standing;
 pub use crate::road_rules::{RoadRules, RuleKeeping};
@@ -64,7 +65,10 @@ impl RuleBook {
                 scene.ego.rules.stop_before(line_m);
                 scene.ego.rules.waits_for.extend(waits_for);
             }
-            Some(Manoeuvre::Pass(_)) => scene.ego.rules.stays_in_lane = false,
+            Some(Manoeuvre::Pass(obstacle)) => {
+                scene.ego.rules.stays_in_lane = false;
+                scene.ego.rules.passes = Some(obstacle);
+            }
             None => {}
         }
     }
@@ -116,6 +120,6 @@ impl RuleBook {
         }
         let stays_in_lane = lane::stays_in_lane(user, users);
         let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
-        RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, waits_for }
+        RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, passes: None, waits_for }
     }
 }
