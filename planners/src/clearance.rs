@@ -66,16 +66,36 @@ impl Scene {
     /// What keeps a driver who knows comfort from pulling out right ahead of somebody in another lane of its road, or right behind: an
     /// ellipse as wide as both bodies.
     pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
-        let comfort = self.ego.limits.comfort?;
         let ego = &self.ego;
         let is_same_way = libm::cos(other.state.heading_rad - ego.route.heading_at(other.state.position())) > 0.0;
         if !matches!(ego.relation(other), Relation::Alongside) || ego.shares_lane_with(other) || !is_same_way {
             return None;
         }
-        let least_s = ACCEPTED_SHARE * comfort.time_gap_s * (0.5 + 0.5 * share_of(weight));
-        let along_m = self.half_axis_m(other, least_s * ego.state.speed_mps.max(other.state.speed_mps));
+        let along_m = self.accepted_axis_m(other, weight)?;
         let across_m = 0.5 * (ego.body.width_m + other.body.width_m) + ASIDE_M * ego.body.scale;
         Some(self.around(other, SafetyEllipse { along_m, across_m }, Penalty::EXACT))
+    }
+
+    /// Half the length of an ellipse at whose end there is the least gap for a change of lane that a driver of a safety weight accepts;
+    /// none for a driver who knows no comfort \[m\].
+    fn accepted_axis_m(&self, other: &Agent, weight: f64) -> Option<f64> {
+        let time_gap_s = self.ego.limits.comfort?.time_gap_s;
+        let least_s = ACCEPTED_SHARE * time_gap_s * (0.5 + 0.5 * share_of(weight));
+        Some(self.half_axis_m(other, least_s * self.ego.state.speed_mps.max(other.state.speed_mps)))
+    }
+
+    /// What a driver of a safety weight keeps free for somebody who is predicted to come into its way: the safety ellipse, and for one
+    /// ahead in another lane of its road as much as that one needs in order to come.
+    pub(crate) fn room_for(&self, other: &Agent, prediction: &Trajectory, weight: f64, penalty: Penalty) -> KeepOut {
+        let mut room = self.keep_out(prediction, &other.route, penalty);
+        let ego = &self.ego;
+        let is_ahead = matches!(ego.relation(other), Relation::Alongside) && ego.lead_of(other) > 0.0;
+        if let Some(accepted_m) = self.accepted_axis_m(other, weight).filter(|_| is_ahead) {
+            let SafetyEllipse { along_m, across_m } = self.goal.safety;
+            let safety = SafetyEllipse { along_m: along_m.max(accepted_m), across_m };
+            room.ellipses = ellipses(safety, &other.route, &room.centres);
+        }
+        room
     }
 
     /// An ellipse around a prediction of another vehicle.

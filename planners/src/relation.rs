@@ -121,7 +121,7 @@ fn is_along(route: &Route, state: &State) -> bool {
 }
 
 /// Whether any part of `other` is on the strip that `agent` may use, and its way does not lead across it there.
-fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
+pub(crate) fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
     let at = agent.route.locate(other.state.position(), None);
     if libm::cos(other.route.heading_at(other.state.position()) - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
         return false;

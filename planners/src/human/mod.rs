@@ -286,7 +286,7 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
             }
             continue;
         }
-        keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
+        keep_outs.push(scene.room_for(other, &predicted, weight, Penalty::hinge(weight)));
         if ego.crosses(other) {
             keep_outs.push(scene.keep_out(&predicted, &ego.route, Penalty::hinge(weight)));
         }

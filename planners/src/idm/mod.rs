@@ -18,8 +18,9 @@ use std::borrow::Cow;
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::obstacle::{Obstacle, ObstacleMemory};
-use crate::relation::Relation;
+use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
+use crate::road::network::ConflictKind;
 use crate::{Plan, PlanError, PlanEvent, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
@@ -135,10 +136,14 @@ impl Drive for Idm {
     }
 }
 
-/// The scene with those others only that are on the same road.
+/// The scene with those others only that are on the same road; to a driver who knows comfort also those on it whose way joins the own
+/// only ahead.
 fn along_the_road(mut scene: Scene) -> Scene {
     let Scene { ego, others, .. } = &mut scene;
-    others.retain(|other| ego.relation(other) == Relation::Alongside);
+    let joins =
+        |other: &Agent| matches!(ego.relation(other), Relation::Conflict(at) if at.kind == ConflictKind::Merging);
+    let is_minded = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
+    others.retain(|other| ego.relation(other) == Relation::Alongside || is_minded(other));
     scene
 }
 

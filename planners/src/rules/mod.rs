@@ -45,7 +45,7 @@ impl RuleBook {
     /// What is asked of each of some road users, in their order. To be called once a tick.
     pub(crate) fn judge(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) -> Vec<RoadRules> {
         if !users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network()) {
-            return users.iter().map(|_| RoadRules::default()).collect();
+            return users.iter().map(beside_no_network).collect();
         }
         self.arrivals.note_all((tick, step_s), users);
         let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle)).collect();
@@ -104,7 +104,7 @@ impl RuleBook {
     fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold]) -> RoadRules {
         let ego = &user.agent;
         if !user.keeps_rules || !ego.route.is_in_network() {
-            return RoadRules::default();
+            return beside_no_network(user);
         }
         let before_m = stopping_distance_m(ego);
         let signs = signed_lines(ego).into_iter().filter(|line_m| !self.arrivals.has_stood_at(ego, *line_m));
@@ -122,4 +122,9 @@ impl RuleBook {
         let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
         RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, passes: None, waits_for }
     }
+}
+
+/// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.
+fn beside_no_network(user: &Obliged<'_>) -> RoadRules {
+    RoadRules { are_kept: user.keeps_rules, ..RoadRules::default() }
 }

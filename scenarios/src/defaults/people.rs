@@ -16,11 +16,14 @@ const STEPS_S: [f64; 2] = [0.1, 0.2];
 const HORIZON_STEPS: usize = 40;
 
 /// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
-/// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000).
+/// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
 fn driver_defaults(kind: &str) -> Json {
     match kind {
         "human" => json!({ "reaction_s": 0.6 }),
-        "idm" => json!({ "headway_s": 1.5, "gap_m": 2.0, "acceleration_mps2": 1.4, "braking_mps2": 2.0 }),
+        "idm" => json!({
+            "headway_s": 1.5, "gap_m": 2.0, "acceleration_mps2": 1.4, "braking_mps2": 2.0,
+            "mobil": { "safe_braking_mps2": 2.0 },
+        }),
         "negotiation" => json!({ "answer_s": 0.9, "concedes": "order" }),
         "bayesian" | "game" => json!({ "answer_s": 0.9 }),
         _ => json!({}),
