@@ -1,6 +1,6 @@
 //! For whom and how long vehicles stand that want to drive, and who is stuck ([`Standing`]).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use interplay_scenarios::Scenario;
 use serde::Serialize;
@@ -105,46 +105,37 @@ impl Waits {
 
     /// Takes a tick; returns what begins in it.
     pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
-        let mut circles: BTreeMap<Vec<usize>, f64> = BTreeMap::new();
-        let mut stuck: Vec<Deadlock> = Vec::new();
+        let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
+        let known = self.deadlocks.len();
         for index in 0..self.times.len() {
-            if !standing.stands(index) {
-                self.unexplained_s[index] = 0.0;
-                continue;
+            let mut is_unexplained = false;
+            if standing.stands(index) {
+                let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
+                let (waits_for, reason) = wait(standing, frame, (index, &circle));
+                is_unexplained = reason == UNEXPLAINED;
+                self.add(index, waits_for, reason, step_s);
+                circles.extend(Some(circle).filter(|circle| !circle.is_empty()));
             }
-            let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
-            // Who waits for somebody who is stuck is not stuck itself.
-            let (waits_for, reason) = match standing.plain_reason(index) {
-                None => (Vec::new(), UNEXPLAINED.to_owned()),
-                Some(reason) if circle.is_empty() => words(&reason),
-                Some(_) => {
-                    let others = circle.iter().filter(|other| **other != index);
-                    (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
-                }
-            };
-            let is_unexplained = reason == UNEXPLAINED;
-            self.add(index, waits_for, reason, step_s);
             let before_s = self.unexplained_s[index];
             self.unexplained_s[index] = if is_unexplained { before_s + step_s } else { 0.0 };
-            let stuck_s = STUCK_S * self.times[index];
-            if before_s <= stuck_s && self.unexplained_s[index] > stuck_s {
-                stuck.push(deadlock((frame, step_s), &[index], UNEXPLAINED));
-            }
-            if !circle.is_empty() {
-                let waited_s = self.circles_s.get(&circle).copied().unwrap_or(0.0);
-                circles.insert(circle, waited_s);
+            if passes(before_s, self.unexplained_s[index], STUCK_S * self.times[index]) {
+                self.deadlocks.push(deadlock((frame, step_s), &[index], UNEXPLAINED));
             }
         }
-        for (circle, waited_s) in &mut circles {
-            let (before_s, stuck_s) = (*waited_s, CIRCLE_S * self.times[circle[0]]);
-            *waited_s += step_s;
-            if before_s <= stuck_s && *waited_s > stuck_s {
-                stuck.push(deadlock((frame, step_s), circle, IN_A_CIRCLE));
+        self.close(circles, frame, step_s);
+        self.deadlocks[known..].iter().map(event).collect()
+    }
+
+    /// Notes for how long those who wait for each other have done so.
+    fn close(&mut self, circles: BTreeSet<Vec<usize>>, frame: &Frame, step_s: f64) {
+        self.circles_s.retain(|circle, _| circles.contains(circle));
+        for circle in circles {
+            let waited_s = self.circles_s.get(&circle).copied().unwrap_or(0.0);
+            if passes(waited_s, waited_s + step_s, CIRCLE_S * self.times[circle[0]]) {
+                self.deadlocks.push(deadlock((frame, step_s), &circle, IN_A_CIRCLE));
             }
+            self.circles_s.insert(circle, waited_s + step_s);
         }
-        self.circles_s = circles;
-        self.deadlocks.extend(stuck.iter().cloned());
-        stuck.iter().map(event).collect()
     }
 
     fn add(&mut self, index: usize, waits_for: Vec<String>, reason: String, step_s: f64) {
@@ -164,6 +155,23 @@ impl Waits {
     /// Who was stuck, in order of time.
     pub fn deadlocks(&self) -> &[Deadlock] {
         &self.deadlocks
+    }
+}
+
+/// Whether a time passes a bound.
+fn passes(before_s: f64, after_s: f64, bound_s: f64) -> bool {
+    before_s <= bound_s && after_s > bound_s
+}
+
+/// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
+fn wait(standing: &Standing<'_>, frame: &Frame, (index, circle): (usize, &[usize])) -> (Vec<String>, String) {
+    match standing.plain_reason(index) {
+        None => (Vec::new(), UNEXPLAINED.to_owned()),
+        Some(reason) if circle.is_empty() => words(&reason),
+        Some(_) => {
+            let others = circle.iter().filter(|other| **other != index);
+            (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
+        }
     }
 }
 

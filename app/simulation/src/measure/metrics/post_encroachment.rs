@@ -95,7 +95,7 @@ impl Encounters {
             let others = (0..bodies.len()).filter(|other| *other != self.vehicle);
             let meets = |first: usize, second: usize| {
                 let (first, second) = ((bodies[first], &past.states[first]), (bodies[second], &now.states[second]));
-                !is_along(first.1, second.1) && is_near(first, second) && overlap(first, second)
+                is_near(first, second) && !is_along(first.1, second.1) && overlap(first, second)
             };
             if { others }.any(|other| meets(self.vehicle, other) || meets(other, self.vehicle)) {
                 self.least_s = Some(apart_s);
