@@ -2,11 +2,11 @@
 
 use std::fs;
 
+use interplay_scenarios::from_text;
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};
 use crate::film::{Film, film};
-use interplay_scenarios::from_text;
 
 /// A street with a stop sign, and a car whose driver does nothing at all although it wants to drive.
 const STREET: &str = "title = 'A street'
@@ -102,13 +102,11 @@ fn the_command_says_it_in_words_and_as_values() {
 /// A driver who waits for an oncoming car before it passes a van says for whom.
 #[test]
 fn who_waits_for_somebody_names_it() {
-    let text = include_str!("../cases/streets/d-parked.toml");
-    let scenario = from_text("parked.toml", &format!("conduct = 'people'\n{text}"), &[]).expect("sound");
-    let film = film("parked", scenario);
-    let ego = film.report.vehicle("ego").expect("an ego");
-    let for_oncoming = ego.standing.iter().find(|wait| wait.waits_for == ["oncoming"]);
-    if let Some(wait) = for_oncoming {
-        assert_eq!(wait.reason, "before it passes parked");
-    }
+    let text = include_str!("../cases/streets/d-parked.toml").replace("negotiation", "human");
+    let film = film("parked", from_text("parked.toml", &format!("conduct = 'people'\n{text}"), &[]).expect("sound"));
+    let standing = &film.report.vehicle("ego").expect("an ego").standing;
+    let for_oncoming = standing.iter().find(|wait| wait.waits_for == ["oncoming"]);
+    let wait = for_oncoming.unwrap_or_else(|| panic!("{standing:?}"));
+    assert_eq!(wait.reason, "before it passes parked");
     assert!(film.report.deadlocks.is_empty(), "{:?}", film.report.deadlocks);
 }

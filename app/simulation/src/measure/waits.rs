@@ -16,6 +16,11 @@ const CIRCLE_S: f64 = 3.0;
 /// Who stands for so long without a reason that shows is stuck, for a real car \[s\].
 pub(super) const STUCK_S: f64 = 10.0;
 
+/// Who stands so long after a reason has ended is setting off, for a real car \[s\].
+const SETTING_OFF_S: f64 = 2.0;
+/// Reasons of who is slower than this are remembered, for a real car \[m/s\].
+const SLOW_MPS: f64 = 2.0;
+
 /// For how long a vehicle stood for one reason, in all.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Wait {
@@ -23,7 +28,7 @@ pub struct Wait {
     pub waited_s: f64,
     /// For whom; empty where it waited for nobody.
     pub waits_for: Vec<String>,
-    /// Why, in a few words: `priority`, `sign`, `ahead of it`, `before it passes van`, `no room beside van`,
+    /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `ahead of it`, `before it passes van`, `no room beside van`,
     /// `they wait for each other`, or `no reason that shows`.
     pub reason: String,
 }
@@ -46,6 +51,8 @@ pub struct Waits {
     times: Vec<f64>,
     /// Of each vehicle: how long it stood, by reason.
     waited: Vec<Vec<Wait>>,
+    /// Of each vehicle: the last reason to stop that showed, and when \[s\].
+    last: Vec<Option<(StandingReason, f64)>>,
     /// For how long these have waited for each other \[s\].
     circles_s: BTreeMap<Vec<usize>, f64>,
     /// For how long each has stood without a reason that shows \[s\].
@@ -96,6 +103,7 @@ impl Waits {
         let times: Vec<f64> = scenario.vehicles.iter().map(|vehicle| vehicle.body.real_ratio().sqrt()).collect();
         Waits {
             waited: vec![Vec::new(); times.len()],
+            last: vec![None; times.len()],
             circles_s: BTreeMap::new(),
             unexplained_s: vec![0.0; times.len()],
             deadlocks: Vec::new(),
@@ -109,10 +117,14 @@ impl Waits {
         let known = self.deadlocks.len();
         for index in 0..self.times.len() {
             let mut is_unexplained = false;
+            let is_slow = frame.vehicles[index].state.speed_mps < SLOW_MPS * self.times[index];
+            let shown = if is_slow { standing.plain_reason(index) } else { None };
+            let shows_none = shown.is_none();
+            self.last[index] = shown.map(|reason| (reason, frame.time_s)).or_else(|| self.last[index].take());
             if standing.stands(index) {
                 let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
-                let (waits_for, reason) = wait(standing, frame, (index, &circle));
-                is_unexplained = reason == UNEXPLAINED;
+                is_unexplained = shows_none;
+                let (waits_for, reason) = self.wait(frame, index, &circle);
                 self.add(index, waits_for, reason, step_s);
                 circles.extend(Some(circle).filter(|circle| !circle.is_empty()));
             }
@@ -135,6 +147,19 @@ impl Waits {
                 self.deadlocks.push(deadlock((frame, step_s), &circle, IN_A_CIRCLE));
             }
             self.circles_s.insert(circle, waited_s + step_s);
+        }
+    }
+
+    /// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
+    fn wait(&self, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
+        let setting_off_s = SETTING_OFF_S * self.times[index];
+        match &self.last[index] {
+            Some((reason, at_s)) if circle.is_empty() && frame.time_s - at_s <= setting_off_s => words(reason),
+            Some(_) if !circle.is_empty() => {
+                let others = circle.iter().filter(|other| **other != index);
+                (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
+            }
+            _ => (Vec::new(), UNEXPLAINED.to_owned()),
         }
     }
 
@@ -161,18 +186,6 @@ impl Waits {
 /// Whether a time passes a bound.
 fn passes(before_s: f64, after_s: f64, bound_s: f64) -> bool {
     before_s <= bound_s && after_s > bound_s
-}
-
-/// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
-fn wait(standing: &Standing<'_>, frame: &Frame, (index, circle): (usize, &[usize])) -> (Vec<String>, String) {
-    match standing.plain_reason(index) {
-        None => (Vec::new(), UNEXPLAINED.to_owned()),
-        Some(reason) if circle.is_empty() => words(&reason),
-        Some(_) => {
-            let others = circle.iter().filter(|other| **other != index);
-            (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
-        }
-    }
 }
 
 fn name(frame: &Frame, vehicle: usize) -> String {
