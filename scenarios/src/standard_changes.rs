@@ -1,8 +1,10 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
 //! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
-//! - the planner of each interactive vehicle: negotiation, conservative, cooperative, or the intelligent driver model;
+//! - the planner of each interactive vehicle: negotiation, conservative or cooperative;
+//! - instead of it, the intelligent driver model, which does not interact: a factor of its own;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
+//! - each other setting of such a planner to which the file gives another value than the planner has by itself: that value;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
 use interplay_planners::{Driver, human::Style};
@@ -15,7 +17,13 @@ use crate::registry::Registry;
 use crate::scenario::{Scenario, Vehicle};
 
 /// The planners that an interactive vehicle is given instead of its own.
-const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", "idm"];
+const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", IDM];
+
+/// The intelligent driver model, which follows and gives way by rules and weighs nothing.
+const IDM: &str = "idm";
+
+/// Settings that other changes vary, or that name the planner itself.
+const VARIED_OTHERWISE: [&str; 2] = ["kind", "prediction"];
 
 /// One change of a scenario, and the changed scenario.
 #[derive(Clone, Debug)]
@@ -41,7 +49,10 @@ impl Registry {
         scenario: &Scenario,
         overrides: &[Override],
     ) -> Result<Vec<StandardChange>, LoadError> {
-        let stated = scenario.vehicles.iter().flat_map(|vehicle| changes(vehicle, self.complete()));
+        let stated = scenario.vehicles.iter().flat_map(|vehicle| {
+            let plain = self.plain_driver(name_or_path, vehicle, overrides);
+            changes(vehicle, plain.as_ref(), self.complete())
+        });
         let changed = stated.map(|(factor, change, set)| {
             let more = ["counterfactual=[]", &set].map(|set| Override::Set(set.to_owned()));
             let scenario = self.load(name_or_path, &[overrides, &more].concat())?;
@@ -51,10 +62,30 @@ impl Registry {
     }
 }
 
+impl Registry {
+    /// The settings that the planner of an interactive vehicle would have in a scenario whose file says nothing of them; none for
+    /// those who mind nobody's wishes.
+    fn plain_driver(&self, name_or_path: &str, vehicle: &Vehicle, overrides: &[Override]) -> Option<Driver> {
+        if vehicle.driver.goes_first() {
+            return None;
+        }
+        let (name, kind) = (&vehicle.name, vehicle.driver.kind());
+        // Another kind drops the settings that it does not know.
+        let sets = [
+            "counterfactual=[]".to_owned(),
+            "expect={}".to_owned(),
+            format!("vehicle.{name}.driver.kind=\"{IDM}\""),
+            format!("vehicle.{name}.driver.kind=\"{kind}\""),
+        ];
+        let plain = self.load(name_or_path, &[overrides, &sets.map(Override::Set)].concat()).ok()?;
+        plain.vehicle(name).map(|vehicle| vehicle.driver.clone())
+    }
+}
+
 /// Factor, change, and the argument of `--set`.
 type Change = (String, String, String);
 
-fn changes(vehicle: &Vehicle, schema: SchemaNode) -> Vec<Change> {
+fn changes(vehicle: &Vehicle, plain: Option<&Driver>, schema: SchemaNode) -> Vec<Change> {
     let mut changes = match &vehicle.driver {
         Driver::Human(settings) => {
             let styles = [Style::Tough, Style::Nice].into_iter();
@@ -68,9 +99,13 @@ fn changes(vehicle: &Vehicle, schema: SchemaNode) -> Vec<Change> {
         }
     };
     let settings = serde_json::to_value(&vehicle.driver).unwrap_or_default();
+    let plain = plain.and_then(|plain| serde_json::to_value(plain).ok()).unwrap_or_default();
     for (key, property) in settings_of(&vehicle.driver, schema) {
         let value = settings.get(key).unwrap_or(&Json::Null);
-        changes.extend(mechanism_change(vehicle, key, property, value));
+        let off = mechanism_change(vehicle, key, property, value);
+        let by_itself = plain.get(key).filter(|plain| off.is_none() && *plain != value && !plain.is_null());
+        changes.extend(by_itself.and_then(|plain| plain_change(vehicle, key, property, [value, plain])));
+        changes.extend(off);
         if key == "prediction" {
             let others = property.words().into_iter().filter(|word| value != word);
             changes.extend(others.map(|word| prediction_change(vehicle, word)));
@@ -93,7 +128,8 @@ fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
 
 fn planner_change(Vehicle { name, .. }: &Vehicle, kind: &str) -> Change {
     let set = format!("vehicle.{name}.driver.kind=\"{kind}\"");
-    (format!("{name}'s planner"), format!("{name}: planner = {kind}"), set)
+    let factor = if kind == IDM { "replacement by IDM" } else { "planner" };
+    (format!("{name}'s {factor}"), format!("{name}: planner = {kind}"), set)
 }
 
 fn prediction_change(Vehicle { name, .. }: &Vehicle, word: &str) -> Change {
@@ -109,6 +145,26 @@ fn mechanism_change(vehicle: &Vehicle, key: &str, property: SchemaNode, value: &
     let how = if off.is_object() { String::new() } else { format!(" ({key} = {})", toml_of(off)) };
     let set = format!("vehicle.{name}.driver.{key}={}", toml_of(off));
     (value != off).then(|| (format!("{name}'s {mechanism}"), format!("{name}: without {mechanism}{how}"), set))
+}
+
+/// Gives a setting the value that the planner has by itself; a mechanism that the file switches off is switched on.
+fn plain_change(
+    Vehicle { name, .. }: &Vehicle,
+    key: &str,
+    property: SchemaNode,
+    [value, plain]: [&Json; 2],
+) -> Option<Change> {
+    if VARIED_OTHERWISE.contains(&key) {
+        return None;
+    }
+    let set = format!("vehicle.{name}.driver.{key}={}", toml_of(plain));
+    let how = if plain.is_object() { String::new() } else { format!(" = {}", toml_of(plain)) };
+    match property.mechanism() {
+        Some((mechanism, off)) if off == value => {
+            Some((format!("{name}'s {mechanism}"), format!("{name}: with {mechanism} ({key}{how})"), set))
+        }
+        _ => Some((format!("{name}'s {key}"), format!("{name}: {key}{how}"), set)),
+    }
 }
 
 /// A JSON value as TOML, on one line.

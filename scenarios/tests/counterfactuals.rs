@@ -177,6 +177,34 @@ fn a_building_has_counterfactuals_too() {
     errors.error("planner", stated("planner = 'idm'\nexpect.order_differs = true"), &["there are no vehicles"]);
 }
 
+/// What a file says of its planner is varied, and what it does not say is not.
+#[test]
+fn settings_that_a_file_names_are_varied() {
+    let factors = |sets: &[&str]| -> Vec<(String, String)> {
+        let sets: Vec<Override> = sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
+        let scenario = load("intersection/nice", &sets).expect("sound");
+        let changes = Registry::standard().standard_changes("intersection/nice", &scenario, &sets).expect("they fit");
+        changes.into_iter().map(|one| (one.factor, one.change)).collect()
+    };
+    let plain = factors(&[]);
+    let is_of = |key: &'static str| move |(factor, _): &&(String, String)| *factor == format!("ego's {key}");
+    for key in ["settled_steps", "patience_steps"] {
+        assert!(plain.iter().find(is_of(key)).is_none(), "{key} is not named: {plain:?}");
+    }
+    let named = factors(&["vehicle.ego.driver.settled_steps=29", "vehicle.ego.driver.patience_steps=40"]);
+    let what = |key| named.iter().find(is_of(key)).map(|(_, change)| change.as_str());
+    assert_eq!(what("settled_steps"), Some("ego: settled_steps = 6"));
+    assert_eq!(what("patience_steps"), Some("ego: patience_steps = 5"));
+    // A mechanism is switched off where it is on, and on where the file switches it off.
+    let persuasion = |all: &[(String, String)]| all.iter().find(is_of("persuasion")).map(|(_, change)| change.clone());
+    assert_eq!(persuasion(&plain).as_deref(), Some("ego: without persuasion (persuasion = false)"));
+    let off = factors(&["vehicle.ego.driver.persuasion=false"]);
+    assert_eq!(persuasion(&off).as_deref(), Some("ego: with persuasion (persuasion = true)"));
+    let planners: Vec<_> = plain.iter().filter(is_of("planner")).collect();
+    assert!(planners.iter().all(|(_, change)| !change.ends_with("idm")), "{planners:?}");
+    assert!(plain.iter().any(|(factor, _)| factor == "ego's replacement by IDM"));
+}
+
 /// Each change of the standard list is a scenario that differs from its origin in this one thing.
 #[test]
 fn standard_changes_fit_every_authored_scenario() {

@@ -16,6 +16,7 @@ fn names(text: &str) -> Result<BTreeSet<String>, toml::de::Error> {
 fn each_key_that_is_present_has_one_name() -> Outcome {
     let text = r#"
         no_collision = true
+        rules_kept = true
         order = ["ego", "front"]
         min_gap_m = 0.1
         completes = [{ vehicle = "ego", before_s = 6.0 }, { vehicle = "front" }]
@@ -36,6 +37,7 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
         "min_gap_m",
         "no_collision",
         "order",
+        "rules_kept",
         "speed.ego.max_above_mps",
         "speed.ego.min_below_mps",
         "yields.ego.to.human",

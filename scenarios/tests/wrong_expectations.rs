@@ -46,6 +46,7 @@ fn comfort_and_limits() {
         errors.error(name, from_text("bad.toml", &changed, &[]), fragments);
     };
     change("no_speed_limit", "speed_limit_exceeded_by_at_most_mps = 0.5", &["bad.toml:22:", "`max_below_mps`"]);
+    change("nobody_keeps_rules", "rules_kept = true", &["bad.toml:22:", "no vehicle keeps", "rules = \"kept\""]);
     change("long_time", "time_to_collision_at_least_s = 101", &["at most 100"]);
     change("negative_gap", "gap_at_least_m = -0.1", &["at least 0"]);
     insta::assert_snapshot!("comfort_and_limits", errors.0);

@@ -208,7 +208,7 @@ fn why_says_what_the_order_depends_on() {
         "\n  ego: without concession (concession = false) ",
         "\n  crossing: style = tough ",
         "FAIL: order, completes.ego",
-        "\nThe order depends on ego's planner, and crossing's style and knowledge of plans.\nIt does not depend on ego's ",
+        "\nThe order depends on ego's planner and replacement by IDM, and crossing's style and knowledge of plans.\nIt does not depend on ego's ",
         "\nWhether the expectations hold depends on the same factors as the order.\n",
         "\nTo see one of these runs: interplay run intersection/nice --set 'vehicle.ego.driver.kind=\"conservative\"'\n",
     ] {
@@ -217,7 +217,7 @@ fn why_says_what_the_order_depends_on() {
     let report = interplay(&folder, &["why", "intersection/nice", "--json", "--jobs", "2"]).json();
     assert_eq!(
         report["order_depends_on"],
-        json!(["ego's planner", "crossing's style", "crossing's knowledge of plans"])
+        json!(["ego's planner", "ego's replacement by IDM", "crossing's style", "crossing's knowledge of plans"])
     );
     let runs = report["runs"].as_array().expect("a list");
     assert_eq!((&runs[0]["change"], &runs[0]["expectations_hold"]), (&Value::Null, &json!(true)));

@@ -24,6 +24,7 @@ mod book;
 mod building;
 mod collisions;
 mod command;
+mod conduct;
 mod counterfactuals;
 mod determinism;
 mod documents;

@@ -44,6 +44,7 @@ fn the_report_has_the_keys_of_the_contract() {
             "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
              peak_acceleration_mps2 peak_braking_mps2 peak_braking_share hard_braking peak_jerk_mps3 \
              peak_lateral_acceleration_mps2 off_road_m leaves_road speeding_mps peak_steering_rate_radps short_gap_share median_time_gap_s \
+             accepted_lead_gap_s accepted_lag_gap_s follower_braking_mps2 follower_brakes post_encroachment_s emergency_braking \
              rules_broken unexplained_standing_s deadlocks peak_times_s plans",
         );
         has_keys(

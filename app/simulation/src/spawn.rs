@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
@@ -55,7 +54,7 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
                 planner: vehicle.planner().with_deadline(scenario.plan_deadline(vehicle)),
                 goes_first: vehicle.driver.goes_first(),
                 knows_plans: vehicle.driver.knows_plans(),
-                keeps_rules: vehicle.rules == Some(RuleKeeping::Kept),
+                keeps_rules: vehicle.keeps_rules(),
                 sensor: vehicle.sensor(scenario.seed),
                 sight: None,
             },

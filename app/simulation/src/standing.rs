@@ -87,6 +87,29 @@ impl<'a> Standing<'a> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
+    /// All who stand and wait for one another together with a vehicle, itself among them, in ascending order; nobody where they do not.
+    pub fn circle(&self, index: usize) -> Vec<usize> {
+        let together = |other: &usize| self.reaches(*other).contains(&index);
+        let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();
+        circle.sort_unstable();
+        circle
+    }
+
+    /// Those who stand and for whom a vehicle waits, or for whom those wait, and so on.
+    fn reaches(&self, index: usize) -> Vec<usize> {
+        let mut found: Vec<usize> = Vec::new();
+        let mut next = vec![index];
+        while let Some(vehicle) = next.pop() {
+            let reason = self.plain_reason(vehicle).filter(|_| self.stands(vehicle));
+            let names = reason.iter().flat_map(StandingReason::waits_for);
+            let waited_for = names.filter_map(|name| self.vehicles.iter().position(|other| other.name == name));
+            let new: Vec<usize> = waited_for.filter(|other| self.stands(*other) && !found.contains(other)).collect();
+            found.extend(&new);
+            next.extend(new);
+        }
+        found
+    }
+
     /// Whether whoever is waited for moves, or waits for somebody who does.
     fn ends(&self, reason: &StandingReason, passed: &mut Vec<usize>) -> bool {
         let names = reason.waits_for();
@@ -101,7 +124,8 @@ impl<'a> Standing<'a> {
             })
     }
 
-    fn plain_reason(&self, index: usize) -> Option<StandingReason> {
+    /// Why a vehicle stands, whatever those do for whom it waits.
+    pub fn plain_reason(&self, index: usize) -> Option<StandingReason> {
         let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
         let front_m = self.along_m(index) + vehicle.body.front_m;
         let rules = &self.frame.vehicles[index].rules;

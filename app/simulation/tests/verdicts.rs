@@ -1,9 +1,10 @@
 //! Expectations hold up to their bound and not beyond it, and say what they were judged by.
 
 use interplay_building::day::ZoneFigures;
-use interplay_scenarios::{Override, load};
+use interplay_scenarios::{Override, Scenario, from_text, load};
 use interplay_simulation::report::{Expectation, Report};
 use interplay_simulation::run::run;
+use serde_json::json;
 
 fn report(name: &str, changes: &[String]) -> Report {
     let changes: Vec<Override> = changes.iter().map(|change| Override::Set(change.clone())).collect();
@@ -85,6 +86,40 @@ fn orders_and_contacts() {
     assert!(verdict(crash, &format!("expect.collisions=[['{b}', '{a}']]"), "collisions"), "whoever is named first");
     assert!(verdict(crash, "expect.no_collision=false", "no_collision"));
     assert!(!verdict(DRIVE, "expect.no_collision=false", "no_collision"));
+}
+
+/// A street with a stop sign, 10 m ahead of which the ego starts; somebody who breaks no rule drives ahead of it.
+fn stop_street(speed_mps: f64, rules: &str) -> Scenario {
+    let text = format!(
+        "title = 'a'\nshows = 'b'\nduration_s = 6.0\nconduct = 'people'\n\
+         [road]\nkind = 'network'\n\
+         [[road.lane]]\nname = 'in'\npoints = [[-60.0, 0.0], [0.0, 0.0]]\nwidth_m = 3.5\nsuccessors = ['out']\n\
+         right_of_way = 'stop'\n\
+         [[road.lane]]\nname = 'out'\npoints = [[0.0, 0.0], [150.0, 0.0]]\nwidth_m = 3.5\n\
+         [[vehicle]]\nname = 'ego'\nclass = 'car'\nstart = {{ lane = 'in', along_m = 50.0, speed_mps = {speed_mps:?} }}\n\
+         goal = {{ lane = 'out', speed_mps = 12.0 }}\ndriver = {{ kind = 'human' }}\nrules = '{rules}'\n\
+         [[vehicle]]\nname = 'ahead'\nclass = 'car'\nstart = {{ lane = 'out', along_m = 90.0, speed_mps = 10.0 }}\n\
+         driver = {{ kind = 'human' }}\n[expect]\nrules_kept = true\n"
+    );
+    from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults()))
+}
+
+#[test]
+fn rules_are_kept_by_those_who_keep_them() {
+    let verdict = |speed_mps: f64, rules: &str| {
+        let scenario = stop_street(speed_mps, rules);
+        let report = run("street", &scenario, Vec::new()).expect("it runs");
+        let broken = report.vehicle("ego").and_then(|ego| ego.metrics.number("rules_broken"));
+        let [judged] = report.expectations.as_slice() else { panic!("{:?}", report.expectations) };
+        assert_eq!(judged.what, "rules_kept");
+        (judged.passed, broken, judged.got.clone())
+    };
+    assert_eq!(verdict(1.0, "kept"), (true, Some(0.0), json!(true)), "it stops");
+    let (passed, broken, got) = verdict(15.0, "kept");
+    assert!(!passed && broken >= Some(1.0), "it cannot stop");
+    assert_eq!(got["rules_broken"]["ego"].as_f64(), broken);
+    let (passed, broken, _) = verdict(15.0, "ignored");
+    assert!(passed && broken >= Some(1.0), "who ignores the rules is not judged by them");
 }
 
 const BUILDING: &str = "building/distributed";

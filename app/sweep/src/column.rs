@@ -5,7 +5,7 @@
 //! together, and the sums over a building's days.
 
 use interplay_scenarios::{Better, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics, Scenario};
-use interplay_simulation::measure::metrics_of;
+use interplay_simulation::measure::{Passage, metrics_of};
 use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
 use serde_json::{Value as Json, json};
 
@@ -50,6 +50,9 @@ use ColumnKind::{Count, Flag, Number, Text};
 /// Columns that are not reproducible.
 pub(crate) const TIMINGS: [&str; 3] = ["wall_s", "plan_median_ms", "plan_p99_ms"];
 
+/// Who is further beyond an edge has left the road, for a real car \[m\].
+const MOST_OFF_ROAD_M: f64 = 0.05;
+
 /// Columns before those of what varies.
 const HEAD: [RowColumn; 8] = [
     ("key", Text, |row| json!(row.key.to_string())),
@@ -86,8 +89,9 @@ pub(crate) struct EgoRun<'a> {
 
 /// What the ego did with its task, before the columns of metrics.
 const TASK: [TrafficColumn; 17] = [
-    // Whether the ego does its task without touching anybody; without a task, whether it touches nobody.
-    ("success", Flag, |run| json!(run.is_done() && !run.has_contact())),
+    // Whether the ego does its task without touching anybody; without a task, whether it touches nobody. Of an ego that keeps the rules
+    // of the road, also whether it stays on the road, breaks no rule and is never stuck.
+    ("success", Flag, |run| json!(run.is_done() && !run.has_contact() && run.is_lawful())),
     ("driver", Text, |run| json!(run.ego.driver)),
     ("has_task", Flag, |run| json!(run.ego.has_task)),
     ("completed_s", Number, |run| json!(run.ego.completed_s)),
@@ -107,12 +111,13 @@ const TASK: [TrafficColumn; 17] = [
     ("order", Text, |run| json!(run.report.order.join(" "))),
     // In the order, or on a network one more than the conflict zones in which another went first.
     ("ego_place", Count, |run| match run.scenario.network {
-        Some(_) => json!(1 + run.yields()),
+        Some(_) => json!(1 + run.goes_second().count()),
         None => json!(run.report.order.iter().position(|name| *name == run.ego.name).map_or(0, |index| index + 1)),
     }),
-    ("ego_yields", Count, |run| json!(run.yields())),
+    ("ego_yields", Count, |run| json!(run.goes_second().filter(|passage| run.is_yielding(passage)).count())),
     ("others_yield", Count, |run| {
-        json!(run.report.right_of_way.iter().filter(|passage| passage.first == run.ego.name).count())
+        let after_ego = run.report.right_of_way.iter().filter(|passage| passage.first == run.ego.name);
+        json!(after_ego.filter(|passage| run.is_yielding(passage)).count())
     }),
 ];
 
@@ -161,9 +166,22 @@ impl EgoRun<'_> {
         self.contact_times_s().next().is_some()
     }
 
-    /// In how many conflict zones another vehicle went before the ego.
-    fn yields(&self) -> usize {
-        self.report.right_of_way.iter().filter(|passage| passage.second == self.ego.name).count()
+    /// The conflict zones in which another vehicle went before the ego.
+    fn goes_second(&self) -> impl Iterator<Item = &Passage> {
+        self.report.right_of_way.iter().filter(|passage| passage.second == self.ego.name)
+    }
+
+    /// Whether the second one in a conflict zone yielded. Of who keeps no rules, going second is enough.
+    fn is_yielding(&self, passage: &Passage) -> bool {
+        passage.yielded || !self.report.vehicle(&passage.second).is_some_and(|vehicle| vehicle.keeps_rules)
+    }
+
+    /// Whether the ego does what the rules of the road ask, if it keeps them: no corner further than 5 cm of a real car beyond an edge,
+    /// no rule broken, no deadlock.
+    fn is_lawful(&self) -> bool {
+        let number = |name: &str| self.ego.metrics.number(name).unwrap_or(0.0);
+        let is_on_road = number("off_road_m") <= MOST_OFF_ROAD_M * self.ego.scale;
+        !self.ego.keeps_rules || (is_on_road && number("rules_broken") == 0.0 && number("deadlocks") == 0.0)
     }
 
     /// The values of all columns about vehicles, by their names.

@@ -33,6 +33,9 @@ pub struct Expect {
     /// The largest speed above the limit of its lane that any vehicle may have \[m/s\].
     #[schemars(range(min = 0.0), example = 0.5, extend("x-concerns" = "vehicles"))]
     pub speed_limit_exceeded_by_at_most_mps: Option<f64>,
+    /// Whether no vehicle that keeps the rules of the road may break one (`true`), or some must (`false`).
+    #[schemars(example = true, extend("x-concerns" = "vehicles"))]
+    pub rules_kept: Option<bool>,
     /// The largest number of failed plans, over all vehicles.
     #[schemars(example = 0, extend("x-concerns" = "vehicles"))]
     pub plan_failures_at_most: Option<usize>,
@@ -279,7 +282,8 @@ pub struct ExpectedMetric {
     pub is: Option<bool>,
 }
 
-/// A vehicle lets another one go first where their ways cross or merge: the other one enters the conflict zone first.
+/// A vehicle lets another one go first where their ways cross or merge: the other one enters the conflict zone first. Where the vehicle
+/// keeps the rules of the road, it must have slowed down for that, or left at least 1 s of a real car between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedYield {

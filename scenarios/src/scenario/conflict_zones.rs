@@ -1,5 +1,7 @@
 //! Where the ways of two vehicles cross or merge.
 
+use interplay_planners::road::network::ConflictKind;
+
 use crate::road::Road;
 use crate::scenario::Vehicle;
 
@@ -10,6 +12,11 @@ pub struct ConflictZone {
     pub first_m: [f64; 2],
     /// From where to where it reaches along the route of the second \[m\].
     pub second_m: [f64; 2],
+    /// Where the front of the first comes into the way of the second, and where its rear has left it \[m\]; where ways merge,
+    /// the place at which they do.
+    pub first_way_m: [f64; 2],
+    /// The same of the second \[m\].
+    pub second_way_m: [f64; 2],
 }
 
 impl Road {
@@ -25,11 +32,23 @@ impl Road {
                 .map(|conflict| ConflictZone {
                     first_m: [conflict.own_meeting_m, conflict.own_m[1]],
                     second_m: [conflict.their_meeting_m, conflict.their_m[1]],
+                    first_way_m: way_m(conflict.kind, conflict.own_m, conflict.own_meeting_m),
+                    second_way_m: way_m(conflict.kind, conflict.their_m, conflict.their_meeting_m),
                 })
                 .collect();
         }
         let zones = self.conflict_zone_m(first.road).zip(self.conflict_zone_m(second.road));
         let zones = zones.filter(|_| first.road != second.road);
-        zones.map(|(first_m, second_m)| ConflictZone { first_m, second_m }).into_iter().collect()
+        let zone =
+            |(first_m, second_m)| ConflictZone { first_m, second_m, first_way_m: first_m, second_way_m: second_m };
+        zones.map(zone).into_iter().collect()
+    }
+}
+
+/// The part of a route on which a vehicle is in the way of another one that comes through a conflict \[m\].
+fn way_m(kind: ConflictKind, overlap_m: [f64; 2], meeting_m: f64) -> [f64; 2] {
+    match kind {
+        ConflictKind::Merging => [meeting_m; 2],
+        ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => overlap_m,
     }
 }

@@ -239,6 +239,11 @@ impl Vehicle {
 }
 
 impl Vehicle {
+    /// Whether it keeps all rules of the road.
+    pub fn keeps_rules(&self) -> bool {
+        self.rules == Some(RuleKeeping::Kept)
+    }
+
     /// Its planner, which has not planned yet.
     pub fn planner(&self) -> Planner {
         self.driver.planner_believing(&self.inference.unwrap_or_default())

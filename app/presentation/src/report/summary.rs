@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
@@ -57,6 +58,13 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     for collision in &report.collisions {
         let [a, b] = &collision.between;
         writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
+    }
+    for vehicle in report.vehicles.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
+        let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();
+        writeln!(text, "  {} {}", vehicle.name, waits.join(", "))?;
+    }
+    for deadlock in &report.deadlocks {
+        writeln!(text, "  DEADLOCK at {:.2} s: {}", deadlock.time_s, deadlock.sentence())?;
     }
     write_vehicles(text, &report.vehicles)
 }

@@ -12,11 +12,13 @@ mod metric_table;
 mod metrics;
 mod milestones;
 mod planning;
+mod rectangle;
 mod registered;
 mod right_of_way;
 mod run_metric;
 mod values;
 mod vehicle_metric;
+mod waits;
 
 use std::sync::Arc;
 
@@ -37,9 +39,11 @@ pub use right_of_way::{Passage, Passages};
 pub use run_metric::LeastOfRun;
 pub use values::{Measured, MetricValue, MetricValues};
 pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
+pub use waits::{Deadlock, Wait, Waits};
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion};
 use crate::frame::Collision;
+use crate::standing::Standing;
 
 /// Everything that is measured in a run.
 #[derive(Resource, Clone, Debug)]
@@ -52,6 +56,8 @@ pub struct Measures {
     pub digest: Digest,
     /// What happens that is worth a line in the log.
     pub milestones: Milestones,
+    /// Who stands, why, and who is stuck.
+    pub waits: Waits,
     /// Metrics of the run.
     pub metrics: Measurements,
     /// Per vehicle, in the scenario's order.
@@ -131,6 +137,7 @@ impl Measures {
             passages: Passages::new(scenario, &along_m),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
+            waits: Waits::new(scenario),
             metrics,
             vehicles: vehicles.collect(),
             stated: scenario.vehicles.clone().into(),
@@ -165,6 +172,8 @@ pub fn measure(
     }
     let begun = measures.milestones.observe(frame);
     frame.events.extend(begun);
+    let stuck = measures.waits.observe(&Standing::of(&measures.stated, frame), frame, clock.step_s);
+    frame.events.extend(stuck);
     for ((along_m, vehicle), state) in measures.along_m.iter_mut().zip(&*measures.stated).zip(&after) {
         *along_m = vehicle.route.locate(state.position(), Some(*along_m)).along_m;
     }
@@ -178,7 +187,8 @@ pub fn measure(
     let tick = ObservedTick { frame, step_s, previous_inputs, end };
     measures.metrics.observe(&tick);
     measures.vehicles.iter_mut().for_each(|measured| measured.metrics.observe(&tick));
-    measures.passages.observe(&measures.along_m, [frame.time_s, clock.time_s()]);
+    let speeds_mps: Vec<f64> = after.iter().map(|state| state.speed_mps).collect();
+    measures.passages.observe(&measures.along_m, &speeds_mps, [frame.time_s, clock.time_s()]);
     measures.collisions.extend_from_slice(&frame.collisions);
     measures.digest.observe(frame, &after);
     for (previous, vehicle) in measures.previous_inputs.iter_mut().zip(&frame.vehicles) {

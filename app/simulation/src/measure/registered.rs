@@ -9,8 +9,18 @@ use super::metric::Metric;
 use super::metrics;
 
 /// Keys of reports and of their vehicles, and endings of rows, that no metric may have.
-const TAKEN: [&str; 9] =
-    ["scenario", "seed", "name", "driver", "final", "beliefs", "peak_times_s", "plan_median_ms", "plan_p99_ms"];
+const TAKEN: [&str; 10] = [
+    "scenario",
+    "seed",
+    "name",
+    "driver",
+    "final",
+    "standing",
+    "beliefs",
+    "peak_times_s",
+    "plan_median_ms",
+    "plan_p99_ms",
+];
 
 /// A metric as a registry knows it; the way back to what computes it is its type.
 #[derive(Debug)]

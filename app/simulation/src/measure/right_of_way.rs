@@ -1,9 +1,16 @@
-//! Who goes first where the ways of two vehicles cross or merge.
+//! Who goes first where the ways of two vehicles cross or merge, and whether the other one yields.
 
-use interplay_scenarios::Scenario;
+use interplay_planners::Body;
+use interplay_scenarios::{ConflictZone, Scenario};
 use serde::Serialize;
 
 use crate::components::to_nanosecond;
+use crate::standing::STANDING_MPS;
+
+/// Who has become slower by this has slowed down, for a real car \[m/s\].
+const SLOWED_MPS: f64 = 1.0;
+/// Who leaves this time between itself and the other yields without slowing down, for a real car \[s\].
+const MARGIN_S: f64 = 1.0;
 
 /// Two vehicles in a conflict zone of their ways, of which at least one has entered it: the front bumper has reached it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -16,15 +23,38 @@ pub struct Passage {
     pub first_s: f64,
     /// When the second entered \[s\]; none if it never did.
     pub second_s: Option<f64>,
+    /// Time from when the rear of the first left the way of the second until the front of the second came into the way of the
+    /// first \[s\]; 0 if it came before, none if it never came.
+    pub post_encroachment_s: Option<f64>,
+    /// Whether the second one yielded: it never entered, slowed down before the first was gone, or left at least 1 s of a real car.
+    pub yielded: bool,
 }
 
 /// A place where the ways of two vehicles overlap, and who has entered it.
 #[derive(Clone, Debug)]
 struct WatchedZone {
-    /// Both vehicles by index, and where the zone begins on the route of each \[m\].
-    entrances: [(usize, f64); 2],
-    /// When each entered \[s\].
-    entered_s: [Option<f64>; 2],
+    approaches: [ZoneApproach; 2],
+}
+
+/// One of the two vehicles of a zone.
+#[derive(Clone, Debug)]
+struct ZoneApproach {
+    /// Its index.
+    vehicle: usize,
+    /// Where the zone begins on its route \[m\].
+    from_m: f64,
+    /// Where its front comes into the other's way, and where its rear leaves it \[m\].
+    way_m: [f64; 2],
+    /// When its front entered the zone \[s\].
+    entered_s: Option<f64>,
+    /// When its front came into the other's way \[s\].
+    came_s: Option<f64>,
+    /// When its rear left the other's way \[s\].
+    left_s: Option<f64>,
+    /// Its highest speed so far \[m/s\].
+    fastest_mps: f64,
+    /// Whether it slowed down before it entered and before the other one was gone.
+    has_slowed: bool,
 }
 
 /// All conflict zones of a scenario.
@@ -34,69 +64,118 @@ struct WatchedZone {
 #[derive(Clone, Debug)]
 pub struct Passages {
     names: Vec<String>,
-    /// Distance from the mass centre to the front bumper of each vehicle \[m\].
-    reaches_m: Vec<f64>,
-    /// Arc length of each front bumper at the last look \[m\].
-    fronts_m: Vec<f64>,
+    bodies: Vec<Body>,
+    /// Arc lengths of the mass centres at the last look \[m\].
+    along_m: Vec<f64>,
     zones: Vec<WatchedZone>,
 }
 
 impl Passages {
     /// The vehicles at their starts, where their mass centres are at these arc lengths of their routes \[m\].
     pub fn new(scenario: &Scenario, along_m: &[f64]) -> Self {
-        let vehicles: Vec<_> = scenario.vehicles.iter().zip(along_m).collect();
-        let entered_s = |index: usize, [from_m, to_m]: [f64; 2]| {
-            let (vehicle, along_m) = vehicles[index];
-            let body = vehicle.body;
-            (along_m + body.front_m >= from_m && along_m - body.rear_m <= to_m).then_some(0.0)
+        let vehicles = &scenario.vehicles;
+        let approach = |vehicle: usize, [from_m, to_m]: [f64; 2], way_m: [f64; 2]| {
+            let (along_m, body) = (along_m[vehicle], &vehicles[vehicle].body);
+            let starts_in = |[from_m, to_m]: [f64; 2]| {
+                (along_m + body.front_m >= from_m && along_m - body.rear_m <= to_m).then_some(0.0)
+            };
+            ZoneApproach {
+                vehicle,
+                from_m,
+                way_m,
+                entered_s: starts_in([from_m, to_m]),
+                came_s: starts_in(way_m),
+                left_s: None,
+                fastest_mps: 0.0,
+                has_slowed: false,
+            }
         };
         let mut zones = Vec::new();
-        for (index, (first, _)) in vehicles.iter().enumerate() {
-            for (other, (second, _)) in vehicles.iter().enumerate().skip(index + 1) {
-                zones.extend(scenario.road.conflict_zones(first, second).into_iter().map(|zone| WatchedZone {
-                    entrances: [(index, zone.first_m[0]), (other, zone.second_m[0])],
-                    entered_s: [entered_s(index, zone.first_m), entered_s(other, zone.second_m)],
-                }));
+        for (index, first) in vehicles.iter().enumerate() {
+            for (other, second) in vehicles.iter().enumerate().skip(index + 1) {
+                let watched = |zone: ConflictZone| WatchedZone {
+                    approaches: [
+                        approach(index, zone.first_m, zone.first_way_m),
+                        approach(other, zone.second_m, zone.second_way_m),
+                    ],
+                };
+                zones.extend(scenario.road.conflict_zones(first, second).into_iter().map(watched));
             }
         }
         Passages {
-            names: scenario.vehicles.iter().map(|vehicle| vehicle.name.clone()).collect(),
-            reaches_m: scenario.vehicles.iter().map(|vehicle| vehicle.body.front_m).collect(),
-            fronts_m: vehicles.iter().map(|(vehicle, along_m)| *along_m + vehicle.body.front_m).collect(),
+            names: vehicles.iter().map(|vehicle| vehicle.name.clone()).collect(),
+            bodies: vehicles.iter().map(|vehicle| vehicle.body).collect(),
+            along_m: along_m.to_vec(),
             zones,
         }
     }
 
-    /// Takes a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these arc lengths \[m\].
-    pub fn observe(&mut self, along_m: &[f64], times_s: [f64; 2]) {
-        let fronts_m: Vec<f64> =
-            along_m.iter().zip(&self.reaches_m).map(|(along_m, reach_m)| along_m + reach_m).collect();
+    /// Takes a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these arc lengths \[m\] and the vehicles
+    /// have these speeds \[m/s\].
+    pub fn observe(&mut self, along_m: &[f64], speeds_mps: &[f64], times_s: [f64; 2]) {
         for zone in &mut self.zones {
-            for ((index, from_m), entered_s) in zone.entrances.iter().zip(&mut zone.entered_s) {
-                let (before_m, after_m) = (self.fronts_m[*index], fronts_m[*index]);
-                if entered_s.is_none() && before_m < *from_m && after_m >= *from_m {
-                    let share = (from_m - before_m) / (after_m - before_m);
-                    *entered_s = Some(to_nanosecond(times_s[0] + share * (times_s[1] - times_s[0])));
-                }
+            let [a, b] = &mut zone.approaches;
+            let are_gone = [b.left_s.is_some(), a.left_s.is_some()];
+            for (approach, other_is_gone) in [a, b].into_iter().zip(are_gone) {
+                let (vehicle, body) = (approach.vehicle, &self.bodies[approach.vehicle]);
+                let moved_m = [self.along_m[vehicle], along_m[vehicle]];
+                approach.slow(speeds_mps[vehicle], body, other_is_gone);
+                approach.move_on(moved_m, body, times_s);
             }
         }
-        self.fronts_m = fronts_m;
+        self.along_m = along_m.to_vec();
     }
 
     /// Who went first in each zone that somebody entered, pairs in the scenario's order.
     pub fn passages(&self) -> Vec<Passage> {
         let passage = |zone: &WatchedZone| {
-            let [a, b] = zone.entrances.map(|(index, _)| self.names[index].clone());
-            let [a_s, b_s] = zone.entered_s;
-            match (a_s, b_s) {
-                (Some(a_s), _) if b_s.is_none_or(|b_s| a_s <= b_s) => {
-                    Some(Passage { first: a, second: b, first_s: a_s, second_s: b_s })
-                }
-                (_, Some(b_s)) => Some(Passage { first: b, second: a, first_s: b_s, second_s: a_s }),
+            let [a, b] = &zone.approaches;
+            match (a.entered_s, b.entered_s) {
+                (Some(a_s), b_s) if b_s.is_none_or(|b_s| a_s <= b_s) => Some(self.passage((a, a_s), b)),
+                (_, Some(b_s)) => Some(self.passage((b, b_s), a)),
                 (_, None) => None,
             }
         };
         self.zones.iter().filter_map(passage).collect()
+    }
+
+    fn passage(&self, (first, first_s): (&ZoneApproach, f64), second: &ZoneApproach) -> Passage {
+        let spare_s = |came_s: f64| first.left_s.map_or(0.0, |left_s| (came_s - left_s).max(0.0));
+        let post_encroachment_s = second.came_s.map(spare_s).map(to_nanosecond);
+        let margin_s = MARGIN_S * self.bodies[second.vehicle].real_ratio().sqrt();
+        let has_margin = post_encroachment_s.is_none_or(|spare_s| spare_s >= margin_s);
+        Passage {
+            first: self.names[first.vehicle].clone(),
+            second: self.names[second.vehicle].clone(),
+            first_s,
+            second_s: second.entered_s,
+            post_encroachment_s,
+            yielded: second.entered_s.is_none_or(|second_s| second_s > first_s && (second.has_slowed || has_margin)),
+        }
+    }
+}
+
+impl ZoneApproach {
+    /// Looks at its speed.
+    fn slow(&mut self, speed_mps: f64, body: &Body, other_is_gone: bool) {
+        let ratio = body.real_ratio().sqrt();
+        self.fastest_mps = self.fastest_mps.max(speed_mps);
+        if self.entered_s.is_none() && !other_is_gone {
+            let is_slower = self.fastest_mps - speed_mps >= SLOWED_MPS * ratio;
+            self.has_slowed |= is_slower || speed_mps < STANDING_MPS * ratio;
+        }
+    }
+
+    /// Notes which places it passes within a tick.
+    fn move_on(&mut self, [before_m, after_m]: [f64; 2], body: &Body, times_s: [f64; 2]) {
+        let passes = |place_m: f64| {
+            let share = (place_m - before_m) / (after_m - before_m);
+            let time_s = times_s[0] + share * (times_s[1] - times_s[0]);
+            (before_m < place_m && after_m >= place_m).then(|| to_nanosecond(time_s))
+        };
+        self.entered_s = self.entered_s.or_else(|| passes(self.from_m - body.front_m));
+        self.came_s = self.came_s.or_else(|| passes(self.way_m[0] - body.front_m));
+        self.left_s = self.left_s.or_else(|| passes(self.way_m[1] + body.rear_m));
     }
 }
 
@@ -111,17 +190,57 @@ mod tests {
 
     /// The ego enters the crossing at x = −0.185 m, the other vehicle at y = 0; both reach 0.21 m ahead. Arc lengths of the
     /// mass centres, one pair a second.
-    fn crossing(along_m: &[[f64; 2]]) -> Vec<Passage> {
+    fn crossing(along_m: &[[f64; 2]]) -> Order {
         let scenario = load("intersection/nice", &[]).expect("authored");
         let mut passages = Passages::new(&scenario, &along_m[0]);
         for (tick, along_m) in along_m.iter().enumerate().skip(1) {
-            passages.observe(along_m, [tick as f64 - 1.0, tick as f64]);
+            passages.observe(along_m, &[1.0; 2], [tick as f64 - 1.0, tick as f64]);
         }
-        passages.passages()
+        order(&passages)
     }
 
-    fn passage(first: &str, second: &str, first_s: f64, second_s: Option<f64>) -> Vec<Passage> {
-        vec![Passage { first: first.to_owned(), second: second.to_owned(), first_s, second_s }]
+    /// Who went first, and when; what else is said of a passage is judged by other tests.
+    type Order = Vec<(String, String, f64, Option<f64>)>;
+
+    fn order(passages: &Passages) -> Order {
+        passages.passages().into_iter().map(|one| (one.first, one.second, one.first_s, one.second_s)).collect()
+    }
+
+    fn passage(first: &str, second: &str, first_s: f64, second_s: Option<f64>) -> Order {
+        vec![(first.to_owned(), second.to_owned(), first_s, second_s)]
+    }
+
+    /// The ego crosses first in one second; the other comes then with these places and speeds, a tick of 0.1 s each.
+    fn second(moves: &[[f64; 2]]) -> Passage {
+        let scenario = load("intersection/nice", &[]).expect("authored");
+        let mut passages = Passages::new(&scenario, &[-1.0, moves[0][0]]);
+        for (tick, [along_m, speed_mps]) in moves.iter().enumerate().skip(1) {
+            let ego_m = -1.0 + 2.0 * 0.1 * tick as f64;
+            let times_s = [0.1 * (tick as f64 - 1.0), 0.1 * tick as f64];
+            passages.observe(&[ego_m, *along_m], &[2.0, *speed_mps], times_s);
+        }
+        passages.passages().pop().expect("the ego enters")
+    }
+
+    /// Order alone is no yielding: it takes slowing down or a margin, of model cars 0.32 s.
+    #[test]
+    fn who_comes_close_behind_at_full_speed_has_not_yielded() {
+        // The zone of the other is from 0 to 0.37 m, its front 0.21 m ahead; the ego's rear leaves at 0.185 + 0.19 m after 0.6875 s.
+        let at = |along_m: f64, speed_mps: f64, tick: usize| [along_m + 0.1 * speed_mps * tick as f64, speed_mps];
+        let drive = |start_m: f64, speed_mps: f64| -> Vec<[f64; 2]> {
+            (0..30).map(|tick| at(start_m, speed_mps, tick)).collect()
+        };
+        let close = second(&drive(-0.96, 1.0));
+        let spare_s = close.post_encroachment_s.expect("it comes");
+        assert!((spare_s - 0.0625).abs() < 1e-9 && !close.yielded, "{close:?}");
+        let late = second(&drive(-1.3, 1.0));
+        assert!(late.post_encroachment_s.is_some_and(|spare_s| spare_s > 0.32) && late.yielded, "{late:?}");
+        let mut slower = drive(-0.96, 1.0);
+        slower[4][1] = 0.5;
+        assert!(second(&slower).yielded, "it slowed down for the ego");
+        let mut afterwards = drive(-0.96, 1.0);
+        afterwards[20][1] = 0.0;
+        assert!(!second(&afterwards).yielded, "it slowed down when it was over");
     }
 
     #[test]
@@ -138,8 +257,8 @@ mod tests {
     fn times_are_those_within_a_tick() {
         let scenario = load("intersection/nice", &[]).expect("authored");
         let mut passages = Passages::new(&scenario, &[-0.495, -0.5]);
-        passages.observe(&[-0.295, -0.5], [3.0, 3.5]);
-        assert_eq!(passages.passages(), passage("ego", "crossing", 3.25, None));
+        passages.observe(&[-0.295, -0.5], &[1.0; 2], [3.0, 3.5]);
+        assert_eq!(order(&passages), passage("ego", "crossing", 3.25, None));
     }
 
     #[test]
@@ -186,7 +305,7 @@ mod tests {
         assert!((60.0..99.0).contains(&zone.first_m[0]) && (80.0..119.0).contains(&zone.second_m[0]), "{zone:?}");
         let before_m = [zone.first_m[0] - 1.21, zone.second_m[0] - 2.21];
         let mut passages = Passages::new(&scenario, &before_m);
-        passages.observe(&before_m.map(|along_m| along_m + 4.0), [0.0, 1.0]);
-        assert_eq!(passages.passages(), passage("ego", "crossing", 0.25, Some(0.5)));
+        passages.observe(&before_m.map(|along_m| along_m + 4.0), &[4.0; 2], [0.0, 1.0]);
+        assert_eq!(order(&passages), passage("ego", "crossing", 0.25, Some(0.5)));
     }
 }

@@ -39,6 +39,7 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         judged.push(Expectation::new("plan_failures_at_most", json!(most), json!(failed), failed <= most));
     }
     judged.extend(of_all.iter().filter_map(|bound| judge_bound(bound, report)));
+    judged.extend(expect.rules_kept.map(|kept| rules_kept(kept, report)));
     for window in &expect.completes {
         judged.push(completes(window, report));
     }
@@ -56,6 +57,20 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
 /// Each pair once, whoever is named first.
 fn unordered<'a>(pairs: impl Iterator<Item = &'a [String; 2]>) -> BTreeSet<[&'a str; 2]> {
     pairs.map(|[a, b]| if a < b { [a.as_str(), b] } else { [b.as_str(), a] }).collect()
+}
+
+/// Judges whether those who keep the rules broke one; each who did is named with how often.
+fn rules_kept(wanted: bool, report: &Report) -> Expectation {
+    let keepers = report.vehicles.iter().filter(|vehicle| vehicle.keeps_rules);
+    let broken: Map<String, Value> = keepers
+        .filter_map(|vehicle| {
+            let count = vehicle.metrics.number("rules_broken").filter(|count| *count > 0.0)?;
+            Some((vehicle.name.clone(), json!(count as u64)))
+        })
+        .collect();
+    let are_kept = broken.is_empty();
+    let got = if are_kept { json!(true) } else { json!({ "rules_broken": broken }) };
+    Expectation::new("rules_kept", json!(wanted), got, wanted == are_kept)
 }
 
 fn completes(window: &Completes, report: &Report) -> Expectation {
@@ -78,15 +93,19 @@ fn wanted_window(window: &Completes) -> Value {
     if stated.is_empty() { json!("any time") } else { Value::Object(stated) }
 }
 
-/// Judges whether one vehicle let another go first wherever their ways meet and one of them came.
+/// Judges whether one vehicle let another go first wherever their ways meet and one of them came. Of who keeps the rules, order alone
+/// is not enough: it must have yielded.
 fn yields(expected: &ExpectedYield, report: &Report) -> Expectation {
     let ExpectedYield { vehicle, to } = expected;
     let is_theirs = |passage: &&Passage| {
         (&passage.first, &passage.second) == (vehicle, to) || (&passage.first, &passage.second) == (to, vehicle)
     };
     let passages: Vec<&Passage> = report.right_of_way.iter().filter(is_theirs).collect();
-    let let_go =
-        |passage: &&Passage| passage.first == *to && passage.second_s.is_none_or(|second_s| second_s > passage.first_s);
+    let is_strict = report.vehicle(vehicle).is_some_and(|vehicle| vehicle.keeps_rules);
+    let let_go = |passage: &&Passage| {
+        let is_after = passage.second_s.is_none_or(|second_s| second_s > passage.first_s);
+        passage.first == *to && is_after && (passage.yielded || !is_strict)
+    };
     let got = match passages.as_slice() {
         [] => json!("neither entered the conflict zone"),
         [only] => json!(only),
@@ -94,7 +113,11 @@ fn yields(expected: &ExpectedYield, report: &Report) -> Expectation {
     };
     Expectation {
         what: format!("yields.{vehicle}.to.{to}"),
-        want: json!({ "first": to, "second": vehicle }),
+        want: if is_strict {
+            json!({ "first": to, "second": vehicle, "yielded": true })
+        } else {
+            json!({ "first": to, "second": vehicle })
+        },
         got,
         passed: !passages.is_empty() && passages.iter().all(let_go),
         at: None,

@@ -32,7 +32,8 @@ impl Report {
     ) -> Self {
         let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
         let vehicles = vehicles
-            .map(|(vehicle, measured)| VehicleReport::new(&vehicle.name, vehicle.driver.kind(), measured))
+            .enumerate()
+            .map(|(index, (vehicle, measured))| VehicleReport::new(vehicle, measured, measures.waits.of(index)))
             .collect();
         let phase_digests = measures.digest.phases();
         let building = building.map(|measures| BuildingReport::new(scenario, measures));
@@ -48,6 +49,7 @@ impl Report {
             collisions: measures.collisions.clone(),
             metrics: measures.metrics.values(),
             right_of_way: measures.passages.passages(),
+            deadlocks: measures.waits.deadlocks().to_vec(),
             order: order(scenario, measures),
             vehicles,
             building,

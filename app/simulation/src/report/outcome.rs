@@ -1,13 +1,14 @@
 //! What a run amounts to, as plain values.
 
 use interplay_planners::State;
+use interplay_scenarios::Vehicle;
 use serde::{Serialize, Serializer};
 
 use super::belief::BeliefReport;
 use super::building::BuildingReport;
 use super::expectation::Expectation;
 use crate::frame::Collision;
-use crate::measure::{MetricValues, Passage, PhaseDigests, VehicleMeasures};
+use crate::measure::{Deadlock, MetricValues, Passage, PhaseDigests, VehicleMeasures, Wait};
 
 /// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
 /// that without vehicles, and `building` without a building.
@@ -38,6 +39,9 @@ pub struct Report {
     pub metrics: MetricValues,
     /// Who went first in each zone where the ways of two vehicles cross or merge, and that one of them entered.
     pub right_of_way: Vec<Passage>,
+    /// Who was stuck, and when that was clear.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub deadlocks: Vec<Deadlock>,
     /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
     pub order: Vec<String>,
     /// Every vehicle, in the scenario's order.
@@ -97,12 +101,21 @@ pub struct VehicleReport {
     /// Whether it started elsewhere than at its goal.
     #[serde(skip)]
     pub has_task: bool,
+    /// Whether it keeps all rules of the road.
+    #[serde(skip)]
+    pub keeps_rules: bool,
+    /// Ratio of its lengths to those of a real car.
+    #[serde(skip)]
+    pub scale: f64,
     /// Its last state.
     #[serde(rename = "final")]
     pub last: State,
     /// Its metrics, and as `peak_times_s` when those that are peaks were reached.
     #[serde(flatten)]
     pub metrics: MetricValues,
+    /// For what it stood although it wanted to drive, and how long.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub standing: Vec<Wait>,
     /// Its planner.
     pub plans: PlansReport,
     /// What it believed of the others when it planned last, where it infers their plans.
@@ -158,14 +171,17 @@ impl VehicleReport {
     }
 
     /// Takes over what was measured.
-    pub(super) fn new(name: &str, driver: &str, measured: &VehicleMeasures) -> Self {
+    pub(super) fn new(vehicle: &Vehicle, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
         VehicleReport {
-            name: name.to_owned(),
-            driver: driver.to_owned(),
+            name: vehicle.name.clone(),
+            driver: vehicle.driver.kind().to_owned(),
+            keeps_rules: vehicle.keeps_rules(),
+            scale: vehicle.body.real_ratio(),
             completed_s: measured.completion.completed_s,
             has_task: measured.completion.has_task(),
             last: measured.last,
             metrics: measured.metrics.values(),
+            standing,
             plans: PlansReport {
                 count: measured.planning.count(),
                 failed: measured.planning.failed,

@@ -92,6 +92,30 @@ fn success_is_a_task_done_without_contact_of_the_ego() -> Outcome {
     Ok(())
 }
 
+/// Who keeps no rules of the road is not judged by them.
+#[test]
+fn success_of_who_keeps_the_rules_needs_more_than_its_task() -> Outcome {
+    let (scenario, mut report) = three_vehicles()?;
+    report.vehicles[0].completed_s = Some(2.0);
+    report.vehicles[0].scale = 1.0;
+    let is_success = |report: &Report| measured(&scenario, report).map(|row| row["success"] == json!(true));
+    let faults = [
+        ("off_road_m", MetricValue::Number(0.04), MetricValue::Number(0.06)),
+        ("rules_broken", MetricValue::Count(0), MetricValue::Count(1)),
+        ("deadlocks", MetricValue::Count(0), MetricValue::Count(1)),
+    ];
+    for (name, good, bad) in faults {
+        set(&mut report.vehicles[1], name, bad);
+        for (value, keeps_rules, wanted) in [(good, true, true), (bad, true, false), (bad, false, true)] {
+            set(&mut report.vehicles[0], name, value);
+            report.vehicles[0].keeps_rules = keeps_rules;
+            assert_eq!(is_success(&report)?, wanted, "{name}: {value:?}, rules kept: {keeps_rules}");
+        }
+        set(&mut report.vehicles[0], name, good);
+    }
+    Ok(())
+}
+
 #[test]
 fn contacts_of_the_ego_and_of_others() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
@@ -167,12 +191,17 @@ fn the_place_on_a_network_counts_those_who_went_first() -> Outcome {
         first: first.to_owned(),
         second: second.to_owned(),
         first_s: 1.0,
-        second_s: None,
+        second_s: Some(2.0),
+        post_encroachment_s: Some(0.0),
+        yielded: first == "a",
     };
     report.right_of_way =
         [["a", "ego"], ["b", "ego"], ["ego", "c"], ["ego", "d"], ["ego", "e"], ["a", "b"]].map(passage).to_vec();
     let row = measured(&scenario, &report)?;
     has(&row, json!({ "ego_place": 3, "ego_yields": 2, "others_yield": 3 }));
+    report.vehicles[scenario.ego_index()].keeps_rules = true;
+    let row = measured(&scenario, &report)?;
+    has(&row, json!({ "ego_place": 3, "ego_yields": 1, "others_yield": 3 }));
     Ok(())
 }
 

@@ -34,6 +34,7 @@ impl Checker<'_> {
             self.yields(index, expected);
         }
         self.speed_limits();
+        self.rules();
     }
 
     /// An order of fewer than two vehicles holds in every run.
@@ -152,6 +153,16 @@ impl Checker<'_> {
             let message = "no lane on the way of any vehicle has a speed limit".to_owned();
             let help = "`max_below_mps` of `[[expect.speed]]` bounds the speed of a vehicle on any road";
             self.refuse(path, "no limit", message, help);
+        }
+    }
+
+    /// Whether any vehicle keeps rules that it may break.
+    fn rules(&mut self) {
+        let scenario = self.scenario;
+        if scenario.expect.rules_kept.is_some() && !scenario.vehicles.iter().any(Vehicle::keeps_rules) {
+            let message = "no vehicle keeps the rules of the road".to_owned();
+            let help = "state `rules = \"kept\"` of a vehicle, or `conduct = \"people\"` of the scenario";
+            self.refuse("expect.rules_kept", "can never fail", message, help);
         }
     }
 

@@ -22,6 +22,9 @@ metrics! {
     mod speeding;
     mod steering_rate;
     mod time_gap;
+    mod lane_gaps;
+    mod post_encroachment;
+    mod emergency_braking;
     mod rules;
     mod standing;
 }

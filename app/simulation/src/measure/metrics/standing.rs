@@ -5,10 +5,8 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
+use crate::measure::waits::STUCK_S;
 use crate::standing::Standing;
-
-/// Who stands longer without a reason is stuck, for a real car \[s\].
-const STUCK_S: f64 = 10.0;
 
 const DOC_LONGEST: &str =
     "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
@@ -20,9 +18,13 @@ pub(super) const METRICS: &[&dyn Metric] = &[
         value: |standing| MetricValue::Number(standing.longest_s),
     },
     &StandingMetric {
-        declaration: MetricDeclaration::of_vehicle("deadlocks", Count, DOC_DEADLOCKS)
-            .compared(MetricComparison::Sum)
-            .with_others(),
+        // Comparisons call "deadlocks" the runs in which the ego never did its task.
+        declaration: MetricDeclaration {
+            comparison_key: Some("stuck"),
+            ..MetricDeclaration::of_vehicle("deadlocks", Count, DOC_DEADLOCKS)
+                .compared(MetricComparison::Sum)
+                .with_others()
+        },
         value: |standing| MetricValue::Count(standing.deadlocks),
     },
 ];

@@ -1,0 +1,172 @@
+//! How much time passes between two vehicles at a place where their paths cross.
+//!
+//! The post-encroachment time of a vehicle with another one is the shortest time from the moment at which the footprint of one leaves
+//! a place until that of the other covers it (Allen, Shin and Cooper, 1978). It is found from the driven footprints, between ticks by
+//! interpolation in steps of at most 0.05 s of a real car. Of vehicles that follow each other in one direction time gaps say it.
+
+use std::collections::VecDeque;
+
+use interplay_planners::{Body, State};
+use interplay_scenarios::MetricKind::Number;
+use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
+
+use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::rectangle::{half_diagonal_m, overlap};
+use crate::measure::values::Measured;
+
+/// Longer times are no encounter, for a real car \[s\].
+const LONGEST_S: f64 = 5.0;
+/// Longest step between two footprints that are compared, for a real car \[s\].
+const STEP_S: f64 = 0.05;
+
+const DOC: &str = "Shortest time between its leaving a place and another vehicle's coming there on a crossing path, or the other way \
+                   round; none above 5 s, of a real car";
+
+pub(super) const METRICS: &[&dyn Metric] = &[&PostEncroachment];
+
+#[derive(Clone, Copy, Debug)]
+struct PostEncroachment;
+
+impl Metric for PostEncroachment {
+    fn declaration(&self) -> MetricDeclaration {
+        MetricDeclaration::of_vehicle("post_encroachment_s", Number, DOC)
+            .compared(MetricComparison::Quantiles)
+            .better(Better::Higher)
+    }
+
+    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        Box::new(Encounters { vehicle, past: VecDeque::new(), least_s: None })
+    }
+}
+
+/// Where everybody was at a time \[s\].
+#[derive(Clone, Debug)]
+struct PastMoment {
+    time_s: f64,
+    states: Vec<State>,
+}
+
+/// The encounters of one vehicle so far.
+#[derive(Clone, Debug)]
+struct Encounters {
+    vehicle: usize,
+    /// The moments that still count, oldest first.
+    past: VecDeque<PastMoment>,
+    least_s: Option<f64>,
+}
+
+impl Measurement for Encounters {
+    fn observe(&mut self, tick: &ObservedTick<'_>) {
+        let bodies: Vec<&Body> = tick.end.vehicles.iter().map(|vehicle| &vehicle.body).collect();
+        if bodies.len() < 2 {
+            return;
+        }
+        let times = bodies[self.vehicle].real_ratio().sqrt();
+        let steps = (tick.step_s / (STEP_S * times)).ceil().max(1.0) as usize;
+        for step in 1..=steps {
+            let share = step as f64 / steps as f64;
+            let time_s = tick.end.time_s - (1.0 - share) * tick.step_s;
+            let before = tick.frame.vehicles.iter().map(|vehicle| &vehicle.state);
+            let states = before.zip(tick.end.states).map(|(from, to)| between(from, to, share)).collect();
+            self.past.retain(|moment| time_s - moment.time_s <= LONGEST_S * times);
+            self.past.push_back(PastMoment { time_s, states });
+            self.compare_last(&bodies);
+        }
+    }
+
+    fn measured(&self) -> Measured {
+        Measured::number(self.least_s)
+    }
+
+    fn fork(&self) -> Box<dyn Measurement> {
+        Box::new(self.clone())
+    }
+}
+
+impl Encounters {
+    /// Compares the last footprints with those before, the latest first.
+    fn compare_last(&mut self, bodies: &[&Body]) {
+        let Some(now) = self.past.back() else { return };
+        for past in self.past.iter().rev() {
+            let apart_s = now.time_s - past.time_s;
+            if self.least_s.is_some_and(|least_s| apart_s >= least_s) {
+                return;
+            }
+            let others = (0..bodies.len()).filter(|other| *other != self.vehicle);
+            let meets = |first: usize, second: usize| {
+                let (first, second) = ((bodies[first], &past.states[first]), (bodies[second], &now.states[second]));
+                is_near(first, second) && !is_along(first.1, second.1) && overlap(first, second)
+            };
+            if { others }.any(|other| meets(self.vehicle, other) || meets(other, self.vehicle)) {
+                self.least_s = Some(apart_s);
+                return;
+            }
+        }
+    }
+}
+
+/// Whether two vehicles drive in one direction.
+fn is_along(one: &State, other: &State) -> bool {
+    libm::cos(one.heading_rad - other.heading_rad) > std::f64::consts::FRAC_1_SQRT_2
+}
+
+/// Whether two bodies are so near that they may overlap.
+fn is_near(one: (&Body, &State), other: (&Body, &State)) -> bool {
+    let reach_m = half_diagonal_m(one.0) + half_diagonal_m(other.0);
+    let [x_m, y_m] = [one.1.x_m - other.1.x_m, one.1.y_m - other.1.y_m];
+    x_m * x_m + y_m * y_m <= reach_m * reach_m
+}
+
+/// The state at a share of the way from one to another.
+fn between(from: &State, to: &State, share: f64) -> State {
+    let [from, to] = [from.to_array(), to.to_array()];
+    State::from_array(std::array::from_fn(|index| from[index] + share * (to[index] - from[index])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Frame, VehicleFrame};
+    use interplay_scenarios::load;
+
+    /// The ego drives along x through the origin, which its centre reaches at `ego_s`, and the other along a heading, at 10 m/s.
+    fn measured(ego_s: f64, other_s: f64, other_rad: f64) -> Option<f64> {
+        let mut scenario = load("full-size/lane-change", &[]).expect("authored");
+        let mut template = scenario.vehicles[0].clone();
+        template.body.scale = Body::REAL_SCALE;
+        scenario.vehicles = vec![template; 2];
+        let at = |time_s: f64, there_s: f64, heading_rad: f64| {
+            let (sin, cos) = libm::sincos(heading_rad);
+            let along_m = 10.0 * (time_s - there_s);
+            State { x_m: along_m * cos, y_m: along_m * sin, heading_rad, speed_mps: 10.0 }
+        };
+        let states = |time_s: f64| [at(time_s, ego_s, 0.0), at(time_s, other_s, other_rad)];
+        let moments: Vec<[State; 2]> = (0..=100).map(|tick| states(f64::from(tick) * 0.1)).collect();
+        let moment =
+            |states, time_s| ObservedMoment { time_s, vehicles: &scenario.vehicles, states, along_m: &[0.0; 2] };
+        let mut measurement = PostEncroachment.begin(&scenario, &moment(&moments[0], 0.0), 0);
+        for (tick, pair) in moments.windows(2).enumerate() {
+            let before_s = 0.1 * tick as f64;
+            let vehicles = pair[0].map(|state| VehicleFrame { state, ..VehicleFrame::default() }).to_vec();
+            let frame = Frame { time_s: before_s, vehicles, ..Frame::default() };
+            let end = moment(&pair[1], before_s + 0.1);
+            measurement.observe(&ObservedTick { frame: &frame, step_s: 0.1, previous_inputs: &[], end });
+        }
+        measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
+    }
+
+    /// The first leaves the square where both paths cross when its rear does; the second comes there with its front.
+    #[test]
+    fn it_is_the_time_between_leaving_and_coming() {
+        let body = load("full-size/lane-change", &[]).expect("authored").vehicles[0].body;
+        let across = std::f64::consts::FRAC_PI_2;
+        for (ego_s, other_s) in [(3.0, 5.0), (5.0, 3.0)] {
+            let want = 2.0 - (body.front_m + body.rear_m + body.width_m) / 10.0;
+            let got = measured(ego_s, other_s, across).expect("they cross");
+            assert!(got >= want - 1e-9 && got <= want + 0.1 + 1e-9, "{got}, {want}");
+        }
+        assert_eq!(measured(3.0, 3.0, across), Some(0.0), "they touch");
+        assert_eq!(measured(1.0, 8.0, across), None, "long after");
+        assert_eq!(measured(3.0, 5.0, 0.1), None, "one follows the other");
+    }
+}

@@ -1,0 +1,50 @@
+//! Whether footprints overlap, for metrics: plain geometry that shares nothing with planners or the physics engine.
+
+use interplay_planners::{Body, State};
+
+/// Whether the footprints of two vehicles overlap or touch.
+///
+/// By the separating axis theorem: two rectangles are apart exactly if they are apart along the direction of an edge of one of them.
+pub(super) fn overlap(one: (&Body, &State), other: (&Body, &State)) -> bool {
+    let corners = [one.0.corners(one.1), other.0.corners(other.1)];
+    let axes = [one.1.heading_rad, other.1.heading_rad].into_iter().flat_map(|heading_rad| {
+        let (sin, cos) = libm::sincos(heading_rad);
+        [[cos, sin], [-sin, cos]]
+    });
+    { axes }.all(|axis| {
+        let [[low, high], [other_low, other_high]] = corners.map(|corners| extent(&corners, axis));
+        low <= other_high && other_low <= high
+    })
+}
+
+/// From where to where some points reach along an axis.
+fn extent(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> [f64; 2] {
+    let places = corners.map(|corner| corner[0] * x + corner[1] * y);
+    places.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place), high.max(place)])
+}
+
+/// No point of a body is further than this from its mass centre \[m\].
+pub(super) fn half_diagonal_m(body: &Body) -> f64 {
+    libm::hypot(body.front_m.max(body.rear_m), 0.5 * body.width_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rectangles_overlap_by_their_corners_and_edges() {
+        let body = Body { front_m: 2.0, rear_m: 2.0, width_m: 2.0, ..Body::default() };
+        let at = |x_m: f64, y_m: f64, heading_rad: f64| State { x_m, y_m, heading_rad, speed_mps: 0.0 };
+        let origin = at(0.0, 0.0, 0.0);
+        let meets = |state: State| overlap((&body, &origin), (&body, &state));
+        assert!(meets(at(3.9, 1.9, 0.0)));
+        assert!(!meets(at(4.1, 0.0, 0.0)));
+        assert!(!meets(at(0.0, 2.1, 0.0)));
+        let quarter = std::f64::consts::FRAC_PI_4;
+        // The corner of one that stands askew reaches (2 + 1)/√2 towards the other.
+        assert!(meets(at(4.0, 0.0, quarter)) && !meets(at(4.2, 0.0, quarter)));
+        // Their circles and boxes along the axes overlap, they do not.
+        assert!(!meets(at(3.3, 2.7, quarter)));
+    }
+}

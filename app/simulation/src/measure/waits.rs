@@ -1,0 +1,274 @@
+//! For whom and how long vehicles stand that want to drive, and who is stuck ([`Standing`]).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use interplay_scenarios::Scenario;
+use serde::Serialize;
+
+use crate::components::to_nanosecond;
+use crate::frame::{Event, Frame, Level};
+use crate::standing::{Standing, StandingReason};
+
+/// Shorter stops are not told, for a real car \[s\].
+const LEAST_S: f64 = 0.5;
+/// Who waits for one another for so long is stuck, for a real car \[s\]: who is let go needs a moment to set off.
+const CIRCLE_S: f64 = 3.0;
+/// Who stands for so long without a reason that shows is stuck, for a real car \[s\].
+pub(super) const STUCK_S: f64 = 10.0;
+
+/// Who stands so long after a reason has ended is setting off, for a real car \[s\].
+const SETTING_OFF_S: f64 = 2.0;
+/// Reasons of who is slower than this are remembered, for a real car \[m/s\].
+const SLOW_MPS: f64 = 2.0;
+
+/// For how long a vehicle stood for one reason, in all.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Wait {
+    /// How long \[s\].
+    pub waited_s: f64,
+    /// For whom; empty where it waited for nobody.
+    pub waits_for: Vec<String>,
+    /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `ahead of it`, `before it passes van`, `no room beside van`,
+    /// `they wait for each other`, or `no reason that shows`.
+    pub reason: String,
+}
+
+/// Vehicles that are stuck.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Deadlock {
+    /// When that was clear \[s\].
+    pub time_s: f64,
+    /// Who is stuck: all who wait for each other, or who stands without a reason that shows.
+    pub vehicles: Vec<String>,
+    /// What is wrong, in a few words, as of [`Wait::reason`].
+    pub reason: String,
+}
+
+/// What is measured of those who stand.
+#[derive(Clone, Debug)]
+pub struct Waits {
+    /// The root of the ratio of lengths to those of a real car, of each vehicle: that of times.
+    times: Vec<f64>,
+    /// Of each vehicle: how long it stood, by reason.
+    waited: Vec<Vec<Wait>>,
+    /// Of each vehicle: the last reason to stop that showed, and when \[s\].
+    last: Vec<Option<(StandingReason, f64)>>,
+    /// For how long these have waited for each other \[s\].
+    circles_s: BTreeMap<Vec<usize>, f64>,
+    /// For how long each has stood without a reason that shows \[s\].
+    unexplained_s: Vec<f64>,
+    deadlocks: Vec<Deadlock>,
+}
+
+impl Wait {
+    /// In words: `waited 6.4 s for ring (priority)`.
+    pub fn sentence(&self) -> String {
+        let Wait { waited_s, waits_for, reason } = self;
+        match waits_for.as_slice() {
+            [] => format!("stood {waited_s:.1} s ({reason})"),
+            names => format!("waited {waited_s:.1} s for {} ({reason})", names.join(", ")),
+        }
+    }
+}
+
+impl Deadlock {
+    /// In words: `ego and ring wait for each other`.
+    pub fn sentence(&self) -> String {
+        match self.vehicles.as_slice() {
+            [only] => format!("{only} stands and shows no reason"),
+            names => format!("{} wait for each other", names.join(" and ")),
+        }
+    }
+}
+
+const IN_A_CIRCLE: &str = "they wait for each other";
+const UNEXPLAINED: &str = "no reason that shows";
+
+/// For whom and why somebody waits.
+fn words(reason: &StandingReason) -> (Vec<String>, String) {
+    match reason {
+        StandingReason::Sign => (Vec::new(), "sign".to_owned()),
+        StandingReason::GivesWay(names) => (names.clone(), "priority".to_owned()),
+        StandingReason::Behind(name) => (vec![name.clone()], "ahead of it".to_owned()),
+        StandingReason::Passing { waits_for, obstacle } => {
+            (vec![waits_for.clone()], format!("before it passes {obstacle}"))
+        }
+        StandingReason::NoRoom(name) => (Vec::new(), format!("no room beside {name}")),
+    }
+}
+
+impl Waits {
+    /// Nobody has stood yet.
+    pub fn new(scenario: &Scenario) -> Self {
+        let times: Vec<f64> = scenario.vehicles.iter().map(|vehicle| vehicle.body.real_ratio().sqrt()).collect();
+        Waits {
+            waited: vec![Vec::new(); times.len()],
+            last: vec![None; times.len()],
+            circles_s: BTreeMap::new(),
+            unexplained_s: vec![0.0; times.len()],
+            deadlocks: Vec::new(),
+            times,
+        }
+    }
+
+    /// Takes a tick; returns what begins in it.
+    pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
+        let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
+        let known = self.deadlocks.len();
+        for index in 0..self.times.len() {
+            let mut is_unexplained = false;
+            let is_slow = frame.vehicles[index].state.speed_mps < SLOW_MPS * self.times[index];
+            let shown = if is_slow { standing.plain_reason(index) } else { None };
+            let shows_none = shown.is_none();
+            self.last[index] = shown.map(|reason| (reason, frame.time_s)).or_else(|| self.last[index].take());
+            if standing.stands(index) {
+                let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
+                is_unexplained = shows_none;
+                let (waits_for, reason) = self.wait(frame, index, &circle);
+                self.add(index, waits_for, reason, step_s);
+                circles.extend(Some(circle).filter(|circle| !circle.is_empty()));
+            }
+            let before_s = self.unexplained_s[index];
+            self.unexplained_s[index] = if is_unexplained { before_s + step_s } else { 0.0 };
+            if passes(before_s, self.unexplained_s[index], STUCK_S * self.times[index]) {
+                self.deadlocks.push(deadlock((frame, step_s), &[index], UNEXPLAINED));
+            }
+        }
+        self.close(circles, frame, step_s);
+        self.deadlocks[known..].iter().map(event).collect()
+    }
+
+    /// Notes for how long those who wait for each other have done so.
+    fn close(&mut self, circles: BTreeSet<Vec<usize>>, frame: &Frame, step_s: f64) {
+        self.circles_s.retain(|circle, _| circles.contains(circle));
+        for circle in circles {
+            let waited_s = self.circles_s.get(&circle).copied().unwrap_or(0.0);
+            if passes(waited_s, waited_s + step_s, CIRCLE_S * self.times[circle[0]]) {
+                self.deadlocks.push(deadlock((frame, step_s), &circle, IN_A_CIRCLE));
+            }
+            self.circles_s.insert(circle, waited_s + step_s);
+        }
+    }
+
+    /// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
+    fn wait(&self, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
+        let setting_off_s = SETTING_OFF_S * self.times[index];
+        match &self.last[index] {
+            Some((reason, at_s)) if circle.is_empty() && frame.time_s - at_s <= setting_off_s => words(reason),
+            Some(_) if !circle.is_empty() => {
+                let others = circle.iter().filter(|other| **other != index);
+                (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
+            }
+            _ => (Vec::new(), UNEXPLAINED.to_owned()),
+        }
+    }
+
+    fn add(&mut self, index: usize, waits_for: Vec<String>, reason: String, step_s: f64) {
+        let waited = &mut self.waited[index];
+        match waited.iter_mut().find(|wait| wait.waits_for == waits_for && wait.reason == reason) {
+            Some(wait) => wait.waited_s = to_nanosecond(wait.waited_s + step_s),
+            None => waited.push(Wait { waited_s: step_s, waits_for, reason }),
+        }
+    }
+
+    /// For what a vehicle stood, in the order in which it began to; short stops are left out.
+    pub fn of(&self, vehicle: usize) -> Vec<Wait> {
+        let least_s = LEAST_S * self.times[vehicle];
+        self.waited[vehicle].iter().filter(|wait| wait.waited_s >= least_s).cloned().collect()
+    }
+
+    /// Who was stuck, in order of time.
+    pub fn deadlocks(&self) -> &[Deadlock] {
+        &self.deadlocks
+    }
+}
+
+/// Whether a time passes a bound.
+fn passes(before_s: f64, after_s: f64, bound_s: f64) -> bool {
+    before_s <= bound_s && after_s > bound_s
+}
+
+fn name(frame: &Frame, vehicle: usize) -> String {
+    frame.vehicles[vehicle].name.clone()
+}
+
+fn deadlock((frame, step_s): (&Frame, f64), vehicles: &[usize], reason: &str) -> Deadlock {
+    let vehicles = vehicles.iter().map(|vehicle| name(frame, *vehicle)).collect();
+    Deadlock { time_s: to_nanosecond(frame.time_s + step_s), vehicles, reason: reason.to_owned() }
+}
+
+fn event(deadlock: &Deadlock) -> Event {
+    let sentence = deadlock.sentence();
+    let vehicle = deadlock.vehicles.first().cloned().unwrap_or_default();
+    let text = sentence.strip_prefix(&vehicle).unwrap_or(&sentence).trim_start().to_owned();
+    Event { vehicle, level: Level::Warning, text: format!("{text}: a deadlock") }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::rules::RoadRules;
+    use interplay_scenarios::{Scenario, load};
+
+    use super::*;
+    use crate::frame::VehicleFrame;
+
+    /// Both vehicles stand at their starts for some ticks of 0.1 s, each before a line at its front for the sake of others.
+    fn stood(ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {
+        let mut scenario: Scenario = load("t-junction/bayesian-nice", &[]).expect("authored");
+        scenario.vehicles.truncate(2);
+        let mut waits = Waits::new(&scenario);
+        let mut events = Vec::new();
+        for tick in 0..ticks {
+            let vehicles = scenario.vehicles.iter().zip(waits_for).map(|(vehicle, names)| {
+                let mut state = vehicle.start;
+                state.speed_mps = 0.0;
+                let line_m = vehicle.route.along(state.position()) + vehicle.body.front_m + 0.5;
+                let waits_for = names.iter().map(|name| (*name).to_owned()).collect();
+                let holds = !names.is_empty();
+                let rules = RoadRules {
+                    are_kept: true,
+                    stop_line_m: holds.then_some(line_m),
+                    waits_for,
+                    ..RoadRules::default()
+                };
+                VehicleFrame { name: vehicle.name.clone(), state, rules, ..VehicleFrame::default() }
+            });
+            let frame = Frame { time_s: 0.1 * tick as f64, vehicles: vehicles.collect(), ..Frame::default() };
+            events.extend(waits.observe(&Standing::of(&scenario.vehicles, &frame), &frame, 0.1));
+        }
+        (waits, events)
+    }
+
+    #[test]
+    fn who_waits_for_each_other_is_stuck() {
+        let (waits, events) = stood(20, [&["main"], &["ego"]]);
+        assert!(events.is_empty() && waits.deadlocks().is_empty(), "after two seconds they may still be let go");
+        let (waits, events) = stood(60, [&["main"], &["ego"]]);
+        let [deadlock] = waits.deadlocks() else { panic!("{:?}", waits.deadlocks()) };
+        assert!((2.95..3.15).contains(&deadlock.time_s), "{deadlock:?}");
+        assert_eq!(deadlock.sentence(), "ego and main wait for each other");
+        let [event] = events.as_slice() else { panic!("{events:?}") };
+        assert_eq!((event.vehicle.as_str(), event.text.as_str()), ("ego", "and main wait for each other: a deadlock"));
+        assert_eq!(waits.of(0)[0].sentence(), "waited 6.0 s for main (they wait for each other)");
+    }
+
+    #[test]
+    fn who_stands_without_a_reason_is_stuck_after_ten_seconds() {
+        let (waits, events) = stood(101, [&["main"], &[]]);
+        let [deadlock] = waits.deadlocks() else { panic!("{:?}", waits.deadlocks()) };
+        assert_eq!(deadlock.sentence(), "main stands and shows no reason");
+        assert_eq!(events.len(), 1);
+        assert!(stood(95, [&["main"], &[]]).1.is_empty(), "not yet");
+        assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason that shows)");
+    }
+
+    /// Nothing is wrong with who waits for somebody who drives.
+    #[test]
+    fn who_gives_way_says_to_whom() {
+        let reason = StandingReason::GivesWay(vec!["ring".to_owned()]);
+        let (waits_for, reason) = words(&reason);
+        let wait = Wait { waited_s: 6.41, waits_for, reason };
+        assert_eq!(wait.sentence(), "waited 6.4 s for ring (priority)");
+        assert!(stood(3, [&["main"], &[]]).0.of(0).is_empty(), "a short stop");
+    }
+}

@@ -1,0 +1,112 @@
+//! What a run says of conduct: who waits and why, who is stuck, and whether the rules were kept.
+
+use std::fs;
+
+use interplay_scenarios::from_text;
+use serde_json::{Value, json};
+
+use crate::command::{interplay, scratch};
+use crate::film::{Film, film};
+
+/// A street with a stop sign, and a car whose driver does nothing at all although it wants to drive.
+const STREET: &str = "title = 'A street'
+shows = 'A stop sign'
+duration_s = 14.0
+conduct = 'people'
+
+[road]
+kind = 'network'
+
+[[road.lane]]
+name = 'in'
+points = [[-150.0, 0.0], [0.0, 0.0]]
+width_m = 3.5
+successors = ['out']
+right_of_way = 'stop'
+
+[[road.lane]]
+name = 'out'
+points = [[0.0, 0.0], [300.0, 0.0]]
+width_m = 3.5
+
+[[vehicle]]
+name = 'ego'
+class = 'car'
+start = { lane = 'in', along_m = EGO_M, speed_mps = 10.0 }
+goal = { lane = 'out', speed_mps = 10.0 }
+driver = { kind = 'human' }
+
+[[vehicle]]
+name = 'idle'
+class = 'car'
+start = { lane = 'out', along_m = 200.0, speed_mps = 0.0 }
+goal = { speed_mps = 8.0 }
+driver = { kind = 'scripted' }
+
+[expect]
+rules_kept = true
+";
+
+fn street(ego_m: &str) -> Film {
+    let text = STREET.replace("EGO_M", ego_m);
+    film("street", from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults())))
+}
+
+/// Who stops at a sign says so and is not stuck; who does nothing for more than ten seconds is, once.
+#[test]
+fn the_report_says_who_stands_why_and_who_is_stuck() {
+    let film = street("70.0");
+    let standing = |name: &str| &film.report.vehicle(name).expect("a vehicle").standing;
+    assert!(
+        standing("ego").iter().any(|wait| wait.reason == "sign" && wait.waits_for.is_empty()),
+        "{:?}",
+        standing("ego")
+    );
+    let [idle] = standing("idle").as_slice() else { panic!("{:?}", standing("idle")) };
+    assert_eq!(idle.reason, "no reason that shows");
+    assert!((idle.waited_s - 14.0).abs() < 1e-6, "{idle:?}");
+    let [deadlock] = film.report.deadlocks.as_slice() else { panic!("{:?}", film.report.deadlocks) };
+    assert_eq!(deadlock.vehicles, ["idle"]);
+    assert!((10.0..10.3).contains(&deadlock.time_s), "{deadlock:?}");
+    let events = film.frames.iter().flat_map(|frame| &frame.events);
+    let stuck: Vec<_> = events.filter(|event| event.text.ends_with("a deadlock")).collect();
+    assert_eq!(stuck.len(), 1, "{stuck:?}");
+    assert_eq!(stuck[0].vehicle, "idle");
+}
+
+#[test]
+fn the_command_says_it_in_words_and_as_values() {
+    let folder = scratch("conduct");
+    fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "70.0")).expect("a scratch file can be written");
+    let said = interplay(&folder, &["run", "street.toml", "--no-record"]);
+    assert_eq!(said.code, Some(0), "{}", said.stdout);
+    for piece in
+        ["ego stood ", " s (sign)", "idle stood 14.0 s (no reason that shows)", "DEADLOCK at 10.", "ok   rules_kept"]
+    {
+        assert!(said.stdout.contains(piece), "{piece:?} is not in\n{}", said.stdout);
+    }
+    let report = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]).json();
+    assert_eq!(report["deadlocks"][0]["vehicles"], json!(["idle"]));
+    assert_eq!(report["vehicles"][1]["standing"][0]["reason"], "no reason that shows");
+    // 8 m before the line nobody stops from 10 m/s.
+    fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "140.0")).expect("a scratch file can be written");
+    let broken = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]);
+    assert_eq!(broken.code, Some(1), "{}", broken.stdout);
+    let expectations = broken.json()["expectations"].clone();
+    let wanted: Value = json!([{
+        "what": "rules_kept", "want": true, "got": { "rules_broken": { "ego": 1 } }, "passed": false
+    }]);
+    assert_eq!(expectations, wanted);
+}
+
+/// A driver who waits for an oncoming car before it passes a van says for whom.
+#[test]
+fn who_waits_for_somebody_names_it() {
+    let text = include_str!("../cases/streets/d-parked.toml").replace("negotiation", "human");
+    let film = film("parked", from_text("parked.toml", &format!("conduct = 'people'\n{text}"), &[]).expect("sound"));
+    let standing = &film.report.vehicle("ego").expect("an ego").standing;
+    let for_oncoming = standing.iter().find(|wait| wait.waits_for == ["oncoming"]);
+    let wait = for_oncoming.unwrap_or_else(|| panic!("{standing:?}"));
+    assert_eq!(wait.reason, "before it passes parked");
+    assert!(film.report.deadlocks.is_empty(), "{:?}", film.report.deadlocks);
+}
