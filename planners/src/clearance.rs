@@ -111,18 +111,19 @@ impl Scene {
         self.ego.limits.comfort.is_some() && is_head_on(self.ego.relation(other))
     }
 
-    /// Whether somebody comes the other way and is not expected in the lane in which the planning vehicle stays: its lines alone keep
-    /// the two apart.
+    /// Whether somebody who comes the other way, or who waits for the planning vehicle, is not expected in the lane in which that one
+    /// stays: its lines alone keep the two apart.
     pub(crate) fn is_parted_by_lane_line(&self, other: &Agent) -> bool {
         let ego = &self.ego;
-        if !ego.rules.stays_in_lane || !self.meets_in_its_lane(other) {
+        if !ego.rules.stays_in_lane || !(self.meets_in_its_lane(other) || ego.is_waited_for_by(other)) {
             return false;
         }
-        let tolerance_m = BEYOND_LINE_M * ego.body.scale;
+        let (tolerance_m, body) = (BEYOND_LINE_M * ego.body.scale, &other.body);
         let positions: Vec<[f64; 2]> = other.prediction.states.iter().map(|state| state.position()).collect();
-        ego.route.locate_all(&positions).all(|at| {
-            let lane_m = ego.route.half_width.value(at.along_m);
-            at.across_m.abs() + tolerance_m > lane_m + 0.5 * other.body.width_m
+        ego.route.locate_all(&positions).zip(&other.prediction.states).all(|(at, state)| {
+            let (sin, cos) = libm::sincos(state.heading_rad - at.heading_rad);
+            let reach_m = 0.5 * body.width_m * cos.abs() + body.front_m.max(body.rear_m) * sin.abs();
+            at.across_m.abs() + tolerance_m > ego.route.half_width.value(at.along_m) + reach_m
         })
     }
 
@@ -133,9 +134,11 @@ impl Scene {
     }
 
     /// Whether the safety ellipse around another vehicle concerns the planning vehicle; to somebody who knows comfort it does not once
-    /// their ways do not meet any more.
+    /// their ways do not meet any more, nor where a line parts it from somebody who waits.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
-        self.ego.limits.comfort.is_none() || self.ego.may_meet(other)
+        let ego = &self.ego;
+        let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
+        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside()
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the

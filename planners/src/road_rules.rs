@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::obstacle::Obstacle;
-
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -13,6 +11,21 @@ pub enum RuleKeeping {
     Kept,
     /// It keeps none of them, for studies of who yields; humans and drivers after the intelligent driver model still keep right of way.
     Ignored,
+}
+
+/// Something that stands in the way and is no queue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// The vehicle.
+    pub name: String,
+    /// Where it begins and ends, along the driver's route \[m\].
+    pub along_m: [f64; 2],
+    /// Where its middle is across the driver's route \[m\].
+    pub across_m: f64,
+    /// The lateral position at which it is passed \[m\].
+    pub pass_at_m: f64,
+    /// Half the lengths and half the widths of both, together \[m\].
+    pub reach_m: [f64; 2],
 }
 
 /// What the rules of the road ask of a vehicle now.

@@ -52,11 +52,12 @@ pub fn authored(name: &str, changes: &[&str]) -> Scenario {
     load(name, &changes).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
 }
 
-/// Every authored scenario of vehicles alone, and the first one with other drivers and starts; made once, in parallel.
+/// Every authored scenario of vehicles alone that plan at every tick (where people drive, inputs change evenly between two plans, and
+/// `conduct.rs` and `streets.rs` look at what they do), and the first one with other drivers and starts; made once, in parallel.
 pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
     let mut takes: Vec<(&str, Scenario)> =
         embedded().iter().map(|file| (file.name, authored(file.name, &[]))).collect();
-    takes.retain(|(_, scenario)| scenario.building.is_none());
+    takes.retain(|(_, scenario)| scenario.building.is_none() && scenario.ticks_per_plan == 1);
     let jitter = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1", "duration_s=6", "seed=7"];
     for kind in ["conservative", "human", "negotiation"] {
         let driver = format!("vehicle.ego.driver.kind=\"{kind}\"");

@@ -17,11 +17,12 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
-use crate::obstacle::{Obstacle, ObstacleMemory};
+use crate::obstacle::ObstacleMemory;
 use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
 use crate::road::network::ConflictKind;
-use crate::{Plan, PlanError, PlanEvent, Scene};
+use crate::road_rules::Obstacle;
+use crate::{Agent, Plan, PlanError, PlanEvent, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
 use motion::Motion;
@@ -153,7 +154,7 @@ mod tests {
     use crate::Corridor;
     use crate::fixture::{agent, scene};
 
-    fn in_lanes(mut ego: crate::Agent, others: Vec<crate::Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
+    fn in_lanes(mut ego: Agent, others: Vec<Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
         ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None }.into();
         let mut scene = scene(ego, others);
         (scene.goal.target.y_m, scene.goal.target.speed_mps) = (lane_m, wanted_mps);

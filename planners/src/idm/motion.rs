@@ -3,7 +3,8 @@
 use super::Settings;
 use super::car_following::Leader;
 use super::lanes::{Lanes, leader};
-use crate::obstacle::{Obstacle, swing_m};
+use crate::obstacle::swing_m;
+use crate::road_rules::Obstacle;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::{Input, Scene, State, Trajectory};
 

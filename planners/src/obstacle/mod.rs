@@ -9,13 +9,13 @@
 mod room;
 mod standing;
 
-pub use standing::Obstacle;
 pub(crate) use standing::swing_m;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::relation::is_standing;
+use crate::road_rules::Obstacle;
 use crate::{Agent, Scene};
 
 /// A vehicle in the way reaches within this distance of the path, for 1/10 scale cars \[m\].

@@ -1,7 +1,8 @@
 //! Whether there is room to pass an obstacle: nobody else comes to the part of the road that is borrowed before the driver is back.
 
-use super::standing::{Obstacle, WAITING_LENGTHS, swing_m};
+use super::standing::{WAITING_LENGTHS, swing_m};
 use crate::relation::is_standing;
+use crate::road_rules::Obstacle;
 use crate::{Agent, Scene};
 
 /// Time to spare before somebody else is there, for 1/10 scale cars \[s\]: 2.5 s of a real one.

@@ -2,6 +2,7 @@
 
 use crate::certificate::touches_ahead;
 use crate::clearance::{containing, ellipses};
+use crate::road_rules::Obstacle;
 use crate::steering::{admissible, roll_out, steer};
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
@@ -19,21 +20,6 @@ const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
 const SWING_LENGTHS: f64 = 1.5;
 /// and over what it drives in this time of 1/10 scale cars \[s\].
 const SWING_S: f64 = 0.6;
-
-/// Something that stands in the way and is no queue.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
-    /// The vehicle.
-    pub name: String,
-    /// Where it begins and ends, along the driver's route \[m\].
-    pub along_m: [f64; 2],
-    /// Where its middle is across the driver's route \[m\].
-    pub across_m: f64,
-    /// The lateral position at which it is passed \[m\].
-    pub pass_at_m: f64,
-    /// Half the lengths and half the widths of both, together \[m\].
-    pub reach_m: [f64; 2],
-}
 
 impl Obstacle {
     /// The obstacle with the side on which there is room for a body on the road, the left one first; none if there is on neither.

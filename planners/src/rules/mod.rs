@@ -27,10 +27,9 @@ use std::collections::BTreeMap;
 
 use crate::Scene;
 use crate::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
-pub use crate::obstacle::Obstacle;
 use crate::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::relation::is_standing;
-pub use crate::road_rules::{RoadRules, RuleKeeping};
+pub use crate::road_rules::{Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: who has arrived where, and when.
