@@ -305,9 +305,7 @@ fn refuse_cycle(parent: &Source, chain: &[Source], place: &Place) -> Result<(), 
 /// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
 pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     let TomlValue::Table(root) = &mut tree.value else { return };
-    for key in ["weather", "tariff"] {
-        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
-        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
+    for file in named_files(root) {
         let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
         let TomlValue::Text(name) = &mut file.value else { continue };
         let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
@@ -319,4 +317,29 @@ pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
             *name = path.to_string_lossy().into_owned();
         }
     }
+}
+
+/// Where a scenario names files: its weather, its prices, and the records of its vehicles.
+fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
+    let mut found = Vec::new();
+    let file = |node| match node {
+        &mut TomlNode { value: TomlValue::Table(ref mut table), .. } => {
+            table.get_mut("file").map(|entry| &mut entry.node)
+        }
+        _ => None,
+    };
+    for (key, entry) in root {
+        match (key.as_str(), &mut entry.node) {
+            ("weather" | "tariff", node) => found.extend(file(node)),
+            ("vehicle", TomlNode { value: TomlValue::Array(vehicles), .. }) => {
+                let drivers = vehicles.iter_mut().filter_map(|vehicle| match &mut vehicle.value {
+                    TomlValue::Table(vehicle) => vehicle.get_mut("driver").map(|entry| &mut entry.node),
+                    _ => None,
+                });
+                found.extend(drivers.filter_map(file));
+            }
+            _ => {}
+        }
+    }
+    found
 }

@@ -1,6 +1,8 @@
 //! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
 
+mod local_origin;
 pub(crate) mod placement;
+pub(crate) mod records;
 pub(crate) mod tariff_file;
 pub(crate) mod weather_file;
 
@@ -42,13 +44,18 @@ pub(crate) fn resolve(
 /// The same, unchecked; and what is wrong with the files that it names, in whose place it has defaults.
 fn read(
     registry: &Registry,
-    file: ScenarioFile,
+    mut file: ScenarioFile,
     tree: &TomlNode,
     known_roads: &KnownRoads,
 ) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
     let reader = Reader { registry, tree };
     let written = serde_json::to_string(&file.road).unwrap_or_default();
-    let road = reader.or_default("road", file.road)?;
+    let mut road = reader.or_default("road", file.road)?;
+    let unread = records::read(&mut file.vehicles, tree);
+    if !unread.is_empty() {
+        return Err(unread);
+    }
+    let _moved = local_origin::move_near_origin(&mut road, &mut file.vehicles);
     let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
     let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
