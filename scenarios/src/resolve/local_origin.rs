@@ -22,10 +22,7 @@ const GRID_M: f64 = 1000.0;
 pub(super) fn move_near_origin(road: &mut Road, vehicles: &mut [VehicleConfig]) -> Option<[f64; 2]> {
     let Road::Network(network) = road else { return None };
     let first = network.lanes.iter().find_map(first_point)?;
-    if first.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE_M) {
-        return None;
-    }
-    let origin = first.map(|coordinate| (coordinate / GRID_M).round() * GRID_M);
+    let origin = of(first)?;
     for lane in &mut network.lanes {
         lane.points.iter_mut().for_each(|point| *point = [point[0] - origin[0], point[1] - origin[1]]);
         if let Some(start) = &mut lane.start {
@@ -40,6 +37,12 @@ pub(super) fn move_near_origin(road: &mut Road, vehicles: &mut [VehicleConfig]) 
         vehicle.driver.iter_mut().for_each(|driver| move_record(driver, origin));
     }
     Some(origin)
+}
+
+/// The origin for a road that begins at a place; none where it is near enough to (0, 0) \[m\].
+pub(crate) fn of(first: [f64; 2]) -> Option<[f64; 2]> {
+    let is_near = first.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE_M);
+    (!is_near).then(|| first.map(|coordinate| (coordinate / GRID_M).round() * GRID_M))
 }
 
 /// Where a lane begins \[m\].

@@ -1,6 +1,6 @@
 //! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
 
-mod local_origin;
+pub(crate) mod local_origin;
 pub(crate) mod placement;
 pub(crate) mod records;
 pub(crate) mod tariff_file;

@@ -9,7 +9,7 @@ mod expectations;
 mod road;
 mod zones;
 
-use interplay_planners::State;
+use interplay_planners::{Body, State};
 
 use crate::budget;
 use crate::error::{Fault, Place, quoted};
@@ -199,7 +199,7 @@ impl Checker<'_> {
                 if is_recorded && other.driver.record().is_some() {
                     continue;
                 }
-                if overlap((vehicle, start), (other, other_start)) {
+                if overlap((&vehicle.body, start), (&other.body, other_start)) {
                     let message = format!(
                         "vehicles {} and {} overlap at the start{moved}",
                         quoted(&other.name),
@@ -264,8 +264,8 @@ fn extent(road: &Road, branch: Branch) -> String {
 }
 
 /// Whether two footprints share more than a line: no edge of either separates them (separating axis theorem).
-fn overlap((first, at): (&Vehicle, &State), (second, other_at): (&Vehicle, &State)) -> bool {
-    let (corners, other_corners) = (first.body.corners(at), second.body.corners(other_at));
+pub(crate) fn overlap((first, at): (&Body, &State), (second, other_at): (&Body, &State)) -> bool {
+    let (corners, other_corners) = (first.corners(at), second.corners(other_at));
     let headings = [at.heading_rad, other_at.heading_rad].map(libm::sincos);
     let axes = headings.iter().flat_map(|(sin, cos)| [[*cos, *sin], [-sin, *cos]]);
     let mut gaps = axes.map(|axis| {
@@ -293,7 +293,8 @@ mod tests {
         let scenario = crate::from_text("cars.toml", text, &[]).expect("a scenario without fault");
         let (car, start) = (&scenario.vehicles[0], State::default());
         let other = State { x_m, y_m, heading_rad, speed_mps: 0.0 };
-        let (one_way, other_way) = (overlap((car, &start), (car, &other)), overlap((car, &other), (car, &start)));
+        let (one_way, other_way) =
+            (overlap((&car.body, &start), (&car.body, &other)), overlap((&car.body, &other), (&car.body, &start)));
         assert_eq!(one_way, other_way, "touching is mutual");
         one_way
     }

@@ -20,6 +20,7 @@ use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
 use known_roads::KnownNetwork;
 pub(crate) use known_roads::KnownRoads;
+pub(crate) use recorded::way as way_of_record;
 pub(crate) use written::Start;
 use written::VehicleAsWritten;
 

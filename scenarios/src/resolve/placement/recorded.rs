@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use interplay_planners::Driver;
 use interplay_planners::recorded::Record;
-use interplay_planners::road::network::Lane;
+use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Corridor, Route, State};
 
 use super::known_roads::KnownNetwork;
@@ -70,7 +70,7 @@ pub(super) fn place(record: &Record, state: State, stated: &[String], known: &Kn
     let on_lane = on_lane.filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START);
     let lane = on_lane.and_then(|place| network.lane(&place.lane)).or_else(|| nearest(&state, network.lanes()));
     let route = lane.and_then(|lane| {
-        let way = if stated.is_empty() { way(record, lane, known) } else { stated.to_vec() };
+        let way = if stated.is_empty() { way(record, lane, network) } else { stated.to_vec() };
         known
             .route(way.clone(), || network.route(&way))
             .or_else(|_| {
@@ -97,11 +97,11 @@ fn nearest<'a>(state: &State, lanes: &'a [Lane]) -> Option<&'a Lane> {
 }
 
 /// The names of the lanes that a record goes along, from a lane on: where it forks, the lane that the record keeps nearest to.
-fn way(record: &Record, lane: &Lane, known: &KnownNetwork) -> Vec<String> {
+pub(crate) fn way(record: &Record, lane: &Lane, network: &RoadNetwork) -> Vec<String> {
     let mut names = vec![lane.name.clone()];
     let mut last = lane;
     while names.len() < MAX_LANES {
-        let ahead = last.successors.iter().filter_map(|name| known.network.lane(name));
+        let ahead = last.successors.iter().filter_map(|name| network.lane(name));
         let ahead: Vec<&Lane> = ahead.filter(|lane| !names.contains(&lane.name)).collect();
         let next = match ahead.as_slice() {
             [] => break,
