@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::{Prediction, steadily_along};
-use crate::steering::{admissible, steer};
+use crate::steering::steer;
 use crate::{DriverSettingError, Input, Plan, PlanError, Scene, Trajectory};
 pub use record::{Record, RecordFault, next_to};
 
@@ -114,27 +114,14 @@ impl Recorded {
     /// The input that leads to where the record goes on; after its end, the one that keeps the speed in the lane.
     fn input(&self, scene: &Scene) -> Input {
         let (own, state) = (&scene.ego, &scene.ego.state);
-        let next = self.record.as_ref().and_then(|record| record.state_at(scene.step_s * (scene.tick + 1) as f64));
-        let Some(next) = next else {
-            return Input {
-                acceleration_mps2: 0.0,
-                steering_rad: steer(own, state, own.route.across(state.position())),
-            };
-        };
-        let acceleration_mps2 = (next.speed_mps - state.speed_mps) / scene.step_s;
-        let turn_rad = next_to(next.heading_rad, state.heading_rad) - state.heading_rad;
-        let travelled_m = (0.5 * (next.speed_mps + state.speed_mps) * scene.step_s).max(MIN_TRAVEL_M);
-        let steering_rad = libm::atan(own.body.wheelbase_m() * turn_rad / travelled_m);
-        let most_rad = own.limits.steering_max_rad;
-        Input {
-            acceleration_mps2: admissible(own, state, acceleration_mps2, scene.step_s),
-            steering_rad: steering_rad.clamp(-most_rad, most_rad),
-        }
+        let times_s = [scene.step_s * scene.tick as f64, scene.step_s];
+        let recorded = self.record.as_ref().and_then(|record| record.input((&own.body, &own.limits), state, times_s));
+        recorded.unwrap_or_else(|| Input {
+            acceleration_mps2: 0.0,
+            steering_rad: steer(own, state, own.route.across(state.position())),
+        })
     }
 }
-
-/// Who travels less in a step is taken to stand: its turn is noise of the record \[m\].
-const MIN_TRAVEL_M: f64 = 0.05;
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::State;
+use crate::{Body, Input, Limits, State};
 
 /// A recorded motion: states at increasing times, and between them what lies evenly between both.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,6 +91,26 @@ impl Record {
         Some(State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))))
     }
 }
+
+impl Record {
+    /// The input with which a vehicle goes from a state to where the record is a step after a time, as nearly as its limits allow;
+    /// `None` where the record ends before that \[s\].
+    pub fn input(&self, (body, limits): (&Body, &Limits), state: &State, [time_s, step_s]: [f64; 2]) -> Option<Input> {
+        let next = self.state_at(time_s + step_s)?;
+        let acceleration_mps2 = (next.speed_mps - state.speed_mps) / step_s;
+        let turn_rad = next_to(next.heading_rad, state.heading_rad) - state.heading_rad;
+        let travelled_m = (0.5 * (next.speed_mps + state.speed_mps) * step_s).max(MIN_TRAVEL_M);
+        let steering_rad = libm::atan(body.wheelbase_m() * turn_rad / travelled_m);
+        let most_rad = limits.steering_max_rad;
+        Some(Input {
+            acceleration_mps2: acceleration_mps2.clamp(limits.acceleration_min_mps2, limits.acceleration_max_mps2),
+            steering_rad: steering_rad.clamp(-most_rad, most_rad),
+        })
+    }
+}
+
+/// Who travels less in a step is taken to stand: its turn is noise of the record \[m\].
+const MIN_TRAVEL_M: f64 = 0.05;
 
 /// A heading by full turns nearer to another one \[rad\].
 pub fn next_to(heading_rad: f64, other_rad: f64) -> f64 {

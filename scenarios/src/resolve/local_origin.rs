@@ -8,8 +8,10 @@ use interplay_planners::Driver;
 use serde_json::{Value as Json, json};
 
 use super::records;
+use crate::error::Fault;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
+use crate::read::tree::TomlNode;
 use crate::road::{LaneConfig, Road};
 
 /// Coordinates up to this are left as they are \[m\].
@@ -43,6 +45,13 @@ pub(super) fn move_near_origin(road: &mut Road, vehicles: &mut [VehicleConfig]) 
 pub(crate) fn of(first: [f64; 2]) -> Option<[f64; 2]> {
     let is_near = first.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE_M);
     (!is_near).then(|| first.map(|coordinate| (coordinate / GRID_M).round() * GRID_M))
+}
+
+/// That a road was moved, for whoever reads positions in reports and recordings.
+pub(super) fn remark([x_m, y_m]: [f64; 2], tree: &TomlNode) -> Fault {
+    let message =
+        format!("the road is far from the origin, so that all is moved: ({x_m:.0}, {y_m:.0}) is (0, 0) in this run");
+    Fault::at(tree.place_of("road"), "far away", message)
 }
 
 /// Where a lane begins \[m\].

@@ -97,7 +97,9 @@ impl Import {
         let (file, rows) = imported.with_records_in(&named(&records));
         let mut head = String::new();
         let _ = writeln!(head, "# Imported from {}.", plain_line(&named(&self.file)));
-        imported.notes.iter().for_each(|note| drop(writeln!(head, "# - {note}")));
+        for note in &imported.notes {
+            let _ = writeln!(head, "# - {note}");
+        }
         let network = beside("network.toml");
         let (text, network_text) = texts(file, &named(&network));
         let mut files = vec![(out.clone(), head + "\n" + &text)];
@@ -146,7 +148,9 @@ fn write_all(files: &[(PathBuf, String)]) -> Result<(), ImportError> {
             write_new(path, text.as_bytes()).map_err(|reason| unwritable(path, reason))
         });
         if let Err(error) = written {
-            files[..index].iter().for_each(|(path, _)| drop(std::fs::remove_file(path)));
+            for (path, _) in &files[..index] {
+                let _ = std::fs::remove_file(path);
+            }
             return Err(error);
         }
     }

@@ -1,13 +1,13 @@
 //! The planning problem becomes the ego.
 
-use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, PlanningProblem, Region};
 use super::lanes::Lanes;
 use super::notes::{NOT_YET, Notes};
 use super::places::{self, OnLanes};
-use super::vehicles::in_world;
+use super::vehicles::{in_world, rounded};
 use crate::classes::VehicleClass;
 use crate::error::Fault;
 use crate::file_format::goal::GoalConfig;
@@ -22,7 +22,7 @@ const USUAL_MPS: f64 = 8.33;
 const MAX_SPEED_MPS: f64 = 50.0;
 /// A start that is moved by less is not mentioned \[m\].
 const NOTED_MOVE_M: f64 = 0.01;
-/// A planning problem with a start further from every lane is refused \[m\].
+/// A planning problem with a start further from every lane is left out \[m\].
 const MAX_AWAY_M: f64 = 50.0;
 
 /// The ego, and its body.
@@ -32,11 +32,15 @@ pub(super) struct Ego {
     pub body: Body,
 }
 
-/// The ego of a planning problem.
+/// The ego of a planning problem; none for one that is far from every lane.
 ///
 /// # Errors
 /// For a start from which no car can drive along a lane.
-pub(super) fn of_problem(problem: &PlanningProblem<'_>, lanes: &Lanes, notes: &mut Notes) -> Result<Ego, Fault> {
+pub(super) fn of_problem(
+    problem: &PlanningProblem<'_>,
+    lanes: &Lanes,
+    notes: &mut Notes,
+) -> Result<Option<Ego>, Fault> {
     let initial = &problem.initial;
     let speed_mps = initial.velocity_mps.clamp(0.0, MAX_SPEED_MPS);
     if speed_mps != initial.velocity_mps {
@@ -45,46 +49,58 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, lanes: &Lanes, notes: &m
     let [x_m, y_m] = initial.position;
     let state = State { x_m, y_m, heading_rad: initial.orientation_rad, speed_mps };
     let network = &lanes.network;
-    let away = || {
-        let message = format!("no car can drive along a lane from the initial state of {}", problem.element.shown());
-        problem.element.fault("beside the lanes", message)
+    let nearest = places::nearest(network, &state);
+    let is_near = |near: &State| libm::hypot(near.x_m - x_m, near.y_m - y_m) <= MAX_AWAY_M;
+    let Some((nearest, beside)) = nearest.filter(|(_, near)| is_near(near)) else {
+        let what = ["planning problem far from every lane", "planning problems far from every lane"];
+        notes.one(what, "left out");
+        return Ok(None);
     };
-    let mut starts = places::lanes_at(network, &state);
-    let mut state = state;
-    if starts.is_empty() {
-        let (lane, on_lane) = places::nearest(network, &state).ok_or_else(away)?;
-        if libm::hypot(on_lane.x_m - state.x_m, on_lane.y_m - state.y_m) > MAX_AWAY_M {
-            return Err(away());
-        }
-        notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
-        (starts, state) = (vec![lane], on_lane);
-    }
-    let body = VehicleClass::Car.dimensions().body;
     let goals = goal_lanes(problem, lanes);
-    let to_goal = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
-    let reaches = |(lane, goal): (&&_, &String)| to_lane(network, lane, goal, (&state, &body));
-    let found = to_goal.into_iter().find_map(|(lane, goal)| reaches((lane, goal)));
-    if found.is_none() && !problem.goals.is_empty() {
+    let on_lanes = places::lanes_at(network, &state);
+    let found = way(network, (&on_lanes, &goals), &state).or_else(|| {
+        let found = way(network, (&[nearest], &goals), &beside)?;
+        notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
+        Some(found)
+    });
+    let Some((OnLanes { state, lanes: route, moved_m }, reaches_goal)) = found else {
+        let message = format!("no car can drive along a lane from the initial state of {}", problem.element.shown());
+        return Err(problem.element.fault("no room for a car", message));
+    };
+    if !reaches_goal && !problem.goals.is_empty() {
         let fate = if goals.is_empty() {
             "the ego drives straight on"
         } else {
-            "not reached by lanes; the ego drives straight on"
+            "not reached by lanes: the ego drives straight on"
         };
         notes.one(["goal without a lane", "goals without a lane"], fate);
     }
-    let straight_on = |lane: &&_| places::on(network, places::straight_on(network, lane), &state, &body);
-    let OnLanes { state, lanes: route, moved_m } =
-        found.or_else(|| starts.iter().find_map(straight_on)).ok_or_else(away)?;
     if moved_m > NOTED_MOVE_M {
         notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
     }
     let limit_mps = route.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
-    let wanted_mps = wanted_mps(problem, (speed_mps, limit_mps), notes);
+    let wanted_mps = rounded(wanted_mps(problem, (speed_mps, limit_mps), notes), 2);
     note_goals(problem, notes);
-    let goal = GoalConfig { speed_mps: Some(super::vehicles::rounded(wanted_mps, 2)), ..GoalConfig::default() };
-    let config =
-        VehicleConfig { class: Some(VehicleClass::Car), goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
-    Ok(Ego { config, state, body })
+    let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
+    Ok(Some(Ego::new(state, route, goal)))
+}
+
+/// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
+fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
+    let body = &VehicleClass::Car.dimensions().body;
+    let mut pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
+    let to_goal = pairs.find_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
+    let straight_on =
+        || starts.iter().find_map(|lane| places::on(network, places::straight_on(network, lane), state, body));
+    to_goal.map(|way| (way, true)).or_else(|| straight_on().map(|way| (way, false)))
+}
+
+impl Ego {
+    fn new(state: State, route: Vec<String>, goal: GoalConfig) -> Ego {
+        let class = Some(VehicleClass::Car);
+        let config = VehicleConfig { class, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        Ego { config, state, body: VehicleClass::Car.dimensions().body }
+    }
 }
 
 /// The ego of a map without a planning problem and without vehicles: at the begin of the longest lane.
@@ -108,12 +124,7 @@ pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
 }
 
 /// The shortest way from a lane to another, with a car at its begin.
-fn to_lane(
-    network: &RoadNetwork,
-    from: &interplay_planners::road::network::Lane,
-    goal: &str,
-    (state, body): (&State, &Body),
-) -> Option<OnLanes> {
+fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, (state, body): (&State, &Body)) -> Option<OnLanes> {
     let route = network.shortest_route(&from.name, goal).ok()?;
     let names: Vec<String> = route.legs.iter().map(|leg| leg.lane.clone()).collect();
     let count = names.len();

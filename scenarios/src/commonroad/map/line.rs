@@ -222,12 +222,19 @@ mod tests {
         assert_eq!(between(&[[0.0, 1.0]; 3], &[[0.0, 0.0]; 3]), None);
     }
 
-    /// A corner of 90 degrees within a metre: the lane is rounded or narrowed until its edges do not cross.
+    /// A corner of 90 degrees within a metre: the lane is smoothed or narrowed until its edges do not cross.
     #[test]
     fn corners_become_bends() {
-        let left = [[0.0, 2.0], [9.0, 2.0], [10.0, 3.0], [10.0, 12.0]];
-        let right = [[0.0, 0.0], [11.0, 0.0], [12.0, 1.0], [12.0, 12.0]];
+        let before = (0..=10).map(|x| ([f64::from(x), 2.0], [f64::from(x) + 0.2 * f64::from(x), 0.0]));
+        let after = (1..=10).map(|y| ([10.0, 2.0 + f64::from(y)], [12.0, 1.2 * f64::from(y)]));
+        let (left, right): (Vec<[f64; 2]>, Vec<[f64; 2]>) = before.chain(after).unzip();
         let line = between(&left, &right).expect("a line");
         assert!(line.tolerance_m > 0.02 || line.is_narrowed, "{line:?}");
+        let curve = smooth_points(&line.points, line.tolerance_m).and_then(|points| CentreLine::through(&points));
+        let (curve, width) = (curve.expect("a curve"), Profile::through(&line.widths).expect("a width"));
+        for place in 0..=200 {
+            let along_m = curve.length_m() * f64::from(place) / 200.0;
+            assert!(0.5 * width.value(along_m) * curve.at(along_m).curvature_1pm.abs() < 1.0, "{along_m} m along it");
+        }
     }
 }

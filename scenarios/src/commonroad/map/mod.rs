@@ -10,17 +10,19 @@ mod rights;
 mod vehicles;
 
 use interplay_planners::{Driver, DriverKind, recorded};
-use serde_json::json;
+use serde_json::{Value as Json, json};
 
 use super::ImportOptions;
 use super::model::CommonRoad;
 use super::xml::Unread;
 use crate::check::consistency::overlap;
 use crate::error::{Fault, Place, quoted};
+use crate::file_format::budget_limits::BudgetLimits;
+use crate::file_format::goal::GoalConfig;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
-use crate::road::{LaneNetwork, Road};
+use crate::road::{LaneConfig, LaneNetwork, Road};
 use ego::Ego;
 use lanes::Lanes;
 use notes::NOT_YET;
@@ -61,10 +63,11 @@ pub(super) fn mapped(
     let begin = ego::begin(scenario);
     let followers = followers(scenario, begin, notes);
     let ego = match scenario.problems.first() {
-        Some(problem) => Some(ego::of_problem(problem, &lanes, notes)?),
-        None if followers.iter().all(|follower| follower.stands) => ego::on_longest_lane(&lanes, notes),
+        Some(problem) => ego::of_problem(problem, &lanes, notes)?,
         None => None,
     };
+    let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
+    let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
     notes.several(scenario.lights, ["traffic light", "traffic lights"], NOT_YET);
@@ -74,8 +77,11 @@ pub(super) fn mapped(
     let duration_s = duration_s(scenario, begin);
     let mut vehicles: Vec<(VehicleConfig, Option<Place>)> = Vec::new();
     for follower in near_the_ego(followers, ego.as_ref(), notes) {
-        note_end(&follower, duration_s, notes);
-        vehicles.push((driven(&follower, &lanes, options, notes), Some(follower.place)));
+        let config = driven(&follower, &lanes, options, notes);
+        if config.route.is_empty() {
+            note_end(&follower, duration_s, notes);
+        }
+        vehicles.push((config, Some(follower.place)));
     }
     let problem = scenario.problems.first().map(|problem| problem.element.place());
     if let Some(Ego { mut config, .. }) = ego {
@@ -89,10 +95,34 @@ pub(super) fn mapped(
     places.extend(lanes.places.iter().enumerate().map(|(index, place)| (format!("road.lane.{index}"), place.clone())));
     let of_vehicles = vehicles.iter().enumerate();
     places.extend(of_vehicles.filter_map(|(index, (_, place))| Some((format!("vehicle.{index}"), place.clone()?))));
-    let network = Road::Network(LaneNetwork { lanes: lanes.configs });
-    let vehicles = vehicles.into_iter().map(|(config, _)| config).collect();
-    let file = ScenarioFile { road: Some(network.into()), vehicles, ..timed(scenario, duration_s) };
+    let network = without_defaults(Road::Network(LaneNetwork { lanes: lanes.configs }).into());
+    let vehicles: Vec<VehicleConfig> = vehicles.into_iter().map(|(config, _)| config).collect();
+    let budget = budget(vehicles.len(), duration_s / scenario.step_s);
+    let file = ScenarioFile { road: Some(network), vehicles, budget, ..timed(scenario, duration_s) };
     Ok(Mapped { file, places })
+}
+
+/// A network whose lanes state only what is not the default, so that people find what matters.
+fn without_defaults(mut network: Stated<Road>) -> Stated<Road> {
+    let Some(Json::Array(mut lanes)) = network.take("lane") else { return network };
+    let usual = serde_json::to_value(LaneConfig::through("", &[], 1.0)).unwrap_or_default();
+    for lane in lanes.iter_mut().filter_map(Json::as_object_mut) {
+        for key in ["tolerance_m", "right_of_way"] {
+            if lane.get(key) == usual.get(key) {
+                lane.remove(key);
+            }
+        }
+    }
+    network.with("lane", Json::Array(lanes))
+}
+
+/// The limits that a long run with many vehicles needs; none where the usual ones are enough.
+fn budget(vehicles: usize, ticks: f64) -> Option<Stated<BudgetLimits>> {
+    let plans = (vehicles as f64 * ticks.ceil()) as u64;
+    let steps = plans * (vehicles as u64 + 1);
+    let usual = BudgetLimits::default();
+    let is_more = plans > usual.plans || steps > usual.steps;
+    is_more.then(|| Stated::default().with("plans", plans.max(usual.plans)).with("steps", steps.max(usual.steps)))
 }
 
 /// A scenario with the times of the imported one, and nothing else.
@@ -127,7 +157,11 @@ fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) 
         ego.is_some_and(|ego| overlap((&ego.body, &ego.state), (&follower.body, &follower.start)))
     };
     let mut kept: Vec<Follower> = followers.into_iter().filter(|follower| !meets(follower)).collect();
-    notes.several(before - kept.len(), ["vehicle that overlaps the ego", "vehicles that overlap the ego"], "left out");
+    notes.several(
+        before - kept.len(),
+        ["vehicle that overlaps the ego", "vehicles that overlap the ego"],
+        "left out: the ego takes their place",
+    );
     let room = MAX_VEHICLES - usize::from(ego.is_some());
     if kept.len() > room {
         let beyond = kept.len() - room;
@@ -174,8 +208,10 @@ fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &m
     });
     match place {
         Some(place) => {
-            let start = in_world(&place.state);
-            VehicleConfig { start, route: place.lanes, driver: Some(driver), ..config }
+            let limit_mps =
+                place.lanes.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
+            let goal = GoalConfig { speed_mps: Some(follower.wanted_mps(limit_mps)), ..GoalConfig::default() };
+            VehicleConfig { start: in_world(&place.state), route: place.lanes, goal, driver: Some(driver), ..config }
         }
         None => {
             notes.one(["vehicle beside the lanes", "vehicles beside the lanes"], "not replaced: it follows its record");

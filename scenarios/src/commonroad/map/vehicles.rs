@@ -36,6 +36,20 @@ pub(super) struct Follower {
     pub place: Place,
 }
 
+/// Who was never faster wants to drive as fast as is permitted \[m/s\].
+const MIN_WANTED_MPS: f64 = 3.0;
+/// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
+const USUAL_MPS: f64 = 8.33;
+
+impl Follower {
+    /// The speed that a driver wants who takes the place of its record: the highest one of the record, or of one that never drove,
+    /// what is permitted \[m/s\].
+    pub(super) fn wanted_mps(&self, limit_mps: Option<f64>) -> f64 {
+        let fastest_mps = self.rows.iter().map(|row| row[4]).fold(0.0, f64::max);
+        if fastest_mps >= MIN_WANTED_MPS { fastest_mps } else { limit_mps.unwrap_or(USUAL_MPS) }
+    }
+}
+
 /// The vehicles that are there when the run begins, at a number of steps of time.
 pub(super) fn followers(scenario: &CommonRoad<'_>, begin: f64, notes: &mut Notes) -> Vec<Follower> {
     let mut names = Names::default();
