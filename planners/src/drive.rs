@@ -6,6 +6,7 @@ use std::fmt;
 use crate::belief::Outlook;
 use crate::diagnostic::Explanation;
 use crate::predict::Prediction;
+use crate::recorded::Record;
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 
 /// The settings of one kind of driver, with all that is known of such a driver before it plans.
@@ -57,6 +58,12 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// others have to live with.
     fn goes_first(&self) -> bool {
         false
+    }
+
+    /// The motion that its vehicle carries out, whatever its inputs are; `None` for a driver whose inputs move it. While the record
+    /// lasts, the others are told nothing of its plan.
+    fn record(&self) -> Option<Record> {
+        None
     }
 
     /// Whether the driver takes notice of vehicles outside its own lane, so that it can be asked to give way.

@@ -61,6 +61,8 @@ drivers! {
     Idm(idm),
     /// Does what the scenario says.
     Scripted(scripted),
+    /// Does what a vehicle did that was recorded, and nobody is told what comes.
+    Recorded(recorded),
     /// Its inputs come from outside: from a person or another program, through the library.
     External(external),
     /// Baseline: keeps out of the safety ellipses around the others' plans (eq. 6.13).

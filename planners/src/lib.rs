@@ -8,7 +8,7 @@
 //! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
 //! - [`sensing`]: what a driver sees of them; [`belief`]: what it believes of their drivers
-//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`external`], [`conservative`], [`cooperative`],
+//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`recorded`], [`external`], [`conservative`], [`cooperative`],
 //!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
 //!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
 //! - [`posing`]: from a scene to the terms of a trajectory problem, of one vehicle or of several that decide together
@@ -101,6 +101,7 @@ mod planner;
 pub mod posing;
 pub mod predict;
 mod receding_horizon;
+pub mod recorded;
 mod relation;
 mod right_of_way;
 pub mod road;

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::commonroad::is_commonroad;
 use crate::load;
 use crate::read::overrides::Override;
 use crate::read::source::Source;
@@ -49,12 +50,20 @@ fn add_named(node: &TomlNode, found: &mut Vec<PathBuf>) {
 
 /// What a file extends, if it can be read that far.
 fn parent(source: &Source) -> Option<Source> {
+    if matches!(source, Source::File(path) if is_commonroad(path)) {
+        return None;
+    }
     let (document, text) = source.read(1).ok()?;
     let node = tree::parse(&document, &text).ok()?;
     source.parent(node.table()?.get("extends")?.node.text()?).ok()
 }
 
-/// All .toml files below a folder, sorted by name.
+/// Whether a file is to be taken for a scenario: TOML, or XML of CommonRoad.
+fn is_scenario(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml") || is_commonroad(path)
+}
+
+/// All .toml files below a folder, and scenarios of CommonRoad, sorted by name.
 ///
 /// # Errors
 /// That of the system, if a folder cannot be read.
@@ -65,7 +74,7 @@ pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
             let entry = entry?;
             if entry.file_type()?.is_dir() {
                 folders.push(entry.path());
-            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
+            } else if is_scenario(&entry.path()) {
                 found.push(entry.path());
             }
         }

@@ -55,6 +55,7 @@
 mod budget;
 mod check;
 mod classes;
+mod commonroad;
 mod defaults;
 mod error;
 mod file_format;
@@ -75,6 +76,7 @@ mod write;
 
 pub use budget::RunCost;
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
+pub use commonroad::{ImportOptions, Imported, Replacement, import_commonroad, import_commonroad_file, is_commonroad};
 pub use error::{Fault, LoadError};
 pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};

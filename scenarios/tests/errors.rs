@@ -90,7 +90,7 @@ fn numbers() {
         &mut errors,
         "too_large_to_compute",
         &[("x_m = 1.0", "x_m = 1e300")],
-        &["must be at most 100000, not 1e300"],
+        &["must be at most 100000000, not 1e300"],
     );
     refusal(
         &mut errors,

@@ -1,6 +1,6 @@
 //! The documents are run: every command in a fenced block, every scenario, every link, every name of a test.
 //!
-//! A TOML block whose first line is `# name.toml` is written to that file; every line of an `sh` block is then run in the
+//! A TOML block whose first line is `# name.toml`, or an XML block that begins with `<!-- name.xml -->`, is written to that file; every line of an `sh` block is then run in the
 //! order of the document, in one folder for each document. It must end with 0, or with what follows `# exit code`.
 
 use std::collections::BTreeSet;
@@ -112,7 +112,9 @@ impl Shell {
 
     /// Writes a block that is a file; says its name.
     fn write(&self, block: &str) -> Option<String> {
-        let name = block.lines().next()?.strip_prefix("# ").filter(|name| name.ends_with(".toml"))?;
+        let first = block.lines().next()?;
+        let of_xml = || first.strip_prefix("<!-- ")?.strip_suffix(" -->").filter(|name| name.ends_with(".xml"));
+        let name = first.strip_prefix("# ").filter(|name| name.ends_with(".toml")).or_else(of_xml)?;
         let path = self.folder.join(name);
         fs::create_dir_all(path.parent().expect("below the folder")).expect("a scratch folder");
         fs::write(path, block).expect("a scratch file");
@@ -127,7 +129,7 @@ fn every_command_in_the_documents_runs() {
     for (name, text) in documents() {
         let shell = Shell::new(&format!("book/{}", name.replace('/', "-")));
         for (language, block) in blocks(&text) {
-            if language == "toml" {
+            if ["toml", "xml"].contains(&language) {
                 shell.write(&block);
             }
             let commands = block.lines().map(|line| line.strip_prefix("$ ").unwrap_or(line));

@@ -8,6 +8,7 @@
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
+//! - vehicles that were recorded, scenarios of others, and maps far from the origin: [`recorded`]
 //! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
 //!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
@@ -46,6 +47,7 @@ mod output;
 mod own;
 mod packages;
 mod plants;
+mod recorded;
 mod recordings;
 mod rectangles;
 mod replacements;

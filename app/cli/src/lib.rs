@@ -24,7 +24,8 @@ use interplay_scenarios::Registry;
 use interplay_simulation::measure::RegisterMetrics;
 
 use commands::{
-    check, compare, completions, export_fmu, identify, list, man, new, reproduce, run, schema, suite, sweep, view, why,
+    check, compare, completions, export_fmu, identify, import, list, man, new, reproduce, run, schema, suite, sweep,
+    view, why,
 };
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
@@ -47,6 +48,7 @@ enum Command {
     Sweep(sweep::Sweep),
     Compare(compare::Compare),
     New(new::New),
+    Import(import::Import),
     Schema(schema::Schema),
     View(view::View),
     Reproduce(reproduce::Reproduce),
@@ -91,6 +93,7 @@ fn run_command(registry: &Registry) -> ExitCode {
         Some(Command::Sweep(command)) => command.execute(registry),
         Some(Command::Compare(command)) => command.execute(registry),
         Some(Command::New(command)) => command.execute(registry),
+        Some(Command::Import(command)) => command.execute(registry),
         Some(Command::Schema(command)) => command.execute(registry),
         Some(Command::View(command)) => command.execute(),
         Some(Command::Reproduce(command)) => command.execute(),

@@ -7,7 +7,7 @@ use interplay_planners::traffic::applied_input;
 use crate::components::{Clock, CurrentFrame, Identity, Motion, Sensed, VehicleParameters};
 
 /// Hands the decided inputs to the plant. Where there are several ticks from one plan to the next, inputs change evenly from the last
-/// one to that of the plan, which they reach with the last of these ticks.
+/// one to that of the plan, which they reach with the last of these ticks. Who follows a record has the inputs of that in every tick.
 pub fn act(
     mut vehicles: Query<(&Identity, &VehicleParameters, &mut Motion)>,
     clock: Res<Clock>,
@@ -15,9 +15,11 @@ pub fn act(
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let ticks_left = clock.ticks_per_plan - clock.ticks_since_plan();
-    for (identity, VehicleParameters { body, limits, .. }, mut motion) in &mut vehicles {
+    for (identity, VehicleParameters { body, limits, record, .. }, mut motion) in &mut vehicles {
         let planned = sensed.0.road_users[identity.index].planned_input();
-        let wanted = towards(&motion.input, planned, ticks_left);
+        let times_s = [clock.time_s(), clock.step_s];
+        let recorded = record.as_ref().and_then(|record| record.input((body, limits), &motion.state, times_s));
+        let wanted = recorded.unwrap_or_else(|| towards(&motion.input, planned, ticks_left));
         motion.input = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
         current_frame.0.vehicles[identity.index].input = motion.input;
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::recorded::Record;
 use interplay_planners::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
@@ -39,6 +40,15 @@ pub struct VehicleParameters {
     pub limits: Limits,
     /// The road it may use.
     pub route: Arc<Route>,
+    /// The motion that it carries out, whatever its inputs are; none for a vehicle that its inputs move.
+    pub record: Option<Arc<Record>>,
+}
+
+impl VehicleParameters {
+    /// Whether others are told nothing of its plan: it follows a record at this time \[s\].
+    pub fn hides_plan_at(&self, time_s: f64) -> bool {
+        self.record.as_ref().is_some_and(|record| record.holds_at(time_s))
+    }
 }
 
 /// The goal of a vehicle.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 use interplay_planners::rules::{RoadRules, RuleBook};
 use interplay_planners::sensing::SensedScene;
-use interplay_planners::traffic::{RoadUser, Traffic};
+use interplay_planners::traffic::{CommittedPlan, RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
 use crate::components::{
@@ -108,7 +108,12 @@ fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule
         knows_plans: driving.knows_plans,
         keeps_rules: driving.keeps_rules,
         is_crashed: motion.crashed,
-        committed: committed.0.clone(),
+        // Whoever follows a record is expected to keep its speed, from where it is now on.
+        committed: if parameters.hides_plan_at(clock.time_s()) {
+            CommittedPlan::default()
+        } else {
+            committed.0.clone()
+        },
     });
     let road_users = road_users.collect();
     let step_s = clock.planning_period_s();

@@ -47,6 +47,7 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
                 body: vehicle.body,
                 limits: vehicle.limits,
                 route: Arc::clone(&vehicle.route),
+                record: vehicle.driver.record().map(Arc::new),
             },
             goal: VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             driving: Driving {

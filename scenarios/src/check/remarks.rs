@@ -32,6 +32,9 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
             let place = tree.place_of(&format!("vehicle.{index}.{key}"));
             Fault::at(place, label, message).help(help)
         };
+        if vehicle.driver.record().is_some() {
+            continue;
+        }
         faults.extend(too_small_ellipse(scenario, index).map(|said| remark("safety", "too small", said)));
         faults.extend(proportion(scenario, vehicle).map(|said| remark("body", "out of proportion", said)));
         faults.extend(off_lane(scenario, vehicle).map(|said| remark("start", "off its lane", said)));
@@ -49,7 +52,7 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
 fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, String)> {
     let vehicle = &scenario.vehicles[index];
     // These drivers have no use for an ellipse.
-    if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::External(_)) {
+    if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::Recorded(_) | Driver::External(_)) {
         return None;
     }
     let others = scenario.vehicles.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);

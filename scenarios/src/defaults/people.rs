@@ -51,7 +51,10 @@ pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
 /// Writes into a vehicle what its driver does; `schema` is that of vehicles.
 pub(super) fn state_habits(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
     let ratio = scale / FULL_SCALE;
-    vehicle.entry("rules").or_insert(json!("kept"));
+    // A record is judged by no rule.
+    let is_recorded =
+        vehicle.get("driver").and_then(|driver| driver.get("kind")).is_some_and(|kind| kind == "recorded");
+    vehicle.entry("rules").or_insert(json!(if is_recorded { "ignored" } else { "kept" }));
     if let Some(limits) = vehicle.entry("limits").or_insert_with(|| json!({})).as_object_mut() {
         let comfort = schema.property("limits").and_then(|limits| limits.property("comfort"));
         let real = serde_json::to_value(ComfortLimits::default()).unwrap_or_default();

@@ -11,10 +11,10 @@ use crate::file_format::lane_reference::LaneReference;
 #[serde(deny_unknown_fields)]
 pub struct StartConfig {
     /// Position of the mass centre along the world's x axis \[m\].
-    #[schemars(range(min = -100_000.0, max = 100_000.0), example = 0.0)]
+    #[schemars(range(min = -100_000_000.0, max = 100_000_000.0), example = 0.0)]
     pub x_m: Option<f64>,
     /// Position of the mass centre along the world's y axis \[m\].
-    #[schemars(range(min = -100_000.0, max = 100_000.0), example = 0.185)]
+    #[schemars(range(min = -100_000_000.0, max = 100_000_000.0), example = 0.185)]
     pub y_m: Option<f64>,
     /// Yaw angle, counter-clockwise from the x axis; 0 if neither this nor `heading_deg` is stated \[rad\].
     #[schemars(example = 0.0)]

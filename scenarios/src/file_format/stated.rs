@@ -46,6 +46,11 @@ impl<Settings> Stated<Settings> {
         self.keys.get(key)
     }
 
+    /// Takes the value of a key out of the table, if it is stated.
+    pub(crate) fn take(&mut self, key: &str) -> Option<Json> {
+        self.keys.remove(key)
+    }
+
     /// Its keys.
     pub(crate) fn into_keys(self) -> Map<String, Json> {
         self.keys

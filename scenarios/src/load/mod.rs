@@ -10,6 +10,7 @@ use serde_json::{Map, Value as Json};
 
 use crate::budget;
 use crate::check::{consistency, shape};
+use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
 use crate::defaults::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::file_format::counterfactual::CounterfactualConfig;
@@ -24,6 +25,7 @@ use crate::registry::Registry;
 use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
 use crate::resolve::weather_file::is_embedded_weather;
+use crate::scenario::remark::ScenarioRemark;
 use crate::scenario::{Counterfactual, Scenario};
 
 /// How many files may extend one another.
@@ -77,13 +79,23 @@ impl ScenarioFile {
 }
 
 impl Registry {
-    /// Loads the authored scenario of that name, otherwise the file at that path, changed by `overrides` in their order.
+    /// Loads the authored scenario of that name, otherwise the file at that path, changed by `overrides` in their order. A file of
+    /// CommonRoad is imported first, and what could not be carried over is among the scenario's remarks.
     ///
     /// # Errors
     ///
     /// Whatever is wrong with the file, the ones that it extends, or the overrides, each error located.
     pub fn load(&self, name_or_path: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
-        finish(self, name_or_path, tree(self, name_or_path)?, overrides)
+        let path = Path::new(name_or_path);
+        if !is_commonroad(path) {
+            return finish(self, name_or_path, tree(self, name_or_path)?, overrides);
+        }
+        let imported = import_file(path, &ImportOptions::default());
+        let imported = imported.map_err(|fault| LoadError::new(name_or_path, vec![fault]))?;
+        let notes = imported.notes.clone();
+        let mut scenario = finish(self, name_or_path, imported.into_tree(), overrides)?;
+        scenario.remarks.0.extend(notes.into_iter().map(|note| ScenarioRemark(Fault::new(note))));
+        Ok(scenario)
     }
 
     /// Loads a scenario from a text; `name` is what errors call it. It may extend authored scenarios, and
@@ -127,6 +139,13 @@ impl Registry {
     pub fn resolve(&self, file: &ScenarioFile) -> Result<Scenario, LoadError> {
         let name = if file.title.is_empty() { UNTITLED } else { &file.title };
         finish(self, name, tree::of_value(&Json::Object(file.stated())), &[])
+    }
+}
+
+impl Registry {
+    /// The scenario of a tree that was made elsewhere.
+    pub(crate) fn resolve_tree(&self, name: &str, tree: TomlNode) -> Result<Scenario, LoadError> {
+        finish(self, name, tree, &[])
     }
 }
 
@@ -249,6 +268,12 @@ type Refusal = (bool, Vec<Fault>);
 
 fn read_link(source: &Source, chain: &mut Vec<Source>, schema: SchemaNode) -> Result<TomlNode, Refusal> {
     chain.push(source.clone());
+    if let Source::File(path) = source
+        && is_commonroad(path)
+    {
+        let imported = import_file(path, &ImportOptions::default());
+        return imported.map(Imported::into_tree).map_err(|fault| (fault.file().is_none(), vec![fault]));
+    }
     let (document, text) = source.read(chain.len()).map_err(|fault| (fault.file().is_none(), vec![fault]))?;
     let node = tree::parse(&document, &text).map_err(|faults| (false, faults))?;
     extended(source, node, chain, schema).map_err(|faults| (false, faults))
@@ -305,9 +330,7 @@ fn refuse_cycle(parent: &Source, chain: &[Source], place: &Place) -> Result<(), 
 /// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
 pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     let TomlValue::Table(root) = &mut tree.value else { return };
-    for key in ["weather", "tariff"] {
-        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
-        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
+    for file in named_files(root) {
         let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
         let TomlValue::Text(name) = &mut file.value else { continue };
         let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
@@ -319,4 +342,29 @@ pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
             *name = path.to_string_lossy().into_owned();
         }
     }
+}
+
+/// Where a scenario names files: its weather, its prices, and the records of its vehicles.
+fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
+    let mut found = Vec::new();
+    let file = |node| match node {
+        &mut TomlNode { value: TomlValue::Table(ref mut table), .. } => {
+            table.get_mut("file").map(|entry| &mut entry.node)
+        }
+        _ => None,
+    };
+    for (key, entry) in root {
+        match (key.as_str(), &mut entry.node) {
+            ("weather" | "tariff", node) => found.extend(file(node)),
+            ("vehicle", TomlNode { value: TomlValue::Array(vehicles), .. }) => {
+                let drivers = vehicles.iter_mut().filter_map(|vehicle| match &mut vehicle.value {
+                    TomlValue::Table(vehicle) => vehicle.get_mut("driver").map(|entry| &mut entry.node),
+                    _ => None,
+                });
+                found.extend(drivers.filter_map(file));
+            }
+            _ => {}
+        }
+    }
+    found
 }

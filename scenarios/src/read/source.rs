@@ -14,6 +14,8 @@ use crate::streets::Street;
 
 /// The largest file that is read; a scenario takes a few kilobytes.
 const MAX_FILE_BYTES: u64 = 1 << 20;
+/// The largest file of another format that is read: maps of towns take some megabytes.
+pub(crate) const MAX_IMPORTED_BYTES: u64 = 1 << 26;
 
 /// Where a scenario comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,7 +109,7 @@ impl Source {
         let text = match self {
             Source::Embedded(file) => file.text.to_owned(),
             Source::Street(street) => street.text(),
-            Source::File(path) => decoded(&self.title(), &read_bytes(path)?, rank)?,
+            Source::File(path) => decoded(&self.title(), &read_bytes(path, MAX_FILE_BYTES)?, rank)?,
         };
         if text.trim().is_empty() {
             return Err(Fault::new(format!("{} is empty", quoted(&self.title()))).help(
@@ -116,6 +118,11 @@ impl Source {
         }
         Ok((Document::new(self.title(), &text, rank), text))
     }
+}
+
+/// The text of a file of another format, which is to be imported.
+pub(crate) fn imported_text(path: &Path) -> Result<String, Fault> {
+    decoded(&path.display().to_string(), &read_bytes(path, MAX_IMPORTED_BYTES)?, 1)
 }
 
 /// What to try instead of a name that leads nowhere.
@@ -139,9 +146,9 @@ fn other_names(missing: &str) -> String {
     }
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     let name = quoted(&path.display().to_string());
-    let bytes = read_regular(path, MAX_FILE_BYTES).map_err(|error| match error.kind() {
+    let bytes = read_regular(path, limit).map_err(|error| match error.kind() {
         ErrorKind::IsADirectory => {
             Fault::new(format!("{name} is a directory")).help("give the path of a TOML file in it")
         }
@@ -149,7 +156,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     })?;
     bytes.ok_or_else(|| {
         let help = "a scenario takes a few kilobytes: is this the file that you meant?";
-        Fault::new(format!("{name} is larger than 1 MiB")).help(help)
+        Fault::new(format!("{name} is larger than {} MiB", limit >> 20)).help(help)
     })
 }
 

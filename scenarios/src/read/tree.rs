@@ -174,6 +174,28 @@ impl TomlNode {
         }
     }
 
+    /// Says of it and of everything below it that it is written at a place.
+    pub fn set_place(&mut self, place: &Place) {
+        self.place = place.clone();
+        match &mut self.value {
+            TomlValue::Table(table) => table.values_mut().for_each(|entry| {
+                entry.key = place.clone();
+                entry.node.set_place(place);
+            }),
+            TomlValue::Array(items) => items.iter_mut().for_each(|item| item.set_place(place)),
+            _ => {}
+        }
+    }
+
+    /// What is written at a path, to be changed.
+    pub fn at_mut(&mut self, path: &str) -> Option<&mut TomlNode> {
+        path.split('.').try_fold(self, |node, step| match &mut node.value {
+            TomlValue::Table(table) => table.get_mut(step).map(|entry| &mut entry.node),
+            TomlValue::Array(items) => items.get_mut(step.parse::<usize>().ok()?),
+            _ => None,
+        })
+    }
+
     /// Whether this is a list without entries.
     pub fn is_empty_list(&self) -> bool {
         matches!(&self.value, TomlValue::Array(items) if items.is_empty())

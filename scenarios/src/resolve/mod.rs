@@ -1,6 +1,8 @@
 //! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
 
+pub(crate) mod local_origin;
 pub(crate) mod placement;
+pub(crate) mod records;
 pub(crate) mod tariff_file;
 pub(crate) mod weather_file;
 
@@ -17,7 +19,7 @@ use crate::file_format::weather::{WeatherConfig, WeatherSource};
 use crate::read::tree::TomlNode;
 use crate::registry::Registry;
 use crate::resolve::placement::{KnownRoads, Placed, Start, place};
-use crate::scenario::remark::ScenarioRemarks;
+use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::{Scenario, Vehicle};
 use crate::text::readable::readable;
 
@@ -36,19 +38,28 @@ pub(crate) fn resolve(
     let mut faults = consistency::check(&scenario, tree, registry.complete());
     faults.append(&mut unread);
     let remarks = remarks::collect(&scenario, tree, registry.complete());
-    if faults.is_empty() { Ok(Scenario { remarks, ..scenario }) } else { Err(faults) }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let remarks = ScenarioRemarks(scenario.remarks.0.iter().cloned().chain(remarks.0).collect());
+    Ok(Scenario { remarks, ..scenario })
 }
 
 /// The same, unchecked; and what is wrong with the files that it names, in whose place it has defaults.
 fn read(
     registry: &Registry,
-    file: ScenarioFile,
+    mut file: ScenarioFile,
     tree: &TomlNode,
     known_roads: &KnownRoads,
 ) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
     let reader = Reader { registry, tree };
     let written = serde_json::to_string(&file.road).unwrap_or_default();
-    let road = reader.or_default("road", file.road)?;
+    let mut road = reader.or_default("road", file.road)?;
+    let unread = records::read(&mut file.vehicles, tree);
+    if !unread.is_empty() {
+        return Err(unread);
+    }
+    let moved = local_origin::move_near_origin(&mut road, &mut file.vehicles);
     let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
     let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
@@ -89,6 +100,7 @@ fn read(
     if let Some(period_s) = file.planning_period_s {
         scenario.ticks_per_plan = ticks_per_plan(period_s, scenario.step_s, tree)?;
     }
+    scenario.remarks.0.extend(moved.map(|origin| ScenarioRemark(local_origin::remark(origin, tree))));
     let weather = reader.or_default("weather", file.weather)?;
     let unread = read_named_files(&mut scenario, weather, tree);
     Ok((scenario, unread))

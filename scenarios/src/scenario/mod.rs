@@ -173,11 +173,15 @@ impl Scenario {
     }
 
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
-    /// same seed gives the same starts.
+    /// same seed gives the same starts. Who follows a record starts where it begins.
     pub fn starts(&self) -> Vec<State> {
         let mut random = SplitMix64::new(self.seed);
         let jitter = self.start_jitter;
-        self.vehicles.iter().map(|vehicle| jitter.changed(vehicle.start, &vehicle.limits, &mut random)).collect()
+        let start = |vehicle: &Vehicle| {
+            let changed = jitter.changed(vehicle.start, &vehicle.limits, &mut random);
+            if vehicle.driver.record().is_some() { vehicle.start } else { changed }
+        };
+        self.vehicles.iter().map(start).collect()
     }
 }
 

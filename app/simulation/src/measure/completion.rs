@@ -12,7 +12,7 @@ const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 /// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone; on a network, once its rear
 /// bumper is on the last lane of its route.
 ///
-/// A vehicle that starts there has nothing to complete.
+/// A vehicle that starts there has nothing to complete, nor has one that follows a record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,
@@ -48,7 +48,7 @@ impl Completion {
             },
         };
         let mut completion = Completion { route, task, has_task: false, completed_s: None };
-        completion.has_task = !completion.is_there(&vehicle.start);
+        completion.has_task = vehicle.driver.record().is_none() && !completion.is_there(&vehicle.start);
         completion
     }
 

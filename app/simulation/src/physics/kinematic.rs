@@ -1,4 +1,4 @@
-//! The kinematic plant: every vehicle follows the bicycle model exactly, and Rapier only says who touches whom.
+//! The kinematic plant: every vehicle follows the bicycle model exactly, or its record, and Rapier only says who touches whom.
 
 use interplay_planners::Bicycle;
 use interplay_planners::State;
@@ -25,7 +25,9 @@ pub(super) fn advance(
     let path = |vehicle: &Moving| Path {
         body: vehicle.body,
         from: vehicle.state,
-        to: Bicycle::new(&vehicle.body, step_s).step(&vehicle.state, &vehicle.input),
+        to: vehicle
+            .recorded
+            .unwrap_or_else(|| Bicycle::new(&vehicle.body, step_s).step(&vehicle.state, &vehicle.input)),
     };
     let paths: Vec<Path> = vehicles.iter().map(path).collect();
     let (mut share, mut contacts) = (0.0, Vec::new());

@@ -22,6 +22,7 @@ mod time_to_collision;
 mod tyres;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::recorded::next_to;
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
@@ -139,6 +140,7 @@ pub fn step(
         body: parameters.body,
         state: motion.state,
         input: motion.input,
+        recorded: recorded(parameters, motion, clock.within_s(1.0)),
     };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
     let frame = &mut current_frame.0;
@@ -171,6 +173,13 @@ pub fn step(
         motion.state = state;
     }
     clock.tick += 1;
+}
+
+/// Where the record of a vehicle puts it at a time, with a heading by full turns nearest to its present one; none without a record
+/// \[s\].
+fn recorded(parameters: &VehicleParameters, motion: &Motion, time_s: f64) -> Option<State> {
+    let state = parameters.record.as_ref()?.state_at(time_s)?;
+    Some(State { heading_rad: next_to(state.heading_rad, motion.state.heading_rad), ..state })
 }
 
 /// Momentum of all bodies along x and y, and about the origin of Rapier's world \[kg m/s, kg m²/s\].

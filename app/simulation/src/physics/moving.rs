@@ -9,6 +9,8 @@ pub(super) struct Moving {
     pub body: Body,
     pub state: State,
     pub input: Input,
+    /// Where it is at the end of the tick, if it follows a record.
+    pub recorded: Option<State>,
 }
 
 /// Two vehicles, by their indices (ascending), that begin to touch.

@@ -4,10 +4,12 @@ mod known_roads;
 mod network;
 mod on_network;
 mod parallel;
+mod recorded;
 mod written;
 
 use std::sync::Arc;
 
+use interplay_planners::Route;
 use interplay_planners::road::network::RoadNetwork;
 
 use crate::check::consistency::curve_faults;
@@ -16,7 +18,9 @@ use crate::file_format::vehicle_config::VehicleConfig;
 use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
+use known_roads::KnownNetwork;
 pub(crate) use known_roads::KnownRoads;
+pub(crate) use recorded::way as way_of_record;
 pub(crate) use written::Start;
 use written::VehicleAsWritten;
 
@@ -48,11 +52,16 @@ pub(crate) fn place(
     for (index, vehicle) in vehicles.iter().enumerate() {
         let written = VehicleAsWritten { stated: vehicle, index, tree, schema };
         let route = if vehicle.road == Branch::Main { &main } else { &cross };
-        let found = match (&network, route) {
-            (Some(network), _) => on_network::place(&written, network),
-            (None, Some(route)) => parallel::place(&written, road, route),
+        let found = match (recorded::start(&written), &network, route) {
+            (Err(fault), ..) => Err(fault),
+            (Ok(Some((record, state))), Some(network), _) => {
+                Ok(recorded::place(&record, state, &vehicle.route, network))
+            }
+            (Ok(Some((_, state))), None, Some(route)) => Ok((state, Arc::clone(route))),
+            (Ok(None), Some(network), _) => on_network::place(&written, network),
+            (Ok(None), None, Some(route)) => parallel::place(&written, road, route),
             // A road that is no network has a route.
-            (None, None) => continue,
+            (Ok(_), None, None) => continue,
         };
         match found {
             Ok(start) => starts.push(start),
@@ -65,7 +74,15 @@ pub(crate) fn place(
     if let Some(network) = &network {
         // On a network the routes know where they meet.
         let (states, routes): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
-        starts = states.into_iter().zip(network.set_of(routes)).collect();
+        starts = states.into_iter().zip(in_one_set(routes, network)).collect();
     }
     Ok(Placed { network: network.map(|known| Arc::clone(&known.network)), starts })
+}
+
+/// The routes, so that those along lanes know where they meet. Strips beside the lanes belong to no set.
+fn in_one_set(routes: Vec<Arc<Route>>, network: &KnownNetwork) -> Vec<Arc<Route>> {
+    let along_lanes = routes.iter().filter(|route| !route.legs.is_empty()).cloned().collect();
+    let mut known = network.set_of(along_lanes).into_iter();
+    let of_set = |route: Arc<Route>| if route.legs.is_empty() { Some(route) } else { known.next() };
+    routes.into_iter().filter_map(of_set).collect()
 }

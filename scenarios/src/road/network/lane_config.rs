@@ -141,7 +141,7 @@ pub struct NeighbourTable {
 }
 
 impl NeighbourConfig {
-    pub(super) fn neighbour(&self) -> LaneNeighbour {
+    pub(crate) fn neighbour(&self) -> LaneNeighbour {
         let (lane, oncoming, may_change) = match self {
             NeighbourConfig::Name(lane) => (lane, false, true),
             NeighbourConfig::Table(table) => (&table.lane, table.oncoming, table.may_change),

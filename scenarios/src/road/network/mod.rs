@@ -19,7 +19,7 @@ pub struct LaneNetwork {
     /// The lanes, one `[[road.lane]]` each.
     #[serde(rename = "lane")]
     #[schemars(
-        length(min = 1, max = 2000),
+        length(min = 1, max = 5000),
         extend("x-merge-by" = "name"),
         example = json!([{ "name": "main", "points": [[0.0, 0.0], [100.0, 0.0]], "width_m": 3.5 }])
     )]

@@ -1,0 +1,197 @@
+//! The planning problem becomes the ego.
+
+use interplay_planners::road::network::{Lane, RoadNetwork};
+use interplay_planners::{Body, State};
+
+use super::super::model::{CommonRoad, PlanningProblem, Region};
+use super::lanes::Lanes;
+use super::notes::{NOT_YET, Notes};
+use super::places::{self, OnLanes};
+use super::vehicles::{in_world, rounded};
+use crate::classes::VehicleClass;
+use crate::error::Fault;
+use crate::file_format::goal::GoalConfig;
+use crate::file_format::vehicle_config::VehicleConfig;
+use crate::text::name::EGO;
+
+/// Who is slower when the run begins wants to drive as fast as is permitted \[m/s\].
+const MIN_WANTED_MPS: f64 = 3.0;
+/// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
+const USUAL_MPS: f64 = 8.33;
+/// The highest speed of a car \[m/s\].
+const MAX_SPEED_MPS: f64 = 50.0;
+/// A start that is moved by less is not mentioned \[m\].
+const NOTED_MOVE_M: f64 = 0.01;
+/// A planning problem with a start further from every lane is left out \[m\].
+const MAX_AWAY_M: f64 = 50.0;
+
+/// The ego, and its body.
+pub(super) struct Ego {
+    pub config: VehicleConfig,
+    pub state: State,
+    pub body: Body,
+}
+
+/// The ego of a planning problem; none for one that is far from every lane.
+///
+/// # Errors
+/// For a start from which no car can drive along a lane.
+pub(super) fn of_problem(
+    problem: &PlanningProblem<'_>,
+    lanes: &Lanes,
+    notes: &mut Notes,
+) -> Result<Option<Ego>, Fault> {
+    let initial = &problem.initial;
+    let speed_mps = initial.velocity_mps.clamp(0.0, MAX_SPEED_MPS);
+    if speed_mps != initial.velocity_mps {
+        notes.one(["initial speed", "initial speeds"], "carried over within the limits of a car");
+    }
+    let [x_m, y_m] = initial.position;
+    let state = State { x_m, y_m, heading_rad: initial.orientation_rad, speed_mps };
+    let network = &lanes.network;
+    let nearest = places::nearest(network, &state);
+    let is_near = |near: &State| libm::hypot(near.x_m - x_m, near.y_m - y_m) <= MAX_AWAY_M;
+    let Some((nearest, beside)) = nearest.filter(|(_, near)| is_near(near)) else {
+        let what = ["planning problem far from every lane", "planning problems far from every lane"];
+        notes.one(what, "left out");
+        return Ok(None);
+    };
+    let goals = goal_lanes(problem, lanes);
+    let on_lanes = places::lanes_at(network, &state);
+    let found = way(network, (&on_lanes, &goals), &state).or_else(|| {
+        let found = way(network, (&[nearest], &goals), &beside)?;
+        notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
+        Some(found)
+    });
+    let Some((OnLanes { state, lanes: route, moved_m }, reaches_goal)) = found else {
+        let message = format!("no car can drive along a lane from the initial state of {}", problem.element.shown());
+        return Err(problem.element.fault("no room for a car", message));
+    };
+    if !reaches_goal && !problem.goals.is_empty() {
+        let fate = if goals.is_empty() {
+            "the ego drives straight on"
+        } else {
+            "not reached by lanes: the ego drives straight on"
+        };
+        notes.one(["goal without a lane", "goals without a lane"], fate);
+    }
+    if moved_m > NOTED_MOVE_M {
+        notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
+    }
+    let limit_mps = route.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
+    let wanted_mps = rounded(wanted_mps(problem, (speed_mps, limit_mps), notes), 2);
+    note_goals(problem, notes);
+    let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
+    Ok(Some(Ego::new(state, route, goal)))
+}
+
+/// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
+fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
+    let body = &VehicleClass::Car.dimensions().body;
+    let mut pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
+    let to_goal = pairs.find_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
+    let straight_on =
+        || starts.iter().find_map(|lane| places::on(network, places::straight_on(network, lane), state, body));
+    to_goal.map(|way| (way, true)).or_else(|| straight_on().map(|way| (way, false)))
+}
+
+impl Ego {
+    fn new(state: State, route: Vec<String>, goal: GoalConfig) -> Ego {
+        let class = Some(VehicleClass::Car);
+        let config = VehicleConfig { class, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        Ego { config, state, body: VehicleClass::Car.dimensions().body }
+    }
+}
+
+/// The ego of a map without a planning problem and without vehicles: at the begin of the longest lane.
+pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
+    let network = &lanes.network;
+    let body = VehicleClass::Car.dimensions().body;
+    let mut by_length: Vec<_> = network.lanes().iter().collect();
+    by_length.sort_by(|a, b| b.centre.length_m().total_cmp(&a.centre.length_m()));
+    let found = by_length.iter().find_map(|lane| {
+        let along_m = (2.0 * body.rear_m).min(0.5 * lane.centre.length_m());
+        let [x_m, y_m] = lane.centre.position(along_m, 0.0);
+        let heading_rad = lane.centre.at(along_m).heading_rad;
+        let state =
+            State { x_m, y_m, heading_rad, speed_mps: lane.speed_limit_mps.unwrap_or(USUAL_MPS).min(USUAL_MPS) };
+        places::on(network, places::straight_on(network, lane), &state, &body)
+    });
+    let OnLanes { state, lanes: route, .. } = found?;
+    notes.one(["map without vehicles", "maps without vehicles"], "the ego starts where the longest lane begins");
+    let config = VehicleConfig { class: Some(VehicleClass::Car), route, ..VehicleConfig::new(EGO, in_world(&state)) };
+    Some(Ego { config, state, body })
+}
+
+/// The shortest way from a lane to another, with a car at its begin.
+fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, (state, body): (&State, &Body)) -> Option<OnLanes> {
+    let route = network.shortest_route(&from.name, goal).ok()?;
+    let names: Vec<String> = route.legs.iter().map(|leg| leg.lane.clone()).collect();
+    let count = names.len();
+    places::on(network, names, state, body).filter(|found| found.lanes.len() == count)
+}
+
+/// The names of the lanes that are goals, or in which goals lie.
+fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for goal in &problem.goals {
+        let heading_rad = goal.orientation_rad.map_or(problem.initial.orientation_rad, |[from, to]| 0.5 * (from + to));
+        for region in &goal.position {
+            match (region, region.middle()) {
+                (Region::Lanelets(ids), _) => found.extend(ids.iter().filter_map(|id| lanes.names.get(id)).cloned()),
+                (_, Some(middle)) => {
+                    let places = lanes.network.locate(middle, heading_rad);
+                    found.extend(places.into_iter().map(|place| place.lane));
+                }
+                (_, None) => {}
+            }
+        }
+    }
+    found
+}
+
+/// The speed that the ego wants: that of its goal, or its own, or what is permitted \[m/s\].
+fn wanted_mps(problem: &PlanningProblem<'_>, (own_mps, limit_mps): (f64, Option<f64>), notes: &mut Notes) -> f64 {
+    let stated = problem.goals.iter().find_map(|goal| goal.velocity_mps);
+    if let Some([from_mps, to_mps]) = stated {
+        let nearest_mps = own_mps.max(from_mps.max(0.0)).min(to_mps.max(0.0));
+        let wanted_mps = if nearest_mps < MIN_WANTED_MPS { 0.5 * (from_mps + to_mps) } else { nearest_mps };
+        return wanted_mps.clamp(0.0, MAX_SPEED_MPS);
+    }
+    if own_mps >= MIN_WANTED_MPS {
+        return own_mps;
+    }
+    notes.one(["goal without a speed", "goals without a speed"], "the ego drives as fast as is permitted, or 30 km/h");
+    limit_mps.unwrap_or(USUAL_MPS).min(MAX_SPEED_MPS)
+}
+
+/// Notes what of goals a scenario does not say.
+fn note_goals(problem: &PlanningProblem<'_>, notes: &mut Notes) {
+    notes.several(problem.goals.len().saturating_sub(1), ["further goal", "further goals"], NOT_YET);
+    for goal in &problem.goals {
+        if goal.time.is_some() {
+            notes.one(["time of a goal", "times of goals"], "carried over as the duration of the run only");
+        }
+        if goal.orientation_rad.is_some() {
+            notes.one(["heading of a goal", "headings of goals"], NOT_YET);
+        }
+        let is_part = |region: &&Region| !matches!(region, Region::Lanelets(_));
+        let parts = goal.position.iter().filter(is_part).count();
+        notes.several(parts, ["region of a goal", "regions of goals"], "carried over as the lane in which it lies");
+    }
+}
+
+/// The step of time at which the run begins: that of the planning problem, or the first of any vehicle.
+pub(super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
+    let of_problem = scenario.problems.first().map(|problem| problem.initial.time);
+    let of_vehicles = scenario.obstacles.iter().filter_map(|obstacle| obstacle.states.first()).map(|state| state.time);
+    of_problem.unwrap_or_else(|| of_vehicles.min_by(f64::total_cmp).unwrap_or_default())
+}
+
+/// The last step of time that the goals of the first planning problem, or else the records, know.
+pub(super) fn end(scenario: &CommonRoad<'_>) -> f64 {
+    let goals = scenario.problems.first().into_iter().flat_map(|problem| &problem.goals);
+    let of_goals = goals.filter_map(|goal| goal.time).map(|[_, to]| to).max_by(f64::total_cmp);
+    let of_vehicles = scenario.obstacles.iter().filter_map(|obstacle| obstacle.states.last()).map(|state| state.time);
+    of_goals.unwrap_or_else(|| of_vehicles.max_by(f64::total_cmp).unwrap_or_default())
+}

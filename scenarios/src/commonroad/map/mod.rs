@@ -1,0 +1,252 @@
+//! From a scenario of CommonRoad to a scenario of Interplay, one file a concept.
+
+mod ego;
+mod lanes;
+mod line;
+mod names;
+mod notes;
+mod places;
+mod rights;
+mod vehicles;
+
+use interplay_planners::{Driver, DriverKind, recorded};
+use serde_json::{Value as Json, json};
+
+use super::ImportOptions;
+use super::model::CommonRoad;
+use super::xml::Unread;
+use crate::check::consistency::overlap;
+use crate::error::{Fault, Place, quoted};
+use crate::file_format::budget_limits::BudgetLimits;
+use crate::file_format::goal::GoalConfig;
+use crate::file_format::scenario_file::ScenarioFile;
+use crate::file_format::stated::Stated;
+use crate::file_format::vehicle_config::VehicleConfig;
+use crate::road::{LaneConfig, LaneNetwork, Road};
+use ego::Ego;
+use lanes::Lanes;
+use notes::NOT_YET;
+pub(super) use notes::Notes;
+use vehicles::{Follower, followers, in_world};
+
+/// The most vehicles of a scenario.
+const MAX_VEHICLES: usize = 64;
+/// The longest run \[s\], and the shortest.
+const DURATIONS_S: [f64; 2] = [1.0, 3600.0];
+/// The duration of the run of a map without vehicles \[s\].
+const MAP_DURATION_S: f64 = 10.0;
+/// The time between two plans, as near as a whole number of steps comes to it \[s\].
+const PLANNING_PERIOD_S: f64 = 0.2;
+/// How far plans look ahead \[s\].
+const HORIZON_S: f64 = 8.0;
+/// The most stages of a plan.
+const MAX_STAGES: f64 = 200.0;
+
+/// A scenario as a file states it, and where in the imported text its parts are written.
+pub(super) struct Mapped {
+    pub file: ScenarioFile,
+    /// Paths of keys, each with its place.
+    pub places: Vec<(String, Place)>,
+}
+
+/// Makes a scenario of an imported one.
+///
+/// # Errors
+/// For lanelets that are no lanes, and a planning problem from which no car can drive.
+pub(super) fn mapped(
+    scenario: &CommonRoad<'_>,
+    (root, unread): (&Place, Unread),
+    options: &ImportOptions,
+    notes: &mut Notes,
+) -> Result<Mapped, Fault> {
+    let lanes = Lanes::of(scenario, root, notes)?;
+    let begin = ego::begin(scenario);
+    let followers = followers(scenario, begin, notes);
+    let ego = match scenario.problems.first() {
+        Some(problem) => ego::of_problem(problem, &lanes, notes)?,
+        None => None,
+    };
+    let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
+    let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
+    let further = scenario.problems.len().saturating_sub(1);
+    notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
+    notes.several(scenario.lights, ["traffic light", "traffic lights"], NOT_YET);
+    for (element, count) in unread.into_counts() {
+        notes.several(count, [&format!("element `{element}`"), &format!("elements `{element}`")], NOT_YET);
+    }
+    let duration_s = duration_s(scenario, begin);
+    let mut vehicles: Vec<(VehicleConfig, Option<Place>)> = Vec::new();
+    for follower in near_the_ego(followers, ego.as_ref(), notes) {
+        let config = driven(&follower, &lanes, options, notes);
+        if config.route.is_empty() {
+            note_end(&follower, duration_s, notes);
+        }
+        vehicles.push((config, Some(follower.place)));
+    }
+    let problem = scenario.problems.first().map(|problem| problem.element.place());
+    if let Some(Ego { mut config, .. }) = ego {
+        config.driver = options.ego.as_deref().map(Stated::kind);
+        vehicles.insert(0, (config, problem));
+    }
+    if vehicles.is_empty() {
+        return Err(Fault::at(root, "without vehicles", "no vehicle can be placed on the lanes of the scenario"));
+    }
+    let mut places = vec![("road".to_owned(), root.clone())];
+    places.extend(lanes.places.iter().enumerate().map(|(index, place)| (format!("road.lane.{index}"), place.clone())));
+    let of_vehicles = vehicles.iter().enumerate();
+    places.extend(of_vehicles.filter_map(|(index, (_, place))| Some((format!("vehicle.{index}"), place.clone()?))));
+    let network = without_defaults(Road::Network(LaneNetwork { lanes: lanes.configs }).into());
+    let vehicles: Vec<VehicleConfig> = vehicles.into_iter().map(|(config, _)| config).collect();
+    let budget = budget(vehicles.len(), duration_s / scenario.step_s);
+    let file = ScenarioFile { road: Some(network), vehicles, budget, ..timed(scenario, duration_s) };
+    Ok(Mapped { file, places })
+}
+
+/// A network whose lanes state only what is not the default, so that people find what matters.
+fn without_defaults(mut network: Stated<Road>) -> Stated<Road> {
+    let Some(Json::Array(mut lanes)) = network.take("lane") else { return network };
+    let usual = serde_json::to_value(LaneConfig::through("", &[], 1.0)).unwrap_or_default();
+    for lane in lanes.iter_mut().filter_map(Json::as_object_mut) {
+        for key in ["tolerance_m", "right_of_way"] {
+            if lane.get(key) == usual.get(key) {
+                lane.remove(key);
+            }
+        }
+    }
+    network.with("lane", Json::Array(lanes))
+}
+
+/// The limits that a long run with many vehicles needs; none where the usual ones are enough.
+fn budget(vehicles: usize, ticks: f64) -> Option<Stated<BudgetLimits>> {
+    let plans = (vehicles as f64 * ticks.ceil()) as u64;
+    let steps = plans * (vehicles as u64 + 1);
+    let usual = BudgetLimits::default();
+    let is_more = plans > usual.plans || steps > usual.steps;
+    is_more.then(|| Stated::default().with("plans", plans.max(usual.plans)).with("steps", steps.max(usual.steps)))
+}
+
+/// A scenario with the times of the imported one, and nothing else.
+fn timed(scenario: &CommonRoad<'_>, duration_s: f64) -> ScenarioFile {
+    let name: String = scenario.benchmark.chars().filter(|c| !c.is_control()).take(80).collect();
+    let name = if name.trim().is_empty() { "A scenario of CommonRoad".to_owned() } else { name };
+    let step_s = scenario.step_s;
+    let ticks_per_plan = (PLANNING_PERIOD_S / step_s).round().max(1.0);
+    let period_s = vehicles::rounded(ticks_per_plan * step_s, 9);
+    ScenarioFile {
+        duration_s: Some(duration_s),
+        step_s: Some(step_s),
+        planning_period_s: (ticks_per_plan > 1.0).then_some(period_s),
+        horizon_steps: Some((HORIZON_S / period_s).ceil().clamp(2.0, MAX_STAGES) as usize),
+        ..ScenarioFile::new(&name, "Lanes, vehicles and the planning problem of a scenario of CommonRoad")
+    }
+}
+
+/// How long the run is: until the latest time of the goal, or else to the end of the records \[s\].
+fn duration_s(scenario: &CommonRoad<'_>, begin: f64) -> f64 {
+    let known_s = (ego::end(scenario) - begin) * scenario.step_s;
+    let is_map = scenario.problems.is_empty() && scenario.obstacles.is_empty();
+    let wanted_s = if is_map { MAP_DURATION_S } else { known_s };
+    let most_s = DURATIONS_S[1].min(90_000.0 * scenario.step_s);
+    vehicles::rounded(wanted_s.max(DURATIONS_S[0]).max(scenario.step_s).min(most_s), 6)
+}
+
+/// The vehicles that a scenario has room for, those nearest to the ego first, without any in whose body the ego is.
+fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) -> Vec<Follower> {
+    let before = followers.len();
+    let meets = |follower: &Follower| {
+        ego.is_some_and(|ego| overlap((&ego.body, &ego.state), (&follower.body, &follower.start)))
+    };
+    let mut kept: Vec<Follower> = followers.into_iter().filter(|follower| !meets(follower)).collect();
+    notes.several(
+        before - kept.len(),
+        ["vehicle that overlaps the ego", "vehicles that overlap the ego"],
+        "left out: the ego takes their place",
+    );
+    let room = MAX_VEHICLES - usize::from(ego.is_some());
+    if kept.len() > room {
+        let beyond = kept.len() - room;
+        notes.several(
+            beyond,
+            ["vehicle farthest from the ego", "vehicles farthest from the ego"],
+            "left out, beyond 64",
+        );
+        if let Some(Ego { state, .. }) = ego {
+            let away_m =
+                |follower: &Follower| libm::hypot(follower.start.x_m - state.x_m, follower.start.y_m - state.y_m);
+            kept.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+        }
+        kept.truncate(room);
+    }
+    kept
+}
+
+/// Notes a record that ends before the run does.
+fn note_end(follower: &Follower, duration_s: f64, notes: &mut Notes) {
+    let ends_s = follower.rows.last().map_or(0.0, |row| row[0]);
+    let moves = follower.rows.last().is_some_and(|row| row[4] > 0.0);
+    if moves && ends_s < duration_s - 1e-6 {
+        notes.one(
+            ["record that ends before the run", "records that end before the run"],
+            "the vehicle then keeps its speed",
+        );
+    }
+}
+
+/// A vehicle with its driver: its record, or the one that the options name, which needs a way along lanes.
+fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &mut Notes) -> VehicleConfig {
+    let config = follower.config.clone();
+    let recorded = |config| {
+        let driver = Stated::kind(recorded_kind()).with("points", json!(follower.rows));
+        VehicleConfig { driver: Some(driver), ..config }
+    };
+    let replacement = options.replacement(&follower.id, &config.name);
+    let Some(driver) = replacement.filter(|_| follower.is_car) else { return recorded(config) };
+    let network = &lanes.network;
+    let place = places::lanes_at(network, &follower.start).into_iter().find_map(|lane| {
+        let way = places::along_record(network, &follower.rows, lane);
+        places::on(network, way, &follower.start, &follower.body)
+    });
+    match place {
+        Some(place) => {
+            let limit_mps =
+                place.lanes.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
+            let goal = GoalConfig { speed_mps: Some(follower.wanted_mps(limit_mps)), ..GoalConfig::default() };
+            VehicleConfig { start: in_world(&place.state), route: place.lanes, goal, driver: Some(driver), ..config }
+        }
+        None => {
+            notes.one(["vehicle beside the lanes", "vehicles beside the lanes"], "not replaced: it follows its record");
+            recorded(config)
+        }
+    }
+}
+
+/// The word for drivers that follow a record.
+fn recorded_kind() -> &'static str {
+    recorded::Settings::default().kind()
+}
+
+impl ImportOptions {
+    /// The driver that takes the place of a record, if the options name one.
+    fn replacement(&self, id: &str, name: &str) -> Option<Stated<Driver>> {
+        let is_it = |vehicle: &str| vehicle == id || vehicle == name;
+        let named = self.replace.iter().find(|it| it.vehicle.as_deref().is_some_and(is_it));
+        // What is said of one vehicle comes before what is said of all.
+        let found = named.or_else(|| self.replace.iter().find(|it| it.vehicle.is_none()))?;
+        let driver = Stated::kind(&found.kind);
+        Some(match &found.style {
+            Some(style) => driver.with("style", style.as_str()),
+            None => driver,
+        })
+    }
+
+    /// Refuses names of vehicles that the scenario does not have.
+    ///
+    /// # Errors
+    /// For the first of them.
+    pub(super) fn check_names(&self, scenario: &CommonRoad<'_>) -> Result<(), Fault> {
+        let is_known =
+            |name: &str| scenario.obstacles.iter().any(|it| it.id == name || name.ends_with(&format!("-{}", it.id)));
+        let unknown = self.replace.iter().filter_map(|it| it.vehicle.as_deref()).find(|name| !is_known(name));
+        unknown.map_or(Ok(()), |name| Err(Fault::new(format!("the scenario has no obstacle {}", quoted(name)))))
+    }
+}

@@ -1,0 +1,106 @@
+//! Places of vehicles that drive along lanes: their state at the start, and the lanes before them.
+
+use interplay_planners::recorded::Record;
+use interplay_planners::road::network::{Lane, RoadNetwork};
+use interplay_planners::{Body, Route, State};
+
+use super::vehicles::rounded;
+use crate::resolve::placement::way_of_record;
+
+/// Cosine of the largest angle between a start and its lane.
+const MIN_COS_OF_START: f64 = 0.5;
+/// How far towards the middle of its lane a vehicle is moved, one share after the other, until its body is on the road.
+const SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
+/// The most lanes of a way without a goal.
+const MAX_LANES: usize = 100;
+
+/// A vehicle at its start, with the lanes before it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct OnLanes {
+    pub state: State,
+    pub lanes: Vec<String>,
+    /// By how much it was moved, so that its body is on the road \[m\].
+    pub moved_m: f64,
+}
+
+/// The lanes on which a vehicle may be, those in its direction first.
+pub(super) fn lanes_at<'a>(network: &'a RoadNetwork, state: &State) -> Vec<&'a Lane> {
+    let places = network.locate(state.position(), state.heading_rad).into_iter();
+    let along = places.filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START);
+    along.filter_map(|place| network.lane(&place.lane)).collect()
+}
+
+/// The lane nearest to a vehicle that is on none, and the state in the middle of it.
+pub(super) fn nearest<'a>(network: &'a RoadNetwork, state: &State) -> Option<(&'a Lane, State)> {
+    let beside = network.lanes().iter().map(|lane| {
+        let at = lane.centre.project(state.position(), None);
+        let length_m = lane.centre.length_m();
+        let along_m = at.along_m.clamp(0.01 * length_m, 0.99 * length_m);
+        let [x_m, y_m] = lane.centre.position(along_m, 0.0);
+        let heading_rad = lane.centre.at(along_m).heading_rad;
+        let away_m = libm::hypot(x_m - state.x_m, y_m - state.y_m);
+        let is_against = libm::cos(heading_rad - state.heading_rad) < MIN_COS_OF_START;
+        (lane, State { x_m, y_m, heading_rad, ..*state }, (is_against, away_m))
+    });
+    let order = |one: &(bool, f64), other: &(bool, f64)| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1));
+    beside.min_by(|one, other| order(&one.2, &other.2)).map(|(lane, state, _)| (lane, state))
+}
+
+/// The lanes straight on from a lane: of several successors, the one that turns least.
+pub(super) fn straight_on(network: &RoadNetwork, lane: &Lane) -> Vec<String> {
+    let mut names = vec![lane.name.clone()];
+    let mut last = lane;
+    while names.len() < MAX_LANES {
+        let ahead = last.successors.iter().filter_map(|name| network.lane(name));
+        let turn = |lane: &Lane| {
+            let headings = [0.0, lane.centre.length_m()].map(|along_m| lane.centre.at(along_m).heading_rad);
+            (headings[1] - headings[0]).abs()
+        };
+        let next = ahead.filter(|lane| !names.contains(&lane.name)).min_by(|a, b| turn(a).total_cmp(&turn(b)));
+        let Some(next) = next else { break };
+        names.push(next.name.clone());
+        last = next;
+    }
+    names
+}
+
+/// The longest begin of some lanes along which a body can drive; none where it cannot even be on the first.
+pub(super) fn on(network: &RoadNetwork, lanes: Vec<String>, state: &State, body: &Body) -> Option<OnLanes> {
+    let mut lanes = lanes;
+    while !lanes.is_empty() {
+        if let Some(found) = network.route(&lanes).ok().and_then(|route| placed(network, &route, &lanes, state, body)) {
+            return Some(found);
+        }
+        lanes.pop();
+    }
+    None
+}
+
+/// A body on a route, moved towards its middle as far as it takes.
+fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State, body: &Body) -> Option<OnLanes> {
+    route.check_turns(TURNING_RADIUS_M).ok()?;
+    let at = route.locate(state.position(), None);
+    let error_rad = libm::remainder(state.heading_rad - at.heading_rad, std::f64::consts::TAU);
+    let shares = SHARES.iter().map(|share| {
+        let [x_m, y_m] = route.position(at.along_m, share * at.across_m);
+        let heading_rad = (at.heading_rad + share * error_rad).to_degrees();
+        // As it is written, so that what is judged here is what is read.
+        let [x_m, y_m] = [x_m, y_m].map(|coordinate| rounded(coordinate, 4));
+        State { x_m, y_m, heading_rad: rounded(heading_rad, 4).to_radians(), ..*state }
+    });
+    let fits = |placed: &State| {
+        let is_on_first = lanes_at(network, placed).iter().any(|lane| Some(&lane.name) == lanes.first());
+        is_on_first && route.contains(body, placed, 0.0)
+    };
+    let placed = shares.into_iter().find(fits)?;
+    let moved_m = libm::hypot(placed.x_m - state.x_m, placed.y_m - state.y_m);
+    Some(OnLanes { state: placed, lanes: lanes.to_vec(), moved_m })
+}
+
+/// The smallest radius of a lane along which vehicles are sent \[m\].
+const TURNING_RADIUS_M: f64 = 5.0;
+
+/// The lanes that a record goes along, from a lane on.
+pub(super) fn along_record(network: &RoadNetwork, rows: &[[f64; 5]], lane: &Lane) -> Vec<String> {
+    Record::new(rows).map_or_else(|_| vec![lane.name.clone()], |record| way_of_record(&record, lane, network))
+}

@@ -1,0 +1,198 @@
+//! Obstacles become vehicles that follow their record, or that a driver of ours takes over.
+
+use interplay_planners::recorded::Record;
+use interplay_planners::{Body, State};
+
+use super::super::model::{CommonRoad, Obstacle, Role};
+use super::names::Names;
+use super::notes::{NOT_YET, Notes};
+use crate::classes::VehicleClass;
+use crate::error::Place;
+use crate::file_format::start::StartConfig;
+use crate::file_format::stated::Stated;
+use crate::file_format::vehicle_config::VehicleConfig;
+
+/// The smallest and the largest side of a body \[m\].
+const SIDES_M: [f64; 2] = [0.1, 100.0];
+/// Where the axles of a vehicle of unknown kind are, as a share of its length from its middle.
+const AXLE_SHARE: f64 = 0.3;
+
+/// A vehicle of the imported scenario.
+pub(super) struct Follower {
+    /// The id of its obstacle.
+    pub id: String,
+    /// What a file says of it, but for its driver and its route.
+    pub config: VehicleConfig,
+    /// Its motion: rows of time, x, y, heading and speed.
+    pub rows: Vec<[f64; 5]>,
+    /// Where it is when the run begins.
+    pub start: State,
+    pub body: Body,
+    /// Whether it stands all the time.
+    pub stands: bool,
+    /// Whether one of our drivers could drive it.
+    pub is_car: bool,
+    /// Where it is written.
+    pub place: Place,
+}
+
+/// Who was never faster wants to drive as fast as is permitted \[m/s\].
+const MIN_WANTED_MPS: f64 = 3.0;
+/// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
+const USUAL_MPS: f64 = 8.33;
+
+impl Follower {
+    /// The speed that a driver wants who takes the place of its record: the highest one of the record, or of one that never drove,
+    /// what is permitted \[m/s\].
+    pub(super) fn wanted_mps(&self, limit_mps: Option<f64>) -> f64 {
+        let fastest_mps = self.rows.iter().map(|row| row[4]).fold(0.0, f64::max);
+        if fastest_mps >= MIN_WANTED_MPS { fastest_mps } else { limit_mps.unwrap_or(USUAL_MPS) }
+    }
+}
+
+/// The vehicles that are there when the run begins, at a number of steps of time.
+pub(super) fn followers(scenario: &CommonRoad<'_>, begin: f64, notes: &mut Notes) -> Vec<Follower> {
+    let mut names = Names::default();
+    let all = scenario.obstacles.iter();
+    all.filter_map(|obstacle| follower(obstacle, (scenario.step_s, begin), &mut names, notes)).collect()
+}
+
+fn follower(
+    obstacle: &Obstacle<'_>,
+    (step_s, begin): (f64, f64),
+    names: &mut Names,
+    notes: &mut Notes,
+) -> Option<Follower> {
+    let body = body(obstacle, notes)?;
+    if obstacle.has_occupancies && obstacle.states.len() < 2 {
+        let what = ["obstacle with sets of places for a trajectory", "obstacles with sets of places for a trajectory"];
+        notes.one(what, NOT_YET);
+        return None;
+    }
+    let rows = rows(obstacle, (step_s, begin), notes);
+    let record = Record::new(&rows).ok()?;
+    let [from_s, _] = record.span_s();
+    let stands = obstacle.role == Role::Static;
+    if from_s > 1e-6 && !stands {
+        notes.one(["vehicle that appears later", "vehicles that appear later"], NOT_YET);
+        return None;
+    }
+    let rows =
+        if stands { rows.into_iter().take(1).map(|row| [0.0, row[1], row[2], row[3], 0.0]).collect() } else { rows };
+    let Some(start) = Record::new(&rows).ok()?.state_at(0.0) else {
+        notes.one(
+            ["vehicle that is gone when the run begins", "vehicles that are gone when the run begins"],
+            "left out",
+        );
+        return None;
+    };
+    let kind = if obstacle.kind == "parkedVehicle" { "parked" } else { &obstacle.kind };
+    let name = names.name("", &format!("{kind}-{}", obstacle.id));
+    let class = class(&obstacle.kind);
+    let (half_m, axle_m) = (body.front_m, body.front_axle_m);
+    let stated = Stated::default().with("front_m", half_m).with("rear_m", half_m).with("width_m", body.width_m);
+    let config = VehicleConfig {
+        class: Some(class),
+        body: Some(stated.with("front_axle_m", axle_m).with("rear_axle_m", axle_m)),
+        ..VehicleConfig::new(&name, in_world(&start))
+    };
+    let (id, place) = (obstacle.id.clone(), obstacle.element.place());
+    let is_car = class != VehicleClass::Bicycle && !stands;
+    Some(Follower { id, config, rows, start, body, stands, is_car, place })
+}
+
+/// A start in world coordinates, in the numbers that people read.
+pub(super) fn in_world(state: &State) -> StartConfig {
+    StartConfig {
+        x_m: Some(rounded(state.x_m, 4)),
+        y_m: Some(rounded(state.y_m, 4)),
+        heading_deg: Some(rounded(state.heading_rad.to_degrees(), 4)),
+        speed_mps: rounded(state.speed_mps, 3),
+        ..StartConfig::default()
+    }
+}
+
+/// A number with so many digits behind the point.
+pub(super) fn rounded(number: f64, digits: i32) -> f64 {
+    let factor = 10_f64.powi(digits);
+    (factor * number).round() / factor
+}
+
+/// What class of vehicle an obstacle is nearest to.
+fn class(kind: &str) -> VehicleClass {
+    match kind {
+        "truck" | "bus" | "train" => VehicleClass::Truck,
+        "bicycle" | "pedestrian" | "motorcycle" => VehicleClass::Bicycle,
+        _ => VehicleClass::Car,
+    }
+}
+
+/// The body of an obstacle, with its middle as the mass centre; none of one that is no vehicle.
+fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
+    if obstacle.role == Role::Surroundings {
+        notes.one(["obstacle beside the road", "obstacles beside the road"], NOT_YET);
+        return None;
+    }
+    let shapes: Vec<_> = obstacle.shape.iter().filter_map(|shape| shape.rectangle()).collect();
+    let Some((rectangle, is_exact)) = shapes.first() else {
+        notes.one(["obstacle without a shape", "obstacles without a shape"], "left out");
+        return None;
+    };
+    if !is_exact {
+        notes.one(
+            ["obstacle that is no rectangle", "obstacles that are no rectangle"],
+            "carried over as the box around it",
+        );
+    }
+    if shapes.len() > 1 {
+        notes.one(["obstacle of several shapes", "obstacles of several shapes"], "carried over with the first of them");
+    }
+    let [length_m, width_m] =
+        [rectangle.length_m, rectangle.width_m].map(|side| rounded(side.clamp(SIDES_M[0], SIDES_M[1]), 3));
+    let axle_m = rounded(AXLE_SHARE * length_m, 3);
+    let half_m = 0.5 * length_m;
+    Some(Body {
+        front_m: half_m,
+        rear_m: half_m,
+        width_m,
+        front_axle_m: axle_m,
+        rear_axle_m: axle_m,
+        scale: Body::REAL_SCALE,
+    })
+}
+
+/// The motion of an obstacle: of the middle of its box.
+fn rows(obstacle: &Obstacle<'_>, (step_s, begin): (f64, f64), notes: &mut Notes) -> Vec<[f64; 5]> {
+    let shape = obstacle.shape.first().and_then(|shape| shape.rectangle());
+    let (offset, turned_rad) = shape.map_or(([0.0; 2], 0.0), |(it, _)| (it.centre, it.orientation_rad));
+    // The direction of a box that moves is that of its motion.
+    let turned_rad = if obstacle.role == Role::Static { turned_rad } else { 0.0 };
+    let mut rows: Vec<[f64; 5]> = Vec::with_capacity(obstacle.states.len());
+    let (mut backwards, mut out_of_order, mut uncertain) = (false, 0, false);
+    for state in &obstacle.states {
+        let (sin, cos) = libm::sincos(state.orientation_rad);
+        let [x, y] = state.position;
+        let row = [
+            rounded((state.time - begin) * step_s, 6),
+            rounded(x + cos * offset[0] - sin * offset[1], 4),
+            rounded(y + sin * offset[0] + cos * offset[1], 4),
+            rounded(state.orientation_rad + turned_rad, 5),
+            rounded(state.velocity_mps.max(0.0), 3),
+        ];
+        backwards |= state.velocity_mps < 0.0;
+        uncertain |= !state.is_exact;
+        if rows.last().is_some_and(|before| row[0] <= before[0]) {
+            out_of_order += 1;
+            continue;
+        }
+        rows.push(row);
+    }
+    if backwards {
+        notes.one(["vehicle that drives backwards", "vehicles that drive backwards"], "their speed is 0 meanwhile");
+    }
+    if uncertain {
+        notes.one(["vehicle with uncertain states", "vehicles with uncertain states"], "taken in the middle");
+    }
+    notes.several(out_of_order, ["state out of order", "states out of order"], "left out");
+    rows
+}

@@ -1,0 +1,106 @@
+//! A scenario of CommonRoad as plain values, one file a concept; the format is described in its documentation, versions 2018b and
+//! 2020a.
+
+mod geometry;
+mod intersection;
+mod lanelet;
+mod light;
+mod obstacle;
+mod planning_problem;
+mod sign;
+mod state;
+
+pub(super) use geometry::Region;
+pub(super) use intersection::Intersection;
+pub(super) use lanelet::{Adjacent, Lanelet};
+pub(super) use obstacle::{Obstacle, Role};
+pub(super) use planning_problem::PlanningProblem;
+pub(super) use sign::{Sign, SignMeaning};
+
+use super::xml::{Element, Unread};
+use crate::error::{Fault, quoted};
+
+/// The name of the outermost element.
+pub(super) const ROOT: &str = "commonRoad";
+/// The versions of the format that are read.
+const VERSIONS: [&str; 2] = ["2018b", "2020a"];
+/// The shortest and the longest step of time \[s\].
+const STEPS_S: [f64; 2] = [0.001, 10.0];
+
+/// A scenario of CommonRoad.
+pub(super) struct CommonRoad<'a> {
+    /// Its name among the benchmarks.
+    pub benchmark: String,
+    /// Length of a step of time \[s\].
+    pub step_s: f64,
+    pub lanelets: Vec<Lanelet<'a>>,
+    pub signs: Vec<Sign>,
+    /// How many traffic lights there are.
+    pub lights: usize,
+    pub intersections: Vec<Intersection>,
+    pub obstacles: Vec<Obstacle<'a>>,
+    pub problems: Vec<PlanningProblem<'a>>,
+}
+
+impl<'a> CommonRoad<'a> {
+    /// Reads a scenario.
+    ///
+    /// # Errors
+    /// Where it is no scenario of a known version.
+    pub(super) fn read(root: Element<'a>, unread: &mut Unread) -> Result<CommonRoad<'a>, Fault> {
+        if root.name() != ROOT {
+            let message = format!("the outermost element is {}, not `{ROOT}`", quoted(root.name()));
+            return Err(root.fault("no scenario of CommonRoad", message));
+        }
+        let version = root.required_attribute("commonRoadVersion")?;
+        if !VERSIONS.contains(&version) {
+            let message = format!("version {} of CommonRoad is not read", quoted(version));
+            return Err(root.fault("another version", message).help(format!("{} are", VERSIONS.join(" and "))));
+        }
+        let step_s = root.as_number(root.required_attribute("timeStepSize")?)?;
+        if !(STEPS_S[0]..=STEPS_S[1]).contains(&step_s) {
+            let message = format!("`timeStepSize` is {step_s}; it must be from {} to {} s", STEPS_S[0], STEPS_S[1]);
+            return Err(root.fault("no step of time", message));
+        }
+        // Where and by whom a scenario was made says nothing of how it is driven.
+        let mut scenario = CommonRoad {
+            benchmark: root.attribute("benchmarkID").unwrap_or_default().to_owned(),
+            step_s,
+            lanelets: Vec::new(),
+            signs: Vec::new(),
+            lights: 0,
+            intersections: Vec::new(),
+            obstacles: Vec::new(),
+            problems: Vec::new(),
+        };
+        for element in root.elements() {
+            match element.name() {
+                "lanelet" => scenario.lanelets.push(Lanelet::read(element, unread)?),
+                "trafficSign" => scenario.signs.push(Sign::read(element)?),
+                "trafficLight" => scenario.lights += light::count(element),
+                "intersection" => scenario.intersections.push(Intersection::read(element, unread)?),
+                name if Obstacle::is_read_from(name) => scenario.obstacles.push(Obstacle::read(element, unread)?),
+                "planningProblem" => scenario.problems.push(PlanningProblem::read(element, unread)?),
+                _ => {}
+            }
+        }
+        unread.count_beyond(root, &READ);
+        Ok(scenario)
+    }
+}
+
+/// What is read of a scenario, or says nothing of how it is driven.
+const READ: [&str; 12] = [
+    "location",
+    "scenarioTags",
+    "lanelet",
+    "trafficSign",
+    "trafficLight",
+    "intersection",
+    "obstacle",
+    "staticObstacle",
+    "dynamicObstacle",
+    "environmentObstacle",
+    "phantomObstacle",
+    "planningProblem",
+];

@@ -1,0 +1,53 @@
+//! Planning problems: where the vehicle that is to be driven is, and where it should go.
+
+use super::super::xml::{Element, Unread};
+use super::geometry::Region;
+use super::state::StateAt;
+use crate::error::Fault;
+
+/// A planning problem.
+pub(crate) struct PlanningProblem<'a> {
+    pub element: Element<'a>,
+    pub initial: StateAt,
+    /// Goals of which one has to be reached.
+    pub goals: Vec<Goal>,
+}
+
+/// A goal; what is not stated may be anything.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Goal {
+    /// The steps of time between which it has to be reached.
+    pub time: Option<[f64; 2]>,
+    /// Regions of which one has to be reached.
+    pub position: Vec<Region>,
+    /// The direction \[rad\].
+    pub orientation_rad: Option<[f64; 2]>,
+    /// The speed \[m/s\].
+    pub velocity_mps: Option<[f64; 2]>,
+}
+
+impl<'a> PlanningProblem<'a> {
+    pub(super) fn read(element: Element<'a>, unread: &mut Unread) -> Result<PlanningProblem<'a>, Fault> {
+        let stated = element.required("initialState")?;
+        // Neither of them is anything but 0 in published scenarios.
+        let noted = [&StateAt::READ[..], &["yawRate", "slipAngle"]].concat();
+        unread.count_beyond(stated, &noted);
+        unread.count_beyond(element, &["initialState", "goalState"]);
+        Ok(PlanningProblem {
+            element,
+            initial: StateAt::read(stated)?,
+            goals: element.children("goalState").map(|goal| goal_of(goal, unread)).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+fn goal_of(element: Element<'_>, unread: &mut Unread) -> Result<Goal, Fault> {
+    let value = |key: &'static str| element.child(key).map(|value| value.interval()).transpose();
+    unread.count_beyond(element, &StateAt::READ);
+    Ok(Goal {
+        time: value("time")?,
+        position: element.child("position").map_or(Ok(Vec::new()), Region::read_all)?,
+        orientation_rad: value("orientation")?,
+        velocity_mps: value("velocity")?,
+    })
+}

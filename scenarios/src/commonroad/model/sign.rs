@@ -1,0 +1,52 @@
+//! Traffic signs.
+
+use super::super::xml::Element;
+use crate::error::Fault;
+
+/// A traffic sign, which may consist of several.
+pub(crate) struct Sign {
+    pub id: String,
+    /// What each of them says.
+    pub meanings: Vec<SignMeaning>,
+}
+
+/// What a sign says to whoever drives.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum SignMeaning {
+    /// No faster than this \[m/s\].
+    SpeedLimit(f64),
+    /// Stop, and give way.
+    Stop,
+    /// Give way.
+    Yield,
+    /// Others give way.
+    Priority,
+    /// Something else, by the number of the sign.
+    Other(String),
+}
+
+/// Speed limits by country, in the numbers of its law.
+const SPEED_LIMITS: [&str; 5] = ["274", "274.1", "R2-1", "r301", "C14"];
+const STOPS: [&str; 3] = ["206", "R1-1", "r2"];
+const YIELDS: [&str; 3] = ["205", "R1-2", "r1"];
+const PRIORITIES: [&str; 3] = ["301", "306", "r3"];
+/// The highest speed limit that is taken for one in metres per second.
+const MAX_LIMIT_MPS: f64 = 100.0;
+
+impl Sign {
+    pub(super) fn read(element: Element<'_>) -> Result<Sign, Fault> {
+        let meanings = element.children("trafficSignElement").map(|element| {
+            let number = element.child("trafficSignID").map_or("", |number| number.text());
+            let value: Option<f64> = element.child("additionalValue").and_then(|value| value.text().parse().ok());
+            let limit = value.filter(|limit| *limit > 0.0 && *limit <= MAX_LIMIT_MPS);
+            match (limit, number) {
+                (Some(limit_mps), number) if SPEED_LIMITS.contains(&number) => SignMeaning::SpeedLimit(limit_mps),
+                (_, number) if STOPS.contains(&number) => SignMeaning::Stop,
+                (_, number) if YIELDS.contains(&number) => SignMeaning::Yield,
+                (_, number) if PRIORITIES.contains(&number) => SignMeaning::Priority,
+                (_, number) => SignMeaning::Other(number.to_owned()),
+            }
+        });
+        Ok(Sign { id: element.required_attribute("id")?.to_owned(), meanings: meanings.collect() })
+    }
+}
