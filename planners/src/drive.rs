@@ -6,7 +6,7 @@ use std::fmt;
 use crate::belief::Outlook;
 use crate::diagnostic::Explanation;
 use crate::predict::Prediction;
-use crate::recorded::Record;
+use crate::record::Record;
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 
 /// The settings of one kind of driver, with all that is known of such a driver before it plans.

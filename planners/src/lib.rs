@@ -101,6 +101,7 @@ mod planner;
 pub mod posing;
 pub mod predict;
 mod receding_horizon;
+mod record;
 pub mod recorded;
 mod relation;
 mod right_of_way;

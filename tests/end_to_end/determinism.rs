@@ -16,14 +16,17 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};
-use crate::film::{FILMS, Film, authored, film};
+use crate::film::{FILMS, FILMS_OF_PEOPLE, Film, authored, film};
 
 /// How a difference is dealt with.
 const ADVICE: &str = "if the change is meant: INTERPLAY_BLESS=1 cargo test --release -p interplay-tests golden";
 
 #[test]
 fn golden_digests() {
-    let films = FILMS.iter().filter(|film| embedded().iter().any(|file| file.name == film.name()));
+    let films = FILMS
+        .iter()
+        .chain(FILMS_OF_PEOPLE.iter())
+        .filter(|film| embedded().iter().any(|file| file.name == film.name()));
     let mut differences = String::new();
     for film in films {
         let (path, found) = (golden_path(film.name()), golden(film));

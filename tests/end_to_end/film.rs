@@ -66,6 +66,14 @@ pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
     takes.into_par_iter().map(|(name, scenario)| film(name, scenario)).collect()
 });
 
+/// The authored scenarios in which people drive.
+pub static FILMS_OF_PEOPLE: LazyLock<Vec<Film>> = LazyLock::new(|| {
+    let takes = embedded().iter().map(|file| (file.name, authored(file.name, &[])));
+    let mut takes: Vec<(&str, Scenario)> = takes.collect();
+    takes.retain(|(_, scenario)| scenario.building.is_none() && scenario.ticks_per_plan > 1);
+    takes.into_par_iter().map(|(name, scenario)| film(name, scenario)).collect()
+});
+
 /// The films in which vehicles move exactly as planners think.
 pub fn kinematic() -> impl Iterator<Item = &'static Film> {
     FILMS.iter().filter(|film| matches!(film.scenario.plant, Plant::Kinematic(_)))

@@ -6,17 +6,15 @@
 //!
 //! Where the record ends, the vehicle keeps its speed and its place in its lane.
 
-mod record;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::{Prediction, steadily_along};
+pub use crate::record::{Record, RecordFault, next_to};
 use crate::steering::steer;
 use crate::{DriverSettingError, Input, Plan, PlanError, Scene, Trajectory};
-pub use record::{Record, RecordFault, next_to};
 
 /// The settings of a recorded driver: what was recorded.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

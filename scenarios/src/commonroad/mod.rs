@@ -10,6 +10,7 @@
 mod map;
 mod model;
 mod moved;
+mod options;
 mod xml;
 
 use std::fmt::Write;
@@ -23,35 +24,14 @@ use crate::file_format::scenario_file::ScenarioFile;
 use crate::read::regular_file::open_regular;
 use crate::read::source::imported_text;
 use crate::read::tree::{self, TomlNode};
-use crate::registry::Registry;
 use crate::resolve::records;
-use crate::scenario::Scenario;
 use map::{Mapped, Notes};
 use model::CommonRoad;
+pub use options::{ImportOptions, Replacement};
 use xml::{Unread, Xml};
 
 /// How much of a file tells whether it is a scenario \[bytes\].
 const HEAD_BYTES: u64 = 4096;
-
-/// What whoever imports a scenario may choose.
-#[derive(Clone, Debug, Default)]
-pub struct ImportOptions {
-    /// The kind of driver of the ego; a nice human without one.
-    pub ego: Option<String>,
-    /// Drivers that take the place of records.
-    pub replace: Vec<Replacement>,
-}
-
-/// A driver that takes the place of a record.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Replacement {
-    /// The id or the name of the vehicle; all vehicles without one.
-    pub vehicle: Option<String>,
-    /// The kind of the driver.
-    pub kind: String,
-    /// Its style, of a human.
-    pub style: Option<String>,
-}
 
 /// A scenario that was imported.
 #[derive(Clone, Debug)]
@@ -64,7 +44,7 @@ pub struct Imported {
     places: Vec<(String, Place)>,
     root: Place,
     /// How errors call the imported text.
-    name: String,
+    pub(crate) name: String,
 }
 
 /// Imports the scenario of CommonRoad in a file.
@@ -120,14 +100,6 @@ impl Imported {
         }
         let has_records = rows.len() > head;
         (file, has_records.then_some(rows))
-    }
-
-    /// The scenario that is run. Every error has its place in the imported text.
-    ///
-    /// # Errors
-    /// Everything that keeps it from being run.
-    pub fn resolve(&self, registry: &Registry) -> Result<Scenario, LoadError> {
-        registry.resolve_tree(&self.name, self.clone().into_tree())
     }
 
     /// The tree of the scenario, in which everything is written where it stands in the imported text.

@@ -142,10 +142,13 @@ impl Registry {
     }
 }
 
-impl Registry {
-    /// The scenario of a tree that was made elsewhere.
-    pub(crate) fn resolve_tree(&self, name: &str, tree: TomlNode) -> Result<Scenario, LoadError> {
-        finish(self, name, tree, &[])
+impl Imported {
+    /// The scenario that is run. Every error has its place in the imported text.
+    ///
+    /// # Errors
+    /// Everything that keeps it from being run.
+    pub fn resolve(&self, registry: &Registry) -> Result<Scenario, LoadError> {
+        finish(registry, &self.name, self.clone().into_tree(), &[])
     }
 }
 

@@ -12,8 +12,8 @@ mod vehicles;
 use interplay_planners::{Driver, DriverKind, recorded};
 use serde_json::{Value as Json, json};
 
-use super::ImportOptions;
 use super::model::CommonRoad;
+use super::options::ImportOptions;
 use super::xml::Unread;
 use crate::check::consistency::overlap;
 use crate::error::{Fault, Place, quoted};
