@@ -157,9 +157,15 @@ fn shares(points: &[[f64; 2]]) -> Vec<f64> {
     if length > 0.0 { along.into_iter().map(|at| at / length).collect() } else { vec![0.0; points.len()] }
 }
 
+/// Places \[m\].
+type Points = Vec<[f64; 2]>;
+
+/// Widths over the distance along a line \[m\].
+type Widths = Vec<[f64; 2]>;
+
 /// Points in the middle of pairs that are not too near to one another, and the widths over the distance along them; none where fewer
 /// than two are left.
-fn middle(pairs: &[([f64; 2], [f64; 2])]) -> Option<(Vec<[f64; 2]>, Vec<[f64; 2]>)> {
+fn middle(pairs: &[([f64; 2], [f64; 2])]) -> Option<(Points, Widths)> {
     let spacing_m = if pairs.len() > MAX_POINTS { 0.25 } else { MIN_SPACING_M };
     let mut kept: Vec<([f64; 2], f64)> = Vec::new();
     let all = pairs.iter().map(|(left, right)| {
