@@ -28,13 +28,15 @@ use crate::sweep_plan::plan_file::PlanFile;
 static SCHEMA: LazyLock<Json> = LazyLock::new(json_schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 8] = [
+const EMBEDDED: [(&str, &str); 10] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
     ("inferred", include_str!("../../plans/inferred.toml")),
     ("real-roads", include_str!("../../plans/real-roads.toml")),
     ("any-weight", include_str!("../../plans/any-weight.toml")),
+    ("people", include_str!("../../plans/people.toml")),
+    ("streets", include_str!("../../plans/streets.toml")),
     ("partners", include_str!("../../plans/partners.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
