@@ -27,6 +27,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay sweep --samples", "takes minutes; the mechanism is in `sweeps`"),
     ("interplay sweep perturbed-starts", "the same"),
     ("interplay sweep inferred", "the same"),
+    ("interplay sweep people", "takes ten minutes; the mechanism is in `sweeps`"),
     ("interplay compare starts", "of a sweep that is not run here"),
     ("interplay compare inferred", "the same"),
     ("interplay sweep partners", "takes a quarter of an hour; the mechanism is in `sweeps`"),
