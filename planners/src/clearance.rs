@@ -68,7 +68,8 @@ impl Scene {
     pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
         let ego = &self.ego;
         let is_same_way = libm::cos(other.state.heading_rad - ego.route.heading_at(other.state.position())) > 0.0;
-        if !matches!(ego.relation(other), Relation::Alongside) || ego.shares_lane_with(other) || !is_same_way {
+        let is_aside = matches!(ego.relation(other), Relation::Alongside) && !ego.shares_lane_with(other);
+        if !is_aside || !is_same_way || other.is_obstacle {
             return None;
         }
         let along_m = self.accepted_axis_m(other, weight)?;
@@ -127,7 +128,7 @@ impl Scene {
         })
     }
 
-    /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way.
+    /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way, or what nobody drives.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let beside_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
         self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
@@ -144,7 +145,7 @@ impl Scene {
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
     /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
-        if self.ego.is_waited_for_by(other) {
+        if self.ego.is_waited_for_by(other) || other.is_obstacle {
             return self.beside(other, penalty);
         }
         let keep_out = self.keep_out(&other.prediction, &other.route, penalty);

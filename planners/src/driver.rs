@@ -63,6 +63,8 @@ drivers! {
     Scripted(scripted),
     /// Does what a vehicle did that was recorded, and nobody is told what comes.
     Recorded(recorded),
+    /// Somebody on foot: walks along its route, waits at the kerb, and sees cars.
+    Walker(walker),
     /// Its inputs come from outside: from a person or another program, through the library.
     External(external),
     /// Baseline: keeps out of the safety ellipses around the others' plans (eq. 6.13).

@@ -20,6 +20,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         prediction: constant_velocity(&state, 30, 0.1),
         shared_goal: None,
         can_be_asked: true,
+        is_obstacle: false,
         rules: RoadRules::default(),
         urgency: 1.0,
     }

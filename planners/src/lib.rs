@@ -46,6 +46,7 @@
 //!         prediction: constant_velocity(&state, horizon, step_s),
 //!         shared_goal: None,
 //!         can_be_asked: true,
+//!         is_obstacle: false,
 //!         rules: RoadRules::default(),
 //!         urgency: 1.0,
 //!     }
@@ -114,8 +115,10 @@ pub mod sensing;
 mod steering;
 pub mod traffic;
 pub mod trajectory;
+pub mod trigger;
 mod urgency;
 pub mod vehicle;
+pub mod walker;
 
 pub use deadline::PlanDeadline;
 pub use diagnostic::Diagnostic;

@@ -33,6 +33,9 @@ pub(crate) enum Relation<'a> {
 impl Agent {
     /// How the way of another vehicle is related to this one's.
     pub(crate) fn relation(&self, other: &Agent) -> Relation<'_> {
+        if other.is_obstacle {
+            return if touches_strip(self, other) { Relation::Alongside } else { Relation::Apart };
+        }
         if !(self.route.is_in_network() && other.route.is_in_network()) {
             let place = other.state.position();
             let difference = self.route.heading_at(place) - other.route.heading_at(place);
@@ -80,7 +83,7 @@ impl Agent {
         let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());
         self.relation(other) == Relation::Alongside
             && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
-            && (!self.route.is_in_network() || is_along(&self.route, &other.state))
+            && (!self.route.is_in_network() || other.is_obstacle || is_along(&self.route, &other.state))
     }
 }
 
@@ -126,6 +129,12 @@ pub(crate) fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
     if libm::cos(other.route.heading_at(other.state.position()) - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
         return false;
     }
+    touches_strip(agent, other)
+}
+
+/// Whether any part of `other`, which is along the road, is on the strip that `agent` may use.
+fn touches_strip(agent: &Agent, other: &Agent) -> bool {
+    let at = agent.route.locate(other.state.position(), None);
     let [right_m, left_m] = agent.route.edges_before_end_m(at.along_m);
     let half_m = 0.5 * other.body.width_m;
     (right_m - half_m..=left_m + half_m).contains(&at.across_m)

@@ -27,6 +27,8 @@ pub struct Agent {
     pub shared_goal: Option<Goal>,
     /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
     pub can_be_asked: bool,
+    /// Whether nobody drives it: a parked car, a cone, a wall. Its body lies along the road.
+    pub is_obstacle: bool,
     /// What the rules of the road ask of it now; nothing before they are judged.
     pub rules: RoadRules,
     /// How many times harder than is comfortable it has to brake now; 1 where comfort is enough, and before that is judged.

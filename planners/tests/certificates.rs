@@ -32,6 +32,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         prediction,
         shared_goal: None,
         can_be_asked: true,
+        is_obstacle: false,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
     }

@@ -35,7 +35,7 @@ const BETWEEN_M: f64 = 0.34;
 
 /// A scripted driver beside and a little ahead of the human turns towards its lane; it is vehicle 1, the human vehicle 0.
 fn cut_in(settings: Settings) -> Run {
-    let turns = Order { from_s: TURNS_S, speed_mps: None, acceleration_mps2: None, lateral_m: Some(BETWEEN_M) };
+    let turns = Order { from_s: TURNS_S, lateral_m: Some(BETWEEN_M), ..Order::default() };
     let script = Driver::Scripted(scripted::Settings { script: vec![turns] });
     let vehicles = vec![
         vehicle("human", [-0.4, LANES[1], 1.0], [LANES[1], 1.0], STEADY, human(settings)),
@@ -73,7 +73,7 @@ fn a_hesitant_driver_brakes_only_when_it_decides_anew() {
 #[test]
 fn a_hesitant_driver_does_not_run_into_the_vehicle_ahead() {
     for driver in [hesitant(5.0), Settings { style: Some(Style::Tough), ..hesitant(5.0) }] {
-        let brakes = Order { from_s: 1.0, speed_mps: Some(0.0), acceleration_mps2: Some(1.0), lateral_m: None };
+        let brakes = Order { from_s: 1.0, speed_mps: Some(0.0), acceleration_mps2: Some(1.0), ..Order::default() };
         let script = Driver::Scripted(scripted::Settings { script: vec![brakes] });
         let vehicles = vec![
             vehicle("human", [-1.2, LANES[1], 1.2], [LANES[1], 1.2], STEADY, human(driver)),
@@ -180,6 +180,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             prediction: constant_velocity(&state, HORIZON, STEP_S),
             shared_goal: None,
             can_be_asked: true,
+            is_obstacle: false,
             rules: interplay_planners::rules::RoadRules::default(),
             urgency: 1.0,
         }

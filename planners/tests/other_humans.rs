@@ -43,11 +43,11 @@ fn drivers_after_the_model_change_lanes_among_themselves() {
 /// A script that brakes hard ahead of a follower: planners stay behind it.
 #[test]
 fn everybody_copes_with_a_script() {
-    let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), acceleration_mps2: None, lateral_m: None };
-    let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), lateral_m: None };
+    let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), ..Order::default() };
+    let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), ..Order::default() };
     for planner in egos().into_iter().chain([idm()]) {
         let name = planner.kind();
-        let script = Driver::Scripted(scripted::Settings { script: vec![goes_on, brakes] });
+        let script = Driver::Scripted(scripted::Settings { script: vec![goes_on.clone(), brakes.clone()] });
         let steady = [0.0, 4.0, 1.0, 1.0];
         let vehicles = vec![
             vehicle("ego", [0.0, LANES[1], 1.0], [LANES[1], 1.2], steady, planner),

@@ -30,6 +30,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now, vehicle),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
+        is_obstacle: vehicle.obstacle.is_some(),
         rules: now.rules.clone(),
         urgency: now.urgency,
     })

@@ -44,6 +44,9 @@ pub type BodyArea = [f64; 4];
 /// The rider of a bicycle.
 pub const RIDER: BodyArea = [-0.28, 0.12, -0.8, 0.8];
 
+/// The head of somebody on foot.
+const HEAD: BodyArea = [-0.5, 0.5, -0.42, 0.42];
+
 /// The corners of a rectangle along and across a body.
 pub fn rectangle([rear, front, right, left]: BodyArea) -> [[f64; 2]; 4] {
     [[rear, right], [front, right], [front, left], [rear, left]]
@@ -109,6 +112,11 @@ pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
             part(&windscreen([0.86, 0.95], [0.9, 0.86]), 0.06, BodyPaint::Glass),
             part(&rectangle([0.66, 0.69, -1.0, 1.0]), 0.0, BodyPaint::Tyre),
         ],
+        BodyStyle::Walker => vec![
+            part(&rectangle([-0.7, 0.7, -1.0, 1.0]), 0.35, BodyPaint::Own),
+            part(&rectangle(HEAD), 0.25, BodyPaint::Tyre),
+        ],
+        BodyStyle::Plain => vec![body(0.0)],
         BodyStyle::Bicycle => vec![
             part(&rectangle([-1.0, 1.0, -0.12, 0.12]), 0.06, BodyPaint::Tyre),
             part(&rectangle(RIDER), 0.25, BodyPaint::Own),

@@ -1,7 +1,7 @@
 //! What vehicles look like, by their class or size.
 
 use interplay_planners::Body;
-use interplay_scenarios::{Vehicle, VehicleClass};
+use interplay_scenarios::{ObstacleKind, Outline, Vehicle, VehicleClass};
 
 /// Length of the longest vehicle at 1/10 scale \[m\].
 const MAX_SCALE_MODEL_M: f64 = 1.7;
@@ -19,15 +19,28 @@ pub enum BodyStyle {
     Lorry,
     /// A bicycle with its rider.
     Bicycle,
+    /// Somebody on foot.
+    Walker,
+    /// Something that has its outline and no parts.
+    Plain,
 }
 
 impl BodyStyle {
     /// The style of a vehicle: by its class, or without one by its size.
     pub fn choose(vehicle: &Vehicle) -> BodyStyle {
+        if let Some(obstacle) = &vehicle.obstacle {
+            return match (obstacle.kind, &obstacle.outline) {
+                (ObstacleKind::ParkedCar, Outline::Box { .. }) => BodyStyle::Car,
+                (ObstacleKind::ParkedVan, Outline::Box { .. }) => BodyStyle::Van,
+                _ => BodyStyle::Plain,
+            };
+        }
         match vehicle.class {
             Some(VehicleClass::ScaleCar | VehicleClass::Car) => BodyStyle::Car,
             Some(VehicleClass::Van) => BodyStyle::Van,
             Some(VehicleClass::Truck) => BodyStyle::Lorry,
+            Some(VehicleClass::Bus) => BodyStyle::Van,
+            Some(VehicleClass::Pedestrian) => BodyStyle::Walker,
             Some(VehicleClass::Bicycle) => BodyStyle::Bicycle,
             None => BodyStyle::of_size(&vehicle.body),
         }

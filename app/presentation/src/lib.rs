@@ -25,6 +25,7 @@ mod extent;
 pub mod figures;
 mod font;
 mod lane_change;
+mod light_shapes;
 mod network_lines;
 pub mod page;
 mod palette;

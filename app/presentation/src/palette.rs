@@ -40,6 +40,13 @@ pub const VERMILLION: NamedColour = NamedColour { rgb: [0xD5, 0x5E, 0x00], word:
 /// The others in the scenario's order; who comes later starts again.
 pub const OTHERS: [NamedColour; 5] = [BLUE, GREEN, PURPLE, SKY, OLIVE];
 
+/// What stands and nobody drives.
+pub const OBSTACLE: NamedColour = NamedColour { rgb: [0x9A, 0x9E, 0xA4], word: "grey" };
+
+/// The surface of paths for people on foot.
+pub const PATH: Colour = [0x8C, 0x8B, 0x86];
+/// The surface of lanes for some vehicles only.
+pub const KEPT_LANE: Colour = [0x6A, 0x4C, 0x45];
 /// The surface of roads.
 pub const ASPHALT: Colour = [0x4B, 0x4F, 0x56];
 /// Beside the road.
@@ -81,7 +88,11 @@ pub fn vehicle_colours(scenario: &Scenario) -> Vec<NamedColour> {
     let ego = scenario.ego_index();
     let mut others = OTHERS.into_iter().cycle();
     (0..scenario.vehicles.len())
-        .map(|index| if index == ego { ORANGE } else { others.next().unwrap_or(BLUE) })
+        .map(|index| match &scenario.vehicles[index].obstacle {
+            _ if index == ego => ORANGE,
+            Some(_) => OBSTACLE,
+            None => others.next().unwrap_or(BLUE),
+        })
         .collect()
 }
 

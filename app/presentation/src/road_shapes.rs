@@ -5,6 +5,7 @@ use interplay_planners::{Axes, Corridor};
 use interplay_scenarios::{Branch, Road, Scenario};
 
 use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
+use crate::light_shapes::LightShape;
 use crate::network_lines::NetworkLines;
 
 /// Width of the lines where vehicles stop or yield, in lane widths.
@@ -25,6 +26,8 @@ const STOP_LINE_AHEAD_LANES: f64 = 0.12;
 const ARROW_LANES: f64 = 2.2;
 /// A lane shorter than this has no arrow, in lane widths.
 const MIN_ARROW_LANE_LANES: f64 = 5.0;
+/// Breadth of a bar of a zebra crossing, by the crossing's width.
+const ZEBRA_BAR_RATIO: f64 = 0.16;
 /// From this angle on a way is a turn \[rad\].
 const TURN_RAD: f64 = 0.6;
 
@@ -41,6 +44,14 @@ pub struct RoadShapes {
     pub dashes: Vec<WorldLine>,
     /// Lines across lanes where vehicles stop or yield.
     pub stop_lines: Vec<WorldLine>,
+    /// Closed polygons of paths for people on foot.
+    pub paths: Vec<WorldLine>,
+    /// Closed polygons of lanes that are kept for some vehicles.
+    pub kept_lanes: Vec<WorldLine>,
+    /// The bars of zebra crossings, closed polygons.
+    pub zebra_bars: Vec<WorldLine>,
+    /// Traffic lights.
+    pub lights: Vec<LightShape>,
     /// Arrows: place, direction \[rad\], and where one may go.
     arrows: Vec<([f64; 2], f64, Ways)>,
 }
@@ -85,8 +96,17 @@ impl RoadShapes {
     }
 
     fn add_network(&mut self, network: &RoadNetwork, bounds_m: [[f64; 2]; 2]) {
-        let lines = NetworkLines::new(network);
         let ring = |[right, left]: &[WorldLine; 2]| right.iter().chain(left.iter().rev()).copied().collect();
+        if network.has_restricted_lanes() || network.lanes().iter().any(|lane| lane.is_zebra) {
+            let paths = network.with_lanes(|lane| lane.is_path() && !lane.is_zebra);
+            self.paths = NetworkLines::new(&paths).surfaces().iter().map(ring).collect();
+            let kept = network.with_lanes(|lane| !lane.users.is_empty() && !lane.is_path());
+            self.kept_lanes = NetworkLines::new(&kept).surfaces().iter().map(ring).collect();
+            self.zebra_bars = network.lanes().iter().filter(|lane| lane.is_zebra).flat_map(zebra_bars).collect();
+        }
+        self.lights = LightShape::all(network);
+        let network = &network.with_lanes(|lane| !lane.is_path() && !lane.is_zebra);
+        let lines = NetworkLines::new(network);
         self.surfaces.extend(lines.surfaces().iter().map(ring));
         self.edges = lines.edges();
         for (lane, edges) in network.lanes().iter().zip(lines.surfaces()) {
@@ -250,6 +270,18 @@ fn flattened(line: &[[f64; 2]], distance: f64) -> WorldLine {
     }
     kept.push(*last);
     kept
+}
+
+/// The bars of a zebra crossing, which lie across the way of whoever walks on it.
+fn zebra_bars(lane: &Lane) -> Vec<WorldLine> {
+    let bar_m = ZEBRA_BAR_RATIO * lane.width.value(0.0);
+    let count = (lane.centre.length_m() / (2.0 * bar_m)) as u32;
+    let bar = |index: u32| {
+        let from_m = 2.0 * bar_m * f64::from(index) + 0.5 * bar_m;
+        let corners = [(from_m, -1.0), (from_m + bar_m, -1.0), (from_m + bar_m, 1.0), (from_m, 1.0)];
+        corners.map(|(along_m, side)| lane.centre.position(along_m, side * lane.half_width_m(along_m))).to_vec()
+    };
+    (0..count).map(bar).collect()
 }
 
 /// Where the lanes after a lane lead.

@@ -15,13 +15,17 @@ pub fn act(
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let ticks_left = clock.ticks_per_plan - clock.ticks_since_plan();
+    let frame = &mut current_frame.0;
     for (identity, VehicleParameters { body, limits, record, .. }, mut motion) in &mut vehicles {
+        if frame.vehicles[identity.index].is_absent {
+            continue;
+        }
         let planned = sensed.0.road_users[identity.index].planned_input();
         let times_s = [clock.time_s(), clock.step_s];
         let recorded = record.as_ref().and_then(|record| record.input((body, limits), &motion.state, times_s));
         let wanted = recorded.unwrap_or_else(|| towards(&motion.input, planned, ticks_left));
         motion.input = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
-        current_frame.0.vehicles[identity.index].input = motion.input;
+        frame.vehicles[identity.index].input = motion.input;
     }
 }
 

@@ -7,6 +7,7 @@ use interplay_planners::recorded::Record;
 use interplay_planners::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
+use interplay_scenarios::{Outline, Stay};
 
 use crate::frame::{Frame, VehicleFrame};
 use crate::not_copied::NotCopied;
@@ -40,6 +41,10 @@ pub struct VehicleParameters {
     pub limits: Limits,
     /// The road it may use.
     pub route: Arc<Route>,
+    /// Its outline where it is an obstacle, which nobody drives.
+    pub outline: Option<Outline>,
+    /// When it is on the road.
+    pub stay: Stay,
     /// The motion that it carries out, whatever its inputs are; none for a vehicle that its inputs move.
     pub record: Option<Arc<Record>>,
 }

@@ -76,6 +76,8 @@ pub struct ZoneFrame {
 pub struct VehicleFrame {
     /// Name of the vehicle.
     pub name: String,
+    /// Whether it is not on the road: it has not come yet, or has left. Then the rest means nothing.
+    pub is_absent: bool,
     /// State of the vehicle when it planned.
     pub state: State,
     /// Input that the vehicle applies during the tick.

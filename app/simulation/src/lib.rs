@@ -38,6 +38,7 @@ pub mod phases;
 pub mod physics;
 pub mod plan;
 pub mod predict;
+mod presence;
 pub mod report;
 pub mod run;
 mod run_error;

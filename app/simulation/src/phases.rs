@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 
-use crate::{act, climate, measure, physics, plan, predict, sense, time_points, watch};
+use crate::{act, climate, measure, physics, plan, predict, presence, sense, time_points, watch};
 
 /// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,7 +42,7 @@ pub fn schedule() -> Schedule {
     schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
     schedule.add_systems((
         (
-            (sense::sense, sense::look.run_if(sense::plans_now)).chain().in_set(Sense),
+            (sense::sense, (presence::come_and_go, sense::look).chain().run_if(sense::plans_now)).chain().in_set(Sense),
             predict::predict.in_set(Predict).run_if(sense::plans_now),
             plan::plan.in_set(Plan).run_if(sense::plans_now),
             act::act.in_set(Act),

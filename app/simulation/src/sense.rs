@@ -12,11 +12,13 @@ use crate::components::{
     Clock, Committed, CurrentFrame, Driving, FollowedPlans, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
 };
 use crate::frame::{Frame, VehicleFrame};
+use crate::presence::Presence;
 
 /// The components of a vehicle that others may see.
 type SeenParts = (
     &'static Identity,
     &'static Motion,
+    &'static Presence,
     &'static VehicleParameters,
     &'static VehicleGoal,
     &'static Driving,
@@ -24,7 +26,8 @@ type SeenParts = (
 );
 
 /// The same of one vehicle.
-type SeenItem<'w> = (&'w Identity, &'w Motion, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed);
+type SeenItem<'w> =
+    (&'w Identity, &'w Motion, &'w Presence, &'w VehicleParameters, &'w VehicleGoal, &'w Driving, &'w Committed);
 
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
@@ -41,6 +44,7 @@ pub fn sense(
     let frames = sensed.0.road_users.iter().map(|user| VehicleFrame {
         name: user.agent.name.clone(),
         state: user.agent.state,
+        is_absent: user.is_absent,
         ..VehicleFrame::default()
     });
     current_frame.0 =
@@ -89,7 +93,7 @@ pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
 fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule_book: RuleBook) -> Traffic {
     let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let road_users = sorted.into_iter().map(|(identity, motion, parameters, objective, driving, committed)| RoadUser {
+    let road_users = sorted.into_iter().map(|(identity, motion, presence, parameters, objective, driving, committed)| RoadUser {
         agent: Agent {
             name: identity.name.clone(),
             state: motion.state,
@@ -100,6 +104,7 @@ fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule
             prediction: Trajectory::default(),
             shared_goal: objective.shared,
             can_be_asked: driving.can_be_asked,
+            is_obstacle: parameters.outline.is_some(),
             rules: RoadRules::default(),
             urgency: 1.0,
         },
@@ -108,6 +113,7 @@ fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule
         knows_plans: driving.knows_plans,
         keeps_rules: driving.keeps_rules,
         is_crashed: motion.crashed,
+        is_absent: presence.is_absent(),
         // Whoever follows a record is expected to keep its speed, from where it is now on.
         committed: if parameters.hides_plan_at(clock.time_s()) {
             CommittedPlan::default()

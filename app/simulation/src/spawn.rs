@@ -8,6 +8,7 @@ use interplay_scenarios::Scenario;
 
 use crate::components::{Committed, Driving, HandedIn, Identity, Motion, VehicleGoal, VehicleParameters};
 use crate::physics::{Physics, VehicleBody};
+use crate::presence::Presence;
 
 /// All components of a vehicle.
 #[derive(Bundle, Debug)]
@@ -16,6 +17,8 @@ pub struct VehicleState {
     pub identity: Identity,
     /// State, last input, and whether it has crashed.
     pub motion: Motion,
+    /// Whether it is on the road.
+    pub presence: Presence,
     /// Body, limits and route.
     pub parameters: VehicleParameters,
     /// The goal of the vehicle.
@@ -43,10 +46,13 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
         VehicleState {
             identity: Identity { index, name: vehicle.name.clone() },
             motion: Motion { state, input: Input::default(), crashed: false },
+            presence: Presence::at_start(&vehicle.stay),
             parameters: VehicleParameters {
                 body: vehicle.body,
                 limits: vehicle.limits,
                 route: Arc::clone(&vehicle.route),
+                outline: vehicle.outline().cloned(),
+                stay: vehicle.stay,
                 record: vehicle.driver.record().map(Arc::new),
             },
             goal: VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
@@ -61,7 +67,7 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
             },
             handed_in: HandedIn::awaited_if(vehicle.driver.kind() == EXTERNAL),
             committed: Committed::default(),
-            body: VehicleBody(physics.add(index, &vehicle.body, &state)),
+            body: VehicleBody(physics.add(index, (&vehicle.body, vehicle.outline()), &state)),
         }
     });
     vehicles.collect()

@@ -78,6 +78,7 @@ impl<'a> Standing<'a> {
     pub fn stands(&self, index: usize) -> bool {
         let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());
         self.wants_to_drive(index)
+            && !self.is_absent(index)
             && self.state(index).speed_mps < STANDING_MPS * times
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
@@ -155,7 +156,7 @@ impl<'a> Standing<'a> {
             return Some(StandingReason::NoRoom(name()));
         }
         let reach_m = ONCOMING_M * self.scale(index);
-        let others = (0..self.vehicles.len()).filter(|other| *other != index && *other != obstacle);
+        let others = self.others(index).filter(|other| *other != obstacle);
         let comes = |other: &usize| {
             let place = own.route.locate(self.state(*other).position(), None);
             let beside = (place.across_m - at.across_m).abs() > 0.5 * self.vehicles[*other].body.width_m;
@@ -171,7 +172,7 @@ impl<'a> Standing<'a> {
     fn ahead(&self, index: usize, within_m: f64) -> Option<usize> {
         let (own, own_m) = (&self.vehicles[index], self.along_m(index));
         let across_m = own.route.across(self.state(index).position());
-        let others = (0..self.vehicles.len()).filter(|other| *other != index).filter_map(|other| {
+        let others = self.others(index).filter_map(|other| {
             let body = &self.vehicles[other].body;
             let at = own.route.locate(self.state(other).position(), None);
             let gap_m = at.along_m - own_m - own.body.front_m - body.rear_m.max(body.front_m);
@@ -180,6 +181,15 @@ impl<'a> Standing<'a> {
             is_ahead.then_some((other, gap_m))
         });
         others.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+    }
+
+    /// Those who are on the road besides a vehicle.
+    fn others(&self, index: usize) -> impl Iterator<Item = usize> {
+        (0..self.vehicles.len()).filter(move |other| *other != index && !self.is_absent(*other))
+    }
+
+    fn is_absent(&self, index: usize) -> bool {
+        self.frame.vehicles[index].is_absent
     }
 
     fn wants_to_drive(&self, index: usize) -> bool {

@@ -14,6 +14,7 @@ use crate::components::{
 use crate::measure::{BuildingMeasures, Measures};
 use crate::not_copied::NotCopied;
 use crate::physics::{Physics, VehicleBody};
+use crate::presence::Presence;
 use crate::spawn::{self, VehicleState};
 use crate::time_points::TimePoint;
 use crate::watch::{Watcher, Watchers};
@@ -84,12 +85,13 @@ impl WorldState {
     /// [`NotCopied`] names what has no copy.
     pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
-        for (identity, motion, parameters, goal, driving, handed_in, committed, body) in
+        for (identity, motion, presence, parameters, goal, driving, handed_in, committed, body) in
             world.try_query::<VehicleParts>().iter_mut().flat_map(|query| query.iter(world))
         {
             vehicles.push(VehicleState {
                 identity: identity.clone(),
                 motion: *motion,
+                presence: *presence,
                 parameters: parameters.clone(),
                 goal: *goal,
                 driving: driving.fork(&identity.name)?,
@@ -156,6 +158,7 @@ type NodeParts = (&'static Node, &'static Temperature, Option<(&'static Equipmen
 type VehicleParts = (
     &'static Identity,
     &'static Motion,
+    &'static Presence,
     &'static VehicleParameters,
     &'static VehicleGoal,
     &'static Driving,

@@ -280,6 +280,10 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
     };
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
+        if other.is_obstacle {
+            keep_outs.push(scene.beside(other, Penalty::EXACT));
+            continue;
+        }
         if scene.meets_in_its_lane(other) {
             let expected = Agent { prediction: predicted, ..(*expected).clone() };
             if !scene.is_parted_by_lane_line(&expected) {

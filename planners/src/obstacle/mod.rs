@@ -153,6 +153,9 @@ impl ObstacleMemory {
 
     /// Whether a vehicle that stands waits in a queue: at a line, or behind somebody.
     fn is_queueing(&self, scene: &Scene, other: &Agent) -> bool {
+        if other.is_obstacle {
+            return false;
+        }
         let since = self.standing_since.get(&other.name).copied().unwrap_or(scene.tick);
         let stood_s = (scene.tick - since) as f64 * scene.step_s;
         if since == 0 || stood_s > PARKED_S * scene.ego.body.time_ratio() {

@@ -55,7 +55,7 @@ pub fn without_plans(scene: Scene) -> Scene {
     let others = scene.others.into_iter().map(|other| Agent {
         prediction: steadily_along(&other.route, &other.body, &other.state, horizon, step_s),
         previous_input: Input::default(),
-        can_be_asked: true,
+        can_be_asked: !other.is_obstacle,
         ..other
     });
     Scene { others: others.collect(), ..scene }

@@ -6,6 +6,7 @@
 //!
 //! A vehicle waits at the line before a conflict ([`RouteConflict`](crate::road::network::RouteConflict))
 //!
+//! - while a traffic light there is red, or amber if it can stop in comfort,
 //! - until it has stood there once, if the sign says so,
 //! - while somebody who goes first comes so soon that it could not clear the conflict before,
 //! - while somebody who goes first has stopped there first, because it waits for a third one,
@@ -17,6 +18,7 @@
 
 mod arrivals;
 mod lane;
+mod lights;
 mod obliged;
 mod waiting;
 
@@ -47,10 +49,11 @@ impl RuleBook {
             return users.iter().map(beside_no_network).collect();
         }
         self.arrivals.note_all((tick, step_s), users);
-        let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle)).collect();
+        let time_s = tick as f64 * step_s;
+        let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, time_s)).collect();
         let turns: Vec<_> = users.iter().map(|user| self.arrivals.turn(user.agent)).collect();
         waiting::release(&mut holds, &turns);
-        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, holds);
+        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, (holds, time_s));
         users.iter().zip(&holds).map(asked).collect()
     }
 
@@ -73,7 +76,7 @@ impl RuleBook {
     }
 
     /// Everybody that a vehicle has to wait for, judged in pairs.
-    fn holds(&self, users: &[Obliged<'_>], vehicle: usize) -> Vec<Hold> {
+    fn holds(&self, users: &[Obliged<'_>], vehicle: usize, time_s: f64) -> Vec<Hold> {
         let ego = &users[vehicle].agent;
         if !ego.route.is_in_network() {
             return Vec::new();
@@ -81,7 +84,12 @@ impl RuleBook {
         let wanted_mps = users[vehicle].wanted_mps;
         let mut found = Vec::new();
         for (by, other) in users.iter().enumerate().filter(|(by, _)| *by != vehicle) {
+            let their_light_m = lights::line_m(other.agent, time_s);
             for conflict in ego.route.conflicts_with(&other.agent.route) {
+                // Who has to stop at a light before the conflict does not come.
+                if their_light_m.is_some_and(|line_m| line_m <= conflict.their_m[0]) {
+                    continue;
+                }
                 let arrived = Arrived {
                     own: self.arrivals.has_arrived(ego),
                     their: self.arrivals.has_arrived(other.agent),
@@ -100,15 +108,16 @@ impl RuleBook {
     }
 
     /// What is asked of a vehicle that is held by others.
-    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold]) -> RoadRules {
+    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], (holds, time_s): (&[Hold], f64)) -> RoadRules {
         let ego = &user.agent;
         if !user.keeps_rules || !ego.route.is_in_network() {
             return beside_no_network(user);
         }
         let before_m = stopping_distance_m(ego);
-        let signs = signed_lines(ego).into_iter().filter(|line_m| !self.arrivals.has_stood_at(ego, *line_m));
+        let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
+        let signs = signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !self.arrivals.has_stood_at(ego, *line_m));
         let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
-        let lines = signs.chain(holds.iter().map(|hold| hold.line_m));
+        let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
         let nearest_m = lines.min_by(f64::total_cmp);
         let mut waits_for: Vec<String> = Vec::new();
         for hold in holds.iter().filter(|hold| Some(hold.line_m) == nearest_m) {

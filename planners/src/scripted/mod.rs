@@ -1,17 +1,19 @@
 //! A driver who does what the scenario says, whatever happens around it.
 //!
-//! A script is a list of orders, each from a time on: a speed to drive at, a lateral position to drive to. Of the orders
+//! A script is a list of orders, each from a time on, or from the moment at which a vehicle reaches a place: a speed to drive at, a lateral position to drive to. Of the orders
 //! that have begun, the latest with a speed rules the speed, and the latest with a position the position; before the first,
 //! the vehicle keeps what it has. The plan covers what the script says about the horizon, so others who know plans see
 //! it coming.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
+use crate::trigger::{Trigger, TriggerMemory};
 use crate::{Input, Plan, PlanError, Scene};
 
 /// The settings of a scripted driver: what to do, and when.
@@ -23,12 +25,17 @@ pub struct Settings {
 }
 
 /// An order of the script.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Order {
-    /// Time at which the order begins, since the start of the run \[s\].
+    /// Time at which the order begins, since the start of the run, or since the moment of `when` \[s\].
+    #[serde(default)]
     #[schemars(range(min = 0.0), example = 2.0)]
     pub from_s: f64,
+    /// The moment from which `from_s` counts: that at which a vehicle reaches a place.
+    #[serde(default)]
+    #[schemars(example = json!({ "vehicle": "ego", "reaches": { "lane": "street", "along_m": 40.0 } }))]
+    pub when: Option<Trigger>,
     /// The speed to drive at \[m/s\].
     #[serde(default)]
     #[schemars(example = 0.5)]
@@ -71,6 +78,8 @@ pub struct Scripted {
     settings: Settings,
     /// Speed and lateral position at the first step, kept until an order says otherwise.
     kept: Option<[f64; 2]>,
+    /// Of each order, whether the moment of its `when` has come.
+    triggers: Vec<TriggerMemory>,
 }
 
 /// Orders begin this much early, for times that are sums of steps \[s\].
@@ -79,7 +88,8 @@ const TIME_TOLERANCE_S: f64 = 1e-9;
 impl Scripted {
     /// A driver that has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Scripted { settings, kept: None }
+        let triggers = vec![TriggerMemory::default(); settings.script.len()];
+        Scripted { settings, kept: None, triggers }
     }
 }
 
@@ -91,13 +101,14 @@ impl Drive for Scripted {
     fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let own = &scene.ego;
         let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.route.across(own.state.position())]);
+        self.look(scene);
         let trajectory = roll_out(scene, |t, state| {
             let time_s = scene.step_s * (scene.tick + t) as f64;
-            let order = self.latest(time_s, |order| order.speed_mps.is_some());
+            let order = self.latest((time_s, scene.step_s), |order| order.speed_mps.is_some());
             let wanted = order.and_then(|order| order.speed_mps).unwrap_or(speed);
             let most = order.and_then(|order| order.acceleration_mps2).unwrap_or(f64::INFINITY);
             let acceleration = ((wanted - state.speed_mps) / scene.step_s).clamp(-most, most);
-            let place = self.latest(time_s, |order| order.lateral_m.is_some());
+            let place = self.latest((time_s, scene.step_s), |order| order.lateral_m.is_some());
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
                 steering_rad: steer(own, state, place.and_then(|order| order.lateral_m).unwrap_or(lateral)),
@@ -112,26 +123,45 @@ impl Drive for Scripted {
 
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
         let settings = settings_of::<Settings>(settings)?.clone();
-        Some(Box::new(Scripted { settings, ..self.clone() }))
+        let mut changed = Scripted { settings, ..self.clone() };
+        changed.triggers.resize(changed.settings.script.len(), TriggerMemory::default());
+        Some(Box::new(changed))
     }
 }
 
 impl Scripted {
     /// The order that rules at a time, of those that `applies` accepts; of orders at one time, the last.
-    fn latest(&self, time_s: f64, applies: impl Fn(&Order) -> bool) -> Option<&Order> {
-        let begun =
-            self.settings.script.iter().filter(|order| applies(order) && order.from_s <= time_s + TIME_TOLERANCE_S);
-        begun.max_by(|a, b| a.from_s.total_cmp(&b.from_s))
+    fn latest(&self, (time_s, step_s): (f64, f64), applies: impl Fn(&Order) -> bool) -> Option<&Order> {
+        let orders = self.settings.script.iter().zip(&self.triggers).filter(|(order, _)| applies(order));
+        let begins = orders.filter_map(|(order, trigger)| {
+            let counts_from_s = match order.when {
+                None => 0.0,
+                Some(_) => step_s * trigger.fired()? as f64,
+            };
+            Some((order, counts_from_s + order.from_s))
+        });
+        let begun = begins.filter(|(_, from_s)| *from_s <= time_s + TIME_TOLERANCE_S);
+        begun.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(order, _)| order)
+    }
+
+    /// Looks whether the moments have come from which orders count.
+    fn look(&mut self, scene: &Scene) {
+        for (order, trigger) in self.settings.script.iter().zip(&mut self.triggers) {
+            if let Some(when) = &order.when {
+                trigger.has_fired(when, scene);
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trigger::TriggerPlace;
     use crate::fixture::{agent, scene};
 
     fn order(from_s: f64, speed_mps: Option<f64>, lateral_m: Option<f64>) -> Order {
-        Order { from_s, speed_mps, acceleration_mps2: None, lateral_m }
+        Order { from_s, speed_mps, lateral_m, ..Order::default() }
     }
 
     fn driven(script: Vec<Order>, tick: usize) -> Plan {
@@ -157,6 +187,20 @@ mod tests {
         assert!(at(30).y_m > 0.45);
         // The same script later in the run.
         assert!((driven(vec![order(1.0, Some(0.4), None)], 10).trajectory.states[6].speed_mps - 0.4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_order_may_wait_for_a_vehicle_to_reach_a_place() {
+        let place = TriggerPlace { lane: None, along_m: 1.0 };
+        let when = Some(Trigger { vehicle: String::new(), reaches: place });
+        let mut driver = Scripted::new(Settings { script: vec![Order { when, ..order(0.5, Some(0.4), None) }] });
+        let mut speed_after = |x_m: f64, tick: usize| {
+            let scene = Scene { tick, ..scene(agent(x_m, 0.185, 0.0, 1.0), Vec::new()) };
+            driver.plan(&scene, &Outlook::default()).expect("a plan").trajectory.states[15].speed_mps
+        };
+        assert_eq!(speed_after(0.0, 0), 1.0);
+        // Reached at 2 s, so that it slows down from 2.5 s on.
+        assert!((speed_after(1.0, 20) - 0.4).abs() < 1e-9);
     }
 
     #[test]

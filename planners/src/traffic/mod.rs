@@ -26,6 +26,7 @@ mod committed;
 mod limits;
 mod planning_order;
 mod road_user;
+mod room;
 #[cfg(test)]
 mod tests;
 
@@ -71,22 +72,23 @@ impl Traffic {
     /// of it, and says how urgent it is for it to brake. To be called once a tick.
     pub fn predict(&mut self) {
         let Traffic { tick, horizon, step_s, .. } = *self;
-        let obliged = self.road_users.iter().map(|user| Obliged {
+        let present = || self.road_users.iter().filter(|user| !user.is_absent);
+        let obliged = present().map(|user| Obliged {
             agent: &user.agent,
             wanted_mps: user.goal.target.speed_mps,
             lateral_goal_m: user.agent.route.across(user.goal.target.position()),
             keeps_rules: user.keeps_rules,
         });
         let rules = self.rule_book.judge((tick, step_s), &obliged.collect::<Vec<_>>());
-        for (user, rules) in self.road_users.iter_mut().zip(rules) {
+        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent).zip(rules) {
             user.agent.rules = rules;
         }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = committed.prediction(agent, horizon, step_s);
         }
         for vehicle in 0..self.road_users.len() {
-            let RoadUser { agent, keeps_rules, .. } = &self.road_users[vehicle];
-            if !keeps_rules && agent.limits.comfort.is_none() {
+            let RoadUser { agent, keeps_rules, is_absent, .. } = &self.road_users[vehicle];
+            if *is_absent || (!keeps_rules && agent.limits.comfort.is_none()) {
                 continue;
             }
             let (keeps_rules, mut scene) = (*keeps_rules, self.moment(vehicle));
@@ -106,7 +108,7 @@ impl Traffic {
 
     /// The moment as it is around one vehicle, with everybody's prediction as it stands.
     pub fn moment(&self, vehicle: usize) -> Scene {
-        let others = self.road_users.iter().enumerate().filter(|(other, _)| *other != vehicle);
+        let others = self.road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
         Scene {
             tick: self.tick,
             step_s: self.step_s,
@@ -117,13 +119,14 @@ impl Traffic {
         }
     }
 
-    /// Lets everybody decide; returns the decisions in the order in which they were made.
+    /// Lets everybody who is on the road decide; returns the decisions in the order in which they were made.
     ///
     /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
     /// predictions of those who go first are their plans.
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         let order = planning_order(&self.road_users);
-        order.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
+        let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent).collect::<Vec<_>>();
+        present.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
     }
 
     fn decide(&mut self, vehicle: usize, ask: impl FnOnce(usize, &Scene) -> Result<Plan, PlanError>) -> Decision {

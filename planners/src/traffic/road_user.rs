@@ -18,6 +18,8 @@ pub struct RoadUser {
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
+    /// Whether it is not on the road now: it has not come yet, or has left. Nobody sees it, and its planner is not asked.
+    pub is_absent: bool,
     /// The plan that it decided on last.
     pub committed: CommittedPlan,
 }
@@ -32,6 +34,7 @@ impl RoadUser {
             knows_plans: true,
             keeps_rules: false,
             is_crashed: false,
+            is_absent: false,
             committed: CommittedPlan::default(),
         }
     }

@@ -67,6 +67,7 @@ pub fn vehicle(
         prediction: constant_velocity(&state, HORIZON, STEP_S),
         shared_goal: None,
         can_be_asked: true,
+        is_obstacle: false,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
     };

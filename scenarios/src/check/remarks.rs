@@ -56,6 +56,7 @@ fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, Strin
         return None;
     }
     let others = scenario.vehicles.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
+    let others = others.filter(|other| other.obstacle.is_none());
     let reach = |other: &Vehicle| corner(&vehicle.safety, covered_m(&vehicle.body, &other.body));
     let worst = others.max_by(|one, other| reach(one).total_cmp(&reach(other))).filter(|worst| reach(worst) > 1.0)?;
     let [length_m, width_m] = covered_m(&vehicle.body, &worst.body);

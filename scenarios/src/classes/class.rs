@@ -1,5 +1,6 @@
 //! What vehicles of a class measure and can do.
 
+use interplay_planners::road::network::LaneUser;
 use interplay_planners::{Body, Limits, SafetyEllipse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,8 +19,12 @@ pub enum VehicleClass {
     Van,
     /// A rigid lorry, 12 m long.
     Truck,
+    /// A bus, 12 m long.
+    Bus,
     /// A bicycle with its rider, 1.8 m long.
     Bicycle,
+    /// Somebody on foot.
+    Pedestrian,
 }
 
 /// Body, limits and safety ellipse of a class.
@@ -46,7 +51,18 @@ impl VehicleClass {
     pub(crate) fn scale(self) -> f64 {
         match self {
             VehicleClass::ScaleCar => 1.0,
-            VehicleClass::Car | VehicleClass::Van | VehicleClass::Truck | VehicleClass::Bicycle => FULL_SCALE,
+            _ => FULL_SCALE,
+        }
+    }
+
+    /// As what it uses lanes that are kept for some.
+    pub(crate) fn lane_user(self) -> LaneUser {
+        match self {
+            VehicleClass::ScaleCar | VehicleClass::Car | VehicleClass::Van => LaneUser::Car,
+            VehicleClass::Truck => LaneUser::Truck,
+            VehicleClass::Bus => LaneUser::Bus,
+            VehicleClass::Bicycle => LaneUser::Bicycle,
+            VehicleClass::Pedestrian => LaneUser::Pedestrian,
         }
     }
 
@@ -70,9 +86,14 @@ impl VehicleClass {
             // N3 (5 m/s²), 1 m/s² as loaded lorries accelerate, and 90 km/h by the limiter of EU Directive 92/6. Loaded lorries roll over
             // from 0.35 to 0.4 g on.
             VehicleClass::Truck => class_values([6.5, 5.5, 2.55, 4.0, 2.0], [-5.0, 1.0, 3.5, 0.7, 25.0], 20.0),
+            // A city bus such as a Mercedes Citaro (12.1 m × 2.55 m, wheelbase 5.9 m). Brakes by UN Regulation 13 for category M3; standing
+            // passengers bear 1.2 m/s².
+            VehicleClass::Bus => class_values([6.3, 5.8, 2.55, 3.4, 2.5], [-5.0, 1.2, 3.5, 0.75, 25.0], 20.0),
             // Brakes 3.4 m/s² and is 1.8 m long in the design guide of AASHTO; handlebars 0.65 m, wheelbase 1.05 m. Leans by
             // at most 22°.
             VehicleClass::Bicycle => class_values([0.9, 0.9, 0.65, 0.55, 0.5], [-3.4, 1.0, 4.0, 0.8, 12.0], 9.0),
+            // Shoulders 0.6 m; stops within a step from walking, and runs at 5 m/s at most.
+            VehicleClass::Pedestrian => class_values([0.25, 0.25, 0.6, 0.2, 0.2], [-3.0, 1.5, 6.0, 0.9, 5.0], 8.0),
         }
     }
 }
@@ -103,8 +124,14 @@ fn class_values(
 mod tests {
     use super::*;
 
-    const FULL_SIZE: [VehicleClass; 4] =
-        [VehicleClass::Car, VehicleClass::Van, VehicleClass::Truck, VehicleClass::Bicycle];
+    const FULL_SIZE: [VehicleClass; 6] = [
+        VehicleClass::Car,
+        VehicleClass::Van,
+        VehicleClass::Truck,
+        VehicleClass::Bus,
+        VehicleClass::Bicycle,
+        VehicleClass::Pedestrian,
+    ];
 
     /// Outside each other's ellipses, parallel vehicles do not touch.
     #[test]

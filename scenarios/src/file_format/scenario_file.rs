@@ -16,6 +16,8 @@ use crate::file_format::building::BuildingConfig;
 use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;
+use crate::file_format::light::LightConfig;
+use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::plant::Plant;
 use crate::file_format::real_time::RealTime;
 use crate::file_format::start_jitter::StartJitter;
@@ -82,6 +84,14 @@ pub struct ScenarioFile {
     #[serde(rename = "vehicle", default)]
     #[schemars(length(max = 64), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub vehicles: Vec<VehicleConfig>,
+    /// What stands on the road or beside it and nobody drives, one `[[obstacle]]` each.
+    #[serde(rename = "obstacle", default)]
+    #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    pub obstacles: Vec<ObstacleConfig>,
+    /// Traffic lights at the ends of lanes with names, one `[[light]]` each.
+    #[serde(rename = "light", default)]
+    #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    pub lights: Vec<LightConfig>,
     /// What holds for every vehicle that does not state it. Each key of a table counts for itself.
     #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "class": "car" }))]
     pub defaults: Option<VehicleDefaults>,

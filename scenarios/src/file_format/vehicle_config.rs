@@ -62,6 +62,16 @@ pub struct VehicleConfig {
     /// it these two keep right of way and signs, and planners settle the order themselves.
     #[schemars(example = json!("kept"))]
     pub rules: Option<RuleKeeping>,
+    /// When it comes on the road; by default it is there from the start. It comes once there is room: nobody stands or drives so near
+    /// before it that it would have to brake at once \[s\].
+    #[schemars(range(min = 0.0), example = 12.0)]
+    pub enters_s: Option<f64>,
+    /// When it leaves the road; by default never \[s\].
+    #[schemars(range(min = 0.0), example = 30.0)]
+    pub leaves_s: Option<f64>,
+    /// Whether it leaves the road where its route ends; by default it drives on straight ahead.
+    #[serde(default)]
+    pub leaves_at_end: bool,
     /// What it senses of the others; without it, it sees every state as it is.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
     pub sensing: Option<Stated<sensing::Settings>>,

@@ -35,6 +35,9 @@ pub struct VehicleDefaults {
     /// Whether vehicles keep the rules of the road.
     #[schemars(example = json!("kept"))]
     pub rules: Option<RuleKeeping>,
+    /// Whether vehicles leave the road where their routes end.
+    #[schemars(example = true)]
+    pub leaves_at_end: Option<bool>,
     /// The driver. A vehicle with a driver of another `kind` takes nothing from it.
     #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
     pub driver: Option<Stated<Driver>>,

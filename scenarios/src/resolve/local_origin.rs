@@ -9,6 +9,7 @@ use serde_json::{Value as Json, json};
 
 use super::records;
 use crate::error::Fault;
+use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::read::tree::TomlNode;
@@ -19,9 +20,12 @@ const MAX_COORDINATE_M: f64 = 10_000.0;
 /// Roads are moved by multiples of this \[m\].
 const GRID_M: f64 = 1000.0;
 
-/// Moves a network with large coordinates, and the vehicles on it, near the origin. Returns by what was moved: what stood there is now
+/// Moves a network with large coordinates, and the vehicles and obstacles on it, near the origin. Returns by what was moved: what stood there is now
 /// at (0, 0); none for a road that stays where it is \[m\].
-pub(super) fn move_near_origin(road: &mut Road, vehicles: &mut [VehicleConfig]) -> Option<[f64; 2]> {
+pub(super) fn move_near_origin(
+    road: &mut Road,
+    (vehicles, obstacles): (&mut [VehicleConfig], &mut [ObstacleConfig]),
+) -> Option<[f64; 2]> {
     let Road::Network(network) = road else { return None };
     let first = network.lanes.iter().find_map(first_point)?;
     let origin = of(first)?;
@@ -37,6 +41,12 @@ pub(super) fn move_near_origin(road: &mut Road, vehicles: &mut [VehicleConfig]) 
             *stated_m = stated_m.map(|stated_m| stated_m - origin_m);
         }
         vehicle.driver.iter_mut().for_each(|driver| move_record(driver, origin));
+    }
+    for obstacle in obstacles {
+        for (stated_m, origin_m) in [&mut obstacle.x_m, &mut obstacle.y_m].into_iter().zip(origin) {
+            *stated_m = stated_m.map(|stated_m| stated_m - origin_m);
+        }
+        obstacle.timetable.iter_mut().for_each(|row| (row[1], row[2]) = (row[1] - origin[0], row[2] - origin[1]));
     }
     Some(origin)
 }

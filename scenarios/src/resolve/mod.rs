@@ -8,7 +8,7 @@ pub(crate) mod weather_file;
 
 use serde::de::DeserializeOwned;
 
-use interplay_planners::Driver;
+use interplay_planners::{Body, Driver};
 
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
@@ -18,9 +18,9 @@ use crate::file_format::vehicle_config::{VehicleConfig, default_driver};
 use crate::file_format::weather::{WeatherConfig, WeatherSource};
 use crate::read::tree::TomlNode;
 use crate::registry::Registry;
-use crate::resolve::placement::{KnownRoads, Placed, Start, place};
+use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
 use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
-use crate::scenario::{Scenario, Vehicle};
+use crate::scenario::{Scenario, Stay, Vehicle};
 use crate::text::readable::readable;
 
 /// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.
@@ -53,18 +53,21 @@ fn read(
     known_roads: &KnownRoads,
 ) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
     let reader = Reader { registry, tree };
-    let written = serde_json::to_string(&file.road).unwrap_or_default();
+    let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
     let mut road = reader.or_default("road", file.road)?;
     let unread = records::read(&mut file.vehicles, tree);
     if !unread.is_empty() {
         return Err(unread);
     }
-    let moved = local_origin::move_near_origin(&mut road, &mut file.vehicles);
-    let Placed { network, starts } = place(&file.vehicles, (&road, written), (tree, registry.complete()), known_roads)?;
+    let moved = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
+    let Placed { network, starts } = place(&file.vehicles, (&road, &file.lights, written), (tree, registry.complete()), known_roads)?;
     let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
+    let mut vehicles: Vec<Vehicle> = vehicles.collect::<Result<_, _>>()?;
+    let scale = vehicles.first().map_or(Body::REAL_SCALE, |vehicle| vehicle.body.scale);
+    vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (tree, scale))?);
     let mut scenario = Scenario {
-        vehicles: vehicles.collect::<Result<_, _>>()?,
+        vehicles,
         road,
         network,
         title: file.title,
@@ -79,6 +82,7 @@ fn read(
         seed: file.seed.unwrap_or_else(defaults::seed),
         real_time: reader.optional("real_time", file.real_time)?,
         plant: reader.or_default("plant", file.plant)?,
+        lights: file.lights,
         start_jitter: reader.or_default("start_jitter", file.start_jitter)?,
         building: reader.optional("building", file.building)?,
         weather: WeatherSource::default(),
@@ -191,6 +195,8 @@ impl Reader<'_> {
             route,
             goal: stated.goal,
             rules: stated.rules,
+            obstacle: None,
+            stay: Stay { enters_s: stated.enters_s, leaves_s: stated.leaves_s, leaves_at_end: stated.leaves_at_end },
         })
     }
 }

@@ -5,6 +5,7 @@
 
 pub(crate) mod conflict_zones;
 pub(crate) mod narrowest_lane;
+pub(crate) mod obstacle;
 pub(crate) mod plan_deadlines;
 pub(crate) mod remark;
 pub(crate) mod seed_dependence;
@@ -33,6 +34,7 @@ use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::goal::GoalConfig;
+use crate::file_format::light::LightConfig;
 use crate::file_format::plant::Plant;
 use crate::file_format::real_time::RealTime;
 use crate::file_format::start_jitter::StartJitter;
@@ -40,6 +42,7 @@ use crate::file_format::weather::WeatherSource;
 use crate::file_format::weights::Weights;
 use crate::metric::RegisteredMetrics;
 use crate::road::{Branch, Road};
+use crate::scenario::obstacle::{Obstacle, Outline};
 use crate::scenario::remark::ScenarioRemarks;
 use crate::text::name::EGO;
 
@@ -74,9 +77,11 @@ pub struct Scenario {
     pub road: Road,
     /// The lanes of the road, if they have names.
     pub network: Option<Arc<RoadNetwork>>,
+    /// Its traffic lights; the lanes of the network hold them.
+    pub lights: Vec<LightConfig>,
     /// Random change of every start, drawn from the seed.
     pub start_jitter: StartJitter,
-    /// The vehicles, in the order of the file.
+    /// The vehicles, in the order of the file, and after them the obstacles.
     pub vehicles: Vec<Vehicle>,
     /// The building, if there is one.
     pub building: Option<BuildingConfig>,
@@ -217,10 +222,32 @@ pub struct Vehicle {
     pub driver: Driver,
     /// Whether it keeps the rules of the road, if that is stated; otherwise its kind of driver says so.
     pub rules: Option<RuleKeeping>,
+    /// When it is on the road.
+    pub stay: Stay,
+    /// What it is if nobody drives it.
+    pub obstacle: Option<Obstacle>,
     /// What it senses of the others; without it, it sees every state as it is.
     pub sensing: Option<sensing::Settings>,
     /// How it learns from the others' motion what they will do, where its driver infers that.
     pub inference: Option<belief::Settings>,
+}
+
+/// When a vehicle is on the road.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stay {
+    /// When it comes; none if it is there from the start \[s\].
+    pub enters_s: Option<f64>,
+    /// When it leaves; none if it does not \[s\].
+    pub leaves_s: Option<f64>,
+    /// Whether it leaves where its route ends.
+    pub leaves_at_end: bool,
+}
+
+impl Stay {
+    /// Whether the vehicle is on the road for the whole run, whatever happens.
+    pub fn is_permanent(&self) -> bool {
+        *self == Stay::default()
+    }
 }
 
 impl Vehicle {
@@ -243,6 +270,11 @@ impl Vehicle {
 }
 
 impl Vehicle {
+    /// Its outline, if it is an obstacle.
+    pub fn outline(&self) -> Option<&Outline> {
+        self.obstacle.as_ref().map(|obstacle| &obstacle.outline)
+    }
+
     /// Whether it keeps all rules of the road.
     pub fn keeps_rules(&self) -> bool {
         self.rules == Some(RuleKeeping::Kept)

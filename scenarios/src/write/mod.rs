@@ -3,12 +3,15 @@
 pub(crate) mod commented;
 pub(crate) mod reference;
 
+use interplay_planners::Driver;
 use serde_json::{Map, Value as Json};
 
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
+use crate::file_format::obstacle::ObstacleConfig;
 use crate::scenario::Counterfactual;
+use crate::scenario::obstacle::{Obstacle, Outline};
 use crate::scenario::{Scenario, Vehicle};
 use crate::write::commented::plain;
 
@@ -35,7 +38,9 @@ impl Scenario {
             plant: drives.then(|| self.plant.clone().into()),
             road: drives.then(|| self.road.clone().into()),
             start_jitter: drives.then(|| self.start_jitter.into()),
-            vehicles: self.vehicles.iter().map(Vehicle::to_config).collect(),
+            vehicles: self.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).map(Vehicle::to_config).collect(),
+            lights: self.lights.clone(),
+            obstacles: self.vehicles.iter().filter_map(Vehicle::to_obstacle).collect(),
             defaults: None,
             building: self.building.clone().map(Stated::from),
             weather,
@@ -86,8 +91,31 @@ impl Vehicle {
             safety: Some(self.safety.into()),
             driver: Some(self.driver.clone().into()),
             rules: self.rules,
+            enters_s: self.stay.enters_s,
+            leaves_s: self.stay.leaves_s,
+            leaves_at_end: self.stay.leaves_at_end,
             sensing: self.sensing.map(Stated::from),
             inference: self.inference.map(Stated::from),
         }
+    }
+
+    /// What a file states of an obstacle; none of a vehicle that somebody drives.
+    fn to_obstacle(&self) -> Option<ObstacleConfig> {
+        let Obstacle { kind, outline } = self.obstacle.clone()?;
+        let Driver::Recorded(record) = &self.driver else { return None };
+        let mut stated = ObstacleConfig { name: self.name.clone(), kind, ..ObstacleConfig::default() };
+        match record.points.as_slice() {
+            [_] => {
+                (stated.x_m, stated.y_m) = (Some(self.start.x_m), Some(self.start.y_m));
+                stated.heading_rad = Some(self.start.heading_rad);
+            }
+            points => stated.timetable = points.iter().map(|[t, x, y, heading, _]| [*t, *x, *y, *heading]).collect(),
+        }
+        match outline {
+            Outline::Box { length_m, width_m } => (stated.length_m, stated.width_m) = (Some(length_m), Some(width_m)),
+            Outline::Circle { radius_m } => stated.radius_m = Some(radius_m),
+            Outline::Polygon { corners_m } => stated.corners_m = corners_m,
+        }
+        Some(stated)
     }
 }

@@ -73,8 +73,9 @@ impl<'a> DrivingPictures<'a> {
         spoken_of: &[usize],
     ) {
         road::draw(&self.road, canvas, view);
+        road::draw_lights(&self.road, canvas, view, time_s);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
-        for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
+        for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen).filter(|(_, seen)| !seen.is_absent) {
             if is_ribbon(&seen.plan, &vehicle.body) {
                 let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
                 let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
@@ -102,7 +103,7 @@ impl<'a> DrivingPictures<'a> {
         }
         self.draw_contacts(canvas, view, seen, time_s);
         let taken = self.draw_edge_marks(canvas, view, seen, spoken_of);
-        self.draw_names(canvas, view, taken);
+        self.draw_names(canvas, view, seen, taken);
     }
 
     /// A star where two vehicles touch, for a while after they began to.
@@ -143,8 +144,11 @@ impl<'a> DrivingPictures<'a> {
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name, nor other `taken` rectangles, of which the
     /// first are those of the vehicles.
-    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, mut taken: Vec<Rectangle>) {
+    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], mut taken: Vec<Rectangle>) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
+            if vehicle.obstacle.is_some() || seen[index].is_absent {
+                continue;
+            }
             let [left, top, right, bottom] = taken[index];
             let (wide, high) = (width_of(&vehicle.name, LABEL_PX) + 10.0, LABEL_PX + 4.0);
             let (x, y) = (0.5 * (left + right), 0.5 * (top + bottom));
@@ -270,7 +274,8 @@ fn is_ribbon(plan: &[[f64; 2]], body: &Body) -> bool {
 fn legend(run: &DrivingRun) -> Vec<Vec<(usize, String, f64)>> {
     let mut rows: Vec<Vec<(usize, String, f64)>> = vec![Vec::new()];
     let mut left = MARGIN_PX;
-    for (index, vehicle) in run.scenario.vehicles.iter().enumerate() {
+    let driven = run.scenario.vehicles.iter().enumerate().filter(|(_, vehicle)| vehicle.obstacle.is_none());
+    for (index, vehicle) in driven {
         let words = format!("{}: {}", vehicle.name, vehicle.driver.description());
         let wide = 23.0 + width_of(&format!("{words} 00.0 m/s"), LABEL_PX) + 20.0;
         if left + wide > WIDTH_PX && left > MARGIN_PX {

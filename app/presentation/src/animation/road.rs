@@ -3,7 +3,7 @@
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
 use crate::curved_road::WorldLine;
-use crate::palette::{ARROW, ASPHALT, Colour, PAINT};
+use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, PAINT, PATH, TYRE};
 use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
 
 const VERGE: Colour = [0xCD, 0xD3, 0xB8];
@@ -15,6 +15,18 @@ const VERGE_LANES: f64 = 0.34;
 const KERB_LANES: f64 = 0.07;
 const LINE_LANES: f64 = 0.035;
 const ARROW_WIDTH_LANES: f64 = 0.07;
+/// Thickness of the bar of a traffic light, in lane widths.
+const LIGHT_LANES: f64 = 0.14;
+
+/// Draws what traffic lights show at a time \[s\].
+pub fn draw_lights(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView, time_s: f64) {
+    let width = (LIGHT_LANES * shapes.lane_m * view.px_per_m).max(4.0);
+    for light in &shapes.lights {
+        let bar = light.bar.map(|end| view.place(end));
+        canvas.line(&bar, width + 2.0, LineEnd::Round, TYRE);
+        canvas.line(&bar, width, LineEnd::Round, light.colour_at(time_s));
+    }
+}
 
 /// Draws a road.
 pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
@@ -29,6 +41,10 @@ pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
     }
     // Closes the hairlines between lanes that touch, and the small holes between lanes of a junction.
     surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * SHOULDER_LANES * lane_px, ASPHALT));
+    let areas = [(&shapes.kept_lanes, KEPT_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)];
+    for (rings, colour) in areas {
+        rings.iter().for_each(|ring| canvas.fill(&place(ring), colour));
+    }
     let width = (LINE_LANES * lane_px).max(1.3);
     for (lines, width) in
         [(&shapes.edges, width), (&shapes.dashes, width), (&shapes.stop_lines, STOP_LINE_LANES * lane_px)]

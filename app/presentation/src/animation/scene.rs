@@ -20,6 +20,8 @@ const NEAR_CARS: f64 = 30.0;
 /// A vehicle at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
+    /// Whether it is not on the road.
+    pub is_absent: bool,
     /// Present position, heading and speed.
     pub state: State,
     /// Steering angle of the front wheels \[rad\].
@@ -140,6 +142,7 @@ impl<'a> DrivingRun<'a> {
             let turn = turn(self.scenario, &self.scenario.vehicles[index], vehicle);
             let failed = vehicle.origin != Origin::Planned;
             SeenVehicle {
+                is_absent: vehicle.is_absent,
                 state,
                 steering_rad: vehicle.input.steering_rad,
                 brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
@@ -157,7 +160,11 @@ impl<'a> DrivingRun<'a> {
                 },
             }
         };
-        frame.vehicles.iter().enumerate().map(seen).collect()
+        let mut seen: Vec<SeenVehicle> = frame.vehicles.iter().enumerate().map(seen).collect();
+        // Whoever is not there draws no camera: it is taken to be where the ego is.
+        let ego = seen[self.scenario.ego_index()].state;
+        seen.iter_mut().filter(|seen| seen.is_absent).for_each(|seen| seen.state = ego);
+        seen
     }
 
     /// The state of a vehicle when a share of a tick has passed.

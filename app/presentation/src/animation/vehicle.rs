@@ -1,7 +1,7 @@
 //! A vehicle from above: shadow, wheels that steer, body, windows, lights. Lorries, vans and bicycles look like themselves.
 
 use interplay_planners::{Body, State};
-use interplay_scenarios::Vehicle;
+use interplay_scenarios::{Outline, Vehicle};
 
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
@@ -11,6 +11,8 @@ use crate::body_style::BodyStyle;
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
 use crate::signals::Turn;
 
+/// Somebody on foot is drawn at least this wide \[px\].
+const LEAST_WALKER_PX: f64 = 7.0;
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
 
@@ -46,18 +48,27 @@ impl Placed<'_> {
 pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let off = placed.px(0.16 * vehicle.body.width_m.min(0.2 * vehicle.body.scale));
-    let thin = if BodyStyle::choose(vehicle) == BodyStyle::Bicycle { 0.4 } else { 1.0 };
+    let style = BodyStyle::choose(vehicle);
+    if seen.is_absent || style == BodyStyle::Plain {
+        return;
+    }
+    let thin = if style == BodyStyle::Bicycle { 0.4 } else { 1.0 };
     let ring = placed.rectangle([-1.0, 1.0, -thin, thin]).map(|[x, y]| [x + off, y + off]);
     canvas.fill_rounded(&ring, placed.px(0.3 * vehicle.body.width_m), Ink::veiled(SHADOW, 0.35));
 }
 
 /// Draws a vehicle.
 pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
+    if seen.is_absent {
+        return;
+    }
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let style = BodyStyle::choose(vehicle);
-    if style == BodyStyle::Bicycle {
-        draw_bicycle(canvas, &placed, seen, colour);
-        return;
+    match style {
+        BodyStyle::Bicycle => return draw_bicycle(canvas, &placed, seen, colour),
+        BodyStyle::Walker => return draw_walker(canvas, &placed, colour),
+        BodyStyle::Plain => return draw_outline(canvas, &placed, vehicle, colour),
+        BodyStyle::Car | BodyStyle::Van | BodyStyle::Lorry => {}
     }
     let Wheels { size_m, rings_m } = Wheels::place(&vehicle.body, style, seen.steering_rad);
     for ring in rings_m {
@@ -76,7 +87,7 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &Se
             let door = [placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])];
             canvas.line(&door, edge, LineEnd::Flat, darker(colour));
         }
-        BodyStyle::Lorry | BodyStyle::Bicycle => {
+        BodyStyle::Lorry | BodyStyle::Bicycle | BodyStyle::Walker | BodyStyle::Plain => {
             let lid = placed.rectangle([-0.97, 0.63, -0.86, 0.86]);
             canvas.outline_rounded(&lid, 1.0, edge, darker(colour));
         }
@@ -119,6 +130,26 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
             }
         }
     }
+}
+
+/// Somebody on foot: shoulders and a head, and never too small to be seen.
+fn draw_walker(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
+    let middle = placed.shared([0.0, 0.0]);
+    let width = placed.px(placed.body.width_m).max(LEAST_WALKER_PX);
+    let larger = width / placed.px(placed.body.width_m);
+    let shoulders = placed.rectangle([-0.7, 0.7, -1.0, 1.0]);
+    let shoulders = shoulders.map(|[x, y]| [middle[0] + larger * (x - middle[0]), middle[1] + larger * (y - middle[1])]);
+    canvas.fill_rounded(&shoulders, 0.35 * width, colour);
+    canvas.disc(middle, 0.27 * width, SKIN);
+    canvas.disc(middle, 0.2 * width, darker(colour));
+}
+
+/// What has an outline and no parts.
+fn draw_outline(canvas: &mut Canvas, placed: &Placed, vehicle: &Vehicle, colour: Colour) {
+    let corners = vehicle.outline().map(Outline::corners_m).unwrap_or_default();
+    let ring: Vec<[f64; 2]> = corners.into_iter().map(|corner| placed.place(corner)).collect();
+    canvas.fill(&ring, colour);
+    canvas.outline(&ring, 1.0, darker(colour));
 }
 
 fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour: Colour) {
@@ -173,6 +204,7 @@ mod tests {
 
     fn standing() -> SeenVehicle {
         SeenVehicle {
+            is_absent: false,
             state: State { x_m: 3.0, y_m: 1.0, heading_rad: 0.4, speed_mps: 1.0 },
             steering_rad: 0.0,
             brakes: false,

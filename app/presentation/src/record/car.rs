@@ -1,7 +1,7 @@
 //! Vehicles as solids: wheels, body, cabin, windows and lights, in the frame of the body (x ahead, y to the left, z upwards).
 
 use interplay_planners::Body;
-use interplay_scenarios::Vehicle;
+use interplay_scenarios::{Outline, Vehicle};
 
 use super::mesh::Mesh;
 use crate::body_shape::{BodyArea, RIDER, Wheels, light_depth, place_on, rectangle};
@@ -17,17 +17,31 @@ const VAN_WIDTHS: f64 = 1.0;
 const CAB_WIDTHS: f64 = 1.15;
 const BOX_WIDTHS: f64 = 1.35;
 
+/// Shoulders and head of somebody on foot.
+const SHOULDER_WIDTHS: f64 = 2.4;
+const WALKER_WIDTHS: f64 = 2.9;
+/// Height of obstacles of real roads \[m\].
+const PLAIN_M: f64 = 0.9;
+
 /// The solids of a vehicle.
 pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
     let placed = Placed(&vehicle.body);
     let mut mesh = Mesh::default();
     let style = BodyStyle::choose(vehicle);
-    if style != BodyStyle::Bicycle {
+    if matches!(style, BodyStyle::Car | BodyStyle::Van | BodyStyle::Lorry) {
         add_wheels(&mut mesh, &vehicle.body, style);
         add_lights(&mut mesh, &placed);
     }
     match style {
         BodyStyle::Bicycle => add_bicycle(&mut mesh, &placed, colour),
+        BodyStyle::Walker => {
+            mesh.add_block(&placed.rounded([-0.7, 0.7, -1.0, 1.0], 0.3), placed.z([0.0, SHOULDER_WIDTHS]), colour);
+            mesh.add_block(&placed.rectangle([-0.4, 0.4, -0.35, 0.35]), placed.z([SHOULDER_WIDTHS, WALKER_WIDTHS]), TYRE);
+        }
+        BodyStyle::Plain => {
+            let corners = vehicle.outline().map(Outline::corners_m).unwrap_or_default();
+            mesh.add_block(&corners, [0.0, height_m(vehicle)], colour);
+        }
         BodyStyle::Car => {
             mesh.add_block(
                 &placed.rounded([-1.0, 1.0, -1.0, 1.0], 0.22),
@@ -88,6 +102,8 @@ pub fn height_m(vehicle: &Vehicle) -> f64 {
         BodyStyle::Van => VAN_WIDTHS,
         BodyStyle::Lorry => BOX_WIDTHS,
         BodyStyle::Bicycle => 2.4,
+        BodyStyle::Walker => WALKER_WIDTHS,
+        BodyStyle::Plain => return PLAIN_M * vehicle.body.real_ratio(),
     };
     widths * vehicle.body.width_m
 }

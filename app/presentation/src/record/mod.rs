@@ -25,6 +25,7 @@ mod car;
 mod error;
 mod labels;
 mod layout;
+mod lights;
 mod live;
 mod markdown;
 mod mesh;
@@ -61,6 +62,7 @@ use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 use status::StatusLines;
 pub use timelines::{SIM_TIME, TICK};
+use lights::LightLayer;
 use vehicles::VehicleLayer;
 
 use crate::answer::Requests;
@@ -103,6 +105,7 @@ pub struct Recorder {
     scenario: Scenario,
     vehicle_colours: Vec<NamedColour>,
     vehicles: VehicleLayer,
+    lights: LightLayer,
     cameras: Cameras,
     status: StatusLines,
     requests: Requests,
@@ -150,6 +153,7 @@ impl Recorder {
         }
         about::about(&stream, scenario, &vehicle_colours, None, &[])?;
         let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
+        let lights = LightLayer::begin(scenario);
         let has_strip = layout::has_strip(scenario, bounds_m);
         let cameras = Cameras::begin(&stream, scenario, &vehicle_colours, (has_strip, bounds_m))?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
@@ -161,6 +165,7 @@ impl Recorder {
             scenario,
             vehicle_colours,
             vehicles,
+            lights,
             cameras,
             status,
             requests,
@@ -194,6 +199,7 @@ impl Recorder {
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
         self.requests.tick(&self.scenario, frame);
         self.vehicles.tick(&self.stream, &self.scenario, frame, &self.requests)?;
+        self.lights.tick(&self.stream, frame.time_s)?;
         self.status.tick(&self.stream, (&self.scenario, &self.vehicle_colours), frame, &self.requests)?;
         self.plots.tick(&self.stream, &self.scenario, frame)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {

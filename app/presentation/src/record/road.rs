@@ -7,7 +7,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::mesh::Mesh;
 use crate::curved_road::WorldLine;
-use crate::palette::{ARROW, ASPHALT, Colour, GRASS, PAINT};
+use crate::palette::{ARROW, ASPHALT, Colour, GRASS, KEPT_LANE, PAINT, PATH};
 use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
 
 /// How far below the road the ground is, and how far above it its lines are, in lane widths.
@@ -40,6 +40,9 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         add_shoulder(&mut surface, ring, &shapes);
     }
     let height_m = LINES_LANES * shapes.lane_m;
+    for (rings, colour) in [(&shapes.kept_lanes, KEPT_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)] {
+        rings.iter().for_each(|ring| surface.add_polygon(ring, 0.5 * height_m, colour));
+    }
     let mut arrows = Vec::new();
     for arrow in shapes.arrows() {
         arrow.heads.iter().for_each(|head| surface.add_polygon(head, height_m, ARROW));

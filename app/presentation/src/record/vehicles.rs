@@ -42,6 +42,8 @@ struct DrawnVehicle {
     body: Body,
     route: Arc<Route>,
     last: Option<State>,
+    /// Whether it was not on the road in the last tick.
+    is_absent: bool,
     asks: bool,
     /// Whether its last plan had branches.
     branches: bool,
@@ -69,6 +71,7 @@ impl VehicleLayer {
                 body: vehicle.body,
                 route: Arc::clone(&vehicle.route),
                 last: None,
+                is_absent: false,
                 asks: false,
                 branches: false,
                 brakes: false,
@@ -103,6 +106,9 @@ impl VehicleLayer {
     ) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
+            if drawn.log_absence(stream, vehicle.is_absent)? {
+                continue;
+            }
             drawn.log_tick(stream, vehicle, &asks)?;
             drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
             if index != self.ego {
@@ -144,6 +150,21 @@ impl DrawnVehicle {
             stream.log_static(self.at(&format!("body/{part}")), &lights)?;
         }
         Ok(())
+    }
+
+    /// Hides what is not on the road; whether it is not.
+    fn log_absence(&mut self, stream: &RecordingStream, is_absent: bool) -> RecordingStreamResult<bool> {
+        if is_absent && !self.is_absent {
+            self.last = None;
+            let hidden = Transform3D::update_fields().with_mat3x3([[0.0; 3]; 3]);
+            stream.log(self.at("body"), &hidden)?;
+            stream.log(self.at("safety"), &hidden)?;
+            for line in ["plan", "prediction", "trace", "branches"] {
+                stream.log(self.at(line), &strips([]))?;
+            }
+        }
+        self.is_absent = is_absent;
+        Ok(is_absent)
     }
 
     fn log_tick(

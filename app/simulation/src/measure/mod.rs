@@ -160,7 +160,8 @@ pub fn measure(
     for (identity, motion) in &vehicles {
         after[identity.index] = motion.state;
     }
-    for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
+    let with_states = frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after);
+    for ((vehicle, measured), state) in with_states.filter(|((vehicle, _), _)| !vehicle.is_absent) {
         if frame.plans {
             measured.planning.observe(vehicle);
         }
@@ -186,7 +187,11 @@ pub fn measure(
     let (step_s, previous_inputs) = (clock.step_s, measures.previous_inputs.as_slice());
     let tick = ObservedTick { frame, step_s, previous_inputs, end };
     measures.metrics.observe(&tick);
-    measures.vehicles.iter_mut().for_each(|measured| measured.metrics.observe(&tick));
+    for (measured, vehicle) in measures.vehicles.iter_mut().zip(&frame.vehicles) {
+        if !vehicle.is_absent {
+            measured.metrics.observe(&tick);
+        }
+    }
     let speeds_mps: Vec<f64> = after.iter().map(|state| state.speed_mps).collect();
     measures.passages.observe(&measures.along_m, &speeds_mps, [frame.time_s, clock.time_s()]);
     measures.collisions.extend_from_slice(&frame.collisions);

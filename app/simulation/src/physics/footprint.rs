@@ -1,14 +1,56 @@
 //! Footprints as Parry sees them: boxes around the bodies, and the distance between two of them.
 
 use interplay_planners::{Body, State};
+use interplay_scenarios::Outline;
 use rapier2d::prelude::{Pose, SharedShape, Vector};
 
-/// Distance between two footprints; 0 where they touch or overlap \[m\].
+/// The outline of a vehicle or an obstacle: a shape, and where it is, seen from the mass centre.
+#[derive(Clone)]
+pub(super) struct Footprint {
+    /// The shape.
+    pub shape: SharedShape,
+    /// Where it is.
+    pub centre: Pose,
+    /// Distance from the mass centre to the farthest point \[m\].
+    pub radius_m: f64,
+}
+
+impl Footprint {
+    /// The box around a body, or the outline of an obstacle that has one.
+    pub fn new(body: &Body, outline: Option<&Outline>) -> Footprint {
+        let exact = outline.and_then(|outline| match outline {
+            Outline::Box { .. } => None,
+            Outline::Circle { radius_m } => Some((SharedShape::ball(*radius_m as f32), *radius_m)),
+            Outline::Polygon { corners_m } => {
+                let points = corners_m.iter().map(|[x, y]| Vector::new(*x as f32, *y as f32)).collect();
+                let radius_m = corners_m.iter().map(|[x, y]| libm::hypot(*x, *y)).fold(0.0, f64::max);
+                SharedShape::convex_polyline(points).map(|shape| (shape, radius_m))
+            }
+        });
+        match exact {
+            Some((shape, radius_m)) => Footprint { shape, centre: Pose::IDENTITY, radius_m },
+            None => Footprint { shape: shape(body), centre: centre(body), radius_m: radius_m(body) },
+        }
+    }
+}
+
+impl std::fmt::Debug for Footprint {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Footprint(radius {} m)", self.radius_m)
+    }
+}
+
+/// Distance between the boxes around two bodies; 0 where they touch or overlap \[m\].
 pub fn gap_m(a: (&Body, &State), b: (&Body, &State)) -> f64 {
+    let [first, second] = [a.0, b.0].map(|body| Footprint::new(body, None));
+    distance_m((&first, a.1), (&second, b.1))
+}
+
+/// Distance between two footprints; 0 where they touch or overlap \[m\].
+pub(super) fn distance_m(a: (&Footprint, &State), b: (&Footprint, &State)) -> f64 {
     let origin = a.1.position();
-    let place = |(body, state): (&Body, &State)| pose(state, origin) * centre(body);
-    let (shape_a, shape_b) = (shape(a.0), shape(b.0));
-    let outcome = parry2d::query::distance(&place(a), &*shape_a, &place(b), &*shape_b);
+    let place = |(footprint, state): (&Footprint, &State)| pose(state, origin) * footprint.centre;
+    let outcome = parry2d::query::distance(&place(a), &*a.0.shape, &place(b), &*b.0.shape);
     outcome.map_or(f64::INFINITY, |found| f64::from(found.distance))
 }
 

@@ -1,15 +1,17 @@
 //! The true distances between footprints during a tick: of the ego to the others, and of any two vehicles.
 
-use interplay_planners::{Body, State};
-use interplay_scenarios::Scenario;
+use interplay_planners::State;
+use interplay_scenarios::{Scenario, Vehicle};
 
-use super::footprint::{gap_m, radius_m};
+use super::footprint::{Footprint, distance_m};
 
 /// The smallest distances so far in a tick.
 #[derive(Clone, Debug)]
 pub(super) struct FootprintGaps {
     ego: usize,
-    bodies: Vec<Body>,
+    footprints: Vec<Footprint>,
+    /// Who is not on the road in this tick.
+    absent: Vec<bool>,
     smallest_m: Option<f64>,
     closest: Option<Closest>,
 }
@@ -28,12 +30,15 @@ pub(super) struct Closest {
 impl FootprintGaps {
     /// Measures of a run that has not begun.
     pub fn new(scenario: &Scenario) -> Self {
-        let bodies = scenario.vehicles.iter().map(|vehicle| vehicle.body).collect();
-        FootprintGaps { ego: scenario.ego_index(), bodies, smallest_m: None, closest: None }
+        let footprint = |vehicle: &Vehicle| Footprint::new(&vehicle.body, vehicle.outline());
+        let footprints: Vec<Footprint> = scenario.vehicles.iter().map(footprint).collect();
+        let absent = vec![false; footprints.len()];
+        FootprintGaps { ego: scenario.ego_index(), footprints, absent, smallest_m: None, closest: None }
     }
 
-    /// Begins a tick; returns the distance of the ego there \[m\], none without other vehicles.
-    pub fn begin(&mut self, states: &[State]) -> Option<f64> {
+    /// Begins a tick in which some are not on the road; returns the distance of the ego there \[m\], none without other vehicles.
+    pub fn begin(&mut self, states: &[State], absent: Vec<bool>) -> Option<f64> {
+        self.absent = absent;
         (self.smallest_m, self.closest) = (None, None);
         self.observe(states, 0.0);
         self.smallest_m
@@ -41,15 +46,19 @@ impl FootprintGaps {
 
     /// Looks at the time when a share of the tick has passed.
     pub fn observe(&mut self, states: &[State], share: f64) {
-        let (Some(body), Some(state)) = (self.bodies.get(self.ego), states.get(self.ego)) else { return };
-        let others = self.bodies.iter().zip(states).enumerate().filter(|(index, _)| *index != self.ego);
-        let now_m = others.map(|(_, other)| gap_m((body, state), other));
+        let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
+        let present = |from: usize| {
+            let all = self.footprints.iter().zip(states).enumerate().skip(from);
+            all.filter(|(index, _)| !self.absent[*index])
+        };
+        let others = present(0).filter(|(index, _)| *index != self.ego && !self.absent[self.ego]);
+        let now_m = others.map(|(_, other)| distance_m((footprint, state), other));
         self.smallest_m = self.smallest_m.into_iter().chain(now_m).min_by(f64::total_cmp);
-        for (index, a) in self.bodies.iter().zip(states).enumerate() {
-            for (other, b) in self.bodies.iter().zip(states).enumerate().skip(index + 1) {
+        for (index, a) in present(0) {
+            for (other, b) in present(index + 1) {
                 let smallest_m = self.closest.map_or(f64::INFINITY, |closest| closest.m);
                 if smallest_m > 0.0 && least_gap_m(a, b) < smallest_m {
-                    let m = gap_m(a, b);
+                    let m = distance_m(a, b);
                     if m < smallest_m {
                         self.closest = Some(Closest { m, pair: [index, other], share });
                     }
@@ -80,7 +89,7 @@ impl FootprintGaps {
 }
 
 /// A lower bound of the distance between two footprints, from the circles around them \[m\].
-fn least_gap_m((body, state): (&Body, &State), (other_body, other): (&Body, &State)) -> f64 {
+fn least_gap_m((footprint, state): (&Footprint, &State), (around, other): (&Footprint, &State)) -> f64 {
     let apart_m = libm::hypot(state.x_m - other.x_m, state.y_m - other.y_m);
-    apart_m - radius_m(body) - radius_m(other_body)
+    apart_m - footprint.radius_m - around.radius_m
 }

@@ -23,11 +23,14 @@ pub(super) fn advance(
     gaps: &mut FootprintGaps,
 ) -> (Vec<State>, Vec<Contact>) {
     let path = |vehicle: &Moving| Path {
-        body: vehicle.body,
+        footprint: vehicle.footprint.clone(),
         from: vehicle.state,
-        to: vehicle
-            .recorded
-            .unwrap_or_else(|| Bicycle::new(&vehicle.body, step_s).step(&vehicle.state, &vehicle.input)),
+        is_absent: vehicle.is_absent,
+        to: match vehicle.recorded {
+            _ if vehicle.is_absent => vehicle.state,
+            Some(recorded) => recorded,
+            None => Bicycle::new(&vehicle.body, step_s).step(&vehicle.state, &vehicle.input),
+        },
     };
     let paths: Vec<Path> = vehicles.iter().map(path).collect();
     let (mut share, mut contacts) = (0.0, Vec::new());
@@ -36,7 +39,7 @@ pub(super) fn advance(
         let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
         gaps.observe(&states, share);
         for Touch { pair: [a, b], normal } in look(world, vehicles, &states) {
-            let impulse_ns = impulse_ns((&paths[a].body, &states[a]), (&paths[b].body, &states[b]), normal);
+            let impulse_ns = impulse_ns((&vehicles[a].body, &states[a]), (&vehicles[b].body, &states[b]), normal);
             contacts.push(Contact { pair: [a, b], share, impulse_ns });
         }
     }
@@ -48,6 +51,7 @@ fn look(world: &mut PhysicsWorld, vehicles: &[Moving], states: &[State]) -> Vec<
     let origin = states.first().map(State::position).unwrap_or_default();
     for (vehicle, state) in vehicles.iter().zip(states) {
         if let Some(body) = world.bodies.get_mut(vehicle.handle) {
+            body.set_enabled(!vehicle.is_absent);
             body.set_position(pose(state, origin), true);
         }
     }

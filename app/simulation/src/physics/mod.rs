@@ -24,7 +24,7 @@ mod tyres;
 use bevy_ecs::prelude::*;
 use interplay_planners::recorded::next_to;
 use interplay_planners::{Body, State};
-use interplay_scenarios::{Plant, Scenario};
+use interplay_scenarios::{Outline, Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
@@ -33,7 +33,7 @@ pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 use crate::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
 use crate::frame::{Collision, Event, Level, PairGap};
 use dynamic::DynamicPlant;
-use footprint::{centre, length_m, shape};
+use footprint::{Footprint, length_m};
 use gap::{Closest, FootprintGaps};
 use moving::{Contact, Moving};
 
@@ -60,7 +60,8 @@ impl Physics {
     pub fn new(scenario: &Scenario) -> Self {
         let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
         // Rapier's tolerances suit metres-long bodies; a 1/10 scale world needs them ten times smaller.
-        let longest = scenario.vehicles.iter().map(|vehicle| length_m(&vehicle.body)).fold(0.0, f64::max);
+        let driven = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
+        let longest = driven.map(|vehicle| length_m(&vehicle.body)).fold(0.0, f64::max);
         world.integration_parameters.length_unit = (longest / 4.0).clamp(0.01, 1.0) as f32;
         world.integration_parameters.normalized_prediction_distance = TOUCHING_M;
         let origin = scenario.vehicles.first().map(|first| first.start.position()).unwrap_or_default();
@@ -107,10 +108,11 @@ impl Physics {
         Physics { world, dynamic: self.dynamic.clone(), gaps: self.gaps.clone() }
     }
 
-    /// Adds a vehicle.
-    pub fn add(&mut self, index: usize, body: &Body, state: &State) -> RigidBodyHandle {
-        let collider = ColliderBuilder::new(shape(body))
-            .position(centre(body))
+    /// Adds a vehicle, or an obstacle with its outline.
+    pub fn add(&mut self, index: usize, (body, outline): (&Body, Option<&Outline>), state: &State) -> RigidBodyHandle {
+        let footprint = Footprint::new(body, outline);
+        let collider = ColliderBuilder::new(footprint.shape)
+            .position(footprint.centre)
             .active_collision_types(ActiveCollisionTypes::all())
             .active_events(ActiveEvents::COLLISION_EVENTS)
             .user_data(index as u128);
@@ -135,18 +137,20 @@ pub fn step(
 ) {
     let mut sorted: Vec<_> = vehicles.iter_mut().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let moving = |(_, parameters, motion, body): &(&Identity, &VehicleParameters, Mut<Motion>, &VehicleBody)| Moving {
+    let moving = |(identity, parameters, motion, body): &(&Identity, &VehicleParameters, Mut<Motion>, &VehicleBody)| Moving {
         handle: body.0,
         body: parameters.body,
+        footprint: Footprint::new(&parameters.body, parameters.outline.as_ref()),
         state: motion.state,
         input: motion.input,
+        is_absent: current_frame.0.vehicles[identity.index].is_absent,
         recorded: recorded(parameters, motion, clock.within_s(1.0)),
     };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
     let frame = &mut current_frame.0;
     let Physics { world, dynamic, gaps } = &mut *physics;
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
-    frame.gap_m = gaps.begin(&before);
+    frame.gap_m = gaps.begin(&before, moving.iter().map(|vehicle| vehicle.is_absent).collect());
     let (states, contacts) = match dynamic {
         None => kinematic::advance(world, &moving, clock.step_s, gaps),
         Some(plant) => plant.advance(world, &moving, clock.step_s, gaps),

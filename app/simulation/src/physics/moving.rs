@@ -3,12 +3,17 @@
 use interplay_planners::{Body, Input, State};
 use rapier2d::prelude::RigidBodyHandle;
 
+use super::footprint::Footprint;
+
 /// One vehicle at the start of a tick.
 pub(super) struct Moving {
     pub handle: RigidBodyHandle,
     pub body: Body,
+    pub footprint: Footprint,
     pub state: State,
     pub input: Input,
+    /// Whether it is not on the road: then it touches nobody and stays where it is.
+    pub is_absent: bool,
     /// Where it is at the end of the tick, if it follows a record.
     pub recorded: Option<State>,
 }

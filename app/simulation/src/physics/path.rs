@@ -6,9 +6,9 @@
 //! vehicles that are `gap` apart cannot touch before the share `gap / approach` of a tick has passed. Looking again just
 //! then (conservative advancement) finds, whatever the speed, every contact that is longer than the shortest step.
 
-use interplay_planners::{Body, State};
+use interplay_planners::State;
 
-use super::footprint::{gap_m, radius_m};
+use super::footprint::{Footprint, distance_m};
 
 /// The shortest step between two looks, in ticks: how finely a contact is timed.
 pub(super) const MIN_STEP_TICKS: f64 = 1e-3;
@@ -17,8 +17,10 @@ const MAX_STEP_TICKS: f64 = 0.25;
 
 /// The motion of one vehicle during a tick.
 pub(super) struct Path {
-    /// Body of the vehicle.
-    pub body: Body,
+    /// Footprint of the vehicle.
+    pub footprint: Footprint,
+    /// Whether it is not on the road.
+    pub is_absent: bool,
     /// State at the beginning of the tick.
     pub from: State,
     /// State at the end of the tick.
@@ -35,7 +37,7 @@ impl Path {
     /// By how much the gap to another vehicle may shrink at most during the tick \[m\].
     fn approach_m(&self, other: &Path) -> f64 {
         let moved = |path: &Path| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
-        let swept = |path: &Path| (path.to.heading_rad - path.from.heading_rad).abs() * radius_m(&path.body);
+        let swept = |path: &Path| (path.to.heading_rad - path.from.heading_rad).abs() * path.footprint.radius_m;
         let ([ax, ay], [bx, by]) = (moved(self), moved(other));
         ((ax - bx) * (ax - bx) + (ay - by) * (ay - by)).sqrt() + swept(self) + swept(other)
     }
@@ -47,7 +49,10 @@ pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
     let mut step = MAX_STEP_TICKS;
     for (index, (a, a_state)) in paths.iter().zip(&states).enumerate() {
         for (b, b_state) in paths.iter().zip(&states).skip(index + 1) {
-            let (approach, gap) = (a.approach_m(b), gap_m((&a.body, a_state), (&b.body, b_state)));
+            if a.is_absent || b.is_absent {
+                continue;
+            }
+            let (approach, gap) = (a.approach_m(b), distance_m((&a.footprint, a_state), (&b.footprint, b_state)));
             // Who touches already cannot begin to.
             if approach > 0.0 && gap > 0.0 {
                 step = step.min(gap / approach);

@@ -1,10 +1,14 @@
 //! A lane and what it says of other lanes.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::centre_line::CentreLine;
 use super::super::profile::Profile;
+use super::lane_user::LaneUser;
+use super::light::LightCycle;
 
 /// A lane of a road, driven in the direction of its centre line.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +29,12 @@ pub struct Lane {
     pub speed_limit_mps: Option<f64>,
     /// Who goes first at the end of this lane.
     pub right_of_way: RightOfWay,
+    /// The traffic light at the end of this lane.
+    pub light: Option<Arc<LightCycle>>,
+    /// For whom the lane is; empty where it is for all.
+    pub users: Vec<LaneUser>,
+    /// Whether it is a zebra crossing: whoever is on it, or comes to it, goes first, whatever the signs.
+    pub is_zebra: bool,
 }
 
 /// The reference of a lane to a neighbouring one.
@@ -74,6 +84,9 @@ impl Lane {
             right: None,
             speed_limit_mps: None,
             right_of_way: RightOfWay::Priority,
+            light: None,
+            users: Vec::new(),
+            is_zebra: false,
         }
     }
 
@@ -84,6 +97,16 @@ impl Lane {
 }
 
 impl Lane {
+    /// Whether the lane is for people on foot alone.
+    pub fn is_path(&self) -> bool {
+        self.users == [LaneUser::Pedestrian]
+    }
+
+    /// Whether the lane is for a user.
+    pub fn is_open_to(&self, user: LaneUser) -> bool {
+        self.users.is_empty() || self.users.contains(&user)
+    }
+
     /// Whether a vehicle may change from this lane to a lane beside it that is driven in the same direction.
     pub fn may_change_to(&self, lane: &str) -> bool {
         [&self.left, &self.right].into_iter().flatten().any(|neighbour| neighbour.is_open() && neighbour.lane == lane)

@@ -8,6 +8,7 @@ use super::super::profile::Profile;
 use super::bend::{Bend, CHECKS_PER_KNOT, bends, highest_speed_mps};
 use super::error::RouteError;
 use super::lane::RightOfWay;
+use super::light::LightCycle;
 use super::route_conflict::RouteConflict;
 
 /// The way of a vehicle: a centre line, and the strip beside it that the vehicle may use.
@@ -58,6 +59,10 @@ pub struct RouteLeg {
     pub speed_limit_mps: Option<f64>,
     /// Who goes first at the end of the lane.
     pub right_of_way: RightOfWay,
+    /// The traffic light at the end of the lane.
+    pub light: Option<Arc<LightCycle>>,
+    /// Whether the lane is a zebra crossing.
+    pub is_zebra: bool,
 }
 
 /// The place of a route at which its centre line has the largest curvature.

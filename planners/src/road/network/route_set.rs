@@ -42,7 +42,10 @@ impl Route {
         let mut numbers = Vec::with_capacity(routes.len());
         for mut route in routes {
             let lanes = |route: &Route| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
-            let number = distinct.iter().position(|known| lanes(known) == lanes(&route));
+            let is_same = |known: &Route| {
+                lanes(known) == lanes(&route) && known.right == route.right && known.left == route.left
+            };
+            let number = distinct.iter().position(is_same);
             numbers.push(number.unwrap_or(distinct.len()));
             if number.is_none() {
                 route.number = Some(distinct.len());
@@ -82,7 +85,10 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
     known
         .map(|(with, other, conflict)| {
             let kind = if is_head_on(own, other, &conflict.on_a) { ConflictKind::HeadOn } else { conflict.kind };
-            let (approach, their_approach) = (Approach::find(own, conflict.on_a), Approach::find(other, conflict.on_b));
+            let (mut approach, mut their_approach) =
+                (Approach::find(own, conflict.on_a), Approach::find(other, conflict.on_b));
+            approach.wait_at_zebra(&their_approach, conflict.on_a);
+            their_approach.wait_at_zebra(&approach, conflict.on_b);
             let meeting = |route: &Route, partner: &Route, [from_m, to_m]: [f64; 2]| match kind {
                 ConflictKind::Crossing | ConflictKind::Diverging => 0.5 * (from_m + to_m),
                 // The lanes overlap before the centre lines meet.
@@ -122,6 +128,8 @@ struct Approach {
     heading_rad: f64,
     /// By how much the lane of the conflict turns to the left \[rad\].
     turn_rad: f64,
+    /// Whether the lane of the conflict is a zebra crossing.
+    is_zebra: bool,
 }
 
 impl Approach {
@@ -141,7 +149,15 @@ impl Approach {
         let turning = place(middle_m).and_then(|number| route.legs.get(number));
         let turn_rad =
             turning.map_or(0.0, |leg| route.centre.at(leg.to_m).heading_rad - route.centre.at(leg.from_m).heading_rad);
-        Approach { line_m, sign, heading_rad: route.centre.at(line_m).heading_rad, turn_rad }
+        let is_zebra = turning.is_some_and(|leg| leg.is_zebra);
+        Approach { line_m, sign, heading_rad: route.centre.at(line_m).heading_rad, turn_rad, is_zebra }
+    }
+
+    /// Before a zebra crossing vehicles wait right there, unless the lane ends at a line of its own before it.
+    fn wait_at_zebra(&mut self, other: &Approach, [from_m, _]: [f64; 2]) {
+        if other.is_zebra && !self.is_zebra && self.sign == RightOfWay::Priority {
+            self.line_m = from_m;
+        }
     }
 
     fn turns_left(&self) -> bool {
@@ -151,6 +167,9 @@ impl Approach {
 
 fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedence {
     let own_first = |is_own: bool| if is_own { Precedence::Own } else { Precedence::Other };
+    if own.is_zebra != other.is_zebra {
+        return own_first(own.is_zebra);
+    }
     match (own.sign, other.sign) {
         (RightOfWay::AllWayStop, RightOfWay::AllWayStop) => return Precedence::ByArrival,
         (RightOfWay::Priority, RightOfWay::Priority) => {}

@@ -61,6 +61,8 @@ impl RoadNetwork {
             offset_m: sections_m[index][0] - part.from_m,
             speed_limit_mps: part.lane.speed_limit_mps,
             right_of_way: part.lane.right_of_way,
+            light: part.lane.light.clone(),
+            is_zebra: part.lane.is_zebra,
         };
         let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
         let strip = edges::strip(self, &centre, &legs, &sections_m);

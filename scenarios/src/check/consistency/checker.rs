@@ -20,6 +20,12 @@ impl<'a> Checker<'a> {
         Checker { scenario, tree, faults: Vec::new() }
     }
 
+    /// The path of a vehicle or an obstacle, by its number among all.
+    pub fn path(&self, index: usize) -> String {
+        let vehicles = self.scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).count();
+        index.checked_sub(vehicles).map_or_else(|| format!("vehicle.{index}"), |index| format!("obstacle.{index}"))
+    }
+
     /// Where the value at a path is written.
     pub fn place(&self, path: &str) -> &Place {
         self.tree.place_of(path)

@@ -166,7 +166,7 @@ impl Checker<'_> {
         }
     }
 
-    fn known(&mut self, path: &str, name: &str) {
+    pub(super) fn known(&mut self, path: &str, name: &str) {
         if self.scenario.vehicle(name).is_none() {
             let names: Vec<&str> = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
             let message = format!("there is no vehicle {}", quoted(name));

@@ -4,6 +4,7 @@
 
 mod building;
 mod checker;
+mod conduct;
 pub(crate) mod counterfactual;
 mod expectations;
 mod road;
@@ -37,9 +38,15 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
     checker.names();
     checker.road();
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
+        if vehicle.obstacle.is_some() {
+            continue;
+        }
         checker.branch(index, vehicle);
         checker.goal(index, vehicle);
         checker.driver(index, vehicle);
+        checker.script(index, vehicle);
+        checker.walker(index, vehicle);
+        checker.stay(index, vehicle);
         // A record is what it is: whoever was recorded was there, and fast, and beside the lanes.
         if vehicle.driver.record().is_some() {
             checker.recorded(index, vehicle);
@@ -75,9 +82,11 @@ impl Checker<'_> {
         let vehicles = &self.scenario.vehicles;
         for (index, vehicle) in vehicles.iter().enumerate() {
             if let Some(first) = vehicles[..index].iter().position(|earlier| earlier.name == vehicle.name) {
-                let message = format!("two vehicles are called {}", quoted(&vehicle.name));
-                let fault = Fault::at(self.place(&format!("vehicle.{index}.name")), "the second", message);
-                let fault = fault.also(self.place(&format!("vehicle.{first}.name")), "the first");
+                let what = if vehicle.obstacle.is_some() { "two vehicles or obstacles" } else { "two vehicles" };
+                let message = format!("{what} are called {}", quoted(&vehicle.name));
+                let [second, first] = [index, first].map(|index| format!("{}.name", self.path(index)));
+                let fault = Fault::at(self.place(&second), "the second", message);
+                let fault = fault.also(self.place(&first), "the first");
                 self.faults.push(fault.help("give each vehicle a name of its own"));
             }
         }
@@ -196,7 +205,8 @@ impl Checker<'_> {
             }
             for (other_index, (other, other_start)) in pairs().take(index) {
                 // Boxes of recorded vehicles overlap where the record is inexact.
-                if is_recorded && other.driver.record().is_some() {
+                let come_later = |vehicle: &Vehicle| vehicle.stay.enters_s.is_some_and(|enters_s| enters_s > 0.0);
+                if (is_recorded && other.driver.record().is_some()) || come_later(vehicle) || come_later(other) {
                     continue;
                 }
                 if overlap((&vehicle.body, start), (&other.body, other_start)) {
@@ -230,7 +240,11 @@ impl Checker<'_> {
     /// Where it is written what puts the footprint of a vehicle where it is at the start: of all that do, what was laid over
     /// the others last; its start if all stand in one file.
     fn place_of_footprint(&self, index: usize) -> &Place {
-        let own = ["start", "body", "class"].map(|key| format!("vehicle.{index}.{key}"));
+        let path = self.path(index);
+        if self.scenario.vehicles[index].obstacle.is_some() {
+            return self.place(&path);
+        }
+        let own = ["start", "body", "class"].map(|key| format!("{path}.{key}"));
         let is_moved = self.scenario.start_jitter.position_m > 0.0;
         let random = CAUSES_OF_JITTER.iter().filter(|_| is_moved);
         let causes = own.into_iter().chain(SHARED_CAUSES.iter().chain(random).map(|path| (*path).to_owned()));

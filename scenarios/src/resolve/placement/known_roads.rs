@@ -7,7 +7,7 @@ use std::hash::Hash;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use interplay_planners::Route;
-use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::road::network::{LaneUser, RoadNetwork};
 
 /// The most entries that are kept of each kind. A plan that varies its road has more; the later ones are computed each time.
 const MAX_ENTRIES: usize = 256;
@@ -20,6 +20,8 @@ pub(crate) struct KnownRoads(Memo<String, KnownNetwork>);
 pub(super) struct KnownNetwork {
     /// The network.
     pub network: Arc<RoadNetwork>,
+    /// The parts of it that are open to users, where some lanes are kept for others.
+    open: Memo<String, RoadNetwork>,
     /// Routes by the words that decide them.
     routes: Memo<Vec<String>, Route>,
     /// Routes that know where they meet, by the lanes of each.
@@ -38,13 +40,22 @@ impl KnownRoads {
     ) -> Result<Option<Arc<KnownNetwork>>, E> {
         let network = || -> Result<KnownNetwork, Option<E>> {
             let network = Arc::new(compute()?.ok_or(None)?);
-            Ok(KnownNetwork { network, routes: Memo::default(), sets: Memo::default() })
+            Ok(KnownNetwork { network, open: Memo::default(), routes: Memo::default(), sets: Memo::default() })
         };
         self.0.get(road, network).map_or_else(|error| error.map_or(Ok(None), Err), |known| Ok(Some(known)))
     }
 }
 
 impl KnownNetwork {
+    /// The network as far as it is open to a user.
+    pub fn open_to(&self, user: LaneUser) -> Arc<RoadNetwork> {
+        if !self.network.has_restricted_lanes() {
+            return Arc::clone(&self.network);
+        }
+        let open = self.open.get(format!("{user:?}"), || Ok::<_, ()>(self.network.open_to(user)));
+        open.unwrap_or_else(|()| Arc::clone(&self.network))
+    }
+
     /// The route that some words decide.
     ///
     /// # Errors
@@ -55,6 +66,9 @@ impl KnownNetwork {
 
     /// These routes, so that they know where they meet.
     pub fn set_of(&self, routes: Vec<Arc<Route>>) -> Vec<Arc<Route>> {
+        if self.network.has_restricted_lanes() {
+            return Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect());
+        }
         let lanes = |route: &Arc<Route>| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
         let key = routes.iter().map(lanes).collect();
         let compute = || Ok::<_, ()>(Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect()));

@@ -2,6 +2,7 @@
 
 mod known_roads;
 mod network;
+mod obstacles;
 mod on_network;
 mod parallel;
 mod recorded;
@@ -14,12 +15,14 @@ use interplay_planners::road::network::RoadNetwork;
 
 use crate::check::consistency::curve_faults;
 use crate::error::Fault;
+use crate::file_format::light::LightConfig;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
 use known_roads::KnownNetwork;
 pub(crate) use known_roads::KnownRoads;
+pub(crate) use obstacles::obstacles;
 pub(crate) use recorded::way as way_of_record;
 pub(crate) use written::Start;
 use written::VehicleAsWritten;
@@ -38,7 +41,7 @@ pub(crate) struct Placed {
 /// For a road that is none, and what keeps a start from being a place or a vehicle from having a route.
 pub(crate) fn place(
     vehicles: &[VehicleConfig],
-    (road, written): (&Road, String),
+    (road, lights, written): (&Road, &[LightConfig], String),
     (tree, schema): (&TomlNode, SchemaNode),
     known_roads: &KnownRoads,
 ) -> Result<Placed, Vec<Fault>> {
@@ -46,7 +49,7 @@ pub(crate) fn place(
     if !faults.is_empty() {
         return Err(faults);
     }
-    let network = known_roads.network(written, || network::network(road, tree)).map_err(|fault| vec![fault])?;
+    let network = known_roads.network(written, || network::network((road, lights), tree)).map_err(|fault| vec![fault])?;
     let [main, cross] = [Branch::Main, Branch::Cross].map(|branch| road.route(branch));
     let (mut starts, mut faults) = (Vec::new(), Vec::new());
     for (index, vehicle) in vehicles.iter().enumerate() {
@@ -70,6 +73,11 @@ pub(crate) fn place(
     }
     if !faults.is_empty() {
         return Err(faults);
+    }
+    if network.is_none() && !lights.is_empty() {
+        let message = "traffic lights stand at the ends of lanes with names, which this road does not have".to_owned();
+        let fault = Fault::at(tree.place_of("light"), "no lanes with names", message);
+        return Err(vec![fault.help("state the road as a `network`, or one of the junctions")]);
     }
     if let Some(network) = &network {
         // On a network the routes know where they meet.

@@ -1,9 +1,12 @@
 //! The network of a road, and what keeps lanes from being one.
 
+use std::sync::Arc;
+
 use interplay_common::spelling::suggestion;
 use interplay_planners::road::network::{Lane, LaneFault, NeighbourRelation, RoadNetwork, RoadNetworkError};
 
 use crate::error::{Fault, quoted};
+use crate::file_format::light::LightConfig;
 use crate::read::tree::TomlNode;
 use crate::road::{Road, RoadFault, to_centimetres};
 
@@ -11,18 +14,44 @@ use crate::road::{Road, RoadFault, to_centimetres};
 ///
 /// # Errors
 /// For lanes that are no network, and a network that cannot be left.
-pub(super) fn network(road: &Road, tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
-    let lanes = match road.network_lanes() {
+pub(super) fn network(
+    (road, lights): (&Road, &[LightConfig]),
+    tree: &TomlNode,
+) -> Result<Option<RoadNetwork>, Fault> {
+    let mut lanes = match road.network_lanes() {
         None => return Ok(None),
         Some(Err(fault)) => return Err(located(fault, tree)),
         Some(Ok(lanes)) => lanes,
     };
+    place_lights(&mut lanes, lights, tree)?;
     let describer = Describer { road, lanes: &lanes, tree };
     let network = RoadNetwork::new(lanes.clone()).map_err(|error| describer.described(&error))?;
     if let Some(fault) = describer.without_end(&network) {
         return Err(fault);
     }
     Ok(Some(network))
+}
+
+/// Puts traffic lights at the ends of their lanes.
+fn place_lights(lanes: &mut [Lane], lights: &[LightConfig], tree: &TomlNode) -> Result<(), Fault> {
+    for (index, light) in lights.iter().enumerate() {
+        let cycle = Arc::new(light.cycle());
+        for (place, name) in light.lanes.iter().enumerate() {
+            let at = tree.place_of(&format!("light.{index}.lanes.{place}"));
+            let known = lanes.iter().position(|lane| lane.name == *name);
+            let Some(lane) = known.map(|known| &mut lanes[known]) else {
+                let names: Vec<&str> = lanes.iter().map(|lane| lane.name.as_str()).collect();
+                let message = format!("light {} stands at lane {}, which the road does not have", quoted(&light.name), quoted(name));
+                return Err(Fault::at(at, "no such lane", message).help(suggestion(name, "the lanes are", &names)));
+            };
+            if lane.light.is_some() {
+                let message = format!("two lights stand at the end of lane {}", quoted(name));
+                return Err(Fault::at(at, "the second", message).help("name each lane once"));
+            }
+            lane.light = Some(Arc::clone(&cycle));
+        }
+    }
+    Ok(())
 }
 
 fn located(fault: RoadFault, tree: &TomlNode) -> Fault {

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use interplay_common::spelling::{listed, suggestion};
-use interplay_planners::road::network::{Lane, RouteError};
+use interplay_planners::road::network::{Lane, LaneUser, RoadNetwork, RouteError};
 use interplay_planners::{Route, State};
 
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
+use crate::classes::VehicleClass;
 use crate::error::{Fault, quoted};
 use crate::file_format::lane_reference::LaneReference;
 use crate::road::to_centimetres;
@@ -23,7 +24,8 @@ const MAX_NAMES: usize = 12;
 /// # Errors
 /// For a start that is on no lane, and where no route leads to the goal.
 pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Fault> {
-    let vehicle = NetworkVehicle { written, known };
+    let user = written.stated.class.map_or(LaneUser::Car, VehicleClass::lane_user);
+    let vehicle = NetworkVehicle { written, known, user, open: known.open_to(user) };
     if written.stated.start.is_in_lane() {
         let lane = vehicle.start_lane()?;
         let along_m = vehicle.along_m(lane)?;
@@ -39,6 +41,10 @@ pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Res
 struct NetworkVehicle<'a> {
     written: &'a VehicleAsWritten<'a>,
     known: &'a KnownNetwork,
+    /// As what it uses lanes.
+    user: LaneUser,
+    /// The part of the network that is open to it.
+    open: Arc<RoadNetwork>,
 }
 
 impl NetworkVehicle<'_> {
@@ -59,6 +65,11 @@ impl NetworkVehicle<'_> {
                 return Err(fault.help(format!("the lanes are: {}", self.some_names())));
             }
         };
+        if let Some(lane) = self.known.network.lane(name).filter(|lane| !lane.is_open_to(self.user)) {
+            let message = format!("{shown} names lane {}, which is not for vehicles of this class", quoted(&lane.name));
+            let fault = self.written.fault(key, "kept for others", message);
+            return Err(fault.help("state another lane, the `class` for which it is kept, or more `users` of the lane"));
+        }
         self.known.network.lane(name).ok_or_else(|| {
             let names: Vec<&str> = self.known.network.lanes().iter().map(|lane| lane.name.as_str()).collect();
             let near = suggestion(name, "", &names);
@@ -96,7 +107,7 @@ impl NetworkVehicle<'_> {
         let [x_m, y_m] = self.written.position()?;
         let heading_rad = self.written.stated.start.heading_rad();
         let state = State { x_m, y_m, heading_rad, speed_mps: self.written.stated.start.speed_mps };
-        let places = self.known.network.locate([x_m, y_m], heading_rad);
+        let places = self.open.locate([x_m, y_m], heading_rad);
         let mut refused = None;
         for place in places.iter().filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START) {
             let Some(lane) = self.known.network.lane(&place.lane) else { continue };
@@ -129,7 +140,7 @@ impl NetworkVehicle<'_> {
     /// The route from the begin of a lane on: along the stated lanes, or to the lane of the goal, or the only one there is.
     fn route(&self, lane: &Lane) -> Result<Arc<Route>, Fault> {
         let goal = self.written.stated.goal.lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
-        let words = [&[lane.name.clone(), goal], self.written.stated.route.as_slice()].concat();
+        let words = [&[lane.name.clone(), goal, format!("{:?}", self.user)], self.written.stated.route.as_slice()].concat();
         self.known.route(words, || self.new_route(lane))
     }
 
@@ -138,8 +149,8 @@ impl NetworkVehicle<'_> {
         let goal = self.written.stated.goal.lane.as_ref().map(|goal| self.known("goal.lane", goal)).transpose()?;
         let Some(first) = self.written.stated.route.first() else {
             return match goal {
-                Some(goal) => self.known.network.shortest_route(&lane.name, &goal.name).map_err(refused),
-                None => self.known.network.route(&self.only_way(lane)?).map_err(refused),
+                Some(goal) => self.open.shortest_route(&lane.name, &goal.name).map_err(refused),
+                None => self.open.route(&self.only_way(lane)?).map_err(refused),
             };
         };
         for (index, name) in self.written.stated.route.iter().enumerate() {
@@ -167,15 +178,15 @@ impl NetworkVehicle<'_> {
                 .fault(&key, "the last lane", message)
                 .help(format!("leave the `lane` of its goal out, or add the lanes from `{last}` to `{}`", goal.name)));
         }
-        self.known.network.route(&self.written.stated.route).map_err(refused)
+        self.open.route(&self.written.stated.route).map_err(refused)
     }
 
     /// The lanes from a lane on, as long as each has one successor.
     fn only_way(&self, lane: &Lane) -> Result<Vec<String>, Fault> {
         let mut names = vec![lane.name.clone()];
-        let mut last = lane;
+        let mut last = self.open.lane(&lane.name).unwrap_or(lane);
         while let [only] = last.successors.as_slice() {
-            let Some(next) = self.known.network.lane(only).filter(|_| !names.contains(only)) else { break };
+            let Some(next) = self.open.lane(only).filter(|_| !names.contains(only)) else { break };
             names.push(only.clone());
             last = next;
         }

@@ -40,12 +40,13 @@ pub(super) fn start(written: &VehicleAsWritten<'_>) -> Result<Option<(Record, St
     let settings: Option<Driver> = driver.clone().settings().ok();
     let Some(record) = settings.and_then(|driver| driver.record()) else { return Ok(None) };
     let [from_s, _] = record.span_s();
-    let Some(state) = record.state_at(0.0).filter(|_| from_s <= MAX_BEGIN_S) else {
+    let begins_s = written.stated.enters_s.unwrap_or(0.0).max(0.0);
+    let Some(state) = record.state_at(begins_s).filter(|_| from_s <= begins_s + MAX_BEGIN_S) else {
         let message =
-            format!("the record of {} does not say where it is when the run begins", quoted(&written.shown()));
+            format!("the record of {} does not say where it is when it comes on the road", quoted(&written.shown()));
         let [from_s, to_s] = record.span_s().map(readable);
-        let help = format!("it reaches from {from_s} to {to_s} s; let it begin at 0 s");
-        return Err(written.fault("driver", "not at 0 s", message).help(help));
+        let help = format!("it reaches from {from_s} to {to_s} s; `enters_s` says when the vehicle comes, by default at 0 s");
+        return Err(written.fault("driver", "not then", message).help(help));
     };
     if let (Some(x_m), Some(y_m)) = (written.stated.start.x_m, written.stated.start.y_m) {
         let missed_m = libm::hypot(x_m - state.x_m, y_m - state.y_m);
@@ -66,10 +67,7 @@ pub(super) fn start(written: &VehicleAsWritten<'_>) -> Result<Option<(Record, St
 /// its direction, along the lanes that it went. Beside all lanes, it is a straight strip.
 pub(super) fn place(record: &Record, state: State, stated: &[String], known: &KnownNetwork) -> Start {
     let network = &known.network;
-    let on_lane = network.locate(state.position(), state.heading_rad).into_iter().next();
-    let on_lane = on_lane.filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START);
-    let lane = on_lane.and_then(|place| network.lane(&place.lane)).or_else(|| nearest(&state, network.lanes()));
-    let route = lane.and_then(|lane| {
+    let route = lane_at(network, &state).and_then(|lane| {
         let way = if stated.is_empty() { way(record, lane, network) } else { stated.to_vec() };
         known
             .route(way.clone(), || network.route(&way))
@@ -83,6 +81,18 @@ pub(super) fn place(record: &Record, state: State, stated: &[String], known: &Kn
     let route = route.unwrap_or_else(|| strip(&state));
     let along_rad = route.heading_at(state.position());
     (State { heading_rad: next_to(state.heading_rad, along_rad), ..state }, route)
+}
+
+/// The lane that a vehicle is on or beside, in about its direction.
+fn lane_at<'a>(network: &'a RoadNetwork, state: &State) -> Option<&'a Lane> {
+    let on_lane = network.locate(state.position(), state.heading_rad).into_iter().next();
+    let on_lane = on_lane.filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START);
+    on_lane.and_then(|place| network.lane(&place.lane)).or_else(|| nearest(state, network.lanes()))
+}
+
+/// The lane that something is on or beside, as a route.
+pub(super) fn lane_route(network: &RoadNetwork, state: &State) -> Option<Arc<Route>> {
+    network.route(&[&*lane_at(network, state)?.name]).ok().map(Arc::new)
 }
 
 /// The lane beside which a vehicle is, in about its direction.
@@ -125,7 +135,7 @@ fn missed_m(record: &Record, lane: &Lane) -> f64 {
 }
 
 /// A wide straight strip in the direction of a vehicle.
-fn strip(state: &State) -> Arc<Route> {
+pub(super) fn strip(state: &State) -> Arc<Route> {
     let (sin, cos) = libm::sincos(state.heading_rad);
     let across_m = cos * state.y_m - sin * state.x_m;
     let (right_m, left_m) = (across_m - STRIP_M, across_m + STRIP_M);

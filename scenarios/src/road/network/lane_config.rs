@@ -1,7 +1,7 @@
 //! A lane as a file states it.
 
 use interplay_planners::Profile;
-use interplay_planners::road::network::{LaneNeighbour, NeighbourRelation, RightOfWay};
+use interplay_planners::road::network::{LaneNeighbour, LaneUser, NeighbourRelation, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -60,6 +60,13 @@ pub struct LaneConfig {
     /// Who goes first at its end.
     #[serde(default)]
     pub right_of_way: RightOfWay,
+    /// For whom the lane is; by default for all. Others find no route along it and do not change into it.
+    #[serde(default)]
+    #[schemars(length(max = 5), example = json!(["bus"]))]
+    pub users: Vec<LaneUser>,
+    /// Whether it is a zebra crossing: whoever is on it, or comes to it, goes first, whatever the signs of the lanes that it crosses.
+    #[serde(default)]
+    pub zebra: bool,
 }
 
 impl LaneConfig {
@@ -77,6 +84,8 @@ impl LaneConfig {
             right: None,
             speed_limit_mps: None,
             right_of_way: RightOfWay::default(),
+            users: Vec::new(),
+            zebra: false,
         }
     }
 }

@@ -47,5 +47,8 @@ fn lane(stated: &LaneConfig, path: &str) -> Result<Lane, RoadFault> {
         right: stated.right.as_ref().map(NeighbourConfig::neighbour),
         speed_limit_mps: stated.speed_limit_mps,
         right_of_way: stated.right_of_way,
+        light: None,
+        users: stated.users.clone(),
+        is_zebra: stated.zebra,
     })
 }

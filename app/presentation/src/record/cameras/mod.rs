@@ -14,7 +14,7 @@
 
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
-use interplay_simulation::frame::Frame;
+use interplay_simulation::frame::{Frame, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
@@ -162,7 +162,9 @@ impl Cameras {
     /// Stores a tick for [`Cameras::log_all`].
     pub fn note(&mut self, scenario: &Scenario, frame: &Frame) {
         let Some(ego) = frame.vehicles.get(scenario.ego_index()) else { return };
-        let states: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
+        // Whoever is not there draws no camera: it is taken to be where the ego is.
+        let seen = |vehicle: &VehicleFrame| if vehicle.is_absent { ego.state } else { vehicle.state };
+        let states: Vec<State> = frame.vehicles.iter().map(seen).collect();
         for hit in &frame.collisions {
             let Some(between) = numbers(scenario, &hit.between) else { continue };
             let place = contact_place(scenario, between, between.map(|index| &states[index]));

@@ -180,7 +180,7 @@ impl Measurement for LaneChanges {
             return;
         }
         if self.begun.is_none_or(|begun| begun.to != place.lane) {
-            self.begun = Some(self.change(&tick.end, &place));
+            self.begun = Some(self.change(tick, &place));
         }
         if place.inside > BEYOND_LANES {
             self.lane = place.lane;
@@ -199,10 +199,12 @@ impl Measurement for LaneChanges {
 
 impl LaneChanges {
     /// A change that begins at this moment, with who is ahead and behind in the new lane.
-    fn change(&self, moment: &ObservedMoment<'_>, place: &PlaceInLanes) -> LaneChange {
+    fn change(&self, tick: &ObservedTick<'_>, place: &PlaceInLanes) -> LaneChange {
+        let moment = &tick.end;
         let (own, own_mps) = (&moment.vehicles[self.vehicle], moment.states[self.vehicle].speed_mps);
         let scale = own.body.real_ratio();
-        let others = (0..moment.vehicles.len()).filter(|other| *other != self.vehicle);
+        let is_there = |other: &usize| *other != self.vehicle && !tick.frame.vehicles[*other].is_absent;
+        let others = (0..moment.vehicles.len()).filter(is_there);
         let in_lane = others.filter_map(|other| {
             let (body, state) = (&moment.vehicles[other].body, &moment.states[other]);
             let there = self.lanes.at(&own.route, state);

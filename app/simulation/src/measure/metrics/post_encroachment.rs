@@ -10,6 +10,7 @@ use interplay_planners::{Body, State};
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
 
+use crate::frame::VehicleFrame;
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::rectangle::{half_diagonal_m, overlap};
 use crate::measure::values::Measured;
@@ -43,7 +44,8 @@ impl Metric for PostEncroachment {
 #[derive(Clone, Debug)]
 struct PastMoment {
     time_s: f64,
-    states: Vec<State>,
+    /// In the scenario's order; none of whoever is not on the road.
+    states: Vec<Option<State>>,
 }
 
 /// The encounters of one vehicle so far.
@@ -66,8 +68,9 @@ impl Measurement for Encounters {
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
             let time_s = tick.end.time_s - (1.0 - share) * tick.step_s;
-            let before = tick.frame.vehicles.iter().map(|vehicle| &vehicle.state);
-            let states = before.zip(tick.end.states).map(|(from, to)| between(from, to, share)).collect();
+            let moved = tick.frame.vehicles.iter().zip(tick.end.states);
+            let at = |(from, to): (&VehicleFrame, &State)| (!from.is_absent).then(|| between(&from.state, to, share));
+            let states = moved.map(at).collect();
             self.past.retain(|moment| time_s - moment.time_s <= LONGEST_S * times);
             self.past.push_back(PastMoment { time_s, states });
             self.compare_last(&bodies);
@@ -94,7 +97,8 @@ impl Encounters {
             }
             let others = (0..bodies.len()).filter(|other| *other != self.vehicle);
             let meets = |first: usize, second: usize| {
-                let (first, second) = ((bodies[first], &past.states[first]), (bodies[second], &now.states[second]));
+                let (Some(then), Some(there)) = (&past.states[first], &now.states[second]) else { return false };
+                let (first, second) = ((bodies[first], then), (bodies[second], there));
                 is_near(first, second) && !is_along(first.1, second.1) && overlap(first, second)
             };
             if { others }.any(|other| meets(self.vehicle, other) || meets(other, self.vehicle)) {
@@ -126,7 +130,7 @@ fn between(from: &State, to: &State, share: f64) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Frame, VehicleFrame};
+    use crate::frame::Frame;
     use interplay_scenarios::load;
 
     /// The ego drives along x through the origin, which its centre reaches at `ego_s`, and the other along a heading, at 10 m/s.

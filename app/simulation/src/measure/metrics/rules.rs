@@ -1,11 +1,16 @@
 //! Rules of the road that a vehicle breaks, as its driven motion shows: nothing of this is known to planners.
 //!
 //! - **Stop signs**: it drives past the line of a stop sign without having stood within a car's length of it.
+//! - **Traffic lights**: its front passes the line of a red light.
 //! - **Right of way**: somebody who goes first comes to a conflict less than a second of a real car after the vehicle has left it, or is
 //!   in it together with the vehicle, although the vehicle was not in it when the other could still have been let through.
 //! - **Speed limits**: it is more than 0.5 m/s of a real car faster than its lane permits and has not been so since the start.
 
-use interplay_planners::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
+use std::sync::Arc;
+
+use interplay_planners::road::network::{
+    ConflictKind, LightColour, LightCycle, Precedence, RightOfWay, RouteConflict, RouteLeg,
+};
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario, Vehicle};
 
@@ -18,7 +23,7 @@ const SPEEDING_MPS: f64 = 0.5;
 /// Least time between leaving a conflict and the arrival of who goes first, for a real car \[s\].
 const SPARE_S: f64 = 1.0;
 
-const DOC: &str = "How often it breaks a rule of the road: passes a stop sign without standing, takes somebody's right of way, or \
+const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, takes somebody's right of way, or \
                    exceeds a speed limit";
 
 pub(super) const METRICS: &[&dyn Metric] = &[&RulesBroken];
@@ -50,6 +55,7 @@ impl Metric for RulesBroken {
             vehicle,
             scale,
             signs: signs.collect(),
+            lights: lights(stated, start.along_m[vehicle]),
             crossings: taken.collect(),
             // Who starts too fast, or past a line, is not blamed for the start.
             is_speeding: speeding_mps(stated, start.along_m[vehicle], start.states[vehicle].speed_mps) > 0.0,
@@ -65,10 +71,19 @@ impl Metric for RulesBroken {
     }
 }
 
+/// The traffic lights on a vehicle's way that are ahead of it.
+fn lights(vehicle: &Vehicle, along_m: f64) -> Vec<LightAhead> {
+    let front_m = along_m + vehicle.body.front_m;
+    let lit = vehicle.route.legs.iter().filter_map(|leg| Some((leg.to_m, leg.light.clone()?)));
+    lit.filter(|(line_m, _)| *line_m > front_m).map(|(line_m, cycle)| LightAhead { line_m, cycle }).collect()
+}
+
 /// The lines of stop signs on a vehicle's way \[m\].
 fn stop_signs(vehicle: &Vehicle) -> Vec<f64> {
-    let signed = |sign: RightOfWay| matches!(sign, RightOfWay::Stop | RightOfWay::AllWayStop);
-    vehicle.route.legs.iter().filter(|leg| signed(leg.right_of_way)).map(|leg| leg.to_m).collect()
+    let is_signed = |leg: &&RouteLeg| {
+        leg.light.is_none() && matches!(leg.right_of_way, RightOfWay::Stop | RightOfWay::AllWayStop)
+    };
+    vehicle.route.legs.iter().filter(is_signed).map(|leg| leg.to_m).collect()
 }
 
 /// Whether the other one goes first at a conflict in which both cannot be.
@@ -88,6 +103,13 @@ struct Sign {
     line_m: f64,
     has_stood: bool,
     is_past: bool,
+}
+
+/// The line of a traffic light that a vehicle has not passed.
+#[derive(Clone, Debug)]
+struct LightAhead {
+    line_m: f64,
+    cycle: Arc<LightCycle>,
 }
 
 /// A conflict at which another vehicle goes first.
@@ -110,6 +132,7 @@ struct Broken {
     /// Ratio of its lengths to those of a real car.
     scale: f64,
     signs: Vec<Sign>,
+    lights: Vec<LightAhead>,
     crossings: Vec<Crossing>,
     is_speeding: bool,
     count: u64,
@@ -131,6 +154,12 @@ impl Measurement for Broken {
             sign.is_past = front_m > sign.line_m + 0.5 * self.scale;
             self.count += u64::from(sign.is_past && !sign.has_stood);
         }
+        let passes = |light: &LightAhead| front_m > light.line_m;
+        let is_red = |light: &LightAhead| {
+            matches!(light.cycle.colour_at(moment.time_s), LightColour::Red | LightColour::RedAmber)
+        };
+        self.count += self.lights.iter().filter(|light| passes(light) && is_red(light)).count() as u64;
+        self.lights.retain(|light| !passes(light));
         let spare_s = SPARE_S * self.scale.sqrt();
         for crossing in self.crossings.iter_mut().filter(|crossing| !crossing.is_settled) {
             self.count += u64::from(crossing.is_taken(moment, self.vehicle, spare_s));

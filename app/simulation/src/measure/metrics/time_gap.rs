@@ -90,7 +90,8 @@ fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64
         return None;
     }
     let own_across_m = stated.route.across(own.position());
-    let others = tick.end.vehicles.iter().zip(states).enumerate().filter(|(index, _)| *index != vehicle);
+    let others = tick.end.vehicles.iter().zip(states).enumerate();
+    let others = others.filter(|(index, _)| *index != vehicle && !tick.frame.vehicles[*index].is_absent);
     let gaps = others.filter_map(|(_, (other, state))| {
         let (ahead_m, across_m) = ahead(&stated.route, own_m, state)?;
         let reach_m = 0.5 * (stated.body.width_m + other.body.width_m);

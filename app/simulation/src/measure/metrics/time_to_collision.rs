@@ -28,21 +28,21 @@ const TIME_TO_COLLISION: LeastOfRun = LeastOfRun {
 /// velocity of the tick; 0 where they touch already. The velocity of a tick is the displacement of the mass centre in it over its
 /// length; headings stay. Only a time below `below_s` is of interest, which keeps the search small.
 fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
-    let vehicles = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles);
-    let moving = vehicles.map(|((before, after), vehicle)| {
+    let vehicles = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles).enumerate();
+    let moving = vehicles.filter(|(_, ((before, _), _))| !before.is_absent).map(|(index, ((before, after), vehicle))| {
         let state = &before.state;
         let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
-        MovingFootprint { body: &vehicle.body, state, velocity_mps }
+        (index, MovingFootprint { body: &vehicle.body, state, velocity_mps })
     });
-    let moving: Vec<MovingFootprint<'_>> = moving.collect();
+    let moving: Vec<(usize, MovingFootprint<'_>)> = moving.collect();
     let (mut within_s, mut found) = (below_s.min(MAX_TIME_TO_COLLISION_S), None);
-    for (index, one) in moving.iter().enumerate() {
-        for (other_index, other) in moving.iter().enumerate().skip(index + 1) {
+    for (place, (index, one)) in moving.iter().enumerate() {
+        for (other_index, other) in &moving[place + 1..] {
             if within_s <= 0.0 {
                 return found;
             }
             if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
-                let between = [index, other_index].map(|index| tick.frame.vehicles[index].name.clone());
+                let between = [index, other_index].map(|index| tick.frame.vehicles[*index].name.clone());
                 (within_s, found) = (s, Some(Measured::between(s, between, tick.frame.time_s)));
             }
         }
