@@ -70,7 +70,8 @@ impl Agent {
         borne_mps2.map_or(strongest_mps2, |borne_mps2| borne_mps2.min(strongest_mps2))
     }
 
-    /// The speeds at `t = 1…N` of a comfortable approach to a line at which its front stops, from its present speed on \[m/s\].
+    /// The speeds at `t = 1…N` of a comfortable approach to a line at which its front stops, from its present speed on; while it
+    /// does not have to brake for the line, the speed that it wants \[m/s\].
     pub(crate) fn approach_speeds_mps(&self, line_m: f64, wanted_mps: f64, horizon: usize, step_s: f64) -> Vec<f64> {
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
         let braking_mps2 = self.comfortable_braking_mps2();
@@ -82,7 +83,7 @@ impl Agent {
                 (acceleration_min_mps2 * step_s, COMFORTABLE_ACCELERATION_SHARE * acceleration_max_mps2 * step_s);
             speed_mps = (speed_mps + (permitted_mps - speed_mps).clamp(low, high)).max(0.0);
             room_m -= step_s * speed_mps;
-            speed_mps
+            if permitted_mps < wanted_mps { speed_mps } else { wanted_mps }
         });
         speeds.collect()
     }

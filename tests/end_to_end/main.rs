@@ -54,6 +54,7 @@ mod replacements;
 mod replay;
 mod sample_telemetry;
 mod similarity;
+mod street_contents;
 mod streets;
 mod suite;
 mod sweep_plans;

@@ -1,12 +1,15 @@
 //! Why somebody stands who wants to drive, as far as that shows: from where everybody is and from what the rules ask.
 
-use interplay_planners::{Route, State};
+use interplay_planners::road::network::LightColour;
+use interplay_planners::{Driver, Route, State};
 use interplay_scenarios::Vehicle;
 
 use crate::frame::Frame;
 
 /// Slower than this a real car stands \[m/s\].
 pub(crate) const STANDING_MPS: f64 = 0.3;
+/// Who stops at a light is at most so far before it, of a real car \[m\].
+const LIGHT_M: f64 = 5.0;
 /// Who wants to drive no faster than this does not want to drive, of a real car \[m/s\].
 const LEAST_WANTED_MPS: f64 = 0.5;
 /// A line or a vehicle that somebody waits at is within this distance of its front, for a real car \[m\].
@@ -21,6 +24,8 @@ const ASIDE_M: f64 = 0.7;
 pub enum StandingReason {
     /// A sign asks for it.
     Sign,
+    /// A traffic light asks for it.
+    Light,
     /// It gives way to these vehicles.
     GivesWay(Vec<String>),
     /// Somebody stands or drives ahead of it.
@@ -40,7 +45,7 @@ impl StandingReason {
     /// Those whom it names, for whom somebody waits.
     fn waits_for(&self) -> Vec<&str> {
         match self {
-            StandingReason::Sign | StandingReason::NoRoom(_) => Vec::new(),
+            StandingReason::Sign | StandingReason::Light | StandingReason::NoRoom(_) => Vec::new(),
             StandingReason::GivesWay(names) => names.iter().map(String::as_str).collect(),
             StandingReason::Behind(name) | StandingReason::Passing { waits_for: name, .. } => vec![name],
         }
@@ -51,6 +56,7 @@ impl std::fmt::Display for StandingReason {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             StandingReason::Sign => write!(formatter, "stops at the sign"),
+            StandingReason::Light => write!(formatter, "stops at the traffic light"),
             StandingReason::GivesWay(names) => write!(formatter, "gives way to {}", names.join(", ")),
             StandingReason::Behind(name) => write!(formatter, "waits behind {name}"),
             StandingReason::Passing { waits_for, obstacle } => {
@@ -139,9 +145,20 @@ impl<'a> Standing<'a> {
             }
         }
         let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
-        line_m.map(|_| match rules.waits_for.as_slice() {
+        line_m.map(|line_m| match rules.waits_for.as_slice() {
+            [] if self.is_lit(index, line_m) => StandingReason::Light,
             [] => StandingReason::Sign,
             names => StandingReason::GivesWay(names.to_vec()),
+        })
+    }
+
+    /// Whether a traffic light that is not green stands right behind a line \[m\].
+    fn is_lit(&self, index: usize, line_m: f64) -> bool {
+        let near_m = LIGHT_M * self.scale(index);
+        self.vehicles[index].route.legs.iter().any(|leg| {
+            let colour = leg.light.as_ref().map(|light| light.colour_at(self.frame.time_s));
+            (0.0..near_m).contains(&(leg.to_m - line_m))
+                && colour.is_some_and(|colour| !matches!(colour, LightColour::Green | LightColour::Off))
         })
     }
 
@@ -194,6 +211,10 @@ impl<'a> Standing<'a> {
 
     fn wants_to_drive(&self, index: usize) -> bool {
         let vehicle = &self.vehicles[index];
+        // Who is on foot may stand.
+        if matches!(vehicle.driver, Driver::Walker(_)) {
+            return false;
+        }
         let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
         wanted_mps > LEAST_WANTED_MPS * self.scale(index).sqrt()
     }

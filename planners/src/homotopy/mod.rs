@@ -28,7 +28,7 @@ use crate::{Agent, Axes, Plan, Scene, State};
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.
 const RELEVANT_HALF_AXES: f64 = 3.0;
 
-/// How a plan passes each relevant vehicle, in the scene's order.
+/// How a plan passes each relevant vehicle, in the scene's order; obstacles, which nobody drives, are left out.
 pub fn homotopy_class(scene: &Scene, plan: &Plan) -> Vec<PlannedPassing> {
     let passing = |other: &Agent| {
         let proposal = plan.proposals.iter().find(|proposal| proposal.to == other.name);
@@ -36,7 +36,7 @@ pub fn homotopy_class(scene: &Scene, plan: &Plan) -> Vec<PlannedPassing> {
         let side = side(scene, other, &plan.trajectory.states, &theirs.states)?;
         Some(PlannedPassing { of: other.name.clone(), side })
     };
-    scene.others.iter().filter_map(passing).collect()
+    scene.others.iter().filter(|other| !other.is_obstacle).filter_map(passing).collect()
 }
 
 /// On which side of a vehicle in motion the states of a plan lead; both begin at the present step.

@@ -27,6 +27,9 @@ use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
 use motion::Motion;
 
+/// Free space beside what stands, for 1/10 scale cars \[m\].
+const BESIDE_OBSTACLE_M: f64 = 0.02;
+
 /// A driver that follows the intelligent driver model (IDM) and changes lanes by MOBIL.
 #[derive(Clone, Debug)]
 pub struct Idm {
@@ -99,7 +102,10 @@ impl Drive for Idm {
         };
         let whole = along_the_road(self.settings.prediction.applied_to(scene).into_owned());
         let mut minded = whole.clone();
-        minded.others.retain(|other| passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
+        let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
+        minded.others.retain(|other| {
+            is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name)
+        });
         let lanes = Lanes::of_road(&minded, &self.settings.mobil);
         let now = self.lane(&minded, &lanes);
         let choice = mobil::choose(&minded, &self.settings, now);
@@ -135,6 +141,15 @@ impl Drive for Idm {
         let settings = *settings_of::<Settings>(settings)?;
         Some(Box::new(Idm { settings, ..self.clone() }))
     }
+}
+
+/// Whether an obstacle reaches into the path of the planning vehicle, or so near that it would touch it.
+fn is_on_path(scene: &Scene, obstacle: &Agent) -> bool {
+    let ego = &scene.ego;
+    let at_m = ego.route.across(obstacle.state.position());
+    let reach_m = 0.5 * (ego.body.width_m + obstacle.body.width_m) + BESIDE_OBSTACLE_M * ego.body.scale;
+    let paths_m = [ego.state.position(), scene.goal.target.position()].map(|place| ego.route.across(place));
+    paths_m.iter().any(|path_m| (at_m - path_m).abs() < reach_m)
 }
 
 /// The scene with those others only that are on the same road; to a driver who knows comfort also those on it whose way joins the own

@@ -28,7 +28,7 @@ pub struct Wait {
     pub waited_s: f64,
     /// For whom; empty where it waited for nobody.
     pub waits_for: Vec<String>,
-    /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `ahead of it`, `before it passes van`, `no room beside van`,
+    /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`, `before it passes van`, `no room beside van`,
     /// `they wait for each other`, or `no reason that shows`.
     pub reason: String,
 }
@@ -88,6 +88,7 @@ const UNEXPLAINED: &str = "no reason that shows";
 fn words(reason: &StandingReason) -> (Vec<String>, String) {
     match reason {
         StandingReason::Sign => (Vec::new(), "sign".to_owned()),
+        StandingReason::Light => (Vec::new(), "traffic light".to_owned()),
         StandingReason::GivesWay(names) => (names.clone(), "priority".to_owned()),
         StandingReason::Behind(name) => (vec![name.clone()], "ahead of it".to_owned()),
         StandingReason::Passing { waits_for, obstacle } => {
