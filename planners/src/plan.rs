@@ -64,6 +64,8 @@ pub enum PlanEventKind {
     NoProposal(String),
     /// The plan passes another vehicle in a way that is new or has changed.
     Passing(PlannedPassing),
+    /// A vehicle that was recorded does not follow its record any more: the plan is carried out.
+    LeavesRecord,
     /// Any other event.
     Note,
 }

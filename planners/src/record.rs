@@ -63,6 +63,11 @@ impl Record {
         self.moments[0].1
     }
 
+    /// The highest speed \[m/s\].
+    pub fn fastest_mps(&self) -> f64 {
+        self.moments.iter().map(|(_, state)| state.speed_mps).fold(0.0, f64::max)
+    }
+
     /// The positions that it passes, in order \[m\].
     pub fn positions(&self) -> impl Iterator<Item = [f64; 2]> {
         self.moments.iter().map(|(_, state)| state.position())

@@ -8,18 +8,17 @@ use crate::film::{Film, film};
 /// A street with a lane in each direction, and what else a test needs.
 fn two_way(more: &str) -> Scenario {
     let text = format!(
-        "title = \"A street\"\nshows = \"What is on it\"\nduration_s = 30.0\ndefaults = {{ class = \"car\" }}\n\
+        "title = \"A street\"\nshows = \"What is on it\"\nduration_s = 50.0\ndefaults = {{ class = \"car\" }}\n\
          road = {{ kind = \"two-way\", length_m = 300.0 }}\n{more}"
     );
-    from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
+    from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The messages of what is wrong.
 fn refused(text: &str) -> String {
     let head = "title = \"A street\"\nshows = \"What is wrong\"\ndefaults = { class = \"car\" }\n";
     let error = from_text("wrong.toml", &format!("{head}{text}"), &[]).expect_err("refused");
-    let faults: Vec<String> =
-        error.faults().iter().map(|fault| format!("{}:{} {}", fault.place.line, fault.place.column, fault.message)).collect();
+    let faults: Vec<String> = error.faults().iter().map(ToString::to_string).collect();
     faults.join("\n")
 }
 
@@ -31,7 +30,7 @@ fn states(film: &Film, name: &str) -> Vec<(f64, State)> {
 
 fn high_street(changes: &[&str]) -> Film {
     let changes: Vec<Override> = changes.iter().map(|change| Override::Set((*change).to_owned())).collect();
-    let scenario = load("people/high-street", &changes).unwrap_or_else(|error| panic!("{:?}", error.faults()));
+    let scenario = load("people/high-street", &changes).unwrap_or_else(|error| panic!("{error}"));
     film("high-street", scenario)
 }
 
@@ -129,7 +128,7 @@ fn vehicles_come_and_go() {
     let came_s = comes[0].0;
     assert!((9.5..16.0).contains(&came_s), "there is no room before the other one has left: {came_s} s");
     let (_, last) = comes[comes.len() - 1];
-    assert!(last.x_m > 280.0 && comes[comes.len() - 1].0 < 30.0, "it leaves where its route ends: {last:?}");
+    assert!(last.x_m > 140.0 && comes[comes.len() - 1].0 < 49.0, "it leaves where its route ends: {last:?}");
     let (left_s, _) = goes[goes.len() - 1];
     assert!((5.7..6.0).contains(&left_s), "{left_s}");
     assert!(film.report.collisions.is_empty());
@@ -155,7 +154,7 @@ fn people_on_foot_wait_at_the_kerb_or_go_first() {
             if crossing.is_empty() { "yield" } else { "priority" },
             crossing
         );
-        from_text("kerb.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
+        from_text("kerb.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"))
     };
     for (crossing, car_is_first) in [("", true), (", zebra = true", false)] {
         let film = film("kerb", street(crossing));
@@ -180,7 +179,7 @@ fn lanes_are_for_some() {
         )
     };
     let width_m = |class: &str| {
-        let scenario = from_text("kept.toml", &text(class), &[]).unwrap_or_else(|error| panic!("{:?}", error.faults()));
+        let scenario = from_text("kept.toml", &text(class), &[]).unwrap_or_else(|error| panic!("{error}"));
         let route = &scenario.vehicles[0].route;
         route.left.value(100.0) - route.right.value(100.0)
     };

@@ -4,17 +4,17 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::Plan;
+use interplay_planners::{Plan, PlanEventKind};
 use interplay_planners::traffic::{Decision, Origin};
 use interplay_planners::trajectory::Statistics;
 
-use crate::components::{Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed};
+use crate::components::{Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed, VehicleParameters};
 use crate::external;
 use crate::frame::{Event, Frame, Level, VehicleFrame};
 
 /// Lets every driver decide.
 pub fn plan(
-    mut vehicles: Query<(&Identity, &mut Driving, &mut HandedIn, &mut Committed)>,
+    mut vehicles: Query<(&Identity, &mut Driving, &mut HandedIn, &mut VehicleParameters, &mut Committed)>,
     clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
     mut followed: ResMut<FollowedPlans>,
@@ -24,7 +24,7 @@ pub fn plan(
     drivers.sort_by_key(|(identity, ..)| identity.index);
     let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
     let decisions = traffic.plan(|index, scene| {
-        let (_, driving, handed_in, _) = &mut drivers[index];
+        let (_, driving, handed_in, ..) = &mut drivers[index];
         if let Some(handed_in) = handed_in.take() {
             return external::plan(handed_in, scene);
         }
@@ -40,6 +40,9 @@ pub fn plan(
     });
     for decision in decisions {
         note(&decision, frame);
+        if decision.plan.events.iter().any(|event| event.kind == PlanEventKind::LeavesRecord) {
+            drivers[decision.vehicle].3.record = None;
+        }
         let vehicle = &mut frame.vehicles[decision.vehicle];
         vehicle.origin = decision.origin;
         vehicle.plan = decision.plan;

@@ -4,16 +4,23 @@
 //! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. Nobody is told where it will be: its plan
 //! is to keep its speed along its road, and so are the predictions of the others.
 //!
-//! Where the record ends, the vehicle keeps its speed and its place in its lane.
+//! Where the record ends, the vehicle keeps its speed and its place in its lane; or another driver takes over before, with
+//! `hands_over`.
+
+mod hand_over;
+
+pub use hand_over::{Disturbance, HandOver, HandOverTime, Successor};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::{Prediction, steadily_along};
 pub use crate::record::{Record, RecordFault, next_to};
 use crate::steering::steer;
+use crate::plan::{PlanEvent, PlanEventKind};
 use crate::{DriverSettingError, Input, Plan, PlanError, Scene, Trajectory};
 
 /// The settings of a recorded driver: what was recorded.
@@ -30,6 +37,9 @@ pub struct Settings {
     /// The record itself, in place of a table: rows of time \[s\], x and y \[m\], heading \[rad\] and speed \[m/s\].
     #[schemars(length(max = 100_000), example = vec![[0.0, 12.0, 1.75, 0.0, 8.0], [1.0, 20.0, 1.75, 0.0, 8.0]])]
     pub points: Vec<[f64; 5]>,
+    /// Who takes over from the record, and when; by default nobody does.
+    #[schemars(example = json!({ "to": "human", "when": "disturbed" }))]
+    pub hands_over: Option<HandOver>,
 }
 
 impl Settings {
@@ -45,7 +55,7 @@ impl DriverKind for Settings {
     }
 
     fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Recorded { record: self.record() })
+        Box::new(Recorded { record: self.record(), hands_over: self.hands_over, successor: None })
     }
 
     fn prediction(&self) -> Option<Prediction> {
@@ -79,17 +89,32 @@ impl DriverKind for Settings {
 }
 
 /// A driver that follows a record.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Recorded {
     record: Option<Record>,
+    hands_over: Option<HandOver>,
+    /// Who has taken over.
+    successor: Option<Box<dyn Drive>>,
 }
 
 impl Drive for Recorded {
-    /// Plans to keep the speed along the road. The first input leads to where the record goes on.
+    /// Plans to keep the speed along the road. The first input leads to where the record goes on. Once somebody has taken over, plans
+    /// as that driver does.
     ///
     /// # Errors
-    /// Never.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    /// Those of the driver who has taken over.
+    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+        if let Some(successor) = &mut self.successor {
+            return successor.plan(&wanting(scene, self.record.as_ref()), outlook);
+        }
+        let due = self.hands_over.zip(self.record.as_ref());
+        if let Some((hands_over, reason)) = due.and_then(|(to, record)| Some((to, to.is_due(record, scene)?))) {
+            let successor = self.successor.insert(hands_over.driver(scene));
+            let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), outlook)?;
+            let text = format!("drives itself from now on, not after its record: {reason}");
+            plan.events.push(PlanEvent { kind: PlanEventKind::LeavesRecord, text });
+            return Ok(plan);
+        }
         let own = &scene.ego;
         let Trajectory { states, mut inputs } =
             steadily_along(&own.route, &own.body, &own.state, scene.horizon, scene.step_s);
@@ -100,12 +125,24 @@ impl Drive for Recorded {
     }
 
     fn fork(&self) -> Option<Box<dyn Drive>> {
-        Some(Box::new(self.clone()))
+        let successor = match &self.successor {
+            Some(successor) => Some(successor.fork()?),
+            None => None,
+        };
+        Some(Box::new(Recorded { record: self.record.clone(), hands_over: self.hands_over, successor }))
     }
 
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
         Some(settings_of::<Settings>(settings)?.driver())
     }
+}
+
+/// The scene for whoever takes over: it wants to drive as fast as the record was.
+fn wanting(scene: &Scene, record: Option<&Record>) -> Scene {
+    let mut scene = scene.clone();
+    let wanted_mps = record.map(|record| hand_over::wanted_mps(record, &scene.ego.body));
+    scene.goal.target.speed_mps = wanted_mps.unwrap_or(scene.goal.target.speed_mps).min(scene.ego.limits.speed_max_mps);
+    scene
 }
 
 impl Recorded {
