@@ -13,7 +13,7 @@ make() {
 for scenario in \
     intersection/nice intersection/nash-nice left-turn/nice t-junction/bayesian-nice \
     all-way-stop/four roundabout/nice crash/side-impact lane-change/front-nice \
-    lane-change/cooperative people/intersection lane-change/among-idm lane-keeping/nice full-size/lane-change ramp-merge/game-nice \
+    lane-change/cooperative people/intersection people/high-street lane-change/among-idm lane-keeping/nice full-size/lane-change ramp-merge/game-nice \
     ramp-merge/contingency curve/lane-drop on-ramp/five narrow-passage/nice overtaking/oncoming mixed/garage \
     building/four-room-pid building/four-room-ilc building/iterative-warm-nights building/concurrent-exact \
     building/distributed building/centralised-hundred
