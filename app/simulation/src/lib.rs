@@ -31,6 +31,7 @@ pub mod climate;
 pub mod components;
 pub mod day;
 mod external;
+pub mod driven;
 pub mod frame;
 pub mod measure;
 mod not_copied;

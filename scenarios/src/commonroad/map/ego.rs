@@ -11,6 +11,7 @@ use super::vehicles::{in_world, rounded};
 use crate::classes::VehicleClass;
 use crate::error::Fault;
 use crate::file_format::goal::GoalConfig;
+use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::text::name::EGO;
 
@@ -24,6 +25,16 @@ const MAX_SPEED_MPS: f64 = 50.0;
 const NOTED_MOVE_M: f64 = 0.01;
 /// A planning problem with a start further from every lane is left out \[m\].
 const MAX_AWAY_M: f64 = 50.0;
+
+/// Who drives a planning problem is a BMW 320i, the car of CommonRoad's referee: 4.508 m × 1.61 m, and its axles \[m\].
+const BMW_320I: Body = Body {
+    front_m: 2.254,
+    rear_m: 2.254,
+    width_m: 1.61,
+    front_axle_m: 1.1562,
+    rear_axle_m: 1.4227,
+    scale: Body::REAL_SCALE,
+};
 
 /// The ego, and its body.
 pub(super) struct Ego {
@@ -87,7 +98,7 @@ pub(super) fn of_problem(
 
 /// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
 fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
-    let body = &VehicleClass::Car.dimensions().body;
+    let body = &BMW_320I;
     let mut pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
     let to_goal = pairs.find_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
     let straight_on =
@@ -98,8 +109,12 @@ fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &St
 impl Ego {
     fn new(state: State, route: Vec<String>, goal: GoalConfig) -> Ego {
         let class = Some(VehicleClass::Car);
-        let config = VehicleConfig { class, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
-        Ego { config, state, body: VehicleClass::Car.dimensions().body }
+        let body = BMW_320I;
+        let stated = Stated::default().with("front_m", body.front_m).with("rear_m", body.rear_m);
+        let stated = stated.with("width_m", body.width_m).with("front_axle_m", body.front_axle_m);
+        let stated = Some(stated.with("rear_axle_m", body.rear_axle_m));
+        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        Ego { config, state, body }
     }
 }
 
@@ -182,7 +197,7 @@ fn note_goals(problem: &PlanningProblem<'_>, notes: &mut Notes) {
 }
 
 /// The step of time at which the run begins: that of the planning problem, or the first of any vehicle.
-pub(super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
+pub(in super::super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
     let of_problem = scenario.problems.first().map(|problem| problem.initial.time);
     let of_vehicles = scenario.obstacles.iter().filter_map(|obstacle| obstacle.states.first()).map(|state| state.time);
     of_problem.unwrap_or_else(|| of_vehicles.min_by(f64::total_cmp).unwrap_or_default())

@@ -24,6 +24,7 @@ use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::road::{LaneConfig, LaneNetwork, Road};
 use ego::Ego;
+pub(super) use ego::begin;
 use lanes::Lanes;
 use notes::NOT_YET;
 pub(super) use notes::Notes;
@@ -60,7 +61,7 @@ pub(super) fn mapped(
     notes: &mut Notes,
 ) -> Result<Mapped, Fault> {
     let lanes = Lanes::of(scenario, root, notes)?;
-    let begin = ego::begin(scenario);
+    let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
     let ego = match scenario.problems.first() {
         Some(problem) => ego::of_problem(problem, &lanes, notes)?,
