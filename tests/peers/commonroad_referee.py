@@ -4,8 +4,8 @@
     python tests/peers/commonroad_referee.py FOLDER... [--program INTERPLAY] [--ego conservative] [--most 1000] [--bundled CHECKOUT]
 
 FOLDER has scenarios of CommonRoad with a planning problem. Each distinct one is driven by the ego's planner, exported, and judged by
-`valid_solution` twice: in the scenario as published and in the one as driven. A solution that does not reach its goal counts apart, since
-no referee could accept it. The first valid solution is spoilt in three ways, and each must be refused. `--bundled` is a checkout of
+`valid_solution` twice: in the scenario as published and in the one as driven. A solution that does not reach its goal counts apart: it is
+judged by everything else, its start, contacts, the edge of the road and feasibility. The first valid solution is spoilt in three ways, and each must be refused. `--bundled` is a checkout of
 CommonRoad/commonroad-drivability-checker, whose own example solutions are judged, too. Without the packages or without files the script
 says that it skips.
 """
@@ -28,9 +28,12 @@ logging.disable(logging.WARNING)
 try:
     from commonroad.common.file_reader import CommonRoadFileReader
     from commonroad.common.solution import CommonRoadSolutionReader
-    from commonroad_dc.feasibility.solution_checker import valid_solution
+    from commonroad_dc.feasibility import solution_checker as referee
 except ImportError:
     sys.exit(print("skipped: commonroad-io or commonroad-drivability-checker is not installed"))
+
+REACHED = "reaches its goal"
+MISSED = "misses its goal, judged without it"
 
 
 def quietly(function, *arguments):
@@ -38,12 +41,26 @@ def quietly(function, *arguments):
         return function(*arguments)
 
 
-def verdict(scenario, solution):
+def but_for_the_goal(roads, problems, solution):
+    """The referee's `valid_solution` without its question whether the goal is reached."""
+    problems.planning_problem_dict = {
+        key: problem for key, problem in problems.planning_problem_dict.items() if key in solution.planning_problem_ids
+    }
+    clashes = [
+        referee.obstacle_collision(roads, problems, solution),
+        referee.boundary_collision(roads, problems, solution),
+    ]
+    feasible = referee.solution_feasible(solution, roads.dt, problems).values()
+    starts = referee.starts_at_correct_state(solution, problems)
+    return starts and not any(clashes) and all(result[0] for result in feasible), None
+
+
+def verdict(scenario, solution, judge=None):
     """`valid`, or why the referee refuses a solution (a text of XML) of a scenario (a path)."""
     try:
         roads, problems = quietly(CommonRoadFileReader(str(scenario)).open)
         judged = quietly(CommonRoadSolutionReader.fromstring, solution)
-        is_valid, _ = quietly(valid_solution, roads, problems, judged)
+        is_valid, _ = quietly(judge or referee.valid_solution, roads, problems, judged)
     except Exception as refusal:  # the referee raises one of many kinds
         return f"{type(refusal).__name__}: {' '.join(str(refusal).split())[:120]}"
     return "valid" if is_valid else "infeasible"
@@ -74,7 +91,7 @@ def driven(path, program, ego, seconds):
             return f"not run: {' '.join(run.stderr.split())[:100]}", None, None
         reaches = "does not reach the goal" not in run.stderr
         scenario, solution = (Path(folder, name).read_text() for name in ("driven.xml", "driven.solution.xml"))
-        return "reaches its goal" if reaches else "misses its goal", scenario, solution
+        return REACHED if reaches else MISSED, scenario, solution
 
 
 def files(folders):
@@ -128,12 +145,13 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 written = Path(folder, "driven.xml")
                 written.write_text(scenario)
-                published, as_driven = verdict(path, solution), verdict(written, solution)
+                judge = None if outcome == REACHED else but_for_the_goal
+                published, as_driven = (verdict(place, solution, judge) for place in (path, written))
                 counts[f"{outcome}: as published {published.split(':')[0]}"] += 1
                 counts[f"{outcome}: as driven {as_driven.split(':')[0]}"] += 1
                 if published != "valid" or as_driven != "valid":
                     print(f"{ego:12} {path.name:44} {outcome}; {published}; as driven: {as_driven}", flush=True)
-                elif not is_spoilt:
+                elif outcome == REACHED and not is_spoilt:
                     is_spoilt = True
                     for how, text in spoilt(solution):
                         refused = verdict(path, text)

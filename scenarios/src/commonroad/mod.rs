@@ -26,9 +26,9 @@ use crate::read::regular_file::open_regular;
 use crate::read::source::imported_text;
 use crate::read::tree::{self, TomlNode};
 use crate::resolve::records;
+pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;
-pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 pub use options::{ImportOptions, Replacement};
 use xml::{Unread, Xml};
 

@@ -164,7 +164,10 @@ fn attributes(scenario: &Scenario, benchmark: &str) -> Vec<(String, String)> {
         ("benchmarkID", benchmark),
         ("author", "Interplay"),
         ("affiliation", "Interplay"),
-        ("source", if matches!(scenario.road, Road::Network(_)) { "a network of lanes" } else { "a scenario of Interplay" }),
+        (
+            "source",
+            if matches!(scenario.road, Road::Network(_)) { "a network of lanes" } else { "a scenario of Interplay" },
+        ),
         ("date", "2000-01-01"),
     ];
     all.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec()

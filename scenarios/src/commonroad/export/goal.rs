@@ -35,8 +35,10 @@ impl GoalPlaces {
     }
 
     fn is_reached(&self, goal: &Goal, at: &Arrival) -> bool {
-        let is_within = |interval: Option<[f64; 2]>, value: f64| interval.is_none_or(|[from, to]| from <= value && value <= to);
-        let is_there = goal.position.is_empty() || goal.position.iter().any(|region| self.contains(region, at.position));
+        let is_within =
+            |interval: Option<[f64; 2]>, value: f64| interval.is_none_or(|[from, to]| from <= value && value <= to);
+        let is_there =
+            goal.position.is_empty() || goal.position.iter().any(|region| self.contains(region, at.position));
         let is_along = goal.orientation_rad.is_none_or(|interval| contains_angle(interval, at.orientation_rad));
         is_there && is_along && is_within(goal.time, at.time) && is_within(goal.velocity_mps, at.velocity_mps)
     }
@@ -103,12 +105,7 @@ mod tests {
 
     #[test]
     fn a_rectangle_is_turned() {
-        let rectangle = Rectangle {
-            length_m: 4.0,
-            width_m: 1.0,
-            orientation_rad: 0.5 * PI,
-            centre: [1.0, 1.0],
-        };
+        let rectangle = Rectangle { length_m: 4.0, width_m: 1.0, orientation_rad: 0.5 * PI, centre: [1.0, 1.0] };
         let goals = GoalPlaces::default();
         let region = Region::Rectangle(rectangle);
         assert!(goals.contains(&region, [1.0, 2.9]) && !goals.contains(&region, [2.9, 1.0]));

@@ -31,7 +31,8 @@ impl LaneletText {
     /// The lanelet as text.
     pub(super) fn written(&self) -> String {
         let [left, right] = &self.bounds;
-        let mut text = format!("  <lanelet id=\"{}\">\n{}{}", self.id, bound("leftBound", left), bound("rightBound", right));
+        let mut text =
+            format!("  <lanelet id=\"{}\">\n{}{}", self.id, bound("leftBound", left), bound("rightBound", right));
         // Writing to a text cannot fail.
         for (name, ids) in [("predecessor", &self.predecessors), ("successor", &self.successors)] {
             for id in ids {

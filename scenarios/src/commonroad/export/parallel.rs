@@ -30,9 +30,8 @@ impl Base {
                 let Some(centre_m) = scenario.road.lane_centre_m(branch, lane) else { continue };
                 let bounds = [0.5, -0.5].map(|side| {
                     let across_m = centre_m + side * lanes.width_m;
-                    let place = |index: usize| {
-                        route.position(from_m + (to_m - from_m) * index as f64 / count as f64, across_m)
-                    };
+                    let place =
+                        |index: usize| route.position(from_m + (to_m - from_m) * index as f64 / count as f64, across_m);
                     (0..=count).map(place).collect()
                 });
                 let beside = [ids.get(lane + 1), lane.checked_sub(1).and_then(|right| ids.get(right))];

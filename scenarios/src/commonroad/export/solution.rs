@@ -49,7 +49,8 @@ pub(super) fn of(base: &Base, ego: &DrivenVehicle) -> (String, bool) {
         })
     };
     // A problem that follows from what was driven is solved when the run ends.
-    let arrival = states.iter().enumerate().position(arrives).or_else(|| base.problem.is_none().then_some(states.len() - 1));
+    let arrival =
+        states.iter().enumerate().position(arrives).or_else(|| base.problem.is_none().then_some(states.len() - 1));
     let name: String = base.benchmark.chars().filter(|letter| *letter != ':' && !letter.is_whitespace()).collect();
     let mut text = format!(
         "<?xml version='1.0' encoding='UTF-8'?>\n<CommonRoadSolution benchmark_id=\"{MODEL_AND_COST}:{}:{VERSION}\">\n  \

@@ -64,7 +64,8 @@ fn is_kept(name: &str) -> bool {
 }
 
 fn roads(root: Element<'_>) -> String {
-    let find = |name: &'static str, none: &str| root.child(name).map_or_else(|| none.to_owned(), |it| it.source().to_owned());
+    let find =
+        |name: &'static str, none: &str| root.child(name).map_or_else(|| none.to_owned(), |it| it.source().to_owned());
     let mut text = format!("  {}\n  {}\n", find("location", NO_PLACE), find("scenarioTags", NO_TAGS));
     let kept = root.elements().filter(|it| is_kept(it.name()));
     for element in kept.filter(|it| !["location", "scenarioTags"].contains(&it.name())) {
@@ -76,7 +77,8 @@ fn roads(root: Element<'_>) -> String {
 }
 
 fn attributes(root: Element<'_>) -> Vec<(String, String)> {
-    let stated = ATTRIBUTES.iter().map(|name| ((*name).to_owned(), root.attribute(name).unwrap_or_default().to_owned()));
+    let stated =
+        ATTRIBUTES.iter().map(|name| ((*name).to_owned(), root.attribute(name).unwrap_or_default().to_owned()));
     stated.chain([("commonRoadVersion".to_owned(), VERSION.to_owned())]).collect()
 }
 

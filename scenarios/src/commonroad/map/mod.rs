@@ -1,5 +1,6 @@
 //! From a scenario of CommonRoad to a scenario of Interplay, one file a concept.
 
+mod arrival;
 mod ego;
 mod lanes;
 mod line;
@@ -53,7 +54,7 @@ pub(super) struct Mapped {
 /// Makes a scenario of an imported one.
 ///
 /// # Errors
-/// For lanelets that are no lanes, and a planning problem from which no car can drive.
+/// For lanelets that are no lanes.
 pub(super) fn mapped(
     scenario: &CommonRoad<'_>,
     (root, unread): (&Place, Unread),
@@ -63,10 +64,7 @@ pub(super) fn mapped(
     let lanes = Lanes::of(scenario, root, notes)?;
     let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
-    let ego = match scenario.problems.first() {
-        Some(problem) => ego::of_problem(problem, &lanes, notes)?,
-        None => None,
-    };
+    let ego = scenario.problems.first().and_then(|problem| ego::of_problem((problem, scenario.step_s), &lanes, notes));
     let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
     let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
