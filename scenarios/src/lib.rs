@@ -76,7 +76,10 @@ mod write;
 
 pub use budget::RunCost;
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
-pub use commonroad::{ImportOptions, Imported, Replacement, import_commonroad, import_commonroad_file, is_commonroad};
+pub use commonroad::{
+    CommonRoadExport, DrivenVehicle, Exported, ImportOptions, Imported, Replacement, import_commonroad,
+    import_commonroad_file, is_commonroad,
+};
 pub use error::{Fault, LoadError};
 pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};

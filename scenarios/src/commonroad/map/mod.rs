@@ -1,5 +1,6 @@
 //! From a scenario of CommonRoad to a scenario of Interplay, one file a concept.
 
+mod arrival;
 mod ego;
 mod lanes;
 mod line;
@@ -24,6 +25,7 @@ use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::road::{LaneConfig, LaneNetwork, Road};
 use ego::Ego;
+pub(super) use ego::begin;
 use lanes::Lanes;
 use notes::NOT_YET;
 pub(super) use notes::Notes;
@@ -52,7 +54,7 @@ pub(super) struct Mapped {
 /// Makes a scenario of an imported one.
 ///
 /// # Errors
-/// For lanelets that are no lanes, and a planning problem from which no car can drive.
+/// For lanelets that are no lanes.
 pub(super) fn mapped(
     scenario: &CommonRoad<'_>,
     (root, unread): (&Place, Unread),
@@ -60,12 +62,9 @@ pub(super) fn mapped(
     notes: &mut Notes,
 ) -> Result<Mapped, Fault> {
     let lanes = Lanes::of(scenario, root, notes)?;
-    let begin = ego::begin(scenario);
+    let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
-    let ego = match scenario.problems.first() {
-        Some(problem) => ego::of_problem(problem, &lanes, notes)?,
-        None => None,
-    };
+    let ego = scenario.problems.first().and_then(|problem| ego::of_problem((problem, scenario.step_s), &lanes, notes));
     let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
     let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);

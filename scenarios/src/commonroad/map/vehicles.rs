@@ -133,6 +133,10 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
         notes.one(["obstacle beside the road", "obstacles beside the road"], NOT_YET);
         return None;
     }
+    if obstacle.kind == "roadBoundary" {
+        notes.one(["boundary of the road", "boundaries of the road"], "left out: lanes have edges");
+        return None;
+    }
     let shapes: Vec<_> = obstacle.shape.iter().filter_map(|shape| shape.rectangle()).collect();
     let Some((rectangle, is_exact)) = shapes.first() else {
         notes.one(["obstacle without a shape", "obstacles without a shape"], "left out");

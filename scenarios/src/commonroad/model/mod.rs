@@ -10,11 +10,13 @@ mod planning_problem;
 mod sign;
 mod state;
 
+#[cfg(test)]
+pub(super) use geometry::Rectangle;
 pub(super) use geometry::Region;
 pub(super) use intersection::Intersection;
 pub(super) use lanelet::{Adjacent, Lanelet};
 pub(super) use obstacle::{Obstacle, Role};
-pub(super) use planning_problem::PlanningProblem;
+pub(super) use planning_problem::{Goal, PlanningProblem};
 pub(super) use sign::{Sign, SignMeaning};
 
 use super::xml::{Element, Unread};
