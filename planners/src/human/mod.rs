@@ -48,10 +48,13 @@
 //! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
 //!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
 //!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
+//! - A driver who **adapts to the flow** (`adapts_to_leaders`, `adapts_to_lane`, module `flow`) wants a speed between that of its goal
+//!   and those of the vehicles in its lane.
 //! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
 mod closing;
 pub mod diagnostics;
+mod flow;
 mod settings;
 mod sighting;
 
@@ -159,6 +162,10 @@ impl Drive for Human {
         let seen = self.perception.perceive(scene, self.settings.reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
+        let adapts = [self.settings.adapts_to_leaders, self.settings.adapts_to_lane];
+        if let Some(speed_mps) = flow::adapted_speed_mps(&seen, adapts) {
+            wanted.to_mut().goal.target.speed_mps = speed_mps;
+        }
         if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }

@@ -84,6 +84,14 @@ pub struct Settings {
     /// anew, it expects of them what it expected at the last decision. It watches the vehicle ahead all the time.
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "hesitation": 0.0 }))]
     pub hesitation_s: f64,
+    /// By which share of the difference the wanted speed moves towards the mean speed of at most three vehicles ahead in the lane; of
+    /// recorded people 0.27.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.27, extend("x-unit" = "dimensionless"))]
+    pub adapts_to_leaders: f64,
+    /// By which share of the difference the wanted speed moves towards the one that 85 % of the vehicles in the lane do not exceed; of
+    /// recorded people 0.1.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.1, extend("x-unit" = "dimensionless"))]
+    pub adapts_to_lane: f64,
 }
 
 impl Default for Settings {
@@ -97,6 +105,8 @@ impl Default for Settings {
             prediction: Prediction::ConstantVelocity,
             reaction_s: 0.0,
             hesitation_s: 0.0,
+            adapts_to_leaders: 0.0,
+            adapts_to_lane: 0.0,
         }
     }
 }

@@ -11,6 +11,7 @@ mod map;
 mod model;
 mod moved;
 mod options;
+mod traffic;
 mod xml;
 
 use std::fmt::Write;
@@ -28,6 +29,7 @@ use crate::resolve::records;
 use map::{Mapped, Notes};
 use model::CommonRoad;
 pub use options::{ImportOptions, Replacement};
+pub use traffic::recorded_traffic_in_commonroad;
 use xml::{Unread, Xml};
 
 /// How much of a file tells whether it is a scenario \[bytes\].
