@@ -18,6 +18,8 @@ pub struct CarFollowing {
     pub wanted_above_mps: Option<f64>,
     /// The time within which the present acceleration gives way to the model's; 0 for the model as it was published \[s\].
     pub lag_s: f64,
+    /// Noise of the record with which half of the present acceleration is trusted \[m/s\].
+    pub half_noise_mps: f64,
     /// How the lateral place goes on.
     pub lateral: LateralMotion,
 }
@@ -32,7 +34,7 @@ impl CarFollowing {
             braking_mps2: 2.0,
             ..idm::Settings::default()
         };
-        CarFollowing { settings, wanted_above_mps: None, lag_s: 0.0, lateral: LateralMotion::Kept }
+        CarFollowing { settings, wanted_above_mps: None, lag_s: 0.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept }
     }
 
     /// The speed that the vehicle wants \[m/s\].
@@ -47,7 +49,8 @@ impl CarFollowing {
     pub(super) fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         let wanted_mps = self.wanted_mps(moment);
         let leader = moment.leaders().first().copied();
-        let (mut at_m, mut speed_mps, mut acceleration_mps2) = (0.0, moment.speed_mps, moment.acceleration_mps2);
+        let (mut at_m, mut speed_mps) = (0.0, moment.speed_mps);
+        let mut acceleration_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
         let mut along_m = vec![0.0];
         let tick_s = STEP_S / SUBSTEPS as f64;
         let kept = if self.lag_s > 0.0 { libm::exp(-tick_s / self.lag_s) } else { 0.0 };

@@ -15,8 +15,8 @@ use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Ro
 
 /// Stages of the plan: 8 s, as people have on real roads.
 const HORIZON: usize = 40;
-/// Half the width of the strip of road around the lane \[m\].
-const HALF_ROAD_M: f64 = 12.0;
+/// A body is at least this far from the edge of the road \[m\].
+const EDGE_M: f64 = 0.2;
 /// Others farther away than this along the lane are not looked at, ahead and behind \[m\].
 const SIGHT_M: [f64; 2] = [150.0, 40.0];
 /// Of those in the lane ahead, at most so many are looked at.
@@ -43,6 +43,10 @@ pub struct PredictedDriver {
     pub time_gap_s: f64,
     /// Which share of the acceleration at the start is taken for the driver's last input.
     pub own_acceleration: f64,
+    /// Noise of the record with which half of that acceleration is trusted \[m/s\].
+    pub half_noise_mps: f64,
+    /// Who accelerates wants to be faster: the wanted speed is what it will have after this time \[s\].
+    pub wants_ahead_s: f64,
     /// Whether those beside the lane are looked at, too.
     pub looks_beside: bool,
     /// How the lateral place goes on; as planned, towards the middle of the lane, without one.
@@ -57,6 +61,8 @@ impl PredictedDriver {
             acceleration_change: 0.1,
             time_gap_s: ComfortLimits::default().time_gap_s,
             own_acceleration: 1.0,
+            half_noise_mps: 1.0,
+            wants_ahead_s: 0.0,
             looks_beside: true,
             lateral: None,
         }
@@ -80,13 +86,18 @@ impl PredictedDriver {
 
     /// The moment as the driver sees it.
     fn scene(&self, moment: &TrafficMoment) -> Scene {
-        let corridor = Corridor { heading_rad: 0.0, right_m: -HALF_ROAD_M, left_m: HALF_ROAD_M, end: None };
+        // Whoever is beside the road at the start is on a road that reaches there.
+        let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
+        let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
+        let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };
         let route: Arc<Route> = Arc::new(Route::from(corridor));
         // A driver who keeps its line has no heading to correct.
         let lateral_mps = if self.lateral.is_some() { 0.0 } else { moment.lateral_speed_mps };
         let heading_rad = if moment.speed_mps > 1.0 { libm::atan(lateral_mps / moment.speed_mps) } else { 0.0 };
         let state = State { x_m: 0.0, y_m: moment.across_m, heading_rad, speed_mps: moment.speed_mps };
-        let acceleration_mps2 = self.own_acceleration * moment.acceleration_mps2;
+        let trusted_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
+        let acceleration_mps2 = self.own_acceleration * trusted_mps2;
+        let wanted_mps = (moment.speed_mps + self.wants_ahead_s * trusted_mps2).max(0.0);
         let ego = self.agent("ego", state, [moment.length_m, moment.width_m], acceleration_mps2, &route);
         let seen = self.seen(moment);
         let others = seen.iter().enumerate().map(|(index, it)| {
@@ -96,7 +107,7 @@ impl PredictedDriver {
         let others = others.collect();
         let wanted_m = if self.lateral.is_some() { moment.across_m } else { 0.0 };
         let goal = Goal {
-            target: State { x_m: 0.0, y_m: wanted_m, heading_rad: 0.0, speed_mps: moment.speed_mps },
+            target: State { x_m: 0.0, y_m: wanted_m, heading_rad: 0.0, speed_mps: wanted_mps },
             tracking: TRACKING,
             comfort: [self.acceleration_change, STEERING_CHANGE],
             safety: SafetyEllipse { along_m: SAFETY_M[0], across_m: SAFETY_M[1] },

@@ -32,6 +32,9 @@ pub struct TrafficMoment {
     pub speed_mps: f64,
     /// Its acceleration: the slope of its speed in the past second or so \[m/s²\].
     pub acceleration_mps2: f64,
+    /// How far its speeds of that time are from the line with that slope, root mean square: noise of the record, by which a slope is
+    /// trusted less \[m/s\].
+    pub speed_noise_mps: f64,
     /// Its place across the lane \[m\].
     pub across_m: f64,
     /// Its speed across the lane \[m/s\].
@@ -42,6 +45,8 @@ pub struct TrafficMoment {
     pub width_m: f64,
     /// Width of the lane \[m\].
     pub lane_width_m: f64,
+    /// How far the road reaches to the right and to the left of the lane's middle \[m\].
+    pub road_m: [f64; 2],
     /// The highest speed that is permitted, where that is known \[m/s\].
     pub speed_limit_mps: Option<f64>,
     /// The others, in any order.
@@ -74,6 +79,12 @@ impl TrafficMoment {
     /// Whether a vehicle overlaps this one across the lane.
     fn is_in_way(&self, other: &Neighbour) -> bool {
         (other.across_m - self.across_m).abs() < 0.5 * (other.width_m + self.width_m)
+    }
+
+    /// The acceleration as far as it can be trusted: half of it where the noise is as stated \[m/s²\].
+    fn trusted_acceleration_mps2(&self, half_noise_mps: f64) -> f64 {
+        let ratio = self.speed_noise_mps / half_noise_mps.max(1e-6);
+        self.acceleration_mps2 / (1.0 + ratio * ratio)
     }
 
     /// The gap between bumpers to a vehicle ahead \[m\].
@@ -125,6 +136,8 @@ pub enum MotionModel {
     DecayingAcceleration {
         /// The time within which the acceleration falls to 37 % \[s\].
         time_s: f64,
+        /// Noise of the record with which half of the acceleration is trusted \[m/s\].
+        half_noise_mps: f64,
         /// How the lateral place goes on.
         lateral: LateralMotion,
     },
@@ -139,7 +152,9 @@ impl MotionModel {
     pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         match self {
             MotionModel::ConstantVelocity => acceleration::predict(moment, None, LateralMotion::Kept),
-            MotionModel::DecayingAcceleration { time_s, lateral } => acceleration::predict(moment, Some(*time_s), *lateral),
+            MotionModel::DecayingAcceleration { time_s, half_noise_mps, lateral } => {
+                acceleration::predict(moment, Some([*time_s, *half_noise_mps]), *lateral)
+            }
             MotionModel::CarFollowing(model) => model.predict(moment),
             MotionModel::Driver(model) => model.predict(moment),
         }
@@ -158,6 +173,7 @@ pub(crate) mod tests {
             length_m: 4.5,
             width_m: 1.8,
             lane_width_m: 3.5,
+            road_m: [5.25, 1.75],
             others: vec![leader],
             ..TrafficMoment::default()
         }
@@ -174,7 +190,7 @@ pub(crate) mod tests {
     #[test]
     fn an_acceleration_and_a_lateral_speed_decay() {
         let moment = TrafficMoment { lateral_speed_mps: 1.0, acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
-        let model = MotionModel::DecayingAcceleration { time_s: 1.0, lateral: LateralMotion::Decaying(2.0) };
+        let model = MotionModel::DecayingAcceleration { time_s: 1.0, half_noise_mps: 1.0, lateral: LateralMotion::Decaying(2.0) };
         let motion = model.predict(&moment);
         let expected_m = 100.0 + (5.0 - (1.0 - (-5.0_f64).exp()));
         assert!((motion.along_m[STEPS] - expected_m).abs() < 1e-9, "{}", motion.along_m[STEPS]);
@@ -184,8 +200,15 @@ pub(crate) mod tests {
     #[test]
     fn who_brakes_to_a_stop_stands() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
-        let model = MotionModel::DecayingAcceleration { time_s: 2.0, lateral: LateralMotion::Kept };
+        let model = MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };
         assert!(model.predict(&moment).along_m.windows(2).all(|pair| pair[1] >= pair[0]));
+    }
+
+    #[test]
+    fn a_noisy_acceleration_is_trusted_less() {
+        let moment = TrafficMoment { acceleration_mps2: 2.0, speed_noise_mps: 0.1, ..behind(500.0, 20.0) };
+        assert_eq!(moment.trusted_acceleration_mps2(0.1), 1.0);
+        assert!(moment.trusted_acceleration_mps2(10.0) > 1.99 && moment.trusted_acceleration_mps2(0.01) < 0.02);
     }
 
     #[test]
