@@ -20,7 +20,19 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/recordings", &["common", "planners", "scenarios"]),
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
     ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
-    ("app/presentation", &["common", "planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
+    (
+        "app/presentation",
+        &[
+            "common",
+            "planners",
+            "building",
+            "scenarios",
+            "app/files",
+            "app/recordings",
+            "app/simulation",
+            "app/sweep",
+        ],
+    ),
     (
         "app/cli",
         &[

@@ -47,6 +47,8 @@ pub struct PredictedDriver {
     pub half_noise_mps: f64,
     /// Who accelerates wants to be faster: the wanted speed is what it will have after this time \[s\].
     pub wants_ahead_s: f64,
+    /// The speed that the driver wants, where it is known; without it about the present one \[m/s\].
+    pub wanted_mps: Option<f64>,
     /// Whether those beside the lane are looked at, too.
     pub looks_beside: bool,
     /// How the lateral place goes on; as planned, towards the middle of the lane, without one.
@@ -63,6 +65,7 @@ impl PredictedDriver {
             own_acceleration: 1.0,
             half_noise_mps: 1.0,
             wants_ahead_s: 0.0,
+            wanted_mps: None,
             looks_beside: true,
             lateral: None,
         }
@@ -97,7 +100,8 @@ impl PredictedDriver {
         let state = State { x_m: 0.0, y_m: moment.across_m, heading_rad, speed_mps: moment.speed_mps };
         let trusted_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
         let acceleration_mps2 = self.own_acceleration * trusted_mps2;
-        let wanted_mps = (moment.speed_mps + self.wants_ahead_s * trusted_mps2).max(0.0);
+        let about_mps = (moment.speed_mps + self.wants_ahead_s * trusted_mps2).max(0.0);
+        let wanted_mps = self.wanted_mps.unwrap_or(about_mps);
         let ego = self.agent("ego", state, [moment.length_m, moment.width_m], acceleration_mps2, &route);
         let seen = self.seen(moment);
         let others = seen.iter().enumerate().map(|(index, it)| {
