@@ -78,7 +78,8 @@ mod write;
 pub use budget::RunCost;
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commonroad::{
-    ImportOptions, Imported, Replacement, import_commonroad, import_commonroad_file, is_commonroad, recorded_traffic_in_commonroad,
+    ImportOptions, Imported, Replacement, import_commonroad, import_commonroad_file, is_commonroad,
+    recorded_traffic_in_commonroad,
 };
 pub use error::{Fault, LoadError};
 pub use file_format::budget_limits::BudgetLimits;

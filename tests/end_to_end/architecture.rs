@@ -22,16 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
     (
         "app/presentation",
-        &[
-            "common",
-            "planners",
-            "building",
-            "scenarios",
-            "app/files",
-            "app/recordings",
-            "app/simulation",
-            "app/sweep",
-        ],
+        &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
     ),
     (
         "app/cli",

@@ -78,7 +78,8 @@ fn a_driver_is_fitted_to_a_vehicle_of_a_table() {
 fn what_is_no_recording_is_refused_with_its_place() {
     let folder = folder_with_queue("predict-bad", 2);
     fs::create_dir(folder.join("empty")).expect("a folder");
-    fs::write(folder.join("bad.xml"), "<commonRoad commonRoadVersion=\"2020a\" timeStepSize=\"no\"></commonRoad>").expect("a file");
+    fs::write(folder.join("bad.xml"), "<commonRoad commonRoadVersion=\"2020a\" timeStepSize=\"no\"></commonRoad>")
+        .expect("a file");
     fs::write(folder.join("bad.csv"), "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0,0,0,0,fast\n").expect("a file");
     fs::write(folder.join("notes.txt"), "nothing").expect("a file");
     for (arguments, words) in [

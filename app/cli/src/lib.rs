@@ -24,8 +24,8 @@ use interplay_scenarios::Registry;
 use interplay_simulation::measure::RegisterMetrics;
 
 use commands::{
-    check, compare, completions, export_fmu, fit, identify, import, list, man, new, predict, reproduce, run, schema, suite, sweep,
-    view, why,
+    check, compare, completions, export_fmu, fit, identify, import, list, man, new, predict, reproduce, run, schema,
+    suite, sweep, view, why,
 };
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.

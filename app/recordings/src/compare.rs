@@ -95,15 +95,20 @@ pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<Comparison
     let mut cars: Vec<&str> = training.iter().map(|start| car(start)).collect();
     cars.sort_unstable();
     cars.dedup();
-    Ok(Comparison { fitted_on_starts: training.len(), fitted_on_cars: cars.len(), groups, driving: recordings.driving() })
+    Ok(Comparison {
+        fitted_on_starts: training.len(),
+        fitted_on_cars: cars.len(),
+        groups,
+        driving: recordings.driving(),
+    })
 }
 
 /// Whether a car belongs to the half of the cars that models are fitted on: by its name alone.
 fn is_for_fitting(car: &str) -> bool {
     // FNV-1a.
-    let hash = car.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
+    let hash = car
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     SplitMix64::new(hash).next_u64() & 1 == 0
 }
 
@@ -124,7 +129,8 @@ impl Judged<'_> {
             *numbers.entry(self.cars[*index]).or_insert(next)
         });
         let resamples = Resamples::of(car_of_start.collect());
-        let chosen = |outcomes: &[Outcome]| -> Vec<Outcome> { indices.iter().map(|index| outcomes[*index].clone()).collect() };
+        let chosen =
+            |outcomes: &[Outcome]| -> Vec<Outcome> { indices.iter().map(|index| outcomes[*index].clone()).collect() };
         let named = |name: &str| self.models.iter().position(|it| it.name == name).unwrap_or(0);
         let [cv, idm] = [named("constant velocity"), named("IDM, fitted")].map(|index| chosen(&self.outcomes[index]));
         let models = self.models.iter().zip(&self.outcomes).map(|(model, outcomes)| ComparedModel {

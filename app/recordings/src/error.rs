@@ -33,7 +33,9 @@ pub enum RecordingsError {
         vehicle: String,
     },
     /// A vehicle follows nobody for long enough.
-    #[error("`{vehicle}` follows somebody at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed")]
+    #[error(
+        "`{vehicle}` follows somebody at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
+    )]
     TooLittleFollowing {
         /// The vehicle.
         vehicle: String,
@@ -43,7 +45,9 @@ pub enum RecordingsError {
         needed: usize,
     },
     /// There is too little to judge by.
-    #[error("{starts} starts of moving cars with 1.2 s before them and 5 s after them are too few: both halves of the cars need some")]
+    #[error(
+        "{starts} starts of moving cars with 1.2 s before them and 5 s after them are too few: both halves of the cars need some"
+    )]
     TooFewStarts {
         /// How many there are.
         starts: usize,

@@ -7,7 +7,7 @@
 
 use interplay_common::random::Random;
 
-use super::Settings;
+use super::{Settings, Style};
 
 /// Median over cars of the time gap, as a multiple of the usual one.
 const GAP_MEDIAN: f64 = 1.0;
@@ -22,8 +22,15 @@ const ADAPTS: [f64; 2] = [0.27, 0.1];
 /// The stream of the population among those of its seed.
 const STREAM: u64 = 0x4d45_4153;
 
+impl Settings {
+    /// The settings with which the driver drives: where the style is `measured`, those of its member of the population.
+    pub(super) fn driven(&self) -> Settings {
+        if self.style == Some(Style::Measured) { member(self, self.member.unwrap_or(0)) } else { *self }
+    }
+}
+
 /// What a driver of the population is like who says nothing else.
-pub(super) fn member(settings: &Settings, number: u32) -> Settings {
+fn member(settings: &Settings, number: u32) -> Settings {
     let mut random = Random::new(u64::from(number), STREAM);
     let ratio = GAP_MEDIAN * libm::exp(random.normal(0.0, GAP_DEVIATION));
     let [low, high] = SAFETY_WEIGHTS.map(libm::log);
@@ -41,7 +48,6 @@ pub(super) fn member(settings: &Settings, number: u32) -> Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::human::Style;
 
     #[test]
     fn members_are_spread_like_people_and_are_the_same_again() {

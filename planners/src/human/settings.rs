@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::population;
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
@@ -139,11 +138,6 @@ impl Settings {
         let weight = self.weight();
         let style = Style::ALL.into_iter().find(|style| style.safety_weight() == weight);
         style.map_or_else(|| format!("safety weight {weight}"), |style| style.name().to_owned())
-    }
-
-    /// The settings with which the driver drives: where the style is `measured`, those of its member of the population.
-    pub(super) fn driven(&self) -> Settings {
-        if self.style == Some(Style::Measured) { population::member(self, self.member.unwrap_or(0)) } else { *self }
     }
 
     /// The safety weight: stated, or that of the style, or a nice driver's.

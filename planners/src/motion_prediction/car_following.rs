@@ -59,7 +59,8 @@ impl CarFollowing {
                 let gap_m = moment.gap_m(&leader) + leader.speed_mps * tick_s * tick as f64 - at_m;
                 (gap_m, leader.speed_mps)
             });
-            let model_mps2 = self.settings.acceleration_behind(speed_mps, wanted_mps, ahead).max(-STRONGEST_BRAKING_MPS2);
+            let model_mps2 =
+                self.settings.acceleration_behind(speed_mps, wanted_mps, ahead).max(-STRONGEST_BRAKING_MPS2);
             acceleration_mps2 = kept * acceleration_mps2 + (1.0 - kept) * model_mps2;
             let next_mps = (speed_mps + tick_s * acceleration_mps2).max(0.0);
             at_m += 0.5 * tick_s * (speed_mps + next_mps);
@@ -87,7 +88,10 @@ mod tests {
     #[test]
     fn a_lag_keeps_the_present_acceleration_for_a_while() {
         let moment = TrafficMoment { acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
-        let at_1_s = |lag_s| CarFollowing { lag_s, wanted_above_mps: Some(0.0), ..CarFollowing::literature() }.predict(&moment).along_m[5];
+        let at_1_s = |lag_s| {
+            CarFollowing { lag_s, wanted_above_mps: Some(0.0), ..CarFollowing::literature() }.predict(&moment).along_m
+                [5]
+        };
         assert!(at_1_s(5.0) > 20.3 && at_1_s(0.0) < 20.0 + 1e-9);
     }
 }

@@ -134,7 +134,14 @@ impl PredictedDriver {
         seen
     }
 
-    fn agent(&self, name: &str, state: State, [length_m, width_m]: [f64; 2], acceleration_mps2: f64, route: &Arc<Route>) -> Agent {
+    fn agent(
+        &self,
+        name: &str,
+        state: State,
+        [length_m, width_m]: [f64; 2],
+        acceleration_mps2: f64,
+        route: &Arc<Route>,
+    ) -> Agent {
         let [half_m, axle_m] = [0.5 * length_m, AXLE_SHARE * length_m];
         let body = Body {
             front_m: half_m,
@@ -202,7 +209,8 @@ mod tests {
     #[test]
     fn who_keeps_its_line_is_not_expected_in_the_middle_of_the_lane() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
-        let across_m = |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];
+        let across_m =
+            |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];
         assert_eq!(across_m(Some(LateralMotion::Kept)), 0.8);
         assert!(across_m(None).abs() < 0.8);
     }

@@ -71,7 +71,8 @@ pub struct Neighbour {
 impl TrafficMoment {
     /// The others in the lane ahead, the nearest first.
     pub fn leaders(&self) -> Vec<Neighbour> {
-        let mut ahead: Vec<Neighbour> = self.others.iter().copied().filter(|it| it.ahead_m > 0.0 && self.is_in_way(it)).collect();
+        let mut ahead: Vec<Neighbour> =
+            self.others.iter().copied().filter(|it| it.ahead_m > 0.0 && self.is_in_way(it)).collect();
         ahead.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
         ahead
     }
@@ -167,7 +168,13 @@ pub(crate) mod tests {
 
     /// A car at 20 m/s with somebody ahead.
     pub(crate) fn behind(gap_m: f64, leader_mps: f64) -> TrafficMoment {
-        let leader = Neighbour { ahead_m: gap_m + 4.5, speed_mps: leader_mps, length_m: 4.5, width_m: 1.8, ..Neighbour::default() };
+        let leader = Neighbour {
+            ahead_m: gap_m + 4.5,
+            speed_mps: leader_mps,
+            length_m: 4.5,
+            width_m: 1.8,
+            ..Neighbour::default()
+        };
         TrafficMoment {
             speed_mps: 20.0,
             length_m: 4.5,
@@ -181,7 +188,8 @@ pub(crate) mod tests {
 
     #[test]
     fn constant_velocity_keeps_speed_and_place() {
-        let moment = TrafficMoment { across_m: 0.4, lateral_speed_mps: 1.0, acceleration_mps2: -2.0, ..behind(5.0, 3.0) };
+        let moment =
+            TrafficMoment { across_m: 0.4, lateral_speed_mps: 1.0, acceleration_mps2: -2.0, ..behind(5.0, 3.0) };
         let motion = MotionModel::ConstantVelocity.predict(&moment);
         assert!((motion.along_m[STEPS] - 100.0).abs() < 1e-9 && motion.across_m.iter().all(|at| *at == 0.4));
         assert_eq!((motion.along_m.len(), motion.along_m[0]), (STEPS + 1, 0.0));
@@ -190,7 +198,11 @@ pub(crate) mod tests {
     #[test]
     fn an_acceleration_and_a_lateral_speed_decay() {
         let moment = TrafficMoment { lateral_speed_mps: 1.0, acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
-        let model = MotionModel::DecayingAcceleration { time_s: 1.0, half_noise_mps: 1.0, lateral: LateralMotion::Decaying(2.0) };
+        let model = MotionModel::DecayingAcceleration {
+            time_s: 1.0,
+            half_noise_mps: 1.0,
+            lateral: LateralMotion::Decaying(2.0),
+        };
         let motion = model.predict(&moment);
         let expected_m = 100.0 + (5.0 - (1.0 - (-5.0_f64).exp()));
         assert!((motion.along_m[STEPS] - expected_m).abs() < 1e-9, "{}", motion.along_m[STEPS]);
@@ -200,7 +212,8 @@ pub(crate) mod tests {
     #[test]
     fn who_brakes_to_a_stop_stands() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
-        let model = MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };
+        let model =
+            MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };
         assert!(model.predict(&moment).along_m.windows(2).all(|pair| pair[1] >= pair[0]));
     }
 

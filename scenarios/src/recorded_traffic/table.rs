@@ -38,8 +38,11 @@ pub fn recorded_traffic_in_table(path: &Path) -> Result<RecordedTraffic, LoadErr
 pub fn recorded_traffic_in_text(name: &str, text: &str) -> Result<RecordedTraffic, LoadError> {
     let refused = |(line, problem): (usize, String)| {
         let message = format!("{} is no table of recorded vehicles: line {line}: {problem}", quoted(name));
-        let help =
-            format!("the first line is `{},{}`, then there is a row for each moment", records::ID_COLUMN, records::COLUMNS.join(","));
+        let help = format!(
+            "the first line is `{},{}`, then there is a row for each moment",
+            records::ID_COLUMN,
+            records::COLUMNS.join(",")
+        );
         LoadError::new(name, vec![Fault::at(&line_of(name, text, line, 1), "this line", message).help(help)])
     };
     let rows = records::parse(text).map_err(refused)?;
@@ -69,7 +72,8 @@ mod tests {
 
     #[test]
     fn a_table_becomes_vehicles_at_steps_of_time() {
-        let text = "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,1,0,0,5\nb,0.4,9,1,0,3\nb,0.6,9.6,1,0,3\n";
+        let text =
+            "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,1,0,0,5\nb,0.4,9,1,0,3\nb,0.6,9.6,1,0,3\n";
         let traffic = recorded_traffic_in_text("t.csv", text).expect("a table");
         let steps: Vec<i64> = traffic.vehicles.iter().flat_map(|it| it.moments.iter().map(|at| at.step)).collect();
         assert_eq!((traffic.vehicles.len(), steps), (2, vec![0, 1, 2, 3]));

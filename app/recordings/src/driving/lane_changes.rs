@@ -61,7 +61,10 @@ fn is_beside(old: &LaneLine, new: &LaneLine, before: &RecordedMoment, after: &Re
     // The lines of both lanes run side by side here.
     let (middle, _) = new.position(is.along_m, 0.0);
     let beside_m = old.project(middle).across_m.abs();
-    is_in(was.across_m, was.width_m) && is_in(is.across_m, is.width_m) && !is_in(left.across_m, left.width_m) && beside_m > BESIDE_M
+    is_in(was.across_m, was.width_m)
+        && is_in(is.across_m, is.width_m)
+        && !is_in(left.across_m, left.width_m)
+        && beside_m > BESIDE_M
 }
 
 fn change(timeline: &Timeline, number: usize, (from, stride): (usize, usize), new: &LaneLine) -> LaneChange {
@@ -100,7 +103,10 @@ fn change(timeline: &Timeline, number: usize, (from, stride): (usize, usize), ne
 fn braking_mps2(track: &Track, step: i64, step_s: f64) -> Option<f64> {
     let [second, last] = [1.0, AFTER_S].map(|time_s| (time_s / step_s).round() as i64);
     let pairs = (step..=step + last - second).filter_map(|from| Some([track.at(from)?, track.at(from + second)?]));
-    pairs.map(|[from, to]| (from.speed_mps - to.speed_mps) / (second as f64 * step_s)).reduce(f64::max).map(|it| it.max(0.0))
+    pairs
+        .map(|[from, to]| (from.speed_mps - to.speed_mps) / (second as f64 * step_s))
+        .reduce(f64::max)
+        .map(|it| it.max(0.0))
 }
 
 /// How long a vehicle moves sideways around a step \[s\].

@@ -76,8 +76,7 @@ impl Recordings {
         let counted: Vec<Counted> = self.timelines.par_iter().map(counted).collect();
         let group = |(index, name): (usize, &String)| {
             let mut all = Counted::default();
-            for (timeline, counted) in self.timelines.iter().zip(&counted).filter(|(it, _)| it.group == index) {
-                debug_assert!(timeline.group == index, "of the group");
+            for (_, counted) in self.timelines.iter().zip(&counted).filter(|(it, _)| it.group == index) {
                 all.gaps_s.extend(&counted.gaps_s);
                 all.steady_s.extend(&counted.steady_s);
                 all.braking_mps2.extend(&counted.braking_mps2);
@@ -94,8 +93,10 @@ impl Counted {
     fn statistics(self, name: &str) -> DrivingStatistics {
         let Counted { gaps_s, steady_s, braking_mps2, jerk_mps3, changes } = self;
         let below = gaps_s.iter().filter(|gap_s| **gap_s < 0.5).count();
-        let of_changes = |value: &dyn Fn(&LaneChange) -> Option<f64>| quantiles(changes.iter().filter_map(value).collect());
-        let logarithms: Vec<f64> = steady_s.iter().filter(|gap_s| **gap_s > 0.0).map(|gap_s| libm::log(*gap_s)).collect();
+        let of_changes =
+            |value: &dyn Fn(&LaneChange) -> Option<f64>| quantiles(changes.iter().filter_map(value).collect());
+        let logarithms: Vec<f64> =
+            steady_s.iter().filter(|gap_s| **gap_s > 0.0).map(|gap_s| libm::log(*gap_s)).collect();
         DrivingStatistics {
             name: name.to_owned(),
             time_gap_below_half_share: (!gaps_s.is_empty()).then(|| below as f64 / gaps_s.len() as f64),

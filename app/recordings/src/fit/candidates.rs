@@ -20,11 +20,7 @@ const NICE_WEIGHT: f64 = 50.0;
 /// A candidate.
 pub(super) fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: f64) -> PredictedDriver {
     PredictedDriver {
-        settings: Settings {
-            style: Some(Style::Normal),
-            time_gap_ratio: Some(time_gap_ratio),
-            ..Settings::default()
-        },
+        settings: Settings { style: Some(Style::Normal), time_gap_ratio: Some(time_gap_ratio), ..Settings::default() },
         acceleration_change,
         wanted_mps: Some(wanted_mps),
         looks_beside: false,
@@ -49,7 +45,8 @@ pub(super) fn style_of(weight: f64) -> &'static str {
 
 /// The candidate with the least sum of errors of starts that count so often, refined between its neighbours by parabolas.
 pub(super) fn least(grid: &[[usize; 2]], errors: &[Vec<f64>], counts: &[u32]) -> [f64; 2] {
-    let total = |errors: &Vec<f64>| -> f64 { errors.iter().zip(counts).map(|(error, count)| f64::from(*count) * error).sum() };
+    let total =
+        |errors: &Vec<f64>| -> f64 { errors.iter().zip(counts).map(|(error, count)| f64::from(*count) * error).sum() };
     let sums: Vec<f64> = errors.iter().map(total).collect();
     let best = (0..sums.len()).min_by(|a, b| sums[*a].total_cmp(&sums[*b])).unwrap_or(0);
     let at = |place: [usize; 2]| sums[place[0] * COMFORTS.len() + place[1]];

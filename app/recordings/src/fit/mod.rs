@@ -70,7 +70,8 @@ pub fn fit_driver(recordings: &Recordings, vehicle: &str) -> Result<FittedDriver
     let mut found = places.flat_map(|(timeline, it)| {
         it.tracks.iter().enumerate().filter(|(_, track)| track.id == vehicle).map(move |(track, _)| (timeline, track))
     });
-    let (timeline, track) = found.next().ok_or_else(|| RecordingsError::UnknownVehicle { vehicle: vehicle.to_owned() })?;
+    let (timeline, track) =
+        found.next().ok_or_else(|| RecordingsError::UnknownVehicle { vehicle: vehicle.to_owned() })?;
     let evidence = evidence(&recordings.timelines[timeline], track);
     if evidence.starts.len() < MIN_STARTS {
         let starts = evidence.starts.len();
@@ -123,7 +124,8 @@ fn wanted_mps(evidence: &Evidence) -> f64 {
         .into_par_iter()
         .map(|ratio| {
             let wanted_mps = ratio * evidence.fastest_mps;
-            let error = |gap: usize| -> f64 { evidence.squares(&driver(RATIOS[gap], COMFORTS[1], wanted_mps)).iter().sum() };
+            let error =
+                |gap: usize| -> f64 { evidence.squares(&driver(RATIOS[gap], COMFORTS[1], wanted_mps)).iter().sum() };
             let least = (0..RATIOS.len()).step_by(3).map(error).fold(f64::INFINITY, f64::min);
             (least, wanted_mps)
         })

@@ -89,7 +89,10 @@ mod tests {
         let estimate = resamples.estimate(&[Sums::of(&resamples, &outcomes, &|it| it.along_m[0])], |it| it[0]);
         let half_width = 1.96 * 0.5 / 40.0_f64.sqrt();
         assert_eq!(estimate.value, 0.5);
-        assert!((estimate.high - 0.5 - half_width).abs() < 0.04 && (0.5 - estimate.low - half_width).abs() < 0.04, "{estimate:?}");
+        assert!(
+            (estimate.high - 0.5 - half_width).abs() < 0.04 && (0.5 - estimate.low - half_width).abs() < 0.04,
+            "{estimate:?}"
+        );
         assert_eq!(resamples.cars(), 40);
     }
 }

@@ -31,7 +31,8 @@ const ACCELERATION: Parameter =
 const BRAKING: Parameter = Parameter { name: "braking_mps2", values: &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0], start: 3 };
 const WANTED: Parameter =
     Parameter { name: "wanted_above_mps", values: &[0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0], start: 3 };
-const LAG: Parameter = Parameter { name: "lag_s", values: &[0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0, 2.5, 3.0], start: 4 };
+const LAG: Parameter =
+    Parameter { name: "lag_s", values: &[0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0, 2.5, 3.0], start: 4 };
 const DECAY: Parameter =
     Parameter { name: "decay_s", values: &[0.1, 0.3, 0.5, 0.7, 1.0, 1.3, 1.6, 2.0, 2.5, 3.0, 4.0, 6.0], start: 4 };
 
@@ -117,7 +118,13 @@ fn idm_model(values: &[f64], [lag_s, half_noise_mps]: [f64; 2], decay_s: f64) ->
         ..idm::Settings::default()
     };
     let lateral = LateralMotion::Decaying(decay_s);
-    MotionModel::CarFollowing(CarFollowing { settings, wanted_above_mps: Some(values[4]), lag_s, half_noise_mps, lateral })
+    MotionModel::CarFollowing(CarFollowing {
+        settings,
+        wanted_above_mps: Some(values[4]),
+        lag_s,
+        half_noise_mps,
+        lateral,
+    })
 }
 
 /// Safety weight of the fitted driver. It changes no prediction that is measurable: the time gap is fitted beside it.

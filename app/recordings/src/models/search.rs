@@ -18,7 +18,8 @@ const LEAST_GAIN: f64 = 1e-4;
 /// The values with the least error that the search finds. Equal inputs give equal values.
 pub(super) fn least(parameters: &[Parameter], error: impl Fn(&[f64]) -> f64) -> Vec<f64> {
     let mut at: Vec<usize> = parameters.iter().map(|parameter| parameter.start).collect();
-    let values = |at: &[usize]| -> Vec<f64> { parameters.iter().zip(at).map(|(it, index)| it.values[*index]).collect() };
+    let values =
+        |at: &[usize]| -> Vec<f64> { parameters.iter().zip(at).map(|(it, index)| it.values[*index]).collect() };
     if parameters.is_empty() {
         return Vec::new();
     }

@@ -57,8 +57,9 @@ fn past(car: &Track, step: i64, step_s: f64) -> &[RecordedMoment] {
 fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
     let count = points.clone().count() as f64;
     let [mean_x, mean_y] = points.clone().fold([0.0; 2], |sum, (x, y)| [sum[0] + x / count, sum[1] + y / count]);
-    let [above, below] =
-        points.clone().fold([0.0; 2], |sum, (x, y)| [sum[0] + (x - mean_x) * (y - mean_y), sum[1] + (x - mean_x) * (x - mean_x)]);
+    let [above, below] = points
+        .clone()
+        .fold([0.0; 2], |sum, (x, y)| [sum[0] + (x - mean_x) * (y - mean_y), sum[1] + (x - mean_x) * (x - mean_x)]);
     if below <= 0.0 {
         return (0.0, 0.0);
     }

@@ -67,7 +67,16 @@ fn of_timeline(index: usize, timeline: &Timeline) -> Vec<Start> {
             let Some((way, along_m, known)) = known_at(timeline, number, at.step) else { continue };
             let later = Later { timeline, track: number, step: at.step };
             let Some(truth) = later.truth(&way, along_m) else { continue };
-            found.push(Start { group: timeline.group, timeline: index, track: number, step: at.step, way, along_m, known, truth });
+            found.push(Start {
+                group: timeline.group,
+                timeline: index,
+                track: number,
+                step: at.step,
+                way,
+                along_m,
+                known,
+                truth,
+            });
         }
     }
     found

@@ -133,12 +133,19 @@ fn way(stated: &[RecordedLane], lines: &[Option<LaneLine>], index: usize) -> Opt
 }
 
 /// The lanes after one, in one direction, until they are long enough.
-fn followed<'a>(lines: &[Option<LaneLine>], first: usize, reach_m: f64, next: impl Fn(usize) -> &'a [usize]) -> Vec<usize> {
+fn followed<'a>(
+    lines: &[Option<LaneLine>],
+    first: usize,
+    reach_m: f64,
+    next: impl Fn(usize) -> &'a [usize],
+) -> Vec<usize> {
     let (mut found, mut last, mut length_m) = (Vec::new(), first, 0.0);
     while length_m < reach_m && found.len() < MAX_LANES {
         let known = next(last).iter().filter_map(|lane| Some((*lane, lines.get(*lane)?.as_ref()?)));
         let fresh = known.filter(|(lane, _)| *lane != first && !found.contains(lane));
-        let Some((lane, line)) = fresh.min_by(|a, b| a.1.turn_rad().abs().total_cmp(&b.1.turn_rad().abs())) else { break };
+        let Some((lane, line)) = fresh.min_by(|a, b| a.1.turn_rad().abs().total_cmp(&b.1.turn_rad().abs())) else {
+            break;
+        };
         found.push(lane);
         length_m += line.length_m();
         last = lane;

@@ -40,9 +40,19 @@ mod tests {
     #[test]
     fn a_car_that_two_files_tell_is_one_car() {
         let file = |name: &str, from: i64| {
-            let at = |step: i64| RecordedMoment { step: step - from, position: [2.0 * step as f64, 0.0], heading_rad: 0.0, speed_mps: 10.0 };
-            let vehicle = RecordedVehicle { id: name.to_owned(), moments: (from..from + 10).map(at).collect(), ..RecordedVehicle::default() };
-            let traffic = RecordedTraffic { name: name.to_owned(), step_s: 0.2, lanes: Vec::new(), vehicles: vec![vehicle] };
+            let at = |step: i64| RecordedMoment {
+                step: step - from,
+                position: [2.0 * step as f64, 0.0],
+                heading_rad: 0.0,
+                speed_mps: 10.0,
+            };
+            let vehicle = RecordedVehicle {
+                id: name.to_owned(),
+                moments: (from..from + 10).map(at).collect(),
+                ..RecordedVehicle::default()
+            };
+            let traffic =
+                RecordedTraffic { name: name.to_owned(), step_s: 0.2, lanes: Vec::new(), vehicles: vec![vehicle] };
             Timeline::of(traffic, 0)
         };
         let mut timelines = vec![file("a", 0), file("b", 7), file("c", 90)];

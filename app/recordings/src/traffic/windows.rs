@@ -73,7 +73,8 @@ mod tests {
 
     #[test]
     fn windows_become_one_recording() {
-        let windows = vec![window("A-2_1_T-79", "7", 60..80), window("A-2_80_T-159", "7", 0..5), window("B-1_2_T-1", "7", 0..3)];
+        let windows =
+            vec![window("A-2_1_T-79", "7", 60..80), window("A-2_80_T-159", "7", 0..5), window("B-1_2_T-1", "7", 0..3)];
         let joined = joined(windows);
         assert_eq!(joined.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["A-2", "B-1_2_T-1"]);
         let steps: Vec<i64> = joined[0].vehicles[0].moments.iter().map(|at| at.step).collect();
