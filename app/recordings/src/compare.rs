@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::driving::DrivingStatistics;
 use crate::error::RecordingsError;
-use crate::measure::{Estimate, ModelMeasures, Outcome, Resamples, Scales, Sums, measures};
+use crate::measure::{MeasureInterval, ModelMeasures, Outcome, Resamples, Scales, Sums, measures};
 use crate::models::{self, NamedModel, every};
 use crate::start::{Start, starts};
 use crate::traffic::Recordings;
@@ -20,7 +20,7 @@ const MAX_SCALE_STARTS: usize = 1500;
 
 /// How models predict recorded cars.
 #[derive(Clone, Debug, Serialize)]
-pub struct Comparison {
+pub struct PredictionComparison {
     /// How many starts of cars models were fitted on.
     pub fitted_on_starts: usize,
     /// How many cars these are.
@@ -41,9 +41,9 @@ pub struct GroupComparison {
     /// How many cars these are.
     pub cars: usize,
     /// Share of the recorded cars themselves whose recorded body overlaps another within 3 s: boxes are not exact.
-    pub recorded_contact_share_3s: Estimate,
+    pub recorded_contact_share_3s: MeasureInterval,
     /// Share of the recorded cars that are on no lane of the map after 3 s; none without a map.
-    pub recorded_off_road_share: Option<Estimate>,
+    pub recorded_off_road_share: Option<MeasureInterval>,
     /// The models.
     pub models: Vec<ComparedModel>,
 }
@@ -63,7 +63,7 @@ pub struct ComparedModel {
 ///
 /// # Errors
 /// [`RecordingsError::TooFewStarts`] where a half of the cars has hardly any.
-pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<Comparison, RecordingsError> {
+pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<PredictionComparison, RecordingsError> {
     let starts = starts(recordings);
     let car = |start: &Start| recordings.timelines[start.timeline].tracks[start.track].car.as_str();
     let (training, held_out): (Vec<&Start>, Vec<&Start>) = starts.iter().partition(|start| is_for_fitting(car(start)));
@@ -95,7 +95,7 @@ pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<Comparison
     let mut cars: Vec<&str> = training.iter().map(|start| car(start)).collect();
     cars.sort_unstable();
     cars.dedup();
-    Ok(Comparison {
+    Ok(PredictionComparison {
         fitted_on_starts: training.len(),
         fitted_on_cars: cars.len(),
         groups,

@@ -20,10 +20,10 @@ mod models;
 mod start;
 mod traffic;
 
-pub use compare::{ComparedModel, Comparison, GroupComparison, compare};
-pub use driving::{DrivingStatistics, Quantiles};
+pub use compare::{ComparedModel, GroupComparison, PredictionComparison, compare};
+pub use driving::{DrivingStatistics, Spread};
 pub use error::RecordingsError;
 pub use fit::{FittedDriver, fit_driver};
-pub use measure::{Estimate, HorizonErrors, ModelMeasures};
+pub use measure::{HorizonErrors, MeasureInterval, ModelMeasures};
 pub use models::NamedModel;
 pub use traffic::Recordings;

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use super::{LateralMotion, Neighbour, PredictedMotion, STEP_S, STEPS, TrafficMoment};
+use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 use crate::belief::Outlook;
 use crate::human::{self, Human};
 use crate::predict::constant_velocity;
@@ -120,10 +120,10 @@ impl PredictedDriver {
     }
 
     /// Whom the driver looks at: the nearest ahead in its lane, and those beside it.
-    fn seen(&self, moment: &TrafficMoment) -> Vec<Neighbour> {
+    fn seen(&self, moment: &TrafficMoment) -> Vec<NearbyVehicle> {
         let mut seen = moment.leaders();
         seen.truncate(MAX_LEADERS);
-        let is_beside = |it: &&Neighbour| {
+        let is_beside = |it: &&NearbyVehicle| {
             let across_m = (it.across_m - moment.across_m).abs();
             across_m < BESIDE_M && !moment.is_in_way(it) && (-SIGHT_M[1]..SIGHT_M[0] / 2.0).contains(&it.ahead_m)
         };

@@ -16,9 +16,11 @@
 mod acceleration;
 mod car_following;
 mod driver;
+mod model;
 
 pub use car_following::CarFollowing;
 pub use driver::PredictedDriver;
+pub use model::MotionModel;
 
 /// Time between two places of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
@@ -50,12 +52,12 @@ pub struct TrafficMoment {
     /// The highest speed that is permitted, where that is known \[m/s\].
     pub speed_limit_mps: Option<f64>,
     /// The others, in any order.
-    pub others: Vec<Neighbour>,
+    pub others: Vec<NearbyVehicle>,
 }
 
 /// Another vehicle at that moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Neighbour {
+pub struct NearbyVehicle {
     /// How far its middle is ahead along the lane \[m\].
     pub ahead_m: f64,
     /// Its place across the lane \[m\].
@@ -70,15 +72,15 @@ pub struct Neighbour {
 
 impl TrafficMoment {
     /// The others in the lane ahead, the nearest first.
-    pub fn leaders(&self) -> Vec<Neighbour> {
-        let mut ahead: Vec<Neighbour> =
+    pub fn leaders(&self) -> Vec<NearbyVehicle> {
+        let mut ahead: Vec<NearbyVehicle> =
             self.others.iter().copied().filter(|it| it.ahead_m > 0.0 && self.is_in_way(it)).collect();
         ahead.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
         ahead
     }
 
     /// Whether a vehicle overlaps this one across the lane.
-    fn is_in_way(&self, other: &Neighbour) -> bool {
+    fn is_in_way(&self, other: &NearbyVehicle) -> bool {
         (other.across_m - self.across_m).abs() < 0.5 * (other.width_m + self.width_m)
     }
 
@@ -89,7 +91,7 @@ impl TrafficMoment {
     }
 
     /// The gap between bumpers to a vehicle ahead \[m\].
-    pub fn gap_m(&self, leader: &Neighbour) -> f64 {
+    pub fn gap_m(&self, leader: &NearbyVehicle) -> f64 {
         leader.ahead_m - 0.5 * (leader.length_m + self.length_m)
     }
 }
@@ -128,52 +130,18 @@ impl LateralMotion {
     }
 }
 
-/// A model of how a vehicle goes on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MotionModel {
-    /// Speed and lateral place are kept.
-    ConstantVelocity,
-    /// The acceleration decays within about `time_s`.
-    DecayingAcceleration {
-        /// The time within which the acceleration falls to 37 % \[s\].
-        time_s: f64,
-        /// Noise of the record with which half of the acceleration is trusted \[m/s\].
-        half_noise_mps: f64,
-        /// How the lateral place goes on.
-        lateral: LateralMotion,
-    },
-    /// The intelligent driver model.
-    CarFollowing(CarFollowing),
-    /// Our human driver.
-    Driver(PredictedDriver),
-}
-
-impl MotionModel {
-    /// Where the model expects the vehicle.
-    pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
-        match self {
-            MotionModel::ConstantVelocity => acceleration::predict(moment, None, LateralMotion::Kept),
-            MotionModel::DecayingAcceleration { time_s, half_noise_mps, lateral } => {
-                acceleration::predict(moment, Some([*time_s, *half_noise_mps]), *lateral)
-            }
-            MotionModel::CarFollowing(model) => model.predict(moment),
-            MotionModel::Driver(model) => model.predict(moment),
-        }
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
 
     /// A car at 20 m/s with somebody ahead.
     pub(crate) fn behind(gap_m: f64, leader_mps: f64) -> TrafficMoment {
-        let leader = Neighbour {
+        let leader = NearbyVehicle {
             ahead_m: gap_m + 4.5,
             speed_mps: leader_mps,
             length_m: 4.5,
             width_m: 1.8,
-            ..Neighbour::default()
+            ..NearbyVehicle::default()
         };
         TrafficMoment {
             speed_mps: 20.0,
@@ -227,9 +195,9 @@ pub(crate) mod tests {
     #[test]
     fn the_nearest_ahead_in_the_lane_leads() {
         let mut moment = behind(30.0, 10.0);
-        moment.others.push(Neighbour { ahead_m: 10.0, across_m: 3.5, width_m: 1.8, ..Neighbour::default() });
-        moment.others.push(Neighbour { ahead_m: -10.0, width_m: 1.8, ..Neighbour::default() });
-        moment.others.push(Neighbour { ahead_m: 50.0, width_m: 1.8, ..Neighbour::default() });
+        moment.others.push(NearbyVehicle { ahead_m: 10.0, across_m: 3.5, width_m: 1.8, ..NearbyVehicle::default() });
+        moment.others.push(NearbyVehicle { ahead_m: -10.0, width_m: 1.8, ..NearbyVehicle::default() });
+        moment.others.push(NearbyVehicle { ahead_m: 50.0, width_m: 1.8, ..NearbyVehicle::default() });
         let leaders = moment.leaders();
         assert_eq!((leaders.len(), leaders[0].ahead_m), (2, 34.5));
         assert_eq!(moment.gap_m(&leaders[0]), 30.0);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use interplay_recordings::{Estimate, FittedDriver, Recordings, RecordingsError, fit_driver};
+use interplay_recordings::{FittedDriver, MeasureInterval, Recordings, RecordingsError, fit_driver};
 
 use super::predict::refused;
 use crate::output::exit_status::ExitStatus;
@@ -67,7 +67,7 @@ impl Fit {
 fn text(fitted: &[FittedDriver]) -> String {
     let mut text = String::new();
     for driver in fitted {
-        let of = |it: Estimate| format!("{:.2} [{:.2} to {:.2}]", it.value, it.low, it.high);
+        let of = |it: MeasureInterval| format!("{:.2} [{:.2} to {:.2}]", it.value, it.low, it.high);
         // Writing to a text cannot fail.
         let _ = writeln!(
             text,

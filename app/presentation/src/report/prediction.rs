@@ -2,20 +2,22 @@
 
 use std::fmt::Write;
 
-use interplay_recordings::{ComparedModel, Comparison, DrivingStatistics, Estimate, GroupComparison, Quantiles};
+use interplay_recordings::{
+    ComparedModel, DrivingStatistics, GroupComparison, MeasureInterval, PredictionComparison, Spread,
+};
 
 use super::columns::Align::{Left, Right};
 use super::columns::{Align, lines};
 
 /// A comparison as a text: for each group of recordings a table of errors, then what was fitted.
-pub fn prediction(comparison: &Comparison) -> String {
+pub fn prediction(comparison: &PredictionComparison) -> String {
     let mut text = String::new();
     // Writing to a text cannot fail.
     let _ = write_comparison(&mut text, comparison);
     text
 }
 
-fn write_comparison(text: &mut String, comparison: &Comparison) -> std::fmt::Result {
+fn write_comparison(text: &mut String, comparison: &PredictionComparison) -> std::fmt::Result {
     for group in &comparison.groups {
         let GroupComparison { name, starts, cars, .. } = group;
         writeln!(text, "{name}: {starts} starts of {cars} cars that no model was fitted on")?;
@@ -100,7 +102,7 @@ fn rates_header() -> [(&'static str, Align); 7] {
 fn rates_row(compared: &ComparedModel) -> Vec<String> {
     let measures = &compared.measures;
     let third = measures.horizons.get(2);
-    let number = |it: Option<Estimate>| it.map_or_else(String::new, |it| format!("{:.2}", it.value));
+    let number = |it: Option<MeasureInterval>| it.map_or_else(String::new, |it| format!("{:.2}", it.value));
     vec![
         compared.model.name.clone(),
         number(third.map(|errors| errors.across_rmse_m)),
@@ -127,7 +129,7 @@ fn driving_header() -> Vec<(&'static str, Align)> {
 }
 
 fn driving_row(driving: &DrivingStatistics) -> Vec<String> {
-    let spread = |it: Option<Quantiles>| {
+    let spread = |it: Option<Spread>| {
         it.map_or_else(String::new, |it| format!("{:.2} [{:.2} to {:.2}]", it.median, it.low, it.high))
     };
     let below = driving.time_gap_below_half_share;
@@ -145,11 +147,11 @@ fn driving_row(driving: &DrivingStatistics) -> Vec<String> {
 }
 
 /// A share with its interval.
-fn share(estimate: Estimate) -> String {
+fn share(estimate: MeasureInterval) -> String {
     let [value, low, high] = [estimate.value, estimate.low, estimate.high].map(|share| 100.0 * share);
     format!("{value:.1} % [{low:.1} to {high:.1}]")
 }
 
-fn optional(estimate: Option<Estimate>) -> String {
+fn optional(estimate: Option<MeasureInterval>) -> String {
     estimate.map_or_else(|| "no map".to_owned(), share)
 }

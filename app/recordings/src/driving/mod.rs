@@ -12,7 +12,7 @@ use lane_changes::LaneChange;
 
 /// The quantiles at 5, 50 and 95 % of some numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Quantiles {
+pub struct Spread {
     /// How many numbers there are.
     pub count: usize,
     /// 5 % are below.
@@ -29,25 +29,25 @@ pub struct DrivingStatistics {
     /// Name of the group.
     pub name: String,
     /// Time gaps between bumpers to vehicles ahead in the lane within 60 m, at each second of those faster than 3 m/s \[s\].
-    pub time_gap_s: Option<Quantiles>,
+    pub time_gap_s: Option<Spread>,
     /// Share of these gaps below 0.5 s.
     pub time_gap_below_half_share: Option<f64>,
     /// Of each vehicle that follows steadily, the median time gap beyond 3.5 m \[s\].
-    pub steady_time_gap_s: Option<Quantiles>,
+    pub steady_time_gap_s: Option<Spread>,
     /// Of the same vehicles, the standard deviation of its logarithm.
     pub steady_time_gap_deviation: Option<f64>,
     /// The hardest braking of each vehicle, as a slope over 1.2 s \[m/s²\].
-    pub peak_braking_mps2: Option<Quantiles>,
+    pub peak_braking_mps2: Option<Spread>,
     /// The change of that slope from one second to the next, without sign \[m/s³\].
-    pub jerk_mps3: Option<Quantiles>,
+    pub jerk_mps3: Option<Spread>,
     /// Time gaps to the vehicle ahead in the new lane when a change of lane crosses the line \[s\].
-    pub accepted_lead_gap_s: Option<Quantiles>,
+    pub accepted_lead_gap_s: Option<Spread>,
     /// Time gaps of the vehicle behind in the new lane at that moment \[s\].
-    pub accepted_lag_gap_s: Option<Quantiles>,
+    pub accepted_lag_gap_s: Option<Spread>,
     /// The hardest braking of the vehicle behind in the 3 s after it \[m/s²\].
-    pub lag_braking_mps2: Option<Quantiles>,
+    pub lag_braking_mps2: Option<Spread>,
     /// How long a change of lane lasts \[s\].
-    pub lane_change_s: Option<Quantiles>,
+    pub lane_change_s: Option<Spread>,
 }
 
 /// A vehicle follows another one within this distance \[m\].
@@ -153,11 +153,11 @@ fn followed(known: &TrafficMoment) -> Option<(f64, f64)> {
 }
 
 /// The quantiles of some numbers; none without any.
-fn quantiles(mut numbers: Vec<f64>) -> Option<Quantiles> {
+fn quantiles(mut numbers: Vec<f64>) -> Option<Spread> {
     numbers.sort_by(f64::total_cmp);
     let last = numbers.len().checked_sub(1)?;
     let at = |share: f64| numbers[(share * last as f64).round() as usize];
-    Some(Quantiles { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
+    Some(Spread { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
 }
 
 /// The standard deviation of some numbers; none for fewer than two.

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::error::RecordingsError;
-use crate::measure::Estimate;
+use crate::measure::MeasureInterval;
 use crate::traffic::Recordings;
 use candidates::{COMFORTS, RATIOS, WANTED_RATIOS, driver, safety_weight, style_of};
 use evidence::{Evidence, evidence};
@@ -32,11 +32,11 @@ pub struct FittedDriver {
     /// On how many starts with somebody ahead it was fitted.
     pub starts: usize,
     /// The time gap that it keeps beyond 3.5 m \[s\].
-    pub time_gap_s: Estimate,
+    pub time_gap_s: MeasureInterval,
     /// The weight of changes of its acceleration \[s⁴/m²\].
-    pub acceleration_change: Estimate,
+    pub acceleration_change: MeasureInterval,
     /// The safety weight of which our humans keep that time gap.
-    pub safety_weight: Estimate,
+    pub safety_weight: MeasureInterval,
     /// The style whose weight is nearest to it.
     pub style: &'static str,
     /// The speed that it wants \[m/s\].
@@ -98,12 +98,12 @@ fn fitted(vehicle: &str, evidence: &Evidence) -> FittedDriver {
         let mut values: Vec<f64> = drawn.iter().map(|drawn| drawn[index]).collect();
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
-        Estimate { value, low: at(0.025).min(value) / steps[0], high: at(0.975).max(value) * steps[1] }
+        MeasureInterval { value, low: at(0.025).min(value) / steps[0], high: at(0.975).max(value) * steps[1] }
     };
     let gap = interval(ratio, 0, [candidates::RATIO_STEP; 2]);
-    let scaled = |by: f64| Estimate { value: by * gap.value, low: by * gap.low, high: by * gap.high };
+    let scaled = |by: f64| MeasureInterval { value: by * gap.value, low: by * gap.low, high: by * gap.high };
     let weight = |ratio: f64| safety_weight(ratio);
-    let safety = Estimate { value: weight(gap.value), low: weight(gap.low), high: weight(gap.high) };
+    let safety = MeasureInterval { value: weight(gap.value), low: weight(gap.low), high: weight(gap.high) };
     let best: PredictedDriver = driver(ratio, comfort, wanted_mps);
     FittedDriver {
         vehicle: vehicle.to_owned(),

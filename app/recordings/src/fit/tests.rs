@@ -1,7 +1,7 @@
 //! Drivers are recovered from what they drove: our human follows a car that changes its speed, with disturbances, and is fitted.
 
 use interplay_common::random::Random;
-use interplay_planners::motion_prediction::{MotionModel, Neighbour, STEP_S, TrafficMoment};
+use interplay_planners::motion_prediction::{MotionModel, NearbyVehicle, STEP_S, TrafficMoment};
 use interplay_scenarios::{RecordedMoment, RecordedTraffic, RecordedVehicle};
 
 use super::*;
@@ -23,12 +23,12 @@ fn driven(ratio: f64, comfort: f64, seed: u64) -> Recordings {
         for (rows, [along_m, speed_mps, _]) in rows.iter_mut().zip([leader, own]) {
             rows.push(RecordedMoment { step: step as i64, position: [along_m, 0.0], heading_rad: 0.0, speed_mps });
         }
-        let ahead = Neighbour {
+        let ahead = NearbyVehicle {
             ahead_m: leader[0] - own[0],
             speed_mps: leader[1],
             length_m: 4.5,
             width_m: 1.8,
-            ..Neighbour::default()
+            ..NearbyVehicle::default()
         };
         let known = TrafficMoment {
             speed_mps: own[1],
@@ -100,7 +100,7 @@ fn coverage_of_the_intervals() {
     for seed in 0..COUNT {
         let (ratio, comfort) = (random.uniform(0.55, 1.6), libm::exp(random.uniform(libm::log(0.05), libm::log(0.5))));
         let found = fit_driver(&driven(ratio, comfort, 100 + seed), "own").expect("it followed somebody");
-        let has = |it: Estimate, truth: f64| u32::from((it.low..=it.high).contains(&truth));
+        let has = |it: MeasureInterval, truth: f64| u32::from((it.low..=it.high).contains(&truth));
         covered[0] += has(found.time_gap_s, USUAL_GAP_S * ratio);
         covered[1] += has(found.acceleration_change, comfort);
         println!("{ratio:.2} {:?} | {comfort:.2} {:?}", found.time_gap_s, found.acceleration_change);

@@ -3,7 +3,8 @@
 use interplay_common::random::Random;
 use rayon::prelude::*;
 
-use super::{Estimate, Outcome};
+use super::estimate::MeasureInterval;
+use super::outcome::Outcome;
 
 /// How often cars are drawn again.
 const RESAMPLES: u64 = 1000;
@@ -65,12 +66,16 @@ impl Resamples {
     }
 
     /// A function of mean values with its interval.
-    pub(crate) fn estimate<const N: usize>(&self, sums: &[Sums; N], value: impl Fn([f64; N]) -> f64) -> Estimate {
+    pub(crate) fn estimate<const N: usize>(
+        &self,
+        sums: &[Sums; N],
+        value: impl Fn([f64; N]) -> f64,
+    ) -> MeasureInterval {
         let of = |counts: &[u32]| value(std::array::from_fn(|index| sums[index].mean(counts)));
         let mut drawn: Vec<f64> = self.counts.iter().map(|counts| of(counts)).collect();
         drawn.sort_by(f64::total_cmp);
         let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
-        Estimate { value: of(&vec![1; self.cars]), low: at(0.025), high: at(0.975) }
+        MeasureInterval { value: of(&vec![1; self.cars]), low: at(0.025), high: at(0.975) }
     }
 }
 

@@ -1,25 +1,16 @@
 //! What predictions are judged by.
 
 mod bootstrap;
+mod estimate;
 mod outcome;
 
 pub(crate) use bootstrap::{Resamples, Sums};
+pub use estimate::MeasureInterval;
 pub(crate) use outcome::{Outcome, Scales};
 
 use serde::Serialize;
 
 use crate::start::HORIZONS_S;
-
-/// A number with its interval at 95 %, by a bootstrap over cars.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
-    /// The number.
-    pub value: f64,
-    /// The lower bound.
-    pub low: f64,
-    /// The upper bound.
-    pub high: f64,
-}
 
 /// Errors at a horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -27,12 +18,12 @@ pub struct HorizonErrors {
     /// The time after the start \[s\].
     pub horizon_s: f64,
     /// Root mean squared error along the road \[m\].
-    pub along_rmse_m: Estimate,
+    pub along_rmse_m: MeasureInterval,
     /// Root mean squared error across the road \[m\].
-    pub across_rmse_m: Estimate,
+    pub across_rmse_m: MeasureInterval,
     /// Mean negative log-likelihood of the place under Laplace distributions along and across the road, whose scales are the mean
     /// errors on the half of the cars that models are fitted on.
-    pub negative_log_likelihood: Estimate,
+    pub negative_log_likelihood: MeasureInterval,
 }
 
 /// How well a model predicts.
@@ -41,17 +32,17 @@ pub struct ModelMeasures {
     /// Errors after 1 to 5 s.
     pub horizons: Vec<HorizonErrors>,
     /// Share of the predictions that are more than 2 m off after 3 s.
-    pub miss_share: Estimate,
+    pub miss_share: MeasureInterval,
     /// Share of the predictions whose body overlaps another recorded one within 3 s.
-    pub contact_share_3s: Estimate,
+    pub contact_share_3s: MeasureInterval,
     /// The same within 5 s.
-    pub contact_share_5s: Estimate,
+    pub contact_share_5s: MeasureInterval,
     /// Share of the predictions whose middle is on no lane after 3 s; none where there is no map.
-    pub off_road_share: Option<Estimate>,
+    pub off_road_share: Option<MeasureInterval>,
     /// Error along the road after 3 s as a share of that of constant velocity.
-    pub along_ratio_to_constant_velocity: Estimate,
+    pub along_ratio_to_constant_velocity: MeasureInterval,
     /// The same as a share of that of the fitted IDM without a lag.
-    pub along_ratio_to_idm: Estimate,
+    pub along_ratio_to_idm: MeasureInterval,
 }
 
 /// The measures of a model on some outcomes; the outcomes of constant velocity and of the fitted IDM at the same starts stand beside them.

@@ -1,9 +1,9 @@
 //! What is known of a car at a moment. Nothing here reads what was recorded after it.
 
-use interplay_planners::motion_prediction::{Neighbour, TrafficMoment};
+use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
 use interplay_scenarios::RecordedMoment;
 
-use super::PAST_S;
+use super::times::PAST_S;
 use crate::geometry::LaneLine;
 use crate::traffic::{Timeline, Track};
 
@@ -69,7 +69,7 @@ fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
 }
 
 /// Another vehicle in the frame of a lane; none for one that is far away or goes another way.
-fn neighbour(other: &Track, step: i64, (from, way, along_m): ([f64; 2], &LaneLine, f64)) -> Option<Neighbour> {
+fn neighbour(other: &Track, step: i64, (from, way, along_m): ([f64; 2], &LaneLine, f64)) -> Option<NearbyVehicle> {
     let at = other.at(step)?;
     if libm::hypot(at.position[0] - from[0], at.position[1] - from[1]) > SIGHT_M {
         return None;
@@ -79,7 +79,7 @@ fn neighbour(other: &Track, step: i64, (from, way, along_m): ([f64; 2], &LaneLin
     if cos < MIN_COS || place.across_m.abs() > ACROSS_M {
         return None;
     }
-    Some(Neighbour {
+    Some(NearbyVehicle {
         ahead_m: place.along_m - along_m,
         across_m: place.across_m,
         speed_mps: at.speed_mps * cos,

@@ -2,7 +2,7 @@
 
 use interplay_scenarios::RecordedMoment;
 
-use super::HORIZONS_S;
+use super::times::HORIZONS_S;
 use crate::geometry::{Box2, LaneLine};
 use crate::traffic::{Timeline, Track};
 

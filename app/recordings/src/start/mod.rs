@@ -5,9 +5,11 @@
 
 mod known;
 mod later;
+mod times;
 
 pub(crate) use known::known_at;
 pub(crate) use later::{Later, Truth};
+pub(crate) use times::{HORIZONS_S, PAST_S};
 
 use interplay_planners::motion_prediction::TrafficMoment;
 use rayon::prelude::*;
@@ -15,10 +17,6 @@ use rayon::prelude::*;
 use crate::geometry::LaneLine;
 use crate::traffic::{Recordings, Timeline};
 
-/// How long before a start its slopes begin \[s\].
-pub(crate) const PAST_S: f64 = 1.2;
-/// The horizons at which predictions are judged \[s\].
-pub(crate) const HORIZONS_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 /// Time between two starts of one car \[s\].
 const BETWEEN_S: f64 = 1.0;
 /// Who is slower stands, and where it will be is no question \[m/s\].

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Timeline;
+use super::timeline::Timeline;
 
 /// Who stands or crawls may be where somebody else was, so that its rows prove nothing \[m/s\].
 const MIN_SPEED_MPS: f64 = 0.5;
