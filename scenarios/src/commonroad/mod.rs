@@ -12,6 +12,7 @@ mod map;
 mod model;
 mod moved;
 mod options;
+mod traffic;
 mod xml;
 
 use std::fmt::Write;
@@ -30,6 +31,7 @@ pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;
 pub use options::{ImportOptions, Replacement};
+pub use traffic::recorded_traffic_in_commonroad;
 use xml::{Unread, Xml};
 
 /// How much of a file tells whether it is a scenario \[bytes\].
