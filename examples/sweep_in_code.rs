@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         folder: &folder,
         shard: Shard::WHOLE,
         keep: None,
+        trajectories: false,
         checked: &|| (),
         begin: &|to_make, there| println!("{to_make} runs to make, {there} are there"),
         advance: &|| (),

@@ -53,12 +53,12 @@ impl Scene {
         0.5 * (ego.front_m + ego.rear_m + body.front_m + body.rear_m) + gap_m
     }
 
-    /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, and
-    /// the firm one; none for a driver who knows no comfort \[m\].
-    pub(crate) fn following_axes_m(&self, leader: &Agent, weight: f64) -> Option<[f64; 2]> {
+    /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, who may
+    /// state which multiple of the usual time gap it keeps, and the firm one; none for a driver who knows no comfort \[m\].
+    pub(crate) fn following_axes_m(&self, leader: &Agent, (weight, ratio): (f64, Option<f64>)) -> Option<[f64; 2]> {
         let time_gap_s = self.ego.limits.comfort?.time_gap_s;
         let (standstill_m, speed_mps) = (STANDSTILL_GAP_M * self.ego.body.scale, self.ego.state.speed_mps);
-        let comfortable_m = standstill_m + share_of(weight) * time_gap_s * speed_mps;
+        let comfortable_m = standstill_m + ratio.unwrap_or_else(|| share_of(weight)) * time_gap_s * speed_mps;
         let firm_m = 0.5 * standstill_m + FIRM_SHARE * time_gap_s * speed_mps;
         Some([comfortable_m, firm_m].map(|gap_m| self.half_axis_m(leader, gap_m)))
     }

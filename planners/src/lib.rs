@@ -12,6 +12,7 @@
 //!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
 //!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
 //! - [`posing`]: from a scene to the terms of a trajectory problem, of one vehicle or of several that decide together
+//! - [`motion_prediction`]: how one vehicle of real traffic goes on, by several models
 //! - [`homotopy`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
 //! - [`traffic`]: the closed loop of all vehicles on a road
@@ -90,6 +91,7 @@ mod giving_way;
 pub mod homotopy;
 pub mod human;
 pub mod idm;
+pub mod motion_prediction;
 pub mod nash;
 pub mod negotiation;
 mod obstacle;

@@ -64,6 +64,7 @@ mod json_schema;
 mod load;
 mod metric;
 mod read;
+mod recorded_traffic;
 mod registry;
 mod resolve;
 mod road;
@@ -76,7 +77,10 @@ mod write;
 
 pub use budget::RunCost;
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
-pub use commonroad::{ImportOptions, Imported, Replacement, import_commonroad, import_commonroad_file, is_commonroad};
+pub use commonroad::{
+    CommonRoadExport, DrivenVehicle, Exported, ImportOptions, Imported, Replacement, import_commonroad,
+    import_commonroad_file, is_commonroad, recorded_traffic_in_commonroad,
+};
 pub use error::{Fault, LoadError};
 pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};
@@ -110,6 +114,9 @@ pub use read::embedded::{Embedded, embedded};
 pub use read::overrides::Override;
 pub use read::regular_file::{open_regular, read_regular};
 pub use read::source::Source;
+pub use recorded_traffic::{
+    RecordedLane, RecordedMoment, RecordedTraffic, RecordedVehicle, recorded_traffic_in_table, recorded_traffic_in_text,
+};
 pub use registry::{Registry, RegistryError, schema};
 pub use road::*;
 pub use scenario::conflict_zones::ConflictZone;

@@ -17,9 +17,13 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("scenarios", &["common", "planners", "building"]),
     ("app/simulation", &["planners", "building", "scenarios"]),
     ("app/files", &[]),
+    ("app/recordings", &["common", "planners", "scenarios"]),
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
     ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
-    ("app/presentation", &["common", "planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
+    (
+        "app/presentation",
+        &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
+    ),
     (
         "app/cli",
         &[
@@ -27,6 +31,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "building",
             "scenarios",
             "app/files",
+            "app/recordings",
             "app/simulation",
             "app/fmu",
             "app/sweep",

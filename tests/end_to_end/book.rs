@@ -40,6 +40,8 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay view ", "waits for a viewer: see `authoring`"),
     ("interplay run mine.toml --watch", "never ends: see `authoring`"),
     ("interplay run lane-change/front-tough --connect", "needs a viewer that listens"),
+    ("interplay predict us101/", "the recordings are not part of this repository; the mechanism is in `predictions`"),
+    ("interplay fit USA_US101", "the same"),
     ("interplay identify dutch3/", "the measurements are not part of this repository"),
 ];
 

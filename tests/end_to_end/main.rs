@@ -9,6 +9,7 @@
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - vehicles that were recorded, scenarios of others, and maps far from the origin: [`recorded`]
+//! - how recorded cars are predicted, and drivers fitted to them: [`predictions`]
 //! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
 //!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
@@ -47,6 +48,7 @@ mod output;
 mod own;
 mod packages;
 mod plants;
+mod predictions;
 mod recorded;
 mod recordings;
 mod rectangles;

@@ -4,7 +4,7 @@
 
 FOLDER has files in the XML format of CommonRoad, versions 2018b and 2020a; for instance a checkout of CommonRoad/commonroad-io. A file
 passes if `import`, `check` and `run` of what was imported end without an error and the XML as it is passes `check`. A file that is
-refused is counted under one of the reasons below, which were fixed beforehand; anything else, a panic above all, is a failure. Without
+refused is counted under one of the reasons of `commonroad_reasons.txt`, which were fixed beforehand; anything else, a panic above all, is a failure. Without
 files the script says that it skips.
 """
 
@@ -16,16 +16,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-REASONS = {
-    "no lanelet for vehicles": r"no lanelet on which a vehicle can drive",
-    "no room for a car": r"no car can drive along a lane",
-    "no vehicle": r"no vehicle can be placed",
-    "too many lanelets": r"`road\.lane` must have at most",
-    "another version of the format": r"version `.*` of CommonRoad is not read",
-    "no well-formed XML": r"not valid XML",
-    "missing or wrong element": r"has no (attribute )?`|which is no number|it needs three|it must be above 0",
-    "no network of lanes": r"are no network of lanes",
-}
+LISTED = Path(__file__).with_name("commonroad_reasons.txt").read_text().splitlines()
+REASONS = dict(line.split(": ", 1) for line in LISTED if line and not line.startswith("#"))
 
 
 def said(output):
@@ -49,7 +41,7 @@ def outcome(path, program, seconds):
             for words in [("check", "imported.toml"), ("check", str(path.resolve())), ("run", "imported.toml", "--no-record")]:
                 done = imported if imported.returncode else interplay(folder, *words)
                 if done.returncode:
-                    return f"FAILED: {words[0]} ends with {done.returncode}: {said(done)[:200]}", notes
+                    return f"FAILED: {words[0]} ends with {done.returncode}: {said(done)[:300]}", notes
         except subprocess.TimeoutExpired as late:
             return f"FAILED: {late.cmd[1]} takes more than {seconds} s", []
     return "runs", notes

@@ -24,8 +24,8 @@ use interplay_scenarios::Registry;
 use interplay_simulation::measure::RegisterMetrics;
 
 use commands::{
-    check, compare, completions, export_fmu, identify, import, list, man, new, reproduce, run, schema, suite, sweep,
-    view, why,
+    check, compare, completions, export_fmu, fit, identify, import, list, man, new, predict, reproduce, run, schema,
+    suite, sweep, view, why,
 };
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
@@ -49,6 +49,8 @@ enum Command {
     Compare(compare::Compare),
     New(new::New),
     Import(import::Import),
+    Predict(predict::Predict),
+    Fit(fit::Fit),
     Schema(schema::Schema),
     View(view::View),
     Reproduce(reproduce::Reproduce),
@@ -94,6 +96,8 @@ fn run_command(registry: &Registry) -> ExitCode {
         Some(Command::Compare(command)) => command.execute(registry),
         Some(Command::New(command)) => command.execute(registry),
         Some(Command::Import(command)) => command.execute(registry),
+        Some(Command::Predict(command)) => command.execute(),
+        Some(Command::Fit(command)) => command.execute(),
         Some(Command::Schema(command)) => command.execute(registry),
         Some(Command::View(command)) => command.execute(),
         Some(Command::Reproduce(command)) => command.execute(),

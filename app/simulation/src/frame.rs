@@ -1,9 +1,10 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
 use interplay_building::control::Design;
+use interplay_planners::diagnostic;
 use interplay_planners::rules::RoadRules;
 pub use interplay_planners::traffic::Origin;
-use interplay_planners::{Input, Plan, State, Trajectory};
+use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
 use serde::Serialize;
 
 use crate::day::DayFigures;
@@ -95,6 +96,21 @@ pub struct VehicleFrame {
     pub urgency: f64,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
+}
+
+impl VehicleFrame {
+    /// The cost of the plan; none of a plan that no cost chose.
+    pub fn plan_cost(&self) -> Option<f64> {
+        self.plan.value_of(&diagnostic::COST)
+    }
+
+    /// With whom its planner deals from this tick on, or that it deals with nobody; none where that has not changed.
+    pub fn new_partner(&self) -> Option<Option<&str>> {
+        self.plan.events.iter().rev().find_map(|event| match &event.kind {
+            PlanEventKind::Partner(partner) => Some(partner.as_deref()),
+            _ => None,
+        })
+    }
 }
 
 /// The distance between the footprints of two vehicles.

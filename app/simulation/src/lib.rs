@@ -30,6 +30,7 @@ pub mod act;
 pub mod climate;
 pub mod components;
 pub mod day;
+pub mod driven;
 mod external;
 pub mod frame;
 pub mod measure;

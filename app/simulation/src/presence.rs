@@ -1,6 +1,8 @@
 //! Who is on the road: vehicles come and leave at the times that the scenario states, or leave where their routes end.
 
 use bevy_ecs::prelude::*;
+use interplay_planners::State;
+use interplay_planners::recorded::next_to;
 use interplay_scenarios::Stay;
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion, Sensed, VehicleParameters};
@@ -37,7 +39,7 @@ impl Presence {
 
 /// Lets vehicles come whose time has come and for whom there is room, and others leave. Runs in ticks in which vehicles plan.
 pub fn come_and_go(
-    mut vehicles: Query<(&Identity, &Motion, &VehicleParameters, &mut Presence)>,
+    mut vehicles: Query<(&Identity, &mut Motion, &VehicleParameters, &mut Presence)>,
     clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
     mut current_frame: ResMut<CurrentFrame>,
@@ -68,6 +70,12 @@ pub fn come_and_go(
             frame.events.push(Event { vehicle, level: Level::Note, text: text.to_owned() });
         }
         **presence = now;
+        if let Some(state) = parameters.record.as_ref().and_then(|record| record.state_at(clock.time_s())) {
+            // Whoever was recorded comes where the record is by now.
+            motion.state = State { heading_rad: next_to(state.heading_rad, motion.state.heading_rad), ..state };
+            traffic.road_users[index].agent.state = motion.state;
+            frame.vehicles[index].state = motion.state;
+        }
         traffic.road_users[index].is_absent = now.is_absent();
         frame.vehicles[index].is_absent = now.is_absent();
     }

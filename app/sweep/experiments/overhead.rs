@@ -47,6 +47,7 @@ fn by_sweep(plan: &SweepPlan) -> Result<(f64, f64), Box<dyn Error>> {
         folder: folder.path(),
         shard: Shard::WHOLE,
         keep: None,
+        trajectories: false,
         checked: &|| {},
         begin: &|_, _| {},
         advance: &|| {},

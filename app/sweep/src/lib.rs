@@ -22,6 +22,7 @@
 //!     folder: folder.path(),
 //!     shard: Shard::WHOLE,
 //!     keep: None,
+//!     trajectories: false,
 //!     checked: &|| (),
 //!     begin: &|_, _| (),
 //!     advance: &|| (),
@@ -47,6 +48,7 @@ mod shard;
 mod statistics;
 mod sweep;
 mod table;
+mod trajectories;
 mod version;
 
 pub use error::SweepError;
@@ -56,4 +58,5 @@ pub use row::SweepRow;
 pub use shard::{Shard, ShardError};
 pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
 pub use table::{RowTable, TableColumn};
+pub use trajectories::{TrajectoryFile, TrajectoryFormat, TrajectoryFormatError, TrajectoryWriter};
 pub use version::program_version;

@@ -16,6 +16,7 @@ use crate::measure::measured_run;
 use crate::row::SweepRow;
 use crate::shard::Shard;
 use crate::table::write_rows;
+use crate::trajectories::TrajectoryFile;
 
 /// The file with the rows of a whole plan.
 pub const RUNS_FILE: &str = "runs.parquet";
@@ -36,6 +37,8 @@ pub struct SweepOptions<'a> {
     pub shard: Shard,
     /// What to do with a run that failed.
     pub keep: Option<KeepRecording<'a>>,
+    /// Whether each run that is made leaves what every vehicle did, as `trajectories/KEY.parquet` in the folder.
+    pub trajectories: bool,
     /// Called after each run that is checked, from several threads.
     pub checked: &'a (dyn Fn() + Sync),
     /// Called when the plan is checked, with how many runs are to be made and how many are there.
@@ -90,7 +93,8 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     part.to_make.par_iter().with_max_len(1).try_for_each(|(key, index)| {
         let point = plan.point(*index);
         let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(Box::new(error)))?;
-        let row = measured_run(*key, &point, &scenario);
+        let trajectories = options.trajectories.then(|| TrajectoryFile::of_run(folder, key));
+        let row = measured_run(*key, &point, &scenario, trajectories.as_ref())?;
         if let Some(keep) = options.keep.filter(|_| row.is_failure()) {
             keep(&row, &scenario).map_err(SweepError::Recording)?;
         }

@@ -48,10 +48,15 @@
 //! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
 //!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
 //!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
+//! - A driver who **adapts to the flow** (`adapts_to_leaders`, `adapts_to_lane`, module `flow`) wants a speed between that of its goal
+//!   and those of the vehicles in its lane.
+//! - A driver of the style **`measured`** is a member of a population that is spread like recorded people (module `population`).
 //! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
 mod closing;
 pub mod diagnostics;
+mod flow;
+mod population;
 mod settings;
 mod sighting;
 
@@ -95,6 +100,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
+        let settings = settings.driven();
         let mut optimiser = Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders);
         // Discomfort begins without a slope, so that two classes often cost nearly the same; and small problems are solved soon.
         optimiser.tolerances.exploration_share = 0.0;
@@ -159,6 +165,10 @@ impl Drive for Human {
         let seen = self.perception.perceive(scene, self.settings.reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
+        let adapts = [self.settings.adapts_to_leaders, self.settings.adapts_to_lane];
+        if let Some(speed_mps) = flow::adapted_speed_mps(&seen, adapts) {
+            wanted.to_mut().goal.target.speed_mps = speed_mps;
+        }
         if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
@@ -200,7 +210,7 @@ impl Drive for Human {
     }
 
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
-        let settings = *settings_of::<Settings>(settings)?;
+        let settings = settings_of::<Settings>(settings)?.driven();
         let optimiser = self.optimiser.clone().searching(settings.passing_orders);
         Some(Box::new(Human { settings, optimiser, ..self.clone() }))
     }
@@ -250,7 +260,7 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let mut comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
-    let axes_m = scene.following_axes_m(leader, settings.weight());
+    let axes_m = scene.following_axes_m(leader, (settings.weight(), settings.time_gap_ratio));
     if let Some([along_m, _]) = axes_m {
         comfortable.ellipses = ellipses(SafetyEllipse { along_m, across_m }, &scene.ego.route, &comfortable.centres);
     }

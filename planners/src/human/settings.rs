@@ -20,10 +20,13 @@ pub enum Style {
     Assertive,
     /// Yields to nobody who cuts in or crosses: weight 0. It still brakes for the vehicle ahead in its lane.
     Tough,
+    /// One of the drivers that were measured on real roads: its safety weight and its time gap are drawn from a population, by the seed of
+    /// the scenario and the vehicle's name.
+    Measured,
 }
 
 impl Style {
-    /// All styles, from the highest weight to the lowest.
+    /// The styles with a weight of their own, from the highest to the lowest.
     pub const ALL: [Style; 5] = [Style::Nice, Style::Considerate, Style::Normal, Style::Assertive, Style::Tough];
 
     /// The word for the style in a scenario file.
@@ -34,10 +37,11 @@ impl Style {
             Style::Normal => "normal",
             Style::Assertive => "assertive",
             Style::Tough => "tough",
+            Style::Measured => "measured",
         }
     }
 
-    /// The safety weight of the style.
+    /// The safety weight of the style; of measured drivers the median.
     pub fn safety_weight(self) -> f64 {
         match self {
             Style::Nice => 50.0,
@@ -45,6 +49,7 @@ impl Style {
             Style::Normal => 8.0,
             Style::Assertive => 2.0,
             Style::Tough => 0.0,
+            Style::Measured => 3.9,
         }
     }
 }
@@ -53,7 +58,8 @@ impl Style {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// A word for the safety weight: nice 50, considerate 20, normal 8, assertive 2, tough 0. Without it and without
+    /// A word for the safety weight: nice 50, considerate 20, normal 8, assertive 2, tough 0; `measured` draws a driver from those
+    /// that were measured on real roads. Without it and without
     /// `safety_weight` the driver is nice.
     #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
@@ -84,6 +90,24 @@ pub struct Settings {
     /// anew, it expects of them what it expected at the last decision. It watches the vehicle ahead all the time.
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "hesitation": 0.0 }))]
     pub hesitation_s: f64,
+    /// By which share of the difference the wanted speed moves towards the mean speed of at most three vehicles ahead in the lane; of
+    /// recorded people 0.27.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.27, extend("x-unit" = "dimensionless"))]
+    pub adapts_to_leaders: f64,
+    /// By which share of the difference the wanted speed moves towards the one that 85 % of the vehicles in the lane do not exceed; of
+    /// recorded people 0.1.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.1, extend("x-unit" = "dimensionless"))]
+    pub adapts_to_lane: f64,
+    /// The time gap that the driver keeps to the vehicle ahead, as a multiple of `limits.comfort.time_gap_s`. Without it 0.6 to 1.4, the more
+    /// the more safety weighs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0), example = 1.0, extend("x-unit" = "dimensionless"))]
+    pub time_gap_ratio: Option<f64>,
+    /// Which of the measured drivers it is, where the style is `measured`. Without it the seed of the scenario and the name of the vehicle
+    /// say so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 7, extend("x-unit" = "dimensionless"))]
+    pub member: Option<u32>,
 }
 
 impl Default for Settings {
@@ -97,6 +121,10 @@ impl Default for Settings {
             prediction: Prediction::ConstantVelocity,
             reaction_s: 0.0,
             hesitation_s: 0.0,
+            adapts_to_leaders: 0.0,
+            adapts_to_lane: 0.0,
+            time_gap_ratio: None,
+            member: None,
         }
     }
 }
@@ -104,6 +132,9 @@ impl Default for Settings {
 impl Settings {
     /// The style whose weight the driver has, in a word, or else the weight.
     pub(crate) fn manner(&self) -> String {
+        if self.style == Some(Style::Measured) {
+            return Style::Measured.name().to_owned();
+        }
         let weight = self.weight();
         let style = Style::ALL.into_iter().find(|style| style.safety_weight() == weight);
         style.map_or_else(|| format!("safety weight {weight}"), |style| style.name().to_owned())

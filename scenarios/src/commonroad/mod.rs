@@ -7,10 +7,12 @@
 //! What a scenario has no words for is left out, and said in a line for each kind of thing. Every error has the place in the imported
 //! text, also those that are found later, when the scenario is resolved.
 
+mod export;
 mod map;
 mod model;
 mod moved;
 mod options;
+mod traffic;
 mod xml;
 
 use std::fmt::Write;
@@ -25,9 +27,11 @@ use crate::read::regular_file::open_regular;
 use crate::read::source::imported_text;
 use crate::read::tree::{self, TomlNode};
 use crate::resolve::records;
+pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;
 pub use options::{ImportOptions, Replacement};
+pub use traffic::recorded_traffic_in_commonroad;
 use xml::{Unread, Xml};
 
 /// How much of a file tells whether it is a scenario \[bytes\].

@@ -150,6 +150,11 @@ impl<'a> Element<'a> {
         format!("`{}`{}", self.name(), id.unwrap_or_default())
     }
 
+    /// Its text as it is written, tags included.
+    pub(super) fn source(&self) -> &'a str {
+        self.node.document().input_text().get(self.node.range()).unwrap_or_default()
+    }
+
     /// Where it is written.
     pub(super) fn place(&self) -> Place {
         Place::new(self.document, self.node.range())

@@ -82,7 +82,7 @@ pub struct ScenarioFile {
     pub start_jitter: Option<Stated<StartJitter>>,
     /// The vehicles, one `[[vehicle]]` each.
     #[serde(rename = "vehicle", default)]
-    #[schemars(length(max = 64), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub vehicles: Vec<VehicleConfig>,
     /// What stands on the road or beside it and nobody drives, one `[[obstacle]]` each.
     #[serde(rename = "obstacle", default)]

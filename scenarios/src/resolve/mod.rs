@@ -1,6 +1,7 @@
 //! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
 
 pub(crate) mod local_origin;
+mod measured_drivers;
 pub(crate) mod placement;
 pub(crate) mod records;
 pub(crate) mod tariff_file;
@@ -101,6 +102,7 @@ fn read(
         remarks: ScenarioRemarks::default(),
         metrics: registry.metrics().clone(),
     };
+    measured_drivers::draw(&mut scenario.vehicles, scenario.seed);
     if let Some(period_s) = file.planning_period_s {
         scenario.ticks_per_plan = ticks_per_plan(period_s, scenario.step_s, tree)?;
     }

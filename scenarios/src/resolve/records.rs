@@ -31,7 +31,7 @@ pub(crate) const KIND: &str = "recorded";
 const MAX_NAMES: usize = 12;
 
 /// The rows of each vehicle of a table, by its `id`; without such a column, of one vehicle without a name.
-type Records = BTreeMap<String, Vec<[f64; 5]>>;
+pub(crate) type Records = BTreeMap<String, Vec<[f64; 5]>>;
 
 /// Puts the rows of the tables that recorded drivers name in the place of their names; returns what is wrong with them.
 pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Vec<Fault> {
@@ -103,7 +103,7 @@ fn rows(
 }
 
 /// The records of a table; or the line, from 1, and what is wrong with it.
-fn parse(text: &str) -> Result<Records, (usize, String)> {
+pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let mut lines = lines.map(|(index, line)| (index + 1, line.trim())).filter(|(_, row)| !row.is_empty());
     let header: Vec<&str> = lines.next().map_or("", |(_, header)| header).split(',').map(str::trim).collect();

@@ -66,7 +66,7 @@ impl Arm {
         if word == AS_WRITTEN {
             return Ok(Arm::as_written());
         }
-        let styles = Style::ALL.map(Style::name);
+        let styles: Vec<&str> = Style::ALL.into_iter().chain([Style::Measured]).map(Style::name).collect();
         let kinds = registry.driver_kinds();
         let text = |word: &str| TomlNode { place: node.place.clone(), value: TomlValue::Text(word.to_owned()) };
         let entry = |word: &str| TomlEntry { key: node.place.clone(), node: text(word) };

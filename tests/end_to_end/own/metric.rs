@@ -104,6 +104,7 @@ fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Er
         folder: &folder,
         shard: Shard::WHOLE,
         keep: None,
+        trajectories: false,
         checked: &nothing,
         begin: &|_, _| (),
         advance: &nothing,

@@ -1,11 +1,10 @@
 //! `interplay run`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use interplay_presentation::animation::AnimationFile;
 use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
-use interplay_presentation::page::Page;
 use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
@@ -13,9 +12,12 @@ use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
+use interplay_sweep::{TrajectoryFile, TrajectoryWriter};
 use thiserror::Error;
 
-use crate::flag_values::files::{destroyed, is_page_file, is_same_file, short_name};
+use crate::flag_values::export_file::ExportFile;
+use crate::flag_values::files::short_name;
+use crate::flag_values::run_outputs::RunOutputs;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::program::this_program;
@@ -29,7 +31,9 @@ use crate::process::watch::WatchedFiles;
     interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
     interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
     interplay run intersection/nice --report my-report     (pictures and a page)\n  \
-    interplay run intersection/nice --animate nice.gif     (a moving picture)")]
+    interplay run intersection/nice --animate nice.gif     (a moving picture)\n  \
+    interplay run intersection/nice --trajectories nice.csv\n  \
+    interplay run their.xml --planner conservative --export driven.xml")]
 pub(crate) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
@@ -72,6 +76,15 @@ pub(crate) struct Run {
     /// Draw a moving picture of the run, seen from above: .gif, .webp, .png (a filmstrip), or .mp4 (through ffmpeg)
     #[arg(long, value_name = "FILE")]
     animate: Option<AnimationFile>,
+
+    /// Write what every vehicle did at every tick as a table: .csv or .parquet
+    #[arg(long, value_name = "FILE")]
+    trajectories: Option<TrajectoryFile>,
+
+    /// Write the run as a scenario of CommonRoad, all but the ego as obstacles, and beside it NAME.solution.xml: the ego's
+    /// motion as a solution of its planning problem
+    #[arg(long, value_name = "FILE.xml")]
+    export: Option<ExportFile>,
 
     /// Print the report as one JSON document
     #[arg(long)]
@@ -118,7 +131,8 @@ impl Run {
             print_error(&format!("note: {remark}"));
         }
         let name = short_name(self.scenario());
-        if let Some(reason) = without_input(&scenario).or_else(|| self.refused_output(&name, registry)) {
+        let refused = without_input(&scenario).or_else(|| self.refused_output(&name, registry));
+        if let Some(reason) = refused.or_else(|| self.without_vehicles(&scenario)) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
@@ -130,9 +144,23 @@ impl Run {
                 return ExitStatus::Unfinished;
             }
         };
-        let passed = self.simulate(&name, scenario, recording).and_then(|recorded| {
+        let export = match self.export.as_ref().map(|file| file.begin(&scenario, self.scenario())).transpose() {
+            Ok(export) => export,
+            Err(refusal) => return refusal,
+        };
+        let trajectories = match self.trajectories.as_ref().map(TrajectoryWriter::begin).transpose() {
+            Ok(trajectories) => trajectories,
+            Err(error) => {
+                print_error(&error.to_string());
+                return ExitStatus::Unfinished;
+            }
+        };
+        let passed = self.simulate(&name, scenario, (recording, trajectories)).and_then(|recorded| {
             self.page(&name, &recorded)?;
             self.write_animation(&recorded)?;
+            if let (Some(file), Some(export)) = (&self.export, &export) {
+                file.write(export, &recorded)?;
+            }
             self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
         match passed {
@@ -150,37 +178,28 @@ impl Run {
         }
     }
 
-    /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
+    /// Why an output must not be written.
     fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
-        let (recording, animation) = (self.recording(name), self.animate.as_ref().map(AnimationFile::path));
-        let outputs = [("recording", recording.as_deref()), ("animation", animation)];
-        for (what, path) in outputs.iter().filter_map(|(what, path)| Some((what, (*path)?))) {
-            if let Some(path) = destroyed(registry, path, [self.scenario()].into_iter(), &self.overrides()) {
-                let path = path.display();
-                return Some(format!(
-                    "the {what} would overwrite `{path}`, of which the scenario is made; choose another name for it"
-                ));
-            }
-        }
-        let is_of_page = |path: &Path| self.report.as_deref().is_some_and(|folder| is_page_file(folder, path));
-        if let Some((what, path)) =
-            outputs.iter().find_map(|(what, path)| Some((what, path.filter(|path| is_of_page(path))?)))
-        {
-            let path = path.display();
-            return Some(format!(
-                "the {what} and a file of the page cannot both be `{path}`; choose another name for the {what}"
-            ));
-        }
-        if let (Some(recording), Some(animation)) = (&recording, animation)
-            && is_same_file(recording, animation)
-        {
-            let path = animation.display();
-            return Some(format!(
-                "the recording and the animation cannot both be `{path}`; choose another name for one"
-            ));
-        }
-        let page = self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))?;
-        Some(format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()))
+        let recording = self.recording(name);
+        let animation = self.animate.as_ref().map(AnimationFile::path);
+        let trajectories = self.trajectories.as_ref().map(TrajectoryFile::path);
+        let files = [
+            ("recording", recording.as_deref()),
+            ("animation", animation),
+            ("table of trajectories", trajectories),
+            ("scenario of CommonRoad", self.export.as_ref().map(ExportFile::scenario)),
+            ("solution", self.export.as_ref().map(ExportFile::solution)),
+        ];
+        let files = files.into_iter().filter_map(|(what, path)| Some((what, path?))).collect();
+        let outputs = RunOutputs { files, page: self.report.as_deref() };
+        outputs.refused(registry, self.scenario(), &self.overrides())
+    }
+
+    /// Why there is nothing to write of what vehicles did.
+    fn without_vehicles(&self, scenario: &Scenario) -> Option<String> {
+        let asked = [("--trajectories", self.trajectories.is_some()), ("--export", self.export.is_some())];
+        let (flag, _) = asked.into_iter().find(|(_, asked)| *asked && scenario.vehicles.is_empty())?;
+        Some(format!("{flag} needs vehicles, and `{}` has none", self.scenario()))
     }
 
     /// The scenario without its counterfactuals if a flag replaces the planner: they are claims about the file's own planner.
@@ -204,18 +223,24 @@ impl Run {
         &self,
         name: &str,
         scenario: Scenario,
-        recording: Option<OpenRecording>,
+        (recording, trajectories): (Option<OpenRecording>, Option<TrajectoryWriter>),
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
         if let Some(recording) = &recording {
             watchers.push(Box::new(recording.clone()));
         }
-        if self.report.is_some() || self.animate.is_some() {
+        if let Some(trajectories) = trajectories {
+            watchers.push(Box::new(trajectories));
+        }
+        if self.report.is_some() || self.animate.is_some() || self.export.is_some() {
             watchers.push(Box::new(frame_log.clone()));
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
+        if let Some(file) = &self.trajectories {
+            print_error(&format!("trajectories in {}", file.path().display()));
+        }
         Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
     }
 

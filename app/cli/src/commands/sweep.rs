@@ -43,7 +43,7 @@ pub(crate) struct Sweep {
     #[command(flatten)]
     flags: PlanFlags,
 
-    /// Where rows, journals and recordings go [default: sweeps/NAME of the plan]
+    /// Where rows, journals, recordings and trajectories go [default: sweeps/NAME of the plan]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -55,9 +55,9 @@ pub(crate) struct Sweep {
     #[arg(long, value_name = "N", value_parser = values::count::<NonZeroU32>, allow_negative_numbers = true, conflicts_with = "shard")]
     shards: Option<NonZeroU32>,
 
-    /// Which runs are recorded
-    #[arg(long, value_name = "WHICH", value_enum, default_value_t = Keep::None)]
-    keep: Keep,
+    /// What is kept of runs besides their rows; may be repeated
+    #[arg(long, value_name = "WHAT", value_enum)]
+    keep: Vec<Keep>,
 
     /// Check the plan with all that it draws, say how many runs it stands for, and run none
     #[arg(long)]
@@ -85,13 +85,15 @@ enum Action {
     },
 }
 
-/// Which runs are recorded.
+/// What is kept of runs besides their rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Keep {
-    /// No run
+    /// Nothing
     None,
-    /// Runs in which the ego touched somebody or did not reach its goal
+    /// Recordings of runs in which the ego touched somebody or did not reach its goal
     Failures,
+    /// What every vehicle did at every tick, a Parquet file a run; runs that were made before are not made again for it
+    Trajectories,
 }
 
 /// The plan that is run without another.
@@ -182,7 +184,8 @@ impl Sweep {
         let options = SweepOptions {
             folder,
             shard,
-            keep: (self.keep == Keep::Failures).then_some(&keep),
+            keep: self.keep.contains(&Keep::Failures).then_some(&keep),
+            trajectories: self.keep.contains(&Keep::Trajectories),
             checked: &|| checks.advance(),
             begin: &|to_make, there| {
                 checks.clear();

@@ -6,6 +6,7 @@ mod comparison;
 mod identification;
 mod identified_scenario;
 mod junit;
+mod prediction;
 mod suite;
 mod summary;
 mod why;
@@ -14,6 +15,7 @@ pub use comparison::{comparison, comparison_page, version_comparison, version_co
 pub use identification::identification;
 pub use identified_scenario::identified_scenario;
 pub use junit::junit;
+pub use prediction::prediction;
 pub use suite::{Case, table};
 pub use summary::summary;
 pub use why::why;

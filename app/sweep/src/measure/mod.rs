@@ -5,25 +5,39 @@ use std::time::Instant;
 
 use interplay_scenarios::{Scenario, SweepPoint};
 use interplay_simulation::report::Report;
-use interplay_simulation::run::run;
+use interplay_simulation::run::{RunError, run};
+use interplay_simulation::watch::Watcher;
 
 use crate::column::{EgoRun, building_values};
+use crate::error::SweepError;
 use crate::key::RunKey;
 use crate::row::{RunResult, SweepRow};
+use crate::trajectories::{TrajectoryFile, TrajectoryWriter};
 use crate::version::program_version;
 
 /// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.
-pub(crate) fn measured_run(key: RunKey, point: &SweepPoint, scenario: &Scenario) -> SweepRow {
+///
+/// # Errors
+/// For a file of trajectories that cannot be written.
+pub(crate) fn measured_run(
+    key: RunKey,
+    point: &SweepPoint,
+    scenario: &Scenario,
+    trajectories: Option<&TrajectoryFile>,
+) -> Result<SweepRow, SweepError> {
+    let writer = trajectories.filter(|_| !scenario.vehicles.is_empty()).map(TrajectoryWriter::begin).transpose()?;
+    let watchers = writer.into_iter().map(|writer| Box::new(writer) as Box<dyn Watcher>).collect();
     let began = Instant::now();
-    let outcome = catch_unwind(AssertUnwindSafe(|| run(&point.scenario, scenario, Vec::new())));
+    let outcome = catch_unwind(AssertUnwindSafe(|| run(&point.scenario, scenario, watchers)));
     let wall_s = began.elapsed().as_secs_f64();
     let outcome = match outcome {
+        Ok(Err(RunError::Watch(reason))) => return Err(SweepError::Recording(reason.to_string())),
         Ok(outcome) => outcome.map_err(|error| error.to_string()),
         Err(panic) => Err(format!("panic: {}", message(&*panic))),
     };
     let ego = |report: &Report| report.vehicles.get(scenario.ego_index()).map(|ego| ego.plans);
     let plans = outcome.as_ref().ok().and_then(ego);
-    SweepRow {
+    Ok(SweepRow {
         key,
         version: program_version(),
         scenario: point.scenario.clone(),
@@ -38,7 +52,7 @@ pub(crate) fn measured_run(key: RunKey, point: &SweepPoint, scenario: &Scenario)
         wall_s,
         plan_median_ms: plans.map(|plans| plans.median_ms),
         plan_p99_ms: plans.map(|plans| plans.p99_ms),
-    }
+    })
 }
 
 /// The words of a panic.

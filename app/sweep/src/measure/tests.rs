@@ -236,7 +236,7 @@ fn a_run_of_a_plan_has_a_row() -> Outcome {
     let point = plan.point(1);
     let scenario = plan.scenario(&point)?;
     let key = RunKey::of(&plan, &point);
-    let row = measured_run(key, &point, &scenario);
+    let row = measured_run(key, &point, &scenario, None).expect("no file is written");
     let labels = [&row.scenario, &row.family, &row.style, &row.planner];
     assert_eq!(labels, [&point.scenario, &point.family, &point.style, &point.planner]);
     assert_eq!((row.key, row.sample, row.seed, row.error.as_ref()), (key, point.sample, point.seed, None));

@@ -1,6 +1,6 @@
 //! Writes a table, a row group at a time.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use interplay_files::WholeFile;
@@ -19,17 +19,17 @@ use crate::error::SweepError;
 use crate::row::SweepRow;
 
 /// A table that is being written. It appears at its place when it is whole.
-pub(crate) struct TableWriter<'a> {
-    target: &'a Path,
+pub(crate) struct TableWriter {
+    target: PathBuf,
     writer: SerializedFileWriter<WholeFile>,
     schema: TableSchema,
     group: Vec<TableColumn>,
     rows: usize,
 }
 
-impl<'a> TableWriter<'a> {
+impl TableWriter {
     /// Begins a table with these columns and with these words about the whole.
-    pub fn new(target: &'a Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter<'a>, SweepError> {
+    pub fn new(target: &Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter, SweepError> {
         let file = WholeFile::begin(target).map_err(SweepError::file("write", target))?;
         let failed = SweepError::table::<ParquetError>("write", target);
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
@@ -44,7 +44,7 @@ impl<'a> TableWriter<'a> {
         let root = Arc::new(root.map_err(&failed)?);
         let writer = SerializedFileWriter::new(file, root, Arc::new(properties.build())).map_err(&failed)?;
         let group = schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
-        Ok(TableWriter { target, writer, schema, group, rows: 0 })
+        Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0 })
     }
 
     /// Appends a row, a value for each column in their order.
@@ -71,7 +71,7 @@ impl<'a> TableWriter<'a> {
             }
             group.close().map(drop)
         };
-        write(&mut self.writer, &self.group).map_err(SweepError::table("write", self.target))?;
+        write(&mut self.writer, &self.group).map_err(SweepError::table("write", &self.target))?;
         self.group = self.schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
         self.rows = 0;
         Ok(())
@@ -80,8 +80,8 @@ impl<'a> TableWriter<'a> {
     /// Ends the table and gives it its place.
     pub fn finish(mut self) -> Result<(), SweepError> {
         self.end_group()?;
-        let file = self.writer.into_inner().map_err(SweepError::table("write", self.target))?;
-        file.replace().map_err(SweepError::file("write", self.target))
+        let file = self.writer.into_inner().map_err(SweepError::table("write", &self.target))?;
+        file.replace().map_err(SweepError::file("write", &self.target))
     }
 }
 

@@ -4,13 +4,14 @@ use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, PlanningProblem, Region};
+use super::arrival;
 use super::lanes::Lanes;
 use super::notes::{NOT_YET, Notes};
 use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
 use crate::classes::VehicleClass;
-use crate::error::Fault;
 use crate::file_format::goal::GoalConfig;
+use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::text::name::EGO;
 
@@ -25,6 +26,16 @@ const NOTED_MOVE_M: f64 = 0.01;
 /// A planning problem with a start further from every lane is left out \[m\].
 const MAX_AWAY_M: f64 = 50.0;
 
+/// Who drives a planning problem is a BMW 320i, the car of CommonRoad's referee: 4.508 m × 1.61 m, and its axles \[m\].
+const BMW_320I: Body = Body {
+    front_m: 2.254,
+    rear_m: 2.254,
+    width_m: 1.61,
+    front_axle_m: 1.1562,
+    rear_axle_m: 1.4227,
+    scale: Body::REAL_SCALE,
+};
+
 /// The ego, and its body.
 pub(super) struct Ego {
     pub config: VehicleConfig,
@@ -32,15 +43,12 @@ pub(super) struct Ego {
     pub body: Body,
 }
 
-/// The ego of a planning problem; none for one that is far from every lane.
-///
-/// # Errors
-/// For a start from which no car can drive along a lane.
+/// The ego of a planning problem; none for one that is far from every lane, or from which no car can drive along a lane.
 pub(super) fn of_problem(
-    problem: &PlanningProblem<'_>,
+    (problem, step_s): (&PlanningProblem<'_>, f64),
     lanes: &Lanes,
     notes: &mut Notes,
-) -> Result<Option<Ego>, Fault> {
+) -> Option<Ego> {
     let initial = &problem.initial;
     let speed_mps = initial.velocity_mps.clamp(0.0, MAX_SPEED_MPS);
     if speed_mps != initial.velocity_mps {
@@ -49,23 +57,23 @@ pub(super) fn of_problem(
     let [x_m, y_m] = initial.position;
     let state = State { x_m, y_m, heading_rad: initial.orientation_rad, speed_mps };
     let network = &lanes.network;
-    let nearest = places::nearest(network, &state);
-    let is_near = |near: &State| libm::hypot(near.x_m - x_m, near.y_m - y_m) <= MAX_AWAY_M;
-    let Some((nearest, beside)) = nearest.filter(|(_, near)| is_near(near)) else {
+    let goals = goal_lanes(problem, lanes);
+    let near = places::near(network, &state, MAX_AWAY_M);
+    if near.is_empty() {
         let what = ["planning problem far from every lane", "planning problems far from every lane"];
         notes.one(what, "left out");
-        return Ok(None);
-    };
-    let goals = goal_lanes(problem, lanes);
+        return None;
+    }
     let on_lanes = places::lanes_at(network, &state);
     let found = way(network, (&on_lanes, &goals), &state).or_else(|| {
-        let found = way(network, (&[nearest], &goals), &beside)?;
+        let found = near.iter().find_map(|(lane, beside)| way(network, (&[*lane], &goals), beside))?;
         notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
         Some(found)
     });
     let Some((OnLanes { state, lanes: route, moved_m }, reaches_goal)) = found else {
-        let message = format!("no car can drive along a lane from the initial state of {}", problem.element.shown());
-        return Err(problem.element.fault("no room for a car", message));
+        let what = ["planning problem without room for a car", "planning problems without room for a car"];
+        notes.one(what, "left out");
+        return None;
     };
     if !reaches_goal && !problem.goals.is_empty() {
         let fate = if goals.is_empty() {
@@ -79,15 +87,16 @@ pub(super) fn of_problem(
         notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
     }
     let limit_mps = route.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
-    let wanted_mps = rounded(wanted_mps(problem, (speed_mps, limit_mps), notes), 2);
+    let in_time_mps = arrival::wanted_mps(problem, step_s, network, (&route, &state)).filter(|_| reaches_goal);
+    let wanted_mps = rounded(wanted_mps(problem, (speed_mps, in_time_mps, limit_mps), notes), 2);
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
-    Ok(Some(Ego::new(state, route, goal)))
+    Some(Ego::new(state, route, goal))
 }
 
 /// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
 fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
-    let body = &VehicleClass::Car.dimensions().body;
+    let body = &BMW_320I;
     let mut pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
     let to_goal = pairs.find_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
     let straight_on =
@@ -98,8 +107,12 @@ fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &St
 impl Ego {
     fn new(state: State, route: Vec<String>, goal: GoalConfig) -> Ego {
         let class = Some(VehicleClass::Car);
-        let config = VehicleConfig { class, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
-        Ego { config, state, body: VehicleClass::Car.dimensions().body }
+        let body = BMW_320I;
+        let stated = Stated::default().with("front_m", body.front_m).with("rear_m", body.rear_m);
+        let stated = stated.with("width_m", body.width_m).with("front_axle_m", body.front_axle_m);
+        let stated = Some(stated.with("rear_axle_m", body.rear_axle_m));
+        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        Ego { config, state, body }
     }
 }
 
@@ -150,9 +163,17 @@ fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
     found
 }
 
-/// The speed that the ego wants: that of its goal, or its own, or what is permitted \[m/s\].
-fn wanted_mps(problem: &PlanningProblem<'_>, (own_mps, limit_mps): (f64, Option<f64>), notes: &mut Notes) -> f64 {
+/// The speed that the ego wants: one that reaches the goal in time, or that of its goal, or its own, or what is permitted \[m/s\].
+fn wanted_mps(
+    problem: &PlanningProblem<'_>,
+    (own_mps, in_time_mps, limit_mps): (f64, Option<f64>, Option<f64>),
+    notes: &mut Notes,
+) -> f64 {
     let stated = problem.goals.iter().find_map(|goal| goal.velocity_mps);
+    if let Some(in_time_mps) = in_time_mps.filter(|speed_mps| *speed_mps >= MIN_WANTED_MPS) {
+        let [from_mps, to_mps] = stated.unwrap_or([0.0, MAX_SPEED_MPS]);
+        return in_time_mps.max(from_mps).min(to_mps).clamp(0.0, MAX_SPEED_MPS);
+    }
     if let Some([from_mps, to_mps]) = stated {
         let nearest_mps = own_mps.max(from_mps.max(0.0)).min(to_mps.max(0.0));
         let wanted_mps = if nearest_mps < MIN_WANTED_MPS { 0.5 * (from_mps + to_mps) } else { nearest_mps };
@@ -182,7 +203,7 @@ fn note_goals(problem: &PlanningProblem<'_>, notes: &mut Notes) {
 }
 
 /// The step of time at which the run begins: that of the planning problem, or the first of any vehicle.
-pub(super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
+pub(in super::super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
     let of_problem = scenario.problems.first().map(|problem| problem.initial.time);
     let of_vehicles = scenario.obstacles.iter().filter_map(|obstacle| obstacle.states.first()).map(|state| state.time);
     of_problem.unwrap_or_else(|| of_vehicles.min_by(f64::total_cmp).unwrap_or_default())

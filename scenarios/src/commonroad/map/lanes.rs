@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use interplay_planners::road::network::{Lane, LaneFault, RightOfWay, RoadNetwork, RoadNetworkError};
+use interplay_planners::road::network::{Lane, LaneFault, LaneUser, RightOfWay, RoadNetwork, RoadNetworkError};
 
 use super::super::model::{Adjacent, CommonRoad, Lanelet};
 use super::line::{self, Line};
@@ -85,10 +85,6 @@ impl<'a> Draft<'a> {
                 let message = format!("two lanelets have the id `{}`", lanelet.id);
                 return Err(lanelet.element.fault("the second", message));
             }
-            if lanelet.is_for_walkers() {
-                notes.one(["lanelet for people on foot", "lanelets for people on foot"], NOT_YET);
-                continue;
-            }
             let Some(line) = line::between(&lanelet.left, &lanelet.right) else {
                 notes.one(["lanelet through which no line leads", "lanelets through which no line leads"], "left out");
                 continue;
@@ -99,6 +95,8 @@ impl<'a> Draft<'a> {
             draft.configs.push(LaneConfig {
                 speed_limit_mps: signs.speed_limit_mps(lanelet),
                 right_of_way,
+                users: users(lanelet),
+                zebra: lanelet.is_crosswalk(),
                 ..lane_along(&name, &line)
             });
             draft.lanelets.push(lanelet);
@@ -249,6 +247,20 @@ impl<'a> Draft<'a> {
     }
 }
 
+/// For whom a lanelet is, by its type and its users; empty where cars may use it.
+fn users(lanelet: &Lanelet<'_>) -> Vec<LaneUser> {
+    if lanelet.is_for_walkers() {
+        return vec![LaneUser::Pedestrian];
+    }
+    let is_of = |word: &str| lanelet.types.iter().any(|known| known == word);
+    match (is_of("busLane"), is_of("bicycleLane")) {
+        (true, true) => vec![LaneUser::Bus, LaneUser::Bicycle],
+        (true, false) => vec![LaneUser::Bus],
+        (false, true) => vec![LaneUser::Bicycle],
+        (false, false) => Vec::new(),
+    }
+}
+
 /// Lanes that are nearer are taken to touch \[m\].
 const GAP_M: f64 = 0.02;
 
@@ -278,10 +290,6 @@ fn note_lanelet(lanelet: &Lanelet<'_>, line: &Line, right_of_way: RightOfWay, no
     if lanelet.is_two_way {
         let what = ["lanelet driven in both directions", "lanelets driven in both directions"];
         notes.one(what, "carried over in their own direction only");
-    }
-    if lanelet.is_reserved() {
-        let what = ["lanelet for buses or bicycles", "lanelets for buses or bicycles"];
-        notes.one(what, "carried over as lanes into which nobody changes");
     }
     if lanelet.has_stop_line && right_of_way == RightOfWay::Priority {
         notes.one(["stop line without a sign", "stop lines without a sign"], NOT_YET);

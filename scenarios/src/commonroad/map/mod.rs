@@ -1,7 +1,9 @@
 //! From a scenario of CommonRoad to a scenario of Interplay, one file a concept.
 
+mod arrival;
 mod ego;
 mod lanes;
+mod lights;
 mod line;
 mod names;
 mod notes;
@@ -19,18 +21,22 @@ use crate::check::consistency::overlap;
 use crate::error::{Fault, Place, quoted};
 use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::goal::GoalConfig;
+use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::road::{LaneConfig, LaneNetwork, Road};
 use ego::Ego;
+pub(super) use ego::begin;
 use lanes::Lanes;
 use notes::NOT_YET;
 pub(super) use notes::Notes;
 use vehicles::{Follower, followers, in_world};
 
 /// The most vehicles of a scenario.
-const MAX_VEHICLES: usize = 64;
+const MAX_VEHICLES: usize = 256;
+/// The most obstacles.
+const MAX_OBSTACLES: usize = 256;
 /// The longest run \[s\], and the shortest.
 const DURATIONS_S: [f64; 2] = [1.0, 3600.0];
 /// The duration of the run of a map without vehicles \[s\].
@@ -52,7 +58,7 @@ pub(super) struct Mapped {
 /// Makes a scenario of an imported one.
 ///
 /// # Errors
-/// For lanelets that are no lanes, and a planning problem from which no car can drive.
+/// For lanelets that are no lanes.
 pub(super) fn mapped(
     scenario: &CommonRoad<'_>,
     (root, unread): (&Place, Unread),
@@ -60,27 +66,29 @@ pub(super) fn mapped(
     notes: &mut Notes,
 ) -> Result<Mapped, Fault> {
     let lanes = Lanes::of(scenario, root, notes)?;
-    let begin = ego::begin(scenario);
+    let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
-    let ego = match scenario.problems.first() {
-        Some(problem) => ego::of_problem(problem, &lanes, notes)?,
-        None => None,
-    };
+    let ego = scenario.problems.first().and_then(|problem| ego::of_problem((problem, scenario.step_s), &lanes, notes));
     let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
     let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
-    notes.several(scenario.lights, ["traffic light", "traffic lights"], NOT_YET);
+    let lights = lights::lights(scenario, (&lanes, begin), notes);
     for (element, count) in unread.into_counts() {
         notes.several(count, [&format!("element `{element}`"), &format!("elements `{element}`")], NOT_YET);
     }
     let duration_s = duration_s(scenario, begin);
     let mut vehicles: Vec<(VehicleConfig, Option<Place>)> = Vec::new();
+    let mut obstacles: Vec<(ObstacleConfig, Place)> = Vec::new();
     for follower in near_the_ego(followers, ego.as_ref(), notes) {
-        let config = driven(&follower, &lanes, options, notes);
-        if config.route.is_empty() {
-            note_end(&follower, duration_s, notes);
+        if follower.stands && obstacles.len() < MAX_OBSTACLES {
+            obstacles.push((follower.obstacle(), follower.place));
+            continue;
         }
+        let mut config = driven(&follower, &lanes, options, notes);
+        // A record that ends before the run is that of somebody who has left; a driver of ours drives to the end of its way.
+        config.leaves_at_end = !config.route.is_empty();
+        config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
         vehicles.push((config, Some(follower.place)));
     }
     let problem = scenario.problems.first().map(|problem| problem.element.place());
@@ -95,10 +103,13 @@ pub(super) fn mapped(
     places.extend(lanes.places.iter().enumerate().map(|(index, place)| (format!("road.lane.{index}"), place.clone())));
     let of_vehicles = vehicles.iter().enumerate();
     places.extend(of_vehicles.filter_map(|(index, (_, place))| Some((format!("vehicle.{index}"), place.clone()?))));
+    let of_obstacles = obstacles.iter().enumerate();
+    places.extend(of_obstacles.map(|(index, (_, place))| (format!("obstacle.{index}"), place.clone())));
+    let obstacles: Vec<ObstacleConfig> = obstacles.into_iter().map(|(config, _)| config).collect();
     let network = without_defaults(Road::Network(LaneNetwork { lanes: lanes.configs }).into());
     let vehicles: Vec<VehicleConfig> = vehicles.into_iter().map(|(config, _)| config).collect();
-    let budget = budget(vehicles.len(), duration_s / scenario.step_s);
-    let file = ScenarioFile { road: Some(network), vehicles, budget, ..timed(scenario, duration_s) };
+    let budget = budget(vehicles.len() + obstacles.len(), duration_s / scenario.step_s);
+    let file = ScenarioFile { road: Some(network), lights, obstacles, vehicles, budget, ..timed(scenario, duration_s) };
     Ok(Mapped { file, places })
 }
 
@@ -107,7 +118,7 @@ fn without_defaults(mut network: Stated<Road>) -> Stated<Road> {
     let Some(Json::Array(mut lanes)) = network.take("lane") else { return network };
     let usual = serde_json::to_value(LaneConfig::through("", &[], 1.0)).unwrap_or_default();
     for lane in lanes.iter_mut().filter_map(Json::as_object_mut) {
-        for key in ["tolerance_m", "right_of_way"] {
+        for key in ["tolerance_m", "right_of_way", "users", "zebra"] {
             if lane.get(key) == usual.get(key) {
                 lane.remove(key);
             }
@@ -154,7 +165,8 @@ fn duration_s(scenario: &CommonRoad<'_>, begin: f64) -> f64 {
 fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) -> Vec<Follower> {
     let before = followers.len();
     let meets = |follower: &Follower| {
-        ego.is_some_and(|ego| overlap((&ego.body, &ego.state), (&follower.body, &follower.start)))
+        follower.config.enters_s.is_none()
+            && ego.is_some_and(|ego| overlap((&ego.body, &ego.state), (&follower.body, &follower.start)))
     };
     let mut kept: Vec<Follower> = followers.into_iter().filter(|follower| !meets(follower)).collect();
     notes.several(
@@ -168,7 +180,7 @@ fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) 
         notes.several(
             beyond,
             ["vehicle farthest from the ego", "vehicles farthest from the ego"],
-            "left out, beyond 64",
+            "left out, beyond 256",
         );
         if let Some(Ego { state, .. }) = ego {
             let away_m =
@@ -178,18 +190,6 @@ fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) 
         kept.truncate(room);
     }
     kept
-}
-
-/// Notes a record that ends before the run does.
-fn note_end(follower: &Follower, duration_s: f64, notes: &mut Notes) {
-    let ends_s = follower.rows.last().map_or(0.0, |row| row[0]);
-    let moves = follower.rows.last().is_some_and(|row| row[4] > 0.0);
-    if moves && ends_s < duration_s - 1e-6 {
-        notes.one(
-            ["record that ends before the run", "records that end before the run"],
-            "the vehicle then keeps its speed",
-        );
-    }
 }
 
 /// A vehicle with its driver: its record, or the one that the options name, which needs a way along lanes.

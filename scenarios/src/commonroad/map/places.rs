@@ -11,6 +11,8 @@ use crate::resolve::placement::way_of_record;
 const MIN_COS_OF_START: f64 = 0.5;
 /// How far towards the middle of its lane a vehicle is moved, one share after the other, until its body is on the road.
 const SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
+/// The most lanes near a vehicle on which it is tried to place it.
+const MAX_NEAR_LANES: usize = 20;
 /// The most lanes of a way without a goal.
 const MAX_LANES: usize = 100;
 
@@ -30,20 +32,21 @@ pub(super) fn lanes_at<'a>(network: &'a RoadNetwork, state: &State) -> Vec<&'a L
     along.filter_map(|place| network.lane(&place.lane)).collect()
 }
 
-/// The lane nearest to a vehicle that is on none, and the state in the middle of it.
-pub(super) fn nearest<'a>(network: &'a RoadNetwork, state: &State) -> Option<(&'a Lane, State)> {
+/// The lanes near a vehicle that is on none, each with the state in the middle of it: those in its direction first, then by distance.
+pub(super) fn near<'a>(network: &'a RoadNetwork, state: &State, away_m: f64) -> Vec<(&'a Lane, State)> {
     let beside = network.lanes().iter().map(|lane| {
         let at = lane.centre.project(state.position(), None);
         let length_m = lane.centre.length_m();
         let along_m = at.along_m.clamp(0.01 * length_m, 0.99 * length_m);
         let [x_m, y_m] = lane.centre.position(along_m, 0.0);
         let heading_rad = lane.centre.at(along_m).heading_rad;
-        let away_m = libm::hypot(x_m - state.x_m, y_m - state.y_m);
+        let distance_m = libm::hypot(x_m - state.x_m, y_m - state.y_m);
         let is_against = libm::cos(heading_rad - state.heading_rad) < MIN_COS_OF_START;
-        (lane, State { x_m, y_m, heading_rad, ..*state }, (is_against, away_m))
+        (lane, State { x_m, y_m, heading_rad, ..*state }, (is_against, distance_m))
     });
-    let order = |one: &(bool, f64), other: &(bool, f64)| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1));
-    beside.min_by(|one, other| order(&one.2, &other.2)).map(|(lane, state, _)| (lane, state))
+    let mut near: Vec<_> = beside.filter(|(_, _, (_, distance_m))| *distance_m <= away_m).collect();
+    near.sort_by(|(_, _, one), (_, _, other)| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    near.into_iter().map(|(lane, state, _)| (lane, state)).take(MAX_NEAR_LANES).collect()
 }
 
 /// The lanes straight on from a lane: of several successors, the one that turns least.

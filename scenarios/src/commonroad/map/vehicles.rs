@@ -8,6 +8,7 @@ use super::names::Names;
 use super::notes::{NOT_YET, Notes};
 use crate::classes::VehicleClass;
 use crate::error::Place;
+use crate::file_format::obstacle::{ObstacleConfig, ObstacleKind};
 use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
@@ -50,7 +51,33 @@ impl Follower {
     }
 }
 
-/// The vehicles that are there when the run begins, at a number of steps of time.
+impl Follower {
+    /// When its record ends, if it drives then and the run goes on \[s\].
+    pub(super) fn leaves_s(&self, duration_s: f64) -> Option<f64> {
+        let last = self.rows.last()?;
+        (last[4] > 0.0 && last[0] < duration_s - 1e-6).then(|| rounded(last[0], 6))
+    }
+
+    /// As an obstacle, if it stands all the time.
+    pub(super) fn obstacle(&self) -> ObstacleConfig {
+        let kind = match self.config.class {
+            Some(VehicleClass::Truck | VehicleClass::Bus | VehicleClass::Van) => ObstacleKind::ParkedVan,
+            _ => ObstacleKind::ParkedCar,
+        };
+        ObstacleConfig {
+            name: self.config.name.clone(),
+            kind,
+            x_m: Some(rounded(self.start.x_m, 4)),
+            y_m: Some(rounded(self.start.y_m, 4)),
+            heading_rad: Some(rounded(self.start.heading_rad, 6)),
+            length_m: Some(rounded(self.body.front_m + self.body.rear_m, 3)),
+            width_m: Some(self.body.width_m),
+            ..ObstacleConfig::default()
+        }
+    }
+}
+
+/// The vehicles that are there when the run begins, at a number of steps of time, or come later.
 pub(super) fn followers(scenario: &CommonRoad<'_>, begin: f64, notes: &mut Notes) -> Vec<Follower> {
     let mut names = Names::default();
     let all = scenario.obstacles.iter();
@@ -73,13 +100,10 @@ fn follower(
     let record = Record::new(&rows).ok()?;
     let [from_s, _] = record.span_s();
     let stands = obstacle.role == Role::Static;
-    if from_s > 1e-6 && !stands {
-        notes.one(["vehicle that appears later", "vehicles that appear later"], NOT_YET);
-        return None;
-    }
     let rows =
         if stands { rows.into_iter().take(1).map(|row| [0.0, row[1], row[2], row[3], 0.0]).collect() } else { rows };
-    let Some(start) = Record::new(&rows).ok()?.state_at(0.0) else {
+    let enters_s = (from_s > 1e-6 && !stands).then_some(rounded(from_s, 6));
+    let Some(start) = Record::new(&rows).ok()?.state_at(from_s.max(0.0)) else {
         notes.one(
             ["vehicle that is gone when the run begins", "vehicles that are gone when the run begins"],
             "left out",
@@ -93,11 +117,12 @@ fn follower(
     let stated = Stated::default().with("front_m", half_m).with("rear_m", half_m).with("width_m", body.width_m);
     let config = VehicleConfig {
         class: Some(class),
+        enters_s,
         body: Some(stated.with("front_axle_m", axle_m).with("rear_axle_m", axle_m)),
         ..VehicleConfig::new(&name, in_world(&start))
     };
     let (id, place) = (obstacle.id.clone(), obstacle.element.place());
-    let is_car = class != VehicleClass::Bicycle && !stands;
+    let is_car = !matches!(class, VehicleClass::Bicycle | VehicleClass::Pedestrian) && !stands;
     Some(Follower { id, config, rows, start, body, stands, is_car, place })
 }
 
@@ -121,8 +146,10 @@ pub(super) fn rounded(number: f64, digits: i32) -> f64 {
 /// What class of vehicle an obstacle is nearest to.
 fn class(kind: &str) -> VehicleClass {
     match kind {
-        "truck" | "bus" | "train" => VehicleClass::Truck,
-        "bicycle" | "pedestrian" | "motorcycle" => VehicleClass::Bicycle,
+        "truck" | "train" => VehicleClass::Truck,
+        "bus" => VehicleClass::Bus,
+        "bicycle" | "motorcycle" => VehicleClass::Bicycle,
+        "pedestrian" => VehicleClass::Pedestrian,
         _ => VehicleClass::Car,
     }
 }
@@ -131,6 +158,10 @@ fn class(kind: &str) -> VehicleClass {
 fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
     if obstacle.role == Role::Surroundings {
         notes.one(["obstacle beside the road", "obstacles beside the road"], NOT_YET);
+        return None;
+    }
+    if obstacle.kind == "roadBoundary" {
+        notes.one(["boundary of the road", "boundaries of the road"], "left out: lanes have edges");
         return None;
     }
     let shapes: Vec<_> = obstacle.shape.iter().filter_map(|shape| shape.rectangle()).collect();

@@ -28,6 +28,8 @@ pub(crate) struct Lanelet<'a> {
     pub speed_limit_mps: Option<f64>,
     /// The signs that hold on it, by their ids.
     pub signs: Vec<String>,
+    /// The traffic lights at its end, by their ids.
+    pub lights: Vec<String>,
     /// Whether it has a stop line.
     pub has_stop_line: bool,
 }
@@ -83,6 +85,7 @@ impl<'a> Lanelet<'a> {
             users: texts("userOneWay").chain(two_way).collect(),
             speed_limit_mps: element.child("speedLimit").map(|limit| limit.number()).transpose()?,
             signs: [refs("trafficSignRef")?, of_line].concat(),
+            lights: refs("trafficLightRef")?,
             has_stop_line: element.child("stopLine").is_some(),
         })
     }
@@ -92,6 +95,11 @@ impl<'a> Lanelet<'a> {
         let of_walkers = |word: &String| ["crosswalk", "sidewalk"].contains(&word.as_str());
         let walks = |user: &String| user == "pedestrian";
         self.types.iter().any(of_walkers) || (!self.users.is_empty() && self.users.iter().all(walks))
+    }
+
+    /// Whether it is a crossing for people on foot.
+    pub(crate) fn is_crosswalk(&self) -> bool {
+        self.types.iter().any(|word| word == "crosswalk")
     }
 
     /// Whether it is reserved for some vehicles, such as buses.

@@ -10,11 +10,14 @@ mod planning_problem;
 mod sign;
 mod state;
 
+#[cfg(test)]
+pub(super) use geometry::Rectangle;
 pub(super) use geometry::Region;
 pub(super) use intersection::Intersection;
+pub(super) use light::Light;
 pub(super) use lanelet::{Adjacent, Lanelet};
 pub(super) use obstacle::{Obstacle, Role};
-pub(super) use planning_problem::PlanningProblem;
+pub(super) use planning_problem::{Goal, PlanningProblem};
 pub(super) use sign::{Sign, SignMeaning};
 
 use super::xml::{Element, Unread};
@@ -35,8 +38,7 @@ pub(super) struct CommonRoad<'a> {
     pub step_s: f64,
     pub lanelets: Vec<Lanelet<'a>>,
     pub signs: Vec<Sign>,
-    /// How many traffic lights there are.
-    pub lights: usize,
+    pub lights: Vec<Light>,
     pub intersections: Vec<Intersection>,
     pub obstacles: Vec<Obstacle<'a>>,
     pub problems: Vec<PlanningProblem<'a>>,
@@ -68,7 +70,7 @@ impl<'a> CommonRoad<'a> {
             step_s,
             lanelets: Vec::new(),
             signs: Vec::new(),
-            lights: 0,
+            lights: Vec::new(),
             intersections: Vec::new(),
             obstacles: Vec::new(),
             problems: Vec::new(),
@@ -77,7 +79,7 @@ impl<'a> CommonRoad<'a> {
             match element.name() {
                 "lanelet" => scenario.lanelets.push(Lanelet::read(element, unread)?),
                 "trafficSign" => scenario.signs.push(Sign::read(element)?),
-                "trafficLight" => scenario.lights += light::count(element),
+                "trafficLight" => scenario.lights.push(Light::read(element, unread)?),
                 "intersection" => scenario.intersections.push(Intersection::read(element, unread)?),
                 name if Obstacle::is_read_from(name) => scenario.obstacles.push(Obstacle::read(element, unread)?),
                 "planningProblem" => scenario.problems.push(PlanningProblem::read(element, unread)?),

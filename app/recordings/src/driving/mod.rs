@@ -1,0 +1,182 @@
+//! How recorded vehicles drive: gaps, braking, changes of lane.
+
+mod lane_changes;
+
+use interplay_planners::motion_prediction::TrafficMoment;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::start::{PAST_S, known_at};
+use crate::traffic::{Recordings, Timeline};
+use lane_changes::LaneChange;
+
+/// The quantiles at 5, 50 and 95 % of some numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// How many numbers there are.
+    pub count: usize,
+    /// 5 % are below.
+    pub low: f64,
+    /// The median.
+    pub median: f64,
+    /// 95 % are below.
+    pub high: f64,
+}
+
+/// How the vehicles of a group of recordings drive; rows that repeat others are left out. What there is none of is none.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrivingStatistics {
+    /// Name of the group.
+    pub name: String,
+    /// Time gaps between bumpers to vehicles ahead in the lane within 60 m, at each second of those faster than 3 m/s \[s\].
+    pub time_gap_s: Option<Spread>,
+    /// Share of these gaps below 0.5 s.
+    pub time_gap_below_half_share: Option<f64>,
+    /// Of each vehicle that follows steadily, the median time gap beyond 3.5 m \[s\].
+    pub steady_time_gap_s: Option<Spread>,
+    /// Of the same vehicles, the standard deviation of its logarithm.
+    pub steady_time_gap_deviation: Option<f64>,
+    /// The hardest braking of each vehicle, as a slope over 1.2 s \[m/s²\].
+    pub peak_braking_mps2: Option<Spread>,
+    /// The change of that slope from one second to the next, without sign \[m/s³\].
+    pub jerk_mps3: Option<Spread>,
+    /// Time gaps to the vehicle ahead in the new lane when a change of lane crosses the line \[s\].
+    pub accepted_lead_gap_s: Option<Spread>,
+    /// Time gaps of the vehicle behind in the new lane at that moment \[s\].
+    pub accepted_lag_gap_s: Option<Spread>,
+    /// The hardest braking of the vehicle behind in the 3 s after it \[m/s²\].
+    pub lag_braking_mps2: Option<Spread>,
+    /// How long a change of lane lasts \[s\].
+    pub lane_change_s: Option<Spread>,
+}
+
+/// A vehicle follows another one within this distance \[m\].
+const FOLLOWED_M: f64 = 60.0;
+/// Time gaps of slower vehicles say nothing \[m/s\].
+const MIN_SPEED_MPS: f64 = 3.0;
+/// Gap at standstill of people \[m\].
+const STANDSTILL_M: f64 = 3.5;
+/// Who follows steadily differs in speed by less than this \[m/s\], for at least so many seconds.
+const STEADY_MPS: f64 = 1.0;
+const STEADY_COUNT: usize = 3;
+
+/// What is counted in a timeline.
+#[derive(Default)]
+struct Counted {
+    gaps_s: Vec<f64>,
+    steady_s: Vec<f64>,
+    braking_mps2: Vec<f64>,
+    jerk_mps3: Vec<f64>,
+    changes: Vec<LaneChange>,
+}
+
+impl Recordings {
+    /// How the vehicles of each group drive.
+    pub fn driving(&self) -> Vec<DrivingStatistics> {
+        let counted: Vec<Counted> = self.timelines.par_iter().map(counted).collect();
+        let group = |(index, name): (usize, &String)| {
+            let mut all = Counted::default();
+            for (_, counted) in self.timelines.iter().zip(&counted).filter(|(it, _)| it.group == index) {
+                all.gaps_s.extend(&counted.gaps_s);
+                all.steady_s.extend(&counted.steady_s);
+                all.braking_mps2.extend(&counted.braking_mps2);
+                all.jerk_mps3.extend(&counted.jerk_mps3);
+                all.changes.extend(&counted.changes);
+            }
+            all.statistics(name)
+        };
+        self.groups.iter().enumerate().map(group).collect()
+    }
+}
+
+impl Counted {
+    fn statistics(self, name: &str) -> DrivingStatistics {
+        let Counted { gaps_s, steady_s, braking_mps2, jerk_mps3, changes } = self;
+        let below = gaps_s.iter().filter(|gap_s| **gap_s < 0.5).count();
+        let of_changes =
+            |value: &dyn Fn(&LaneChange) -> Option<f64>| quantiles(changes.iter().filter_map(value).collect());
+        let logarithms: Vec<f64> =
+            steady_s.iter().filter(|gap_s| **gap_s > 0.0).map(|gap_s| libm::log(*gap_s)).collect();
+        DrivingStatistics {
+            name: name.to_owned(),
+            time_gap_below_half_share: (!gaps_s.is_empty()).then(|| below as f64 / gaps_s.len() as f64),
+            time_gap_s: quantiles(gaps_s),
+            steady_time_gap_s: quantiles(steady_s),
+            steady_time_gap_deviation: deviation(&logarithms),
+            peak_braking_mps2: quantiles(braking_mps2),
+            jerk_mps3: quantiles(jerk_mps3),
+            accepted_lead_gap_s: of_changes(&|change| change.lead_gap_s),
+            accepted_lag_gap_s: of_changes(&|change| change.lag_gap_s),
+            lag_braking_mps2: of_changes(&|change| change.lag_braking_mps2),
+            lane_change_s: of_changes(&|change| change.duration_s),
+        }
+    }
+}
+
+fn counted(timeline: &Timeline) -> Counted {
+    let mut all = Counted::default();
+    let in_steps = |time_s: f64| (time_s / timeline.step_s).round().max(1.0) as i64;
+    for (number, track) in timeline.tracks.iter().enumerate().filter(|(_, track)| track.is_motor) {
+        let Some(first) = track.moments.first() else { continue };
+        let (past, between) = (in_steps(PAST_S), in_steps(1.0));
+        let (mut steady_s, mut peak_mps2, mut last_mps2) = (Vec::new(), None, None);
+        for (at, repeats) in track.moments.iter().zip(&track.repeats) {
+            if *repeats || at.step < first.step + past || (at.step - first.step - past) % between != 0 {
+                continue;
+            }
+            let Some((_, _, known)) = known_at(timeline, number, at.step) else { continue };
+            let braking_mps2 = -known.acceleration_mps2;
+            peak_mps2 = Some(peak_mps2.map_or(braking_mps2, |peak: f64| peak.max(braking_mps2)));
+            all.jerk_mps3.extend(last_mps2.map(|last: f64| (known.acceleration_mps2 - last).abs()));
+            last_mps2 = Some(known.acceleration_mps2);
+            let Some((gap_m, closing_mps)) = followed(&known) else { continue };
+            all.gaps_s.push(gap_m / known.speed_mps);
+            if closing_mps.abs() < STEADY_MPS {
+                steady_s.push((gap_m - STANDSTILL_M) / known.speed_mps);
+            }
+        }
+        all.braking_mps2.extend(peak_mps2.map(|peak: f64| peak.max(0.0)));
+        if steady_s.len() >= STEADY_COUNT {
+            all.steady_s.extend(quantiles(steady_s).map(|it| it.median));
+        }
+    }
+    all.changes = lane_changes::of(timeline);
+    all
+}
+
+/// The gap to a vehicle ahead that is followed \[m\], and the speed at which it closes \[m/s\].
+fn followed(known: &TrafficMoment) -> Option<(f64, f64)> {
+    let leader = known.leaders().first().copied()?;
+    let gap_m = known.gap_m(&leader);
+    let is_followed = known.speed_mps > MIN_SPEED_MPS && (0.0..=FOLLOWED_M).contains(&gap_m);
+    is_followed.then_some((gap_m, known.speed_mps - leader.speed_mps))
+}
+
+/// The quantiles of some numbers; none without any.
+fn quantiles(mut numbers: Vec<f64>) -> Option<Spread> {
+    numbers.sort_by(f64::total_cmp);
+    let last = numbers.len().checked_sub(1)?;
+    let at = |share: f64| numbers[(share * last as f64).round() as usize];
+    Some(Spread { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
+}
+
+/// The standard deviation of some numbers; none for fewer than two.
+fn deviation(numbers: &[f64]) -> Option<f64> {
+    let count = numbers.len() as f64;
+    let mean = numbers.iter().sum::<f64>() / count;
+    let squares: f64 = numbers.iter().map(|number| (number - mean) * (number - mean)).sum();
+    (numbers.len() > 1).then(|| (squares / (count - 1.0)).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_and_deviations_are_those_of_the_numbers() {
+        let found = quantiles((0..=100).map(f64::from).collect()).expect("numbers");
+        assert_eq!((found.count, found.low, found.median, found.high), (101, 5.0, 50.0, 95.0));
+        assert_eq!((quantiles(Vec::new()), deviation(&[1.0])), (None, None));
+        assert!((deviation(&[1.0, 3.0]).expect("two") - std::f64::consts::SQRT_2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,61 @@
+//! Why recordings give no result.
+
+use std::io;
+use std::path::PathBuf;
+
+use interplay_scenarios::LoadError;
+use thiserror::Error;
+
+/// Why recordings give no result.
+#[derive(Debug, Error)]
+pub enum RecordingsError {
+    /// A folder cannot be read.
+    #[error("cannot read folder `{}`: {reason}", .folder.display())]
+    UnreadableFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A folder has no recordings.
+    #[error("there is no .xml and no .csv file in folder `{}`", .0.display())]
+    EmptyFolder(PathBuf),
+    /// A file is neither a scenario of CommonRoad nor a table.
+    #[error("`{}` is no scenario of CommonRoad (.xml) and no table (.csv)", .0.display())]
+    UnknownFormat(PathBuf),
+    /// A file is wrong; the error has the place.
+    #[error(transparent)]
+    Refused(Box<LoadError>),
+    /// There is no such vehicle.
+    #[error("the recordings have no vehicle `{vehicle}`")]
+    UnknownVehicle {
+        /// The name that was asked for.
+        vehicle: String,
+    },
+    /// A vehicle follows nobody for long enough.
+    #[error(
+        "`{vehicle}` follows somebody at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
+    )]
+    TooLittleFollowing {
+        /// The vehicle.
+        vehicle: String,
+        /// How many starts there are.
+        starts: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// There is too little to judge by.
+    #[error(
+        "{starts} starts of moving cars with 1.2 s before them and 5 s after them are too few: both halves of the cars need some"
+    )]
+    TooFewStarts {
+        /// How many there are.
+        starts: usize,
+    },
+}
+
+impl From<LoadError> for RecordingsError {
+    fn from(error: LoadError) -> Self {
+        RecordingsError::Refused(Box::new(error))
+    }
+}

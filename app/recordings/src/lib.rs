@@ -1,0 +1,29 @@
+//! Recorded traffic beside the drivers of Interplay.
+//!
+//! ```text
+//! files -> joined traffic (`traffic`) -> starts in the frame of a lane (`start`) -> predictions (`models`) -> measures (`measure`)
+//! ```
+//!
+//! - [`Recordings`] reads files and folders, joins windows that follow one another, and finds the rows that repeat others.
+//! - [`compare`] lets models predict the recorded cars from each second on, fitted on one half of the cars and judged on the other.
+//! - [`fit_driver`] finds the time gap, the comfort and the style of our human that drives as a recorded vehicle did.
+//!
+//! What a prediction is given is causal: nothing of it depends on what is recorded after its start.
+
+mod compare;
+mod driving;
+mod error;
+mod fit;
+mod geometry;
+mod measure;
+mod models;
+mod start;
+mod traffic;
+
+pub use compare::{ComparedModel, GroupComparison, PredictionComparison, compare};
+pub use driving::{DrivingStatistics, Spread};
+pub use error::RecordingsError;
+pub use fit::{FittedDriver, fit_driver};
+pub use measure::{HorizonErrors, MeasureInterval, ModelMeasures};
+pub use models::NamedModel;
+pub use traffic::Recordings;

@@ -1,0 +1,104 @@
+//! What is known of a car at a moment. Nothing here reads what was recorded after it.
+
+use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
+use interplay_scenarios::RecordedMoment;
+
+use super::times::PAST_S;
+use crate::geometry::LaneLine;
+use crate::traffic::{Timeline, Track};
+
+/// Others farther away are not looked at \[m\].
+const SIGHT_M: f64 = 160.0;
+/// Others farther across are on other roads \[m\].
+const ACROSS_M: f64 = 15.0;
+/// Who drives against or across the lane is not told: cosine of the largest angle to it.
+const MIN_COS: f64 = 0.5;
+
+/// What is known of a track of a timeline at a step, with the line of its lane and how far along it the car is \[m\].
+pub(crate) fn known_at(timeline: &Timeline, track: usize, step: i64) -> Option<(LaneLine, f64, TrafficMoment)> {
+    let car = &timeline.tracks[track];
+    let at = car.at(step)?;
+    let (way, speed_limit_mps) = timeline.map.way(at.position, at.heading_rad);
+    let place = way.project(at.position);
+    let past = past(car, step, timeline.step_s);
+    let slope = |value: &dyn Fn(&RecordedMoment) -> f64| {
+        slope(past.iter().map(|at| (timeline.step_s * (at.step - step) as f64, value(at))))
+    };
+    let (acceleration_mps2, speed_noise_mps) = slope(&|at| at.speed_mps);
+    let (lateral_speed_mps, _) = slope(&|at| way.project(at.position).across_m);
+    let others = timeline.tracks.iter().enumerate().filter(|(index, _)| *index != track);
+    let others = others.filter_map(|(_, other)| neighbour(other, step, (at.position, &way, place.along_m)));
+    let known = TrafficMoment {
+        speed_mps: at.speed_mps,
+        acceleration_mps2,
+        speed_noise_mps,
+        across_m: place.across_m,
+        lateral_speed_mps,
+        length_m: car.length_m,
+        width_m: car.width_m,
+        lane_width_m: place.width_m,
+        road_m: timeline.map.road_m(&way, place.along_m, place.width_m),
+        speed_limit_mps,
+        others: others.collect(),
+    };
+    Some((way, place.along_m, known))
+}
+
+/// The moments of the past second or so, the present one last.
+fn past(car: &Track, step: i64, step_s: f64) -> &[RecordedMoment] {
+    let earliest = step - (PAST_S / step_s).round() as i64;
+    let from = car.moments.partition_point(|at| at.step < earliest);
+    let to = car.moments.partition_point(|at| at.step <= step);
+    &car.moments[from..to]
+}
+
+/// The slope of the straight line through points that misses them least, and by how much it misses them, root mean square; 0 for fewer
+/// than two.
+fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
+    let count = points.clone().count() as f64;
+    let [mean_x, mean_y] = points.clone().fold([0.0; 2], |sum, (x, y)| [sum[0] + x / count, sum[1] + y / count]);
+    let [above, below] = points
+        .clone()
+        .fold([0.0; 2], |sum, (x, y)| [sum[0] + (x - mean_x) * (y - mean_y), sum[1] + (x - mean_x) * (x - mean_x)]);
+    if below <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let slope = above / below;
+    let squares: f64 = points.map(|(x, y)| (y - mean_y - slope * (x - mean_x)).powi(2)).sum();
+    (slope, (squares / count).sqrt())
+}
+
+/// Another vehicle in the frame of a lane; none for one that is far away or goes another way.
+fn neighbour(other: &Track, step: i64, (from, way, along_m): ([f64; 2], &LaneLine, f64)) -> Option<NearbyVehicle> {
+    let at = other.at(step)?;
+    if libm::hypot(at.position[0] - from[0], at.position[1] - from[1]) > SIGHT_M {
+        return None;
+    }
+    let place = way.project(at.position);
+    let cos = libm::cos(at.heading_rad - place.heading_rad);
+    if cos < MIN_COS || place.across_m.abs() > ACROSS_M {
+        return None;
+    }
+    Some(NearbyVehicle {
+        ahead_m: place.along_m - along_m,
+        across_m: place.across_m,
+        speed_mps: at.speed_mps * cos,
+        length_m: other.length_m,
+        width_m: other.width_m,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_are_those_of_straight_lines() {
+        let line = (0..7).map(|t| (0.2 * f64::from(t), 3.0 - 0.5 * 0.2 * f64::from(t)));
+        let (found, noise) = slope(line);
+        assert!((found + 0.5).abs() < 1e-12 && noise < 1e-12);
+        assert_eq!(slope([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)].into_iter()).0, 0.0);
+        assert_eq!(slope([(0.0, 3.0)].into_iter()), (0.0, 0.0));
+        assert_eq!(slope(std::iter::empty()), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,84 @@
+//! Starts of predictions: what is known of a recorded car at a second, and what it did afterwards.
+//!
+//! What is known ([`TrafficMoment`]) is computed from moments up to the start alone: the speed that the file states then, and slopes of
+//! the past [`PAST_S`]. A centred filter would let the future leak in.
+
+mod known;
+mod later;
+mod times;
+
+pub(crate) use known::known_at;
+pub(crate) use later::{Later, Truth};
+pub(crate) use times::{HORIZONS_S, PAST_S};
+
+use interplay_planners::motion_prediction::TrafficMoment;
+use rayon::prelude::*;
+
+use crate::geometry::LaneLine;
+use crate::traffic::{Recordings, Timeline};
+
+/// Time between two starts of one car \[s\].
+const BETWEEN_S: f64 = 1.0;
+/// Who is slower stands, and where it will be is no question \[m/s\].
+const MIN_SPEED_MPS: f64 = 1.0;
+
+/// A start of predictions.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    /// Index of the group of recordings.
+    pub group: usize,
+    /// Index of its timeline.
+    pub timeline: usize,
+    /// Index of the car's track.
+    pub track: usize,
+    /// The step of time.
+    pub step: i64,
+    /// The line of its lane and those straight on.
+    pub way: LaneLine,
+    /// How far along it the car is \[m\].
+    pub along_m: f64,
+    /// What is known.
+    pub known: TrafficMoment,
+    /// Where the car was at each horizon.
+    pub truth: [Truth; HORIZONS_S.len()],
+}
+
+/// All starts of moving cars, a second apart, with enough of a record before and after them, in the order of the files. Those that repeat
+/// another one are left out.
+pub(crate) fn starts(recordings: &Recordings) -> Vec<Start> {
+    let timelines: Vec<(usize, &Timeline)> = recordings.timelines.iter().enumerate().collect();
+    let found: Vec<Vec<Start>> = timelines.par_iter().map(|(index, timeline)| of_timeline(*index, timeline)).collect();
+    found.into_iter().flatten().collect()
+}
+
+fn of_timeline(index: usize, timeline: &Timeline) -> Vec<Start> {
+    let in_steps = |time_s: f64| (time_s / timeline.step_s).round().max(1.0) as i64;
+    let (past, between) = (in_steps(PAST_S), in_steps(BETWEEN_S));
+    let mut found = Vec::new();
+    for (number, track) in timeline.tracks.iter().enumerate().filter(|(_, track)| track.is_motor) {
+        let Some(first) = track.moments.first() else { continue };
+        for (at, repeats) in track.moments.iter().zip(&track.repeats) {
+            let is_second = (at.step - first.step - past) % between == 0 && at.step >= first.step + past;
+            if *repeats || !is_second || at.speed_mps < MIN_SPEED_MPS {
+                continue;
+            }
+            let Some((way, along_m, known)) = known_at(timeline, number, at.step) else { continue };
+            let later = Later { timeline, track: number, step: at.step };
+            let Some(truth) = later.truth(&way, along_m) else { continue };
+            found.push(Start {
+                group: timeline.group,
+                timeline: index,
+                track: number,
+                step: at.step,
+                way,
+                along_m,
+                known,
+                truth,
+            });
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+//! Rows that repeat others: published files tell the same cars again and again, with another one taken out as the ego.
+
+use std::collections::BTreeMap;
+
+use super::timeline::Timeline;
+
+/// Who stands or crawls may be where somebody else was, so that its rows prove nothing \[m/s\].
+const MIN_SPEED_MPS: f64 = 0.5;
+/// Rows that agree to this many parts of a metre and of a metre per second are one.
+const PARTS: f64 = 1000.0;
+
+/// Marks the rows that an earlier track has told, and gives tracks of one car the same name.
+pub(super) fn mark(timelines: &mut [Timeline]) {
+    let mut known: BTreeMap<[i64; 3], String> = BTreeMap::new();
+    for track in timelines.iter_mut().flat_map(|timeline| &mut timeline.tracks) {
+        let keys: Vec<Option<[i64; 3]>> = track
+            .moments
+            .iter()
+            .map(|at| {
+                let key = [at.position[0], at.position[1], at.speed_mps].map(|number| (PARTS * number).round() as i64);
+                (at.speed_mps >= MIN_SPEED_MPS).then_some(key)
+            })
+            .collect();
+        if let Some(car) = keys.iter().flatten().find_map(|key| known.get(key)) {
+            track.car.clone_from(car);
+        }
+        for (key, repeats) in keys.iter().zip(&mut track.repeats) {
+            let Some(key) = key else { continue };
+            *repeats = known.insert(*key, track.car.clone()).is_some();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::{RecordedMoment, RecordedTraffic, RecordedVehicle};
+
+    use super::*;
+
+    #[test]
+    fn a_car_that_two_files_tell_is_one_car() {
+        let file = |name: &str, from: i64| {
+            let at = |step: i64| RecordedMoment {
+                step: step - from,
+                position: [2.0 * step as f64, 0.0],
+                heading_rad: 0.0,
+                speed_mps: 10.0,
+            };
+            let vehicle = RecordedVehicle {
+                id: name.to_owned(),
+                moments: (from..from + 10).map(at).collect(),
+                ..RecordedVehicle::default()
+            };
+            let traffic =
+                RecordedTraffic { name: name.to_owned(), step_s: 0.2, lanes: Vec::new(), vehicles: vec![vehicle] };
+            Timeline::of(traffic, 0)
+        };
+        let mut timelines = vec![file("a", 0), file("b", 7), file("c", 90)];
+        mark(&mut timelines);
+        let cars: Vec<&str> = timelines.iter().map(|it| it.tracks[0].car.as_str()).collect();
+        assert_eq!(cars, ["a/a", "a/a", "c/c"]);
+        let repeated = timelines[1].tracks[0].repeats.iter().filter(|repeats| **repeats).count();
+        assert_eq!(repeated, 3);
+    }
+}

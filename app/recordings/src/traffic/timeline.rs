@@ -1,0 +1,78 @@
+//! Traffic on one map with one axis of time.
+
+use interplay_scenarios::{RecordedMoment, RecordedTraffic, RecordedVehicle};
+
+use super::lane_map::LaneMap;
+
+/// Traffic on one map, with one axis of time.
+#[derive(Clone, Debug)]
+pub(crate) struct Timeline {
+    /// Index of its group.
+    pub group: usize,
+    /// Length of a step of time \[s\].
+    pub step_s: f64,
+    pub map: LaneMap,
+    pub tracks: Vec<Track>,
+}
+
+/// A vehicle with where it was.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Track {
+    pub id: String,
+    /// What the real car is called: tracks that repeat rows of one another are of one car.
+    pub car: String,
+    /// Whether it is a car, truck or bus.
+    pub is_motor: bool,
+    pub length_m: f64,
+    pub width_m: f64,
+    pub moments: Vec<RecordedMoment>,
+    /// For each moment whether another track has told it before.
+    pub repeats: Vec<bool>,
+}
+
+/// Kinds of vehicles that drive along lanes.
+const MOTOR_KINDS: [&str; 5] = ["car", "truck", "bus", "taxi", "priorityVehicle"];
+/// A first step that is shorter than this share of speed times step is an artefact of recording.
+const FIRST_STEP_SHARE: f64 = 0.8;
+
+impl Timeline {
+    pub(crate) fn of(traffic: RecordedTraffic, group: usize) -> Timeline {
+        let step_s = traffic.step_s;
+        let begin = traffic.vehicles.iter().filter_map(|it| it.moments.first()).map(|at| at.step).min().unwrap_or(0);
+        let name = traffic.name;
+        let track = |vehicle: RecordedVehicle| {
+            let mut moments = vehicle.moments;
+            if let [first, second, ..] = moments.as_slice() {
+                let [dx, dy] = [0, 1].map(|axis| second.position[axis] - first.position[axis]);
+                let expected_m = second.speed_mps * step_s * (second.step - first.step) as f64;
+                if first.step > begin && libm::hypot(dx, dy) < FIRST_STEP_SHARE * expected_m {
+                    moments.remove(0);
+                }
+            }
+            Track {
+                car: format!("{name}/{}", vehicle.id),
+                id: vehicle.id,
+                is_motor: MOTOR_KINDS.contains(&vehicle.kind.as_str()),
+                length_m: vehicle.length_m,
+                width_m: vehicle.width_m,
+                repeats: vec![false; moments.len()],
+                moments,
+            }
+        };
+        let tracks = traffic.vehicles.into_iter().map(track).collect();
+        Timeline { group, map: LaneMap::new(traffic.lanes), step_s, tracks }
+    }
+}
+
+impl Track {
+    /// Where it was at a step of time, if the record says so.
+    pub(crate) fn at(&self, step: i64) -> Option<&RecordedMoment> {
+        let index = self.index_at(step)?;
+        Some(&self.moments[index])
+    }
+
+    /// The index of the moment of a step of time.
+    pub(crate) fn index_at(&self, step: i64) -> Option<usize> {
+        self.moments.binary_search_by_key(&step, |at| at.step).ok()
+    }
+}

@@ -1,0 +1,90 @@
+//! Windows of one recording that follow one another, such as `C-DEU_MONAEast-2_80_T-159`, which tells the steps 80 to 159 of
+//! `C-DEU_MONAEast-2`: they become one recording, so that a car that goes from one into the next is one car.
+
+use interplay_scenarios::{RecordedTraffic, RecordedVehicle};
+
+/// Joins windows on the same map with the same step of time. Everything else stays as it is, in the order of its first file.
+pub(super) fn joined(traffic: Vec<RecordedTraffic>) -> Vec<RecordedTraffic> {
+    let mut found: Vec<RecordedTraffic> = Vec::new();
+    let mut heads: Vec<Option<String>> = Vec::new();
+    for mut window in traffic {
+        let Some((head, from)) = window_of(&window.name) else {
+            found.push(window);
+            heads.push(None);
+            continue;
+        };
+        shift(&mut window, from);
+        let is_same = |(index, known): (usize, &RecordedTraffic)| {
+            heads[index].as_ref() == Some(&head) && known.step_s == window.step_s && known.lanes == window.lanes
+        };
+        match found.iter().enumerate().position(is_same) {
+            Some(index) => window.vehicles.into_iter().for_each(|vehicle| add(&mut found[index].vehicles, vehicle)),
+            None => {
+                window.name.clone_from(&head);
+                found.push(window);
+                heads.push(Some(head));
+            }
+        }
+    }
+    found
+}
+
+/// The recording that a name is a window of, and the step at which it begins: `head_FROM_T-TO` with `FROM` below `TO`.
+fn window_of(name: &str) -> Option<(String, i64)> {
+    let (before, to) = name.rsplit_once("_T-")?;
+    let (head, from) = before.rsplit_once('_')?;
+    let (from, to): (i64, i64) = (from.parse().ok()?, to.parse().ok()?);
+    (from < to).then(|| (head.to_owned(), from))
+}
+
+/// Puts a window whose steps are counted from its own begin on the axis of its recording, which begins with 1 at step 0.
+fn shift(window: &mut RecordedTraffic, from: i64) {
+    let steps = || window.vehicles.iter().filter_map(|vehicle| vehicle.moments.first()).map(|at| at.step);
+    let is_counted_anew = steps().min().is_some_and(|first| first < from);
+    if from > 1 && is_counted_anew {
+        window.vehicles.iter_mut().flat_map(|vehicle| &mut vehicle.moments).for_each(|at| at.step += from);
+    }
+}
+
+/// Adds what a window tells of a vehicle. What another window has told of it stays.
+fn add(vehicles: &mut Vec<RecordedVehicle>, vehicle: RecordedVehicle) {
+    let Some(known) = vehicles.iter_mut().find(|known| known.id == vehicle.id) else {
+        vehicles.push(vehicle);
+        return;
+    };
+    for moment in vehicle.moments {
+        if let Err(place) = known.moments.binary_search_by_key(&moment.step, |at| at.step) {
+            known.moments.insert(place, moment);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::RecordedMoment;
+
+    use super::*;
+
+    fn window(name: &str, id: &str, steps: std::ops::Range<i64>) -> RecordedTraffic {
+        let moments = steps.map(|step| RecordedMoment { step, ..RecordedMoment::default() }).collect();
+        let vehicle = RecordedVehicle { id: id.to_owned(), moments, ..RecordedVehicle::default() };
+        RecordedTraffic { name: name.to_owned(), step_s: 0.2, vehicles: vec![vehicle], lanes: Vec::new() }
+    }
+
+    #[test]
+    fn windows_become_one_recording() {
+        let windows =
+            vec![window("A-2_1_T-79", "7", 60..80), window("A-2_80_T-159", "7", 0..5), window("B-1_2_T-1", "7", 0..3)];
+        let joined = joined(windows);
+        assert_eq!(joined.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["A-2", "B-1_2_T-1"]);
+        let steps: Vec<i64> = joined[0].vehicles[0].moments.iter().map(|at| at.step).collect();
+        assert_eq!(steps, (60..85).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn recordings_on_other_maps_stay_apart() {
+        let mut other = window("A-2_80_T-159", "7", 0..5);
+        other.step_s = 0.1;
+        assert_eq!(joined(vec![window("A-2_1_T-79", "7", 0..5), other]).len(), 2);
+    }
+}

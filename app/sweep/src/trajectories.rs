@@ -1,0 +1,248 @@
+//! What every vehicle did at every tick, as a table: a row a vehicle and tick, as CSV or Parquet.
+//!
+//! Rows are written while the run goes on, and the file appears when the run is over.
+
+use std::collections::BTreeMap;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use interplay_files::{NewFolders, WholeFile};
+use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
+use interplay_simulation::watch::{WatchError, Watcher};
+use thiserror::Error;
+
+use crate::column::{Cell, ColumnKind, TableSchema};
+use crate::error::SweepError;
+use crate::table::TableWriter;
+
+/// The columns of a table of trajectories.
+const COLUMNS: [(&str, ColumnKind); 12] = [
+    ("tick", ColumnKind::Count),
+    ("time_s", ColumnKind::Number),
+    ("vehicle", ColumnKind::Text),
+    ("x_m", ColumnKind::Number),
+    ("y_m", ColumnKind::Number),
+    ("heading_rad", ColumnKind::Number),
+    ("speed_mps", ColumnKind::Number),
+    ("acceleration_mps2", ColumnKind::Number),
+    ("steering_rad", ColumnKind::Number),
+    ("plan_cost", ColumnKind::Number),
+    ("plan", ColumnKind::Text),
+    ("partner", ColumnKind::Text),
+];
+
+/// The formats of tables of trajectories.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrajectoryFormat {
+    /// Comma-separated values.
+    Csv,
+    /// Parquet.
+    Parquet,
+}
+
+/// A file that trajectories are written to; its ending is its format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TrajectoryFile {
+    path: PathBuf,
+    format: TrajectoryFormat,
+}
+
+/// A file whose ending is no format of trajectories.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("`{0}` has no ending of a table; use .csv or .parquet")]
+pub struct TrajectoryFormatError(String);
+
+impl TrajectoryFile {
+    /// Path of the file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file of a run in the folder of a sweep, by the key of the run.
+    pub(crate) fn of_run(folder: &Path, key: impl std::fmt::Display) -> TrajectoryFile {
+        let path = folder.join("trajectories").join(format!("{key}.parquet"));
+        TrajectoryFile { path, format: TrajectoryFormat::Parquet }
+    }
+}
+
+impl FromStr for TrajectoryFile {
+    type Err = TrajectoryFormatError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let path = PathBuf::from(text);
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let format = match ending.as_deref() {
+            Some("csv") => TrajectoryFormat::Csv,
+            Some("parquet") => TrajectoryFormat::Parquet,
+            _ => return Err(TrajectoryFormatError(text.to_owned())),
+        };
+        Ok(TrajectoryFile { path, format })
+    }
+}
+
+/// Writes a row for every vehicle and tick. The file appears when the run is over; nothing of a run that is given up stays.
+pub struct TrajectoryWriter {
+    rows: Rows,
+    folders: NewFolders,
+    /// With whom each vehicle deals, by its name.
+    partners: BTreeMap<String, String>,
+}
+
+/// Where rows go.
+enum Rows {
+    Csv(BufWriter<WholeFile>),
+    Parquet(Box<TableWriter>),
+}
+
+impl TrajectoryWriter {
+    /// Begins a table.
+    ///
+    /// # Errors
+    /// For a file that cannot be written.
+    pub fn begin(target: &TrajectoryFile) -> Result<TrajectoryWriter, SweepError> {
+        let path = target.path();
+        interplay_files::check(path).map_err(SweepError::file("write", path))?;
+        let folders = NewFolders::make_above(path).map_err(SweepError::file("write", path))?;
+        let rows = match target.format {
+            TrajectoryFormat::Csv => {
+                let mut file = BufWriter::new(WholeFile::begin(path).map_err(SweepError::file("write", path))?);
+                let header = COLUMNS.map(|(name, _)| name).join(",");
+                writeln!(file, "{header}").map_err(SweepError::file("write", path))?;
+                Rows::Csv(file)
+            }
+            TrajectoryFormat::Parquet => {
+                let schema: TableSchema = COLUMNS.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
+                Rows::Parquet(Box::new(TableWriter::new(path, schema, &[])?))
+            }
+        };
+        Ok(TrajectoryWriter { rows, folders, partners: BTreeMap::new() })
+    }
+}
+
+impl Watcher for TrajectoryWriter {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
+        for vehicle in &frame.vehicles {
+            if let Some(partner) = vehicle.new_partner() {
+                match partner {
+                    Some(partner) => self.partners.insert(vehicle.name.clone(), partner.to_owned()),
+                    None => self.partners.remove(&vehicle.name),
+                };
+            }
+            let cells = cells(frame, vehicle, self.partners.get(&vehicle.name));
+            match &mut self.rows {
+                Rows::Csv(file) => writeln!(file, "{}", cells.map(|cell| in_csv(&cell)).join(","))?,
+                Rows::Parquet(table) => table.push(cells)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
+        match self.rows {
+            Rows::Csv(file) => file.into_inner().map_err(std::io::IntoInnerError::into_error)?.replace()?,
+            Rows::Parquet(table) => table.finish()?,
+        }
+        self.folders.keep();
+        Ok(())
+    }
+}
+
+/// The row of a vehicle at a tick, in the order of [`COLUMNS`].
+fn cells(frame: &Frame, vehicle: &VehicleFrame, partner: Option<&String>) -> [Cell; COLUMNS.len()] {
+    let VehicleFrame { name, state, input, origin, .. } = vehicle;
+    let number = |value: f64| Cell::Number(value.is_finite().then_some(value));
+    [
+        Cell::Count(Some(frame.tick as u64)),
+        number(frame.time_s),
+        Cell::Text(Some(name.clone())),
+        number(state.x_m),
+        number(state.y_m),
+        number(state.heading_rad),
+        number(state.speed_mps),
+        number(input.acceleration_mps2),
+        number(input.steering_rad),
+        vehicle.plan_cost().map_or(Cell::Number(None), number),
+        Cell::Text(Some(word(*origin).to_owned())),
+        Cell::Text(partner.cloned()),
+    ]
+}
+
+/// Where a plan comes from, in a word.
+fn word(origin: Origin) -> &'static str {
+    match origin {
+        Origin::Planned => "planned",
+        Origin::Continued => "continued",
+        Origin::Braking => "braking",
+        Origin::Evading => "evading",
+        Origin::Crashed => "crashed",
+    }
+}
+
+/// A value as comma-separated values have it. Numbers have as many digits as it takes to read the same number again.
+fn in_csv(cell: &Cell) -> String {
+    match cell {
+        Cell::Flag(value) => value.map(|value| value.to_string()),
+        Cell::Count(value) => value.map(|value| value.to_string()),
+        Cell::Number(value) => value.map(|value| value.to_string()),
+        Cell::Text(value) => value.as_deref().map(quoted),
+    }
+    .unwrap_or_default()
+}
+
+/// A text in quotes, where it would be read as something else without them.
+fn quoted(text: &str) -> String {
+    if text.contains(['"', ',', '\n', '\r']) {
+        return format!("\"{}\"", text.replace('"', "\"\""));
+    }
+    text.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{TableColumn, TableReader};
+
+    fn frame(tick: usize, name: &str) -> Frame {
+        let vehicle = VehicleFrame { name: name.to_owned(), ..VehicleFrame::default() };
+        Frame { tick, time_s: 0.1 * tick as f64, vehicles: vec![vehicle], ..Frame::default() }
+    }
+
+    fn written(file: &str, frames: &[Frame], finishes: bool) -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("new").join(file);
+        let target: TrajectoryFile = path.to_string_lossy().parse().expect("an ending of a table");
+        let mut writer = Box::new(TrajectoryWriter::begin(&target).expect("writable"));
+        frames.iter().for_each(|frame| writer.tick(frame).expect("written"));
+        if finishes {
+            writer.finish().expect("written");
+        }
+        (folder, path)
+    }
+
+    #[test]
+    fn a_name_with_a_comma_is_quoted_and_numbers_are_read_as_they_were() {
+        let (_folder, path) = written("a.csv", &[frame(3, "a, \"b\"")], true);
+        let text = std::fs::read_to_string(path).expect("written");
+        assert_eq!(text.lines().nth(1), Some("3,0.30000000000000004,\"a, \"\"b\"\"\",0,0,0,0,0,0,,planned,"));
+    }
+
+    #[test]
+    fn parquet_has_the_same_rows() {
+        let (_folder, path) = written("a.parquet", &[frame(0, "a"), frame(1, "a")], true);
+        let reader = TableReader::open(&path).expect("a table");
+        let table = reader.group(0, &COLUMNS.map(|(name, _)| name.to_owned())).expect("readable");
+        assert_eq!(table.row_count, 2);
+        let names: Vec<&str> = table.columns.iter().map(|(name, _)| &**name).collect();
+        assert_eq!(names, COLUMNS.map(|(name, _)| name));
+        assert_eq!(table.columns[0].1, TableColumn::Counts(vec![Some(0), Some(1)]));
+    }
+
+    #[test]
+    fn a_run_that_is_given_up_leaves_nothing() {
+        for file in ["a.csv", "a.parquet"] {
+            let (folder, path) = written(file, &[frame(0, "a")], false);
+            assert!(!path.exists() && folder.path().read_dir().expect("there").next().is_none());
+        }
+    }
+}

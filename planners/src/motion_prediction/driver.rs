@@ -1,0 +1,217 @@
+//! Our human driver as a prediction: one plan of it, made on the straightened lane.
+//!
+//! The plan is that of [`human`](crate::human) itself, with all its terms, for a real car among real cars. The lane and those beside it
+//! are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A driver in traffic
+//! wants about the speed that it has: what it would want on a free road, nobody can see.
+
+use std::sync::Arc;
+
+use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
+use crate::belief::Outlook;
+use crate::human::{self, Human};
+use crate::predict::constant_velocity;
+use crate::rules::RoadRules;
+use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
+
+/// Stages of the plan: 8 s, as people have on real roads.
+const HORIZON: usize = 40;
+/// A body is at least this far from the edge of the road \[m\].
+const EDGE_M: f64 = 0.2;
+/// Others farther away than this along the lane are not looked at, ahead and behind \[m\].
+const SIGHT_M: [f64; 2] = [150.0, 40.0];
+/// Of those in the lane ahead, at most so many are looked at.
+const MAX_LEADERS: usize = 4;
+/// Those beside the lane are looked at up to this far across \[m\].
+const BESIDE_M: f64 = 5.5;
+/// Where the axles are, as a share of the length from the middle.
+const AXLE_SHARE: f64 = 0.3;
+/// Half axes of the safety ellipse of a car: along the road and across it \[m\].
+const SAFETY_M: [f64; 2] = [12.0, 3.3];
+/// Weights of a real car on the place along and across the lane, its heading and its speed.
+const TRACKING: [f64; 4] = [0.0, 0.01, 0.5, 0.1];
+/// Weight of changes of the steering angle.
+const STEERING_CHANGE: f64 = 0.1;
+
+/// Our human driver, as a prediction of a vehicle in traffic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PredictedDriver {
+    /// The driver.
+    pub settings: human::Settings,
+    /// Weight of changes of the acceleration \[s⁴/m²\].
+    pub acceleration_change: f64,
+    /// Time gap that the driver keeps, before its style makes it longer or shorter \[s\].
+    pub time_gap_s: f64,
+    /// Which share of the acceleration at the start is taken for the driver's last input.
+    pub own_acceleration: f64,
+    /// Noise of the record with which half of that acceleration is trusted \[m/s\].
+    pub half_noise_mps: f64,
+    /// Who accelerates wants to be faster: the wanted speed is what it will have after this time \[s\].
+    pub wants_ahead_s: f64,
+    /// The speed that the driver wants, where it is known; without it about the present one \[m/s\].
+    pub wanted_mps: Option<f64>,
+    /// Whether those beside the lane are looked at, too.
+    pub looks_beside: bool,
+    /// How the lateral place goes on; as planned, towards the middle of the lane, without one.
+    pub lateral: Option<LateralMotion>,
+}
+
+impl PredictedDriver {
+    /// A real car's driver as scenarios have it.
+    pub fn usual() -> PredictedDriver {
+        PredictedDriver {
+            settings: human::Settings { style: Some(human::Style::Normal), ..human::Settings::default() },
+            acceleration_change: 0.1,
+            time_gap_s: ComfortLimits::default().time_gap_s,
+            own_acceleration: 1.0,
+            half_noise_mps: 1.0,
+            wants_ahead_s: 0.0,
+            wanted_mps: None,
+            looks_beside: true,
+            lateral: None,
+        }
+    }
+
+    /// Where the driver plans to be. If it finds no plan, its speed is kept.
+    pub(super) fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
+        let mut scene = self.scene(moment);
+        scene.ego.urgency = scene.urgency();
+        let Ok(plan) = Human::new(self.settings).plan(&scene, &Outlook::default()) else {
+            let lateral = self.lateral.unwrap_or_default();
+            return super::acceleration::predict(moment, None, lateral);
+        };
+        let states = &plan.trajectory.states[..=STEPS];
+        let across_m = match self.lateral {
+            Some(lateral) => lateral.places_m(moment),
+            None => states.iter().map(|state| state.y_m).collect(),
+        };
+        PredictedMotion { along_m: travelled_m(states), across_m }
+    }
+
+    /// The moment as the driver sees it.
+    fn scene(&self, moment: &TrafficMoment) -> Scene {
+        // Whoever is beside the road at the start is on a road that reaches there.
+        let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
+        let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
+        let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };
+        let route: Arc<Route> = Arc::new(Route::from(corridor));
+        // A driver who keeps its line has no heading to correct.
+        let lateral_mps = if self.lateral.is_some() { 0.0 } else { moment.lateral_speed_mps };
+        let heading_rad = if moment.speed_mps > 1.0 { libm::atan(lateral_mps / moment.speed_mps) } else { 0.0 };
+        let state = State { x_m: 0.0, y_m: moment.across_m, heading_rad, speed_mps: moment.speed_mps };
+        let trusted_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
+        let acceleration_mps2 = self.own_acceleration * trusted_mps2;
+        let about_mps = (moment.speed_mps + self.wants_ahead_s * trusted_mps2).max(0.0);
+        let wanted_mps = self.wanted_mps.unwrap_or(about_mps);
+        let ego = self.agent("ego", state, [moment.length_m, moment.width_m], acceleration_mps2, &route);
+        let seen = self.seen(moment);
+        let others = seen.iter().enumerate().map(|(index, it)| {
+            let state = State { x_m: it.ahead_m, y_m: it.across_m, heading_rad: 0.0, speed_mps: it.speed_mps };
+            self.agent(&index.to_string(), state, [it.length_m, it.width_m], 0.0, &route)
+        });
+        let others = others.collect();
+        let wanted_m = if self.lateral.is_some() { moment.across_m } else { 0.0 };
+        let goal = Goal {
+            target: State { x_m: 0.0, y_m: wanted_m, heading_rad: 0.0, speed_mps: wanted_mps },
+            tracking: TRACKING,
+            comfort: [self.acceleration_change, STEERING_CHANGE],
+            safety: SafetyEllipse { along_m: SAFETY_M[0], across_m: SAFETY_M[1] },
+        };
+        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego, goal, others }
+    }
+
+    /// Whom the driver looks at: the nearest ahead in its lane, and those beside it.
+    fn seen(&self, moment: &TrafficMoment) -> Vec<NearbyVehicle> {
+        let mut seen = moment.leaders();
+        seen.truncate(MAX_LEADERS);
+        let is_beside = |it: &&NearbyVehicle| {
+            let across_m = (it.across_m - moment.across_m).abs();
+            across_m < BESIDE_M && !moment.is_in_way(it) && (-SIGHT_M[1]..SIGHT_M[0] / 2.0).contains(&it.ahead_m)
+        };
+        if self.looks_beside {
+            seen.extend(moment.others.iter().filter(is_beside));
+        }
+        seen.retain(|it| it.ahead_m <= SIGHT_M[0]);
+        seen
+    }
+
+    fn agent(
+        &self,
+        name: &str,
+        state: State,
+        [length_m, width_m]: [f64; 2],
+        acceleration_mps2: f64,
+        route: &Arc<Route>,
+    ) -> Agent {
+        let [half_m, axle_m] = [0.5 * length_m, AXLE_SHARE * length_m];
+        let body = Body {
+            front_m: half_m,
+            rear_m: half_m,
+            width_m,
+            front_axle_m: axle_m,
+            rear_axle_m: axle_m,
+            scale: Body::REAL_SCALE,
+        };
+        let limits = Limits {
+            acceleration_min_mps2: -6.4,
+            acceleration_max_mps2: 3.0,
+            steering_max_rad: 0.55,
+            speed_min_mps: 0.0,
+            speed_max_mps: 50.0,
+            lateral_acceleration_max_mps2: Some(7.0),
+            comfort: Some(ComfortLimits { time_gap_s: self.time_gap_s, ..ComfortLimits::default() }),
+        };
+        let acceleration_mps2 = acceleration_mps2.clamp(limits.acceleration_min_mps2, limits.acceleration_max_mps2);
+        Agent {
+            name: name.to_owned(),
+            prediction: constant_velocity(&state, HORIZON, STEP_S),
+            state,
+            previous_input: Input { acceleration_mps2, steering_rad: 0.0 },
+            body,
+            limits,
+            route: Arc::clone(route),
+            shared_goal: None,
+            can_be_asked: true,
+            rules: RoadRules::default(),
+            urgency: 1.0,
+        }
+    }
+}
+
+/// How far a planned motion leads \[m\]. The plan's model moves a vehicle by its speed at the begin of each step; with steps of 0.2 s that
+/// is 0.3 m too far after 3 s of braking at 1 m/s², so speeds are summed up here.
+fn travelled_m(states: &[State]) -> Vec<f64> {
+    let mut at_m = 0.0;
+    let further = states.windows(2).map(|pair| {
+        at_m += 0.5 * STEP_S * (pair[0].speed_mps + pair[1].speed_mps);
+        at_m
+    });
+    [0.0].into_iter().chain(further.collect::<Vec<_>>()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::behind;
+    use super::*;
+
+    #[test]
+    fn on_a_free_road_the_speed_is_kept() {
+        let moment = TrafficMoment { others: Vec::new(), ..behind(1.0, 1.0) };
+        let motion = PredictedDriver::usual().predict(&moment);
+        assert!((motion.along_m[STEPS] - 100.0).abs() < 0.01, "{}", motion.along_m[STEPS]);
+    }
+
+    #[test]
+    fn a_slow_leader_is_not_run_into() {
+        let motion = PredictedDriver::usual().predict(&behind(30.0, 10.0));
+        assert!(motion.along_m[STEPS] < 30.0 + 50.0, "{}", motion.along_m[STEPS]);
+    }
+
+    #[test]
+    fn who_keeps_its_line_is_not_expected_in_the_middle_of_the_lane() {
+        let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
+        let across_m =
+            |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];
+        assert_eq!(across_m(Some(LateralMotion::Kept)), 0.8);
+        assert!(across_m(None).abs() < 0.8);
+    }
+}

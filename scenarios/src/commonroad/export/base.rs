@@ -1,0 +1,174 @@
+//! What of an exported scenario is the same in every run.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use interplay_planners::State;
+
+use super::super::model::ROOT;
+use super::goal::GoalPlaces;
+use super::ids::{Ids, number_in};
+use super::xml_text::{escaped, number, state};
+use super::{DrivenVehicle, VERSION};
+use crate::classes::VehicleClass;
+use crate::road::Road;
+use crate::scenario::Scenario;
+
+/// Roads and planning problem of an exported scenario, as text.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Base {
+    /// Attributes of the outermost element.
+    pub attributes: Vec<(String, String)>,
+    /// The name among the benchmarks.
+    pub benchmark: String,
+    /// Place, tags, lanelets, signs, lights and intersections.
+    pub roads: String,
+    /// The planning problem; none where it follows from what was driven.
+    pub problem: Option<String>,
+    /// The id of the planning problem.
+    pub problem_id: u64,
+    /// The goals of the planning problem.
+    pub goals: GoalPlaces,
+    /// The ids that are taken.
+    pub ids: Ids,
+    /// The type of each obstacle of the source, by its id.
+    pub kinds: BTreeMap<u64, String>,
+    /// The place in the written coordinates that is the origin of the run \[m\].
+    pub origin: [f64; 2],
+    /// The step of time at which the run begins.
+    pub begin: i64,
+    /// A road of parallel lanes, whose length depends on where somebody drove.
+    pub parallel: Option<Box<Scenario>>,
+    /// The lanelets in which the ego's way ends; empty where that is anywhere.
+    pub last_lanelets: Vec<u64>,
+}
+
+impl Base {
+    /// The roads of a scenario that was not imported.
+    pub(super) fn of_road(scenario: &Scenario, name: &str) -> Base {
+        let benchmark = benchmark(name);
+        let mut base = Base { attributes: attributes(scenario, &benchmark), benchmark, ..Base::default() };
+        base.roads = "  <location><geoNameId>-999</geoNameId><gpsLatitude>999</gpsLatitude><gpsLongitude>999</gpsLongitude></location>\n  \
+                      <scenarioTags><simulated/></scenarioTags>\n"
+            .to_owned();
+        match &scenario.network {
+            Some(network) => base.add_network(network, scenario.ego()),
+            None => base.parallel = Some(Box::new(scenario.clone())),
+        }
+        base.problem_id = base.ids.give(None);
+        base
+    }
+
+    /// The same with roads that are as long as what was driven.
+    pub(super) fn around(&self, vehicles: &[DrivenVehicle]) -> Base {
+        let mut base = self.clone();
+        if let Some(scenario) = base.parallel.take() {
+            base.add_parallel(&scenario, vehicles);
+        }
+        base
+    }
+
+    /// A place of the run in the coordinates that are written \[m\].
+    pub(super) fn written(&self, place: [f64; 2]) -> [f64; 2] {
+        [place[0] + self.origin[0], place[1] + self.origin[1]]
+    }
+
+    /// The scenario with what was driven.
+    pub(super) fn scenario(&self, others: &[DrivenVehicle], ego: Option<&DrivenVehicle>) -> String {
+        let mut text = format!("<?xml version='1.0' encoding='UTF-8'?>\n<{ROOT}");
+        for (name, value) in &self.attributes {
+            // Writing to a text cannot fail.
+            let _ = write!(text, " {name}=\"{}\"", escaped(value));
+        }
+        text.push_str(">\n");
+        text.push_str(&self.roads);
+        let mut ids = self.ids.clone();
+        for vehicle in others {
+            text.push_str(&self.obstacle(vehicle, &mut ids));
+        }
+        match &self.problem {
+            Some(problem) => text.push_str(problem),
+            None => text.push_str(&ego.map_or_else(String::new, |ego| self.problem_of(ego))),
+        }
+        let _ = writeln!(text, "</{ROOT}>");
+        text
+    }
+
+    fn obstacle(&self, vehicle: &DrivenVehicle, ids: &mut Ids) -> String {
+        let wanted = number_in(&vehicle.name);
+        let known = wanted.and_then(|id| self.kinds.get(&id)).map(|kind| escaped(kind));
+        let kind = known.unwrap_or_else(|| kind(vehicle.class).to_owned());
+        let body = &vehicle.body;
+        let [length_m, width_m] = [body.front_m + body.rear_m, body.width_m].map(number);
+        let mut text = format!(
+            "  <dynamicObstacle id=\"{}\">\n    <type>{kind}</type>\n    \
+             <shape><rectangle><length>{length_m}</length><width>{width_m}</width></rectangle></shape>\n",
+            ids.give(wanted)
+        );
+        for (index, at) in vehicle.states.iter().enumerate() {
+            let time = self.begin + index as i64;
+            let written = state(at, self.written(middle(vehicle, at)), time);
+            let _ = match index {
+                0 => writeln!(text, "    <initialState>{written}</initialState>\n    <trajectory>"),
+                _ => writeln!(text, "      <state>{written}</state>"),
+            };
+        }
+        text.push_str("    </trajectory>\n  </dynamicObstacle>\n");
+        text
+    }
+
+    /// The planning problem of an ego that has none: where it began, and the lanelets in which its way ends.
+    fn problem_of(&self, ego: &DrivenVehicle) -> String {
+        let Some(start) = ego.states.first() else { return String::new() };
+        let initial = state(start, self.written(middle(ego, start)), self.begin);
+        let last = self.begin + ego.states.len() as i64 - 1;
+        let lanelets: String = self.last_lanelets.iter().map(|id| format!("<lanelet ref=\"{id}\"/>")).collect();
+        let position = if lanelets.is_empty() { lanelets } else { format!("<position>{lanelets}</position>") };
+        format!(
+            "  <planningProblem id=\"{}\">\n    <initialState>{initial}<yawRate><exact>0</exact></yawRate>\
+             <slipAngle><exact>0</exact></slipAngle></initialState>\n    <goalState>{position}<time>\
+             <intervalStart>{}</intervalStart><intervalEnd>{last}</intervalEnd></time></goalState>\n  </planningProblem>\n",
+            self.problem_id,
+            (self.begin + 1).min(last),
+        )
+    }
+}
+
+/// The middle of a vehicle's box \[m\].
+pub(super) fn middle(vehicle: &DrivenVehicle, at: &State) -> [f64; 2] {
+    let ahead_m = 0.5 * (vehicle.body.front_m - vehicle.body.rear_m);
+    let (sin, cos) = libm::sincos(at.heading_rad);
+    [at.x_m + ahead_m * cos, at.y_m + ahead_m * sin]
+}
+
+/// The type of an obstacle.
+fn kind(class: Option<VehicleClass>) -> &'static str {
+    match class {
+        Some(VehicleClass::Truck | VehicleClass::Van) => "truck",
+        Some(VehicleClass::Bicycle) => "bicycle",
+        Some(VehicleClass::Car | VehicleClass::ScaleCar) | None => "car",
+    }
+}
+
+/// A name of a benchmark in the form that its readers ask for.
+fn benchmark(name: &str) -> String {
+    let letters: String = name.trim_end_matches(".toml").chars().filter(char::is_ascii_alphanumeric).take(60).collect();
+    format!("ZAM_{}-1_1_T-1", if letters.is_empty() { "Scenario".to_owned() } else { letters })
+}
+
+fn attributes(scenario: &Scenario, benchmark: &str) -> Vec<(String, String)> {
+    let step_s = scenario.step_s.to_string();
+    let all = [
+        ("timeStepSize", step_s.as_str()),
+        ("commonRoadVersion", VERSION),
+        ("benchmarkID", benchmark),
+        ("author", "Interplay"),
+        ("affiliation", "Interplay"),
+        (
+            "source",
+            if matches!(scenario.road, Road::Network(_)) { "a network of lanes" } else { "a scenario of Interplay" },
+        ),
+        ("date", "2000-01-01"),
+    ];
+    all.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec()
+}

@@ -1,0 +1,90 @@
+//! Lanes of a network as lanelets.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RoadNetwork};
+
+use super::base::Base;
+use super::ids::number_in;
+use super::xml_text::bound;
+use crate::scenario::Vehicle;
+
+/// The largest distance between two points of a bound \[m\].
+const POINTS_M: f64 = 1.0;
+/// The most points of a bound.
+const MAX_POINTS: f64 = 1000.0;
+
+/// A lanelet with everything that it says of others.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LaneletText {
+    pub id: u64,
+    /// Points of the left and the right bound \[m\].
+    pub bounds: [Vec<[f64; 2]>; 2],
+    pub predecessors: Vec<u64>,
+    pub successors: Vec<u64>,
+    /// The lanelets on the left and on the right, and whether they are driven in the same direction.
+    pub beside: [Option<(u64, bool)>; 2],
+}
+
+impl LaneletText {
+    /// The lanelet as text.
+    pub(super) fn written(&self) -> String {
+        let [left, right] = &self.bounds;
+        let mut text =
+            format!("  <lanelet id=\"{}\">\n{}{}", self.id, bound("leftBound", left), bound("rightBound", right));
+        // Writing to a text cannot fail.
+        for (name, ids) in [("predecessor", &self.predecessors), ("successor", &self.successors)] {
+            for id in ids {
+                let _ = writeln!(text, "    <{name} ref=\"{id}\"/>");
+            }
+        }
+        for (name, beside) in ["adjacentLeft", "adjacentRight"].iter().zip(self.beside) {
+            if let Some((id, is_same)) = beside {
+                let direction = if is_same { "same" } else { "opposite" };
+                let _ = writeln!(text, "    <{name} ref=\"{id}\" drivingDir=\"{direction}\"/>");
+            }
+        }
+        text.push_str("    <laneletType>urban</laneletType>\n    <userOneWay>vehicle</userOneWay>\n  </lanelet>\n");
+        text
+    }
+}
+
+impl Base {
+    /// Adds the lanes of a network, and the lanelet in which the way of the ego ends.
+    pub(super) fn add_network(&mut self, network: &RoadNetwork, ego: Option<&Vehicle>) {
+        let lanes = network.lanes();
+        let ids: BTreeMap<&str, u64> =
+            lanes.iter().map(|lane| (lane.name.as_str(), self.ids.give(number_in(&lane.name)))).collect();
+        let mut lanelets: Vec<LaneletText> = lanes.iter().map(|lane| lanelet(lane, &ids)).collect();
+        let pairs: Vec<(u64, u64)> =
+            lanelets.iter().flat_map(|lanelet| lanelet.successors.iter().map(|next| (lanelet.id, *next))).collect();
+        for lanelet in &mut lanelets {
+            lanelet.predecessors = pairs.iter().filter(|(_, next)| *next == lanelet.id).map(|(id, _)| *id).collect();
+        }
+        lanelets.iter().for_each(|lanelet| self.roads.push_str(&lanelet.written()));
+        let last = ego.and_then(|ego| ego.route.legs.last()).and_then(|leg| ids.get(leg.lane.as_str()));
+        self.last_lanelets = last.copied().into_iter().collect();
+    }
+}
+
+fn lanelet(lane: &Lane, ids: &BTreeMap<&str, u64>) -> LaneletText {
+    let id = |name: &str| ids.get(name).copied();
+    let beside = |neighbour: &Option<LaneNeighbour>| {
+        let neighbour = neighbour.as_ref()?;
+        Some((id(&neighbour.lane)?, neighbour.relation == NeighbourRelation::SameDirection))
+    };
+    let length_m = lane.centre.length_m();
+    let count = (length_m / POINTS_M).ceil().clamp(1.0, MAX_POINTS) as usize;
+    let places = (0..=count).map(|index| length_m * index as f64 / count as f64);
+    let bounds = [1.0, -1.0].map(|side| {
+        places.clone().map(|along_m| lane.centre.position(along_m, side * lane.half_width_m(along_m))).collect()
+    });
+    LaneletText {
+        id: id(&lane.name).unwrap_or_default(),
+        bounds,
+        predecessors: Vec::new(),
+        successors: lane.successors.iter().filter_map(|name| id(name)).collect(),
+        beside: [beside(&lane.left), beside(&lane.right)],
+    }
+}

@@ -1,0 +1,69 @@
+//! Pieces of XML.
+
+use std::fmt::Write;
+
+use interplay_planners::State;
+
+/// Digits behind the point of lengths \[m\] and angles \[rad\].
+const DIGITS: i32 = 6;
+
+/// A number as it is written.
+pub(super) fn number(value: f64) -> f64 {
+    let factor = 10_f64.powi(DIGITS);
+    let rounded = (factor * value).round() / factor;
+    // Not `-0`.
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
+/// A text without characters that mean something in XML, or that it does not allow.
+pub(super) fn escaped(text: &str) -> String {
+    let mut written = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '<' => written.push_str("&lt;"),
+            '>' => written.push_str("&gt;"),
+            '&' => written.push_str("&amp;"),
+            '"' => written.push_str("&quot;"),
+            letter if letter.is_control() => written.push(' '),
+            letter => written.push(letter),
+        }
+    }
+    written
+}
+
+/// A point \[m\].
+pub(super) fn point([x_m, y_m]: [f64; 2]) -> String {
+    format!("<point><x>{}</x><y>{}</y></point>", number(x_m), number(y_m))
+}
+
+/// A state at a step of time, without the element around it.
+pub(super) fn state(state: &State, place: [f64; 2], time: i64) -> String {
+    let [heading_rad, speed_mps] = [state.heading_rad, state.speed_mps].map(number);
+    format!(
+        "<position>{}</position><orientation><exact>{heading_rad}</exact></orientation><time><exact>{time}</exact></time>\
+         <velocity><exact>{speed_mps}</exact></velocity>",
+        point(place)
+    )
+}
+
+/// A bound of a lanelet.
+pub(super) fn bound(name: &str, points: &[[f64; 2]]) -> String {
+    let mut written = format!("    <{name}>\n");
+    for place in points {
+        // Writing to a text cannot fail.
+        let _ = writeln!(written, "      {}", point(*place));
+    }
+    let _ = writeln!(written, "    </{name}>");
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_harmless_and_numbers_short() {
+        assert_eq!(escaped("a<b & \"c\"\u{0}"), "a&lt;b &amp; &quot;c&quot; ");
+        assert_eq!([number(-1e-9), number(1.234_567_89)].map(|value| value.to_string()), ["0", "1.234568"]);
+    }
+}

@@ -1,0 +1,65 @@
+//! Traffic that was recorded, as plain values: lanes with their bounds, and vehicles with where they were at each step of time.
+//!
+//! It is no scenario: nobody is driven in it. Whoever compares drivers with people, or fits them to people, reads it.
+
+mod table;
+
+pub use table::{recorded_traffic_in_table, recorded_traffic_in_text};
+
+/// Traffic that was recorded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedTraffic {
+    /// Its name among benchmarks, or that of its file.
+    pub name: String,
+    /// Length of a step of time \[s\].
+    pub step_s: f64,
+    /// The lanes; none where a record has no map.
+    pub lanes: Vec<RecordedLane>,
+    /// The vehicles, in the order of the file.
+    pub vehicles: Vec<RecordedVehicle>,
+}
+
+/// A lane between two bounds. Other lanes are named by their index in [`RecordedTraffic::lanes`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedLane {
+    /// Its name in the record.
+    pub id: String,
+    /// The points of its left bound, in the direction of driving \[m\].
+    pub left: Vec<[f64; 2]>,
+    /// The points of its right bound \[m\].
+    pub right: Vec<[f64; 2]>,
+    /// The lanes that begin where it ends.
+    pub successors: Vec<usize>,
+    /// The lanes that end where it begins.
+    pub predecessors: Vec<usize>,
+    /// The highest speed that is permitted on it, where that is stated \[m/s\].
+    pub speed_limit_mps: Option<f64>,
+}
+
+/// A vehicle, with where it was.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordedVehicle {
+    /// Its name in the record.
+    pub id: String,
+    /// What sort of vehicle it is, in a word of CommonRoad: `car`, `truck`, `bus`, and so on.
+    pub kind: String,
+    /// Length of its body \[m\].
+    pub length_m: f64,
+    /// Width of its body \[m\].
+    pub width_m: f64,
+    /// Where the middle of its body was, in the order of time.
+    pub moments: Vec<RecordedMoment>,
+}
+
+/// Where a vehicle was at a step of time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordedMoment {
+    /// Number of the step of time.
+    pub step: i64,
+    /// Position of the middle of the body in world coordinates \[m\].
+    pub position: [f64; 2],
+    /// Direction of the body \[rad\].
+    pub heading_rad: f64,
+    /// Speed along that direction, as the record states it \[m/s\].
+    pub speed_mps: f64,
+}
