@@ -162,6 +162,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             prediction,
             reaction_s,
             hesitation_s,
+            ..Settings::default()
         }
     })
 }

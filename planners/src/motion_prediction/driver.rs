@@ -171,6 +171,7 @@ impl PredictedDriver {
             route: Arc::clone(route),
             shared_goal: None,
             can_be_asked: true,
+            is_obstacle: false,
             rules: RoadRules::default(),
             urgency: 1.0,
         }

@@ -145,7 +145,9 @@ pub(super) fn middle(vehicle: &DrivenVehicle, at: &State) -> [f64; 2] {
 fn kind(class: Option<VehicleClass>) -> &'static str {
     match class {
         Some(VehicleClass::Truck | VehicleClass::Van) => "truck",
+        Some(VehicleClass::Bus) => "bus",
         Some(VehicleClass::Bicycle) => "bicycle",
+        Some(VehicleClass::Pedestrian) => "pedestrian",
         Some(VehicleClass::Car | VehicleClass::ScaleCar) | None => "car",
     }
 }
