@@ -43,9 +43,10 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
             comfort: vehicle.weights.comfort(),
             safety: vehicle.safety,
         };
+        let input = Input { acceleration_mps2: vehicle.start_acceleration_mps2, steering_rad: 0.0 };
         VehicleState {
             identity: Identity { index, name: vehicle.name.clone() },
-            motion: Motion { state, input: Input::default(), crashed: false },
+            motion: Motion { state, input, crashed: false },
             presence: Presence::at_start(&vehicle.stay),
             parameters: VehicleParameters {
                 body: vehicle.body,

@@ -47,6 +47,9 @@ pub struct StartConfig {
     /// Speed of the mass centre \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: f64,
+    /// Acceleration with which it has come: comfort bounds how fast it may change; 0 if not stated \[m/s²\].
+    #[schemars(range(min = -20.0, max = 20.0), example = -0.5)]
+    pub acceleration_mps2: Option<f64>,
 }
 
 impl StartConfig {

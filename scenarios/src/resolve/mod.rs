@@ -193,6 +193,7 @@ impl Reader<'_> {
             name: stated.name,
             class: stated.class,
             road: stated.road,
+            start_acceleration_mps2: stated.start.acceleration_mps2.unwrap_or(0.0),
             start,
             route,
             goal: stated.goal,

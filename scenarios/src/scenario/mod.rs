@@ -206,6 +206,8 @@ pub struct Vehicle {
     pub road: Branch,
     /// Where it starts, in world coordinates, and its speed there.
     pub start: State,
+    /// The acceleration with which it has come to its start \[m/s²\].
+    pub start_acceleration_mps2: f64,
     /// Its way along the road.
     pub route: Arc<Route>,
     /// Its goal; what is not stated stays as at the start.

@@ -7,6 +7,7 @@ use interplay_planners::Driver;
 use serde_json::{Map, Value as Json};
 
 use crate::file_format::scenario_file::ScenarioFile;
+use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::file_format::obstacle::ObstacleConfig;
@@ -82,7 +83,10 @@ impl Vehicle {
             name: self.name.clone(),
             class: self.class,
             road: self.road,
-            start: self.start.into(),
+            start: StartConfig {
+                acceleration_mps2: Some(self.start_acceleration_mps2).filter(|stated| *stated != 0.0),
+                ..self.start.into()
+            },
             route: lanes.map(|leg| leg.lane.clone()).collect(),
             goal: self.goal.clone(),
             weights: Some(self.weights.into()),

@@ -11,6 +11,7 @@ use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
 use crate::classes::VehicleClass;
 use crate::file_format::goal::GoalConfig;
+use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::text::name::EGO;
@@ -111,7 +112,9 @@ impl Ego {
         let stated = Stated::default().with("front_m", body.front_m).with("rear_m", body.rear_m);
         let stated = stated.with("width_m", body.width_m).with("front_axle_m", body.front_axle_m);
         let stated = Some(stated.with("rear_axle_m", body.rear_axle_m));
-        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        let acceleration_mps2 = problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-10.0, 10.0), 3));
+        let start = StartConfig { acceleration_mps2: acceleration_mps2.filter(|it| *it != 0.0), ..in_world(&state) };
+        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, start) };
         Ego { config, state, body }
     }
 }

@@ -9,6 +9,8 @@ use crate::error::Fault;
 pub(crate) struct PlanningProblem<'a> {
     pub element: Element<'a>,
     pub initial: StateAt,
+    /// The acceleration with which it begins \[m/s²\].
+    pub acceleration_mps2: Option<f64>,
     /// Goals of which one has to be reached.
     pub goals: Vec<Goal>,
 }
@@ -30,15 +32,20 @@ impl<'a> PlanningProblem<'a> {
     pub(super) fn read(element: Element<'a>, unread: &mut Unread) -> Result<PlanningProblem<'a>, Fault> {
         let stated = element.required("initialState")?;
         // Neither of them is anything but 0 in published scenarios.
-        let noted = [&StateAt::READ[..], &["yawRate", "slipAngle"]].concat();
+        let noted = [&StateAt::READ[..], &["yawRate", "slipAngle", "acceleration"]].concat();
         unread.count_beyond(stated, &noted);
         unread.count_beyond(element, &["initialState", "goalState"]);
         Ok(PlanningProblem {
             element,
             initial: StateAt::read(stated)?,
+            acceleration_mps2: stated.child("acceleration").map(|value| value.interval()).transpose()?.map(middle),
             goals: element.children("goalState").map(|goal| goal_of(goal, unread)).collect::<Result<_, _>>()?,
         })
     }
+}
+
+fn middle([from, to]: [f64; 2]) -> f64 {
+    0.5 * (from + to)
 }
 
 fn goal_of(element: Element<'_>, unread: &mut Unread) -> Result<Goal, Fault> {

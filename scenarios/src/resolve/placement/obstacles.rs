@@ -66,6 +66,7 @@ impl Written<'_> {
             class: None,
             road: Branch::Main,
             start,
+            start_acceleration_mps2: 0.0,
             route,
             goal: crate::file_format::goal::GoalConfig::default(),
             weights: crate::file_format::weights::Weights::default(),
