@@ -11,7 +11,6 @@ use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
 use crate::classes::VehicleClass;
 use crate::file_format::goal::GoalConfig;
-use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::text::name::EGO;
@@ -20,6 +19,8 @@ use crate::text::name::EGO;
 const MIN_WANTED_MPS: f64 = 3.0;
 /// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
 const USUAL_MPS: f64 = 8.33;
+/// The largest acceleration with which the ego begins \[m/s²\].
+const MAX_ACCELERATION_MPS2: f64 = 10.0;
 /// The highest speed of a car \[m/s\].
 const MAX_SPEED_MPS: f64 = 50.0;
 /// A start that is moved by less is not mentioned \[m\].
@@ -92,7 +93,10 @@ pub(super) fn of_problem(
     let wanted_mps = rounded(wanted_mps(problem, (speed_mps, in_time_mps, limit_mps), notes), 2);
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
-    Some(Ego::new(state, route, goal))
+    let mut ego = Ego::new(state, route, goal);
+    let stated = problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-MAX_ACCELERATION_MPS2, MAX_ACCELERATION_MPS2), 3));
+    ego.config.start.acceleration_mps2 = stated.filter(|stated| *stated != 0.0);
+    Some(ego)
 }
 
 /// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
@@ -112,9 +116,7 @@ impl Ego {
         let stated = Stated::default().with("front_m", body.front_m).with("rear_m", body.rear_m);
         let stated = stated.with("width_m", body.width_m).with("front_axle_m", body.front_axle_m);
         let stated = Some(stated.with("rear_axle_m", body.rear_axle_m));
-        let acceleration_mps2 = problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-10.0, 10.0), 3));
-        let start = StartConfig { acceleration_mps2: acceleration_mps2.filter(|it| *it != 0.0), ..in_world(&state) };
-        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, start) };
+        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
         Ego { config, state, body }
     }
 }
