@@ -2,7 +2,7 @@
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`]
-//! - many runs from one plan: [`sweeps`]
+//! - many runs from one plan: [`sweeps`]; what vehicles did as tables: [`trajectories`]; as scenarios of others: [`exports`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
@@ -30,6 +30,7 @@ mod conduct;
 mod counterfactuals;
 mod determinism;
 mod documents;
+mod exports;
 mod failures;
 mod faults;
 mod figures;
@@ -62,5 +63,6 @@ mod suite;
 mod sweep_plans;
 mod sweeps;
 mod traffic;
+mod trajectories;
 mod unharmed;
 mod unsuited;

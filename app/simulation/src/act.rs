@@ -24,7 +24,13 @@ pub fn act(
         let times_s = [clock.time_s(), clock.step_s];
         let recorded = record.as_ref().and_then(|record| record.input((body, limits), &motion.state, times_s));
         let wanted = recorded.unwrap_or_else(|| towards(&motion.input, planned, ticks_left));
-        motion.input = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
+        let mut applied = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
+        // When the run begins, wheels stand as the driver wants.
+        if clock.tick > 0 {
+            let last_rad = motion.input.steering_rad;
+            applied.steering_rad = limits.steering_towards_rad(last_rad, applied.steering_rad, clock.step_s);
+        }
+        motion.input = applied;
         frame.vehicles[identity.index].input = motion.input;
     }
 }

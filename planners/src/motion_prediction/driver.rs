@@ -158,6 +158,7 @@ impl PredictedDriver {
             speed_min_mps: 0.0,
             speed_max_mps: 50.0,
             lateral_acceleration_max_mps2: Some(7.0),
+            steering_rate_max_radps: None,
             comfort: Some(ComfortLimits { time_gap_s: self.time_gap_s, ..ComfortLimits::default() }),
         };
         let acceleration_mps2 = acceleration_mps2.clamp(limits.acceleration_min_mps2, limits.acceleration_max_mps2);

@@ -29,6 +29,11 @@ pub struct Limits {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 100.0), example = 7.0)]
     pub lateral_acceleration_max_mps2: Option<f64>,
+    /// Largest change of the steering angle per second: what turns the wheels can do no more. Without it they turn at once; plans do not
+    /// know of it \[rad/s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(max = 100.0), extend("exclusiveMinimum" = 0.0), example = 0.4)]
+    pub steering_rate_max_radps: Option<f64>,
     /// What is borne while nobody is in danger. Without it the driver uses all that the vehicle can do.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = serde_json::json!({ "jerk_mps3": 3.0 }))]
@@ -43,6 +48,12 @@ impl Limits {
     pub fn steering_max_at_rad(&self, body: &Body, speed_mps: f64) -> f64 {
         self.lateral_acceleration_max_mps2
             .map_or(self.steering_max_rad, |most| self.steering_at_rad(body, speed_mps, most))
+    }
+
+    /// The steering angle nearest to a wanted one that is reached within a time \[rad\].
+    pub fn steering_towards_rad(&self, last_rad: f64, wanted_rad: f64, elapsed_s: f64) -> f64 {
+        let most_rad = self.steering_rate_max_radps.map_or(f64::INFINITY, |most| most * elapsed_s);
+        wanted_rad.clamp(last_rad - most_rad, last_rad + most_rad)
     }
 
     /// Bounds on the speed some time after a speed. A vehicle that is out of bounds (a plant that is not the model may leave it so) is
@@ -73,6 +84,7 @@ impl Default for Limits {
             speed_min_mps: 0.0,
             speed_max_mps: 1.5,
             lateral_acceleration_max_mps2: None,
+            steering_rate_max_radps: None,
             comfort: None,
         }
     }
@@ -82,6 +94,14 @@ impl Default for Limits {
 mod tests {
     use super::*;
     use crate::{Bicycle, Input, State};
+
+    #[test]
+    fn wheels_turn_no_faster_than_they_can() {
+        let limits = Limits { steering_rate_max_radps: Some(0.4), ..Limits::default() };
+        let after = |limits: Limits, wanted_rad: f64| limits.steering_towards_rad(0.1, wanted_rad, 0.1);
+        assert!((after(limits, 0.5) - 0.14).abs() < 1e-12 && (after(limits, -0.5) - 0.06).abs() < 1e-12);
+        assert_eq!([after(limits, 0.12), after(Limits::default(), -0.5)], [0.12, -0.5]);
+    }
 
     /// At the largest steering angle of a speed, `|v θ′|` of the bicycle is the limit; where the limit says nothing, so does it.
     #[test]

@@ -252,6 +252,7 @@ impl Vehicle {
                 speed_min_mps,
                 speed_max_mps,
                 lateral_acceleration_max_mps2: None,
+                steering_rate_max_radps: None,
                 comfort: None,
             },
             stage_bounds: Vec::new(),

@@ -114,6 +114,7 @@ fn class_values(
             speed_min_mps: 0.0,
             speed_max_mps,
             lateral_acceleration_max_mps2: Some(lateral_mps2),
+            steering_rate_max_radps: None,
             comfort: None,
         },
         safety: SafetyEllipse { along_m, across_m: FULL_SIZE_ACROSS_M },

@@ -38,6 +38,9 @@ const BMW_320I: Body = Body {
     scale: Body::REAL_SCALE,
 };
 
+/// How fast its wheels are turned \[rad/s\].
+const STEERING_RATE_RADPS: f64 = 0.4;
+
 /// The ego, and its body.
 pub(super) struct Ego {
     pub config: VehicleConfig,
@@ -72,7 +75,7 @@ pub(super) fn of_problem(
         notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
         Some(found)
     });
-    let Some((OnLanes { state, lanes: route, moved_m }, reaches_goal)) = found else {
+    let Some((OnLanes { state, lanes: route, moved_m, .. }, reaches_goal)) = found else {
         let what = ["planning problem without room for a car", "planning problems without room for a car"];
         notes.one(what, "left out");
         return None;
@@ -102,8 +105,14 @@ pub(super) fn of_problem(
 /// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
 fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
     let body = &BMW_320I;
-    let mut pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
-    let to_goal = pairs.find_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
+    // Where lanes overlap, the way is the one that fits the state best, and of those the shortest list of lanes.
+    let pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
+    let ways = pairs.filter_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
+    let is_better = |one: &OnLanes, other: &OnLanes| {
+        let by_change = rounded(one.change_m(), 2).total_cmp(&rounded(other.change_m(), 2));
+        by_change.then(one.lanes.len().cmp(&other.lanes.len()))
+    };
+    let to_goal = ways.min_by(is_better);
     let straight_on =
         || starts.iter().find_map(|lane| places::on(network, places::straight_on(network, lane), state, body));
     to_goal.map(|way| (way, true)).or_else(|| straight_on().map(|way| (way, false)))
@@ -116,7 +125,9 @@ impl Ego {
         let stated = Stated::default().with("front_m", body.front_m).with("rear_m", body.rear_m);
         let stated = stated.with("width_m", body.width_m).with("front_axle_m", body.front_axle_m);
         let stated = Some(stated.with("rear_axle_m", body.rear_axle_m));
-        let config = VehicleConfig { class, body: stated, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
+        let limits = Some(Stated::default().with("steering_rate_max_radps", STEERING_RATE_RADPS));
+        let config =
+            VehicleConfig { class, body: stated, limits, goal, route, ..VehicleConfig::new(EGO, in_world(&state)) };
         Ego { config, state, body }
     }
 }

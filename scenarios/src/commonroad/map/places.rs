@@ -23,6 +23,18 @@ pub(super) struct OnLanes {
     pub lanes: Vec<String>,
     /// By how much it was moved, so that its body is on the road \[m\].
     pub moved_m: f64,
+    /// By how much it was turned for that \[rad\].
+    pub turned_rad: f64,
+}
+
+/// How far a vehicle of real size would be moved to be as wrong as turned by one radian \[m\].
+const METRES_PER_RAD: f64 = 4.0;
+
+impl OnLanes {
+    /// How much the state differs from the one that was to be placed \[m\].
+    pub(super) fn change_m(&self) -> f64 {
+        self.moved_m + METRES_PER_RAD * self.turned_rad
+    }
 }
 
 /// The lanes on which a vehicle may be, those in its direction first.
@@ -97,7 +109,8 @@ fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State,
     };
     let placed = shares.into_iter().find(fits)?;
     let moved_m = libm::hypot(placed.x_m - state.x_m, placed.y_m - state.y_m);
-    Some(OnLanes { state: placed, lanes: lanes.to_vec(), moved_m })
+    let turned_rad = libm::remainder(placed.heading_rad - state.heading_rad, std::f64::consts::TAU).abs();
+    Some(OnLanes { state: placed, lanes: lanes.to_vec(), moved_m, turned_rad })
 }
 
 /// The smallest radius of a lane along which vehicles are sent \[m\].
