@@ -1,5 +1,7 @@
 //! Predictions of recorded cars, and drivers that are fitted to them.
 
+#![allow(clippy::print_stderr, reason = "a test that skips says so")]
+
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -105,7 +107,7 @@ fn what_is_no_recording_is_refused_with_its_place() {
 fn real_cars_are_predicted_better_than_by_constant_velocity() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/commonroad/USA_US101-4_1_T-1.xml");
     let Ok(file) = file.canonicalize() else {
-        println!("skipped: ../shared/data is not here");
+        eprintln!("skipped: ../shared/data is not here");
         return;
     };
     let folder = scratch("predict-real");

@@ -3,9 +3,10 @@
 use interplay_planners::human::{Settings, Style};
 use interplay_planners::motion_prediction::{LateralMotion, PredictedDriver};
 
-/// Ratio of two neighbouring time gaps, and its root, by which intervals are widened.
-pub(super) const RATIO_STEP: f64 = 1.06;
-/// The same of comforts.
+/// By this ratio intervals of time gaps are wider than the bootstrap has them: candidates are discrete. It was chosen on the simulated
+/// drivers of `coverage_of_the_intervals`, of whom 95 % then lie within.
+pub(super) const RATIO_STEP: f64 = 1.02;
+/// The same of comforts, by the ratio of two candidates.
 pub(super) const COMFORT_STEP: f64 = 1.3;
 /// Time gaps, as multiples of the usual one.
 pub(super) const RATIOS: [f64; 13] = [0.4, 0.47, 0.55, 0.64, 0.74, 0.85, 0.97, 1.1, 1.25, 1.42, 1.62, 1.85, 2.1];

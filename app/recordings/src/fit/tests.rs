@@ -92,6 +92,7 @@ fn who_follows_nobody_cannot_be_fitted() {
 
 /// Takes minutes: `cargo test --release -p interplay-recordings coverage -- --ignored --nocapture`.
 #[test]
+#[allow(clippy::print_stdout, reason = "the numbers are the result")]
 #[ignore = "measures how often intervals have the truth, on forty drivers"]
 fn coverage_of_the_intervals() {
     let mut random = Random::new(7, 7);
