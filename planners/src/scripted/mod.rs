@@ -157,6 +157,7 @@ impl Scripted {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Agent;
     use crate::trigger::TriggerPlace;
     use crate::fixture::{agent, scene};
 
@@ -192,10 +193,11 @@ mod tests {
     #[test]
     fn an_order_may_wait_for_a_vehicle_to_reach_a_place() {
         let place = TriggerPlace { lane: None, along_m: 1.0 };
-        let when = Some(Trigger { vehicle: String::new(), reaches: place });
+        let when = Some(Trigger { vehicle: "bus".to_owned(), reaches: place });
         let mut driver = Scripted::new(Settings { script: vec![Order { when, ..order(0.5, Some(0.4), None) }] });
         let mut speed_after = |x_m: f64, tick: usize| {
-            let scene = Scene { tick, ..scene(agent(x_m, 0.185, 0.0, 1.0), Vec::new()) };
+            let bus = Agent { name: "bus".to_owned(), ..agent(x_m, 0.185, 0.0, 1.0) };
+            let scene = Scene { tick, ..scene(bus, Vec::new()) };
             driver.plan(&scene, &Outlook::default()).expect("a plan").trajectory.states[15].speed_mps
         };
         assert_eq!(speed_after(0.0, 0), 1.0);
