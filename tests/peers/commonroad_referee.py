@@ -1,13 +1,13 @@
 """Whether CommonRoad's own referee accepts what `interplay run --export` writes.
 
-    python -m pip install commonroad-io==2024.3 commonroad-drivability-checker==2025.4.0
+    python -m pip install commonroad-io==2024.3 commonroad-drivability-checker==2025.4.0 triangle
     python tests/peers/commonroad_referee.py FOLDER... [--program INTERPLAY] [--ego conservative] [--most 1000] [--bundled CHECKOUT]
 
 FOLDER has scenarios of CommonRoad with a planning problem. Each distinct one is driven by the ego's planner, exported, and judged by
 `valid_solution` twice: in the scenario as published and in the one as driven. A solution that does not reach its goal counts apart: it is
-judged by everything else, its start, contacts, the edge of the road and feasibility. The first valid solution is spoilt in three ways, and each must be refused. `--bundled` is a checkout of
-CommonRoad/commonroad-drivability-checker, whose own example solutions are judged, too. Without the packages or without files the script
-says that it skips.
+judged by everything else, its start, contacts, the edge of the road and feasibility. The first valid solution is spoilt in three ways, and
+each must be refused. `--bundled` is a checkout of CommonRoad/commonroad-drivability-checker, whose own example solutions are judged, too.
+Without the packages or without files the script says that it skips.
 """
 
 import argparse
