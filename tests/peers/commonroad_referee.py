@@ -104,9 +104,10 @@ def files(folders):
             yield path
 
 
-def judge_bundled(checkout):
-    """Judges the example solutions of the referee's own repository."""
-    scenarios = {path.stem: path for path in Path(checkout).rglob("*.xml") if b"<commonRoad" in path.read_bytes()[:4096]}
+def judge_bundled(checkout, folders):
+    """Judges the example solutions of the referee's own repository, whose scenarios may also stand in other folders."""
+    found = [path for folder in [*folders, checkout] for path in Path(folder).rglob("*.xml")]
+    scenarios = {path.stem: path for path in found if b"<commonRoad" in path.read_bytes()[:4096]}
     counts = collections.Counter()
     for path in sorted(Path(checkout).rglob("*.xml")):
         text = path.read_text(errors="replace")
@@ -128,7 +129,8 @@ def main():
     arguments.add_argument("--bundled")
     asked = arguments.parse_args()
     if asked.bundled:
-        judge_bundled(asked.bundled)
+        judge_bundled(asked.bundled, asked.folders)
+        return
     found = list(files(asked.folders))[: asked.most]
     if not found:
         print("skipped: no scenario of CommonRoad with a planning problem below " + (", ".join(asked.folders) or "nothing"))
