@@ -4,8 +4,8 @@
 
 FOLDER has files in the XML format of CommonRoad, versions 2018b and 2020a; for instance a checkout of CommonRoad/commonroad-io. A file
 passes if `import`, `check` and `run` of what was imported end without an error and the XML as it is passes `check`. A file that is
-refused is counted under one of the reasons of `commonroad_reasons.txt`, which were fixed beforehand; anything else, a panic above all, is a failure. Without
-files the script says that it skips.
+refused is counted under one of the reasons of `commonroad_reasons.txt`, which were fixed beforehand; anything else, a panic above all,
+is a failure. Without files the script says that it skips.
 """
 
 import argparse

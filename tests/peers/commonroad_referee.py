@@ -1,13 +1,13 @@
 """Whether CommonRoad's own referee accepts what `interplay run --export` writes.
 
-    python -m pip install commonroad-io==2024.3 commonroad-drivability-checker==2025.4.0
+    python -m pip install commonroad-io==2024.3 commonroad-drivability-checker==2025.4.0 triangle
     python tests/peers/commonroad_referee.py FOLDER... [--program INTERPLAY] [--ego conservative] [--most 1000] [--bundled CHECKOUT]
 
 FOLDER has scenarios of CommonRoad with a planning problem. Each distinct one is driven by the ego's planner, exported, and judged by
 `valid_solution` twice: in the scenario as published and in the one as driven. A solution that does not reach its goal counts apart: it is
-judged by everything else, its start, contacts, the edge of the road and feasibility. The first valid solution is spoilt in three ways, and each must be refused. `--bundled` is a checkout of
-CommonRoad/commonroad-drivability-checker, whose own example solutions are judged, too. Without the packages or without files the script
-says that it skips.
+judged by everything else, its start, contacts, the edge of the road and feasibility. The first valid solution is spoilt in three ways, and
+each must be refused. `--bundled` is a checkout of CommonRoad/commonroad-drivability-checker, whose own example solutions are judged, too.
+Without the packages or without files the script says that it skips.
 """
 
 import argparse
@@ -104,9 +104,10 @@ def files(folders):
             yield path
 
 
-def judge_bundled(checkout):
-    """Judges the example solutions of the referee's own repository."""
-    scenarios = {path.stem: path for path in Path(checkout).rglob("*.xml") if b"<commonRoad" in path.read_bytes()[:4096]}
+def judge_bundled(checkout, folders):
+    """Judges the example solutions of the referee's own repository, whose scenarios may also stand in other folders."""
+    found = [path for folder in [*folders, checkout] for path in Path(folder).rglob("*.xml")]
+    scenarios = {path.stem: path for path in found if b"<commonRoad" in path.read_bytes()[:4096]}
     counts = collections.Counter()
     for path in sorted(Path(checkout).rglob("*.xml")):
         text = path.read_text(errors="replace")
@@ -128,7 +129,8 @@ def main():
     arguments.add_argument("--bundled")
     asked = arguments.parse_args()
     if asked.bundled:
-        judge_bundled(asked.bundled)
+        judge_bundled(asked.bundled, asked.folders)
+        return
     found = list(files(asked.folders))[: asked.most]
     if not found:
         print("skipped: no scenario of CommonRoad with a planning problem below " + (", ".join(asked.folders) or "nothing"))

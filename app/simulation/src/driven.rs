@@ -15,7 +15,7 @@ pub fn driven(scenario: &Scenario, frames: &[Frame]) -> Vec<DrivenVehicle> {
         .map(|(index, vehicle)| {
             let seen = || frames.iter().filter_map(|frame| Some((frame.time_s, frame.vehicles.get(index)?)));
             let mut states: Vec<State> = seen().map(|(_, vehicle)| vehicle.state).collect();
-            if let Some((time_s, last)) = seen().last() {
+            if let Some((time_s, last)) = seen().next_back() {
                 let record = vehicle.driver.record().and_then(|record| record.state_at(time_s + scenario.step_s));
                 let stepped = || Bicycle::new(&vehicle.body, scenario.step_s).step(&last.state, &last.input);
                 states.push(record.unwrap_or_else(stepped));

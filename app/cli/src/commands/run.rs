@@ -124,12 +124,7 @@ impl Run {
                 return ExitStatus::BadInput;
             }
         };
-        for [counterfactual, reason] in &scenario.left_out {
-            print_error(&format!("the counterfactual \"{counterfactual}\" does not fit the flags: {reason}"));
-        }
-        for remark in scenario.remarks.iter() {
-            print_error(&format!("note: {remark}"));
-        }
+        print_remarks(&scenario);
         let name = short_name(self.scenario());
         let refused = without_input(&scenario).or_else(|| self.refused_output(&name, registry));
         if let Some(reason) = refused.or_else(|| self.without_vehicles(&scenario)) {
@@ -308,6 +303,16 @@ impl Run {
         let mut recorder = Recorder::begin(scenario, name, &sink)?;
         recorder.repeat_with(&self.command())?;
         Ok(Some(OpenRecording::new(recorder)))
+    }
+}
+
+/// Prints what is left out of a scenario, and what may not have been meant.
+fn print_remarks(scenario: &Scenario) {
+    for [counterfactual, reason] in &scenario.left_out {
+        print_error(&format!("the counterfactual \"{counterfactual}\" does not fit the flags: {reason}"));
+    }
+    for remark in scenario.remarks.iter() {
+        print_error(&format!("note: {remark}"));
     }
 }
 

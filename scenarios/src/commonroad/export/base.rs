@@ -6,12 +6,11 @@ use std::fmt::Write;
 use interplay_planners::State;
 
 use super::super::model::ROOT;
+use super::driven::DrivenVehicle;
 use super::goal::GoalPlaces;
 use super::ids::{Ids, number_in};
 use super::xml_text::{escaped, number, state};
-use super::{DrivenVehicle, VERSION};
 use crate::classes::VehicleClass;
-use crate::road::Road;
 use crate::scenario::Scenario;
 
 /// Roads and planning problem of an exported scenario, as text.
@@ -44,30 +43,6 @@ pub(super) struct Base {
 }
 
 impl Base {
-    /// The roads of a scenario that was not imported.
-    pub(super) fn of_road(scenario: &Scenario, name: &str) -> Base {
-        let benchmark = benchmark(name);
-        let mut base = Base { attributes: attributes(scenario, &benchmark), benchmark, ..Base::default() };
-        base.roads = "  <location><geoNameId>-999</geoNameId><gpsLatitude>999</gpsLatitude><gpsLongitude>999</gpsLongitude></location>\n  \
-                      <scenarioTags><simulated/></scenarioTags>\n"
-            .to_owned();
-        match &scenario.network {
-            Some(network) => base.add_network(network, scenario.ego()),
-            None => base.parallel = Some(Box::new(scenario.clone())),
-        }
-        base.problem_id = base.ids.give(None);
-        base
-    }
-
-    /// The same with roads that are as long as what was driven.
-    pub(super) fn around(&self, vehicles: &[DrivenVehicle]) -> Base {
-        let mut base = self.clone();
-        if let Some(scenario) = base.parallel.take() {
-            base.add_parallel(&scenario, vehicles);
-        }
-        base
-    }
-
     /// A place of the run in the coordinates that are written \[m\].
     pub(super) fn written(&self, place: [f64; 2]) -> [f64; 2] {
         [place[0] + self.origin[0], place[1] + self.origin[1]]
@@ -150,27 +125,4 @@ fn kind(class: Option<VehicleClass>) -> &'static str {
         Some(VehicleClass::Pedestrian) => "pedestrian",
         Some(VehicleClass::Car | VehicleClass::ScaleCar) | None => "car",
     }
-}
-
-/// A name of a benchmark in the form that its readers ask for.
-fn benchmark(name: &str) -> String {
-    let letters: String = name.trim_end_matches(".toml").chars().filter(char::is_ascii_alphanumeric).take(60).collect();
-    format!("ZAM_{}-1_1_T-1", if letters.is_empty() { "Scenario".to_owned() } else { letters })
-}
-
-fn attributes(scenario: &Scenario, benchmark: &str) -> Vec<(String, String)> {
-    let step_s = scenario.step_s.to_string();
-    let all = [
-        ("timeStepSize", step_s.as_str()),
-        ("commonRoadVersion", VERSION),
-        ("benchmarkID", benchmark),
-        ("author", "Interplay"),
-        ("affiliation", "Interplay"),
-        (
-            "source",
-            if matches!(scenario.road, Road::Network(_)) { "a network of lanes" } else { "a scenario of Interplay" },
-        ),
-        ("date", "2000-01-01"),
-    ];
-    all.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec()
 }

@@ -1,7 +1,7 @@
 //! Parallel lanes as lanelets, as long as what was driven on them.
 
-use super::DrivenVehicle;
 use super::base::Base;
+use super::driven::DrivenVehicle;
 use super::lanelets::LaneletText;
 use crate::road::Branch;
 use crate::scenario::Scenario;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::super::model::{CommonRoad, Obstacle};
 use super::super::xml::{Element, Unread, Xml};
-use super::VERSION;
 use super::base::Base;
+use super::driven::VERSION;
 use super::goal::GoalPlaces;
 use super::ids::Ids;
 use crate::error::Fault;

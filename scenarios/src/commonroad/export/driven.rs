@@ -1,0 +1,34 @@
+//! What is exported, and what of a run it is made of.
+
+use interplay_planners::{Body, State};
+
+use crate::classes::VehicleClass;
+
+/// The version of the format that is written.
+pub(super) const VERSION: &str = "2020a";
+
+/// What a vehicle did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrivenVehicle {
+    /// Its name.
+    pub name: String,
+    /// What sort of vehicle it is, if that is known.
+    pub class: Option<VehicleClass>,
+    /// Its size and axles.
+    pub body: Body,
+    /// Its states at the begin of each tick, and at the end of the last.
+    pub states: Vec<State>,
+    /// Its steering angle during each tick \[rad\].
+    pub steering_rad: Vec<f64>,
+}
+
+/// What is written of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// The scenario as it was driven: all vehicles but the ego are obstacles.
+    pub scenario: String,
+    /// The motion of the ego as a solution.
+    pub solution: String,
+    /// Whether that motion reaches the goal of the planning problem; the solution ends there.
+    pub reaches_goal: bool,
+}
