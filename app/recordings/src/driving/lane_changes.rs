@@ -76,7 +76,8 @@ fn change(timeline: &Timeline, number: usize, (from, stride): (usize, usize), ne
     let between = &track.moments[from..=from + stride];
     let Some(at) = between.iter().find(crosses) else { return LaneChange::default() };
     let own = new.project(at.position);
-    let (mut lead, mut lag): (Option<(f64, &Track)>, Option<(f64, &Track)>) = (None, None);
+    // Ahead and behind.
+    let mut nearest: [Option<(f64, &Track)>; 2] = [None; 2];
     for (index, other) in timeline.tracks.iter().enumerate() {
         let Some(there) = other.at(at.step).filter(|_| index != number) else { continue };
         let place = new.project(there.position);
@@ -85,11 +86,12 @@ fn change(timeline: &Timeline, number: usize, (from, stride): (usize, usize), ne
             continue;
         }
         let gap_m = ahead_m.abs() - 0.5 * (other.length_m + track.length_m);
-        let nearest = if ahead_m > 0.0 { &mut lead } else { &mut lag };
-        if nearest.is_none_or(|(nearest_m, _)| gap_m < nearest_m) {
-            *nearest = Some((gap_m, other));
+        let place = &mut nearest[usize::from(ahead_m <= 0.0)];
+        if place.is_none_or(|(nearest_m, _)| gap_m < nearest_m) {
+            *place = Some((gap_m, other));
         }
     }
+    let [lead, lag] = nearest;
     let time_s = |gap_m: f64, speed_mps: f64| (speed_mps > MIN_SPEED_MPS).then(|| gap_m.max(0.0) / speed_mps);
     LaneChange {
         lead_gap_s: lead.and_then(|(gap_m, _)| time_s(gap_m, at.speed_mps)),
