@@ -127,12 +127,7 @@ fn a_driver_of_no_known_model_is_named_and_not_touched() {
         let is_odd = number % 2 == 1;
         let (speed_mps, lateral_m) = if is_odd { (1.2, 0.05) } else { (0.3, -0.05) };
         let from_s = 0.3 * f64::from(number);
-        scripted::Order {
-            from_s,
-            speed_mps: Some(speed_mps),
-            lateral_m: Some(lateral_m),
-            ..scripted::Order::default()
-        }
+        scripted::Order { from_s, speed_mps: Some(speed_mps), lateral_m: Some(lateral_m), ..scripted::Order::default() }
     });
     let erratic = Driver::Scripted(scripted::Settings { script: script.collect() });
     for mut vehicles in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75), 4) {

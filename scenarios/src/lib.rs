@@ -120,7 +120,7 @@ pub use recorded_traffic::{
 pub use registry::{Registry, RegistryError, schema};
 pub use road::*;
 pub use scenario::conflict_zones::ConflictZone;
-pub use scenario::obstacle::{Obstacle, ObstacleKind, Outline};
+pub use scenario::obstacle::{ObstacleForm, ObstacleKind, Outline};
 pub use scenario::remark::{ScenarioRemark, ScenarioRemarks};
 pub use scenario::timetable::TimetableError;
 pub use scenario::{Counterfactual, Scenario, Stay, Vehicle};

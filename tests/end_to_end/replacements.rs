@@ -12,8 +12,8 @@ use rayon::prelude::*;
 type Replacement = (&'static str, &'static str, &'static str);
 
 const REPLACEMENTS: &[Replacement] = &[
-    // Who drives by a script stops at no light.
-    ("people/high-street", "scripted", "rules_kept"),
+    // Who drives by a script stops for nobody.
+    ("people/high-street", "scripted", "no_collision"),
     // Nobody yields to who does not ask, and who asks goes first.
     ("intersection/nice", "conservative", "order"),
     ("intersection/bayesian-nice", "conservative", "order"),

@@ -54,7 +54,10 @@ fn a_street_with_everything_is_driven_lawfully() {
     let (begins_s, ends_s) = (crosses_s[0], crosses_s[crosses_s.len() - 1]);
     let ego = states(&film, "ego");
     let nearest_m = ego.iter().filter(|(time_s, _)| (begins_s..=ends_s).contains(time_s)).map(|(_, state)| state.x_m);
-    assert!(nearest_m.fold(f64::NEG_INFINITY, f64::max) + 2.2 < 0.0, "the ego is before the crossing while somebody is on it");
+    assert!(
+        nearest_m.fold(f64::NEG_INFINITY, f64::max) + 2.2 < 0.0,
+        "the ego is before the crossing while somebody is on it"
+    );
     assert!(ego[ego.len() - 1].1.x_m > 60.0 && walker[walker.len() - 1].1.y_m > 10.0);
 }
 
@@ -64,7 +67,7 @@ fn the_light_is_what_the_ego_waits_for() {
     let lit = high_street(&[]);
     let off = "phases=[{ colour = \"off\", duration_s = 1 }]";
     let [main, side] = ["main", "side"].map(|name| format!("light.{name}.{off}"));
-    let dark = high_street(&[&main, &side, "expect.rules_kept=false"]);
+    let dark = high_street(&[&main, &side]);
     assert!(passes_s(&dark, "ego", 64.0) + 2.0 < passes_s(&lit, "ego", 64.0));
     let reasons = |film: &Film| {
         let ego = film.report.vehicle("ego").expect("an ego");
@@ -102,7 +105,8 @@ fn obstacles_are_passed() {
     for kind in ["human", "idm", "conservative", "negotiation"] {
         let film = film(kind, two_way(&format!("{ego}driver = {{ kind = \"{kind}\" }}\n{car}")));
         assert!(film.report.collisions.is_empty(), "{kind}");
-        let at = |x_m: f64| states(&film, "ego").into_iter().find(|(_, state)| state.x_m >= x_m).map(|(_, state)| state);
+        let at =
+            |x_m: f64| states(&film, "ego").into_iter().find(|(_, state)| state.x_m >= x_m).map(|(_, state)| state);
         let parked = film.scenario.vehicle("parked").expect("an obstacle").start;
         let beside = at(parked.x_m).unwrap_or_else(|| panic!("{kind} never passes"));
         let after = at(parked.x_m + 60.0).unwrap_or_else(|| panic!("{kind} does not go on"));
@@ -184,7 +188,9 @@ fn lanes_are_for_some() {
         route.left.value(100.0) - route.right.value(100.0)
     };
     assert!((width_m("car") - 3.5).abs() < 1e-9 && (width_m("bus") - 7.0).abs() < 1e-9);
-    let wrong = refused(&format!("{road}[[vehicle]]\nname = \"ego\"\nstart = {{ lane = \"kept\", along_m = 10.0, speed_mps = 10.0 }}\n"));
+    let wrong = refused(&format!(
+        "{road}[[vehicle]]\nname = \"ego\"\nstart = {{ lane = \"kept\", along_m = 10.0, speed_mps = 10.0 }}\n"
+    ));
     assert!(wrong.contains("not for vehicles of this class"), "{wrong}");
 }
 
@@ -201,21 +207,45 @@ fn contradictions_are_located() {
         (script("{ from_s = 1.0, lateral_m = 40.0 }"), "beside the road"),
         (script("{ from_s = 9e3, speed_mps = 1.0 }"), "after the end of the run"),
         (script("{ from_s = 1.0, speed_mps = 1.0 }, { from_s = 1.0, speed_mps = 2.0 }"), "begin at one time"),
-        (script("{ when = { vehicle = \"nobody\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }"), "no vehicle"),
-        (script("{ when = { vehicle = \"ego\", reaches = { lane = \"west\", along_m = 1.0 } }, speed_mps = 1.0 }"), "not on the way"),
+        (
+            script(
+                "{ when = { vehicle = \"nobody\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }",
+            ),
+            "no vehicle",
+        ),
+        (
+            script("{ when = { vehicle = \"ego\", reaches = { lane = \"west\", along_m = 1.0 } }, speed_mps = 1.0 }"),
+            "not on the way",
+        ),
         (with("enters_s = 3.0\n"), "not there when the run begins"),
-        (with("[[vehicle]]\nname = \"other\"\nstart = { lane = \"west\", along_m = 50.0, speed_mps = 5.0 }\nenters_s = 5.0\nleaves_s = 2.0\n"), "before it has come"),
+        (
+            with(
+                "[[vehicle]]\nname = \"other\"\nstart = { lane = \"west\", along_m = 50.0, speed_mps = 5.0 }\nenters_s = 5.0\nleaves_s = 2.0\n",
+            ),
+            "before it has come",
+        ),
         (with("[[obstacle]]\nname = \"ego\"\nlane = \"east\"\nalong_m = 100.0\n"), "are called `ego`"),
         (with("[[obstacle]]\nname = \"wall\"\n"), "does not say where"),
         (with("[[obstacle]]\nname = \"wall\"\nlane = \"est\"\nalong_m = 1.0\n"), "no lane `est`"),
         (with("[[obstacle]]\nname = \"wall\"\nlane = \"east\"\nalong_m = 1e4\n"), "stands 10000 m along"),
-        (with("[[obstacle]]\nname = \"wall\"\nx_m = 0.0\ny_m = 9.0\ncorners_m = [[1, 0], [-1, 0], [0, 1]]\n"), "no convex polygon"),
+        (
+            with("[[obstacle]]\nname = \"wall\"\nx_m = 0.0\ny_m = 9.0\ncorners_m = [[1, 0], [-1, 0], [0, 1]]\n"),
+            "no convex polygon",
+        ),
         (with("[[obstacle]]\nname = \"wall\"\nlane = \"east\"\nalong_m = 50.0\n"), "overlap at the start"),
-        (with("[[obstacle]]\nname = \"wall\"\ntimetable = [[0.0, 1.0, 9.0, 0.0], [0.0, 2.0, 9.0, 0.0]]\n"), "goes back in time"),
-        (with("[[light]]\nname = \"a\"\nlanes = [\"est\"]\nphases = [{ colour = \"red\", duration_s = 1 }]\n"), "does not have"),
+        (
+            with("[[obstacle]]\nname = \"wall\"\ntimetable = [[0.0, 1.0, 9.0, 0.0], [0.0, 2.0, 9.0, 0.0]]\n"),
+            "goes back in time",
+        ),
+        (
+            with("[[light]]\nname = \"a\"\nlanes = [\"est\"]\nphases = [{ colour = \"red\", duration_s = 1 }]\n"),
+            "does not have",
+        ),
     ] {
         assert!(found.contains(expected), "wanted {expected:?}, got {found}");
     }
-    let on_lanes = refused("road = { kind = \"lanes\", lane_width_m = 3.5 }\n[[vehicle]]\nname = \"ego\"\nstart = { lane = 0, along_m = 0.0, speed_mps = 1.0 }\n[[light]]\nname = \"a\"\nlanes = [\"b\"]\nphases = [{ colour = \"red\", duration_s = 1 }]\n");
+    let on_lanes = refused(
+        "road = { kind = \"lanes\", lane_width_m = 3.5 }\n[[vehicle]]\nname = \"ego\"\nstart = { lane = 0, along_m = 0.0, speed_mps = 1.0 }\n[[light]]\nname = \"a\"\nlanes = [\"b\"]\nphases = [{ colour = \"red\", duration_s = 1 }]\n",
+    );
     assert!(on_lanes.contains("lanes with names"), "{on_lanes}");
 }

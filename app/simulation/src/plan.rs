@@ -4,11 +4,13 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::{Plan, PlanEventKind};
 use interplay_planners::traffic::{Decision, Origin};
 use interplay_planners::trajectory::Statistics;
+use interplay_planners::{Plan, PlanEventKind};
 
-use crate::components::{Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed, VehicleParameters};
+use crate::components::{
+    Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed, VehicleParameters,
+};
 use crate::external;
 use crate::frame::{Event, Frame, Level, VehicleFrame};
 

@@ -45,7 +45,8 @@ pub fn come_and_go(
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
-    let mut sorted: Vec<_> = vehicles.iter_mut().filter(|(_, _, parameters, _)| !parameters.stay.is_permanent()).collect();
+    let mut sorted: Vec<_> =
+        vehicles.iter_mut().filter(|(_, _, parameters, _)| !parameters.stay.is_permanent()).collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
     let is_due = |at_s: Option<f64>| at_s.is_some_and(|at_s| clock.time_s() + TIME_TOLERANCE_S >= at_s);
     for (identity, motion, parameters, presence) in &mut sorted {

@@ -93,34 +93,35 @@ pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
 fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule_book: RuleBook) -> Traffic {
     let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let road_users = sorted.into_iter().map(|(identity, motion, presence, parameters, objective, driving, committed)| RoadUser {
-        agent: Agent {
-            name: identity.name.clone(),
-            state: motion.state,
-            previous_input: motion.input,
-            body: parameters.body,
-            limits: parameters.limits,
-            route: Arc::clone(&parameters.route),
-            prediction: Trajectory::default(),
-            shared_goal: objective.shared,
-            can_be_asked: driving.can_be_asked,
-            is_obstacle: parameters.outline.is_some(),
-            rules: RoadRules::default(),
-            urgency: 1.0,
-        },
-        goal: objective.goal,
-        goes_first: driving.goes_first,
-        knows_plans: driving.knows_plans,
-        keeps_rules: driving.keeps_rules,
-        is_crashed: motion.crashed,
-        is_absent: presence.is_absent(),
-        // Whoever follows a record is expected to keep its speed, from where it is now on.
-        committed: if parameters.hides_plan_at(clock.time_s()) {
-            CommittedPlan::default()
-        } else {
-            committed.0.clone()
-        },
-    });
+    let road_users =
+        sorted.into_iter().map(|(identity, motion, presence, parameters, objective, driving, committed)| RoadUser {
+            agent: Agent {
+                name: identity.name.clone(),
+                state: motion.state,
+                previous_input: motion.input,
+                body: parameters.body,
+                limits: parameters.limits,
+                route: Arc::clone(&parameters.route),
+                prediction: Trajectory::default(),
+                shared_goal: objective.shared,
+                can_be_asked: driving.can_be_asked,
+                is_obstacle: parameters.outline.is_some(),
+                rules: RoadRules::default(),
+                urgency: 1.0,
+            },
+            goal: objective.goal,
+            goes_first: driving.goes_first,
+            knows_plans: driving.knows_plans,
+            keeps_rules: driving.keeps_rules,
+            is_crashed: motion.crashed,
+            is_absent: presence.is_absent(),
+            // Whoever follows a record is expected to keep its speed, from where it is now on.
+            committed: if parameters.hides_plan_at(clock.time_s()) {
+                CommittedPlan::default()
+            } else {
+                committed.0.clone()
+            },
+        });
     let road_users = road_users.collect();
     let step_s = clock.planning_period_s();
     Traffic { tick: clock.plans(), step_s, horizon: clock.horizon, road_users, rule_book }

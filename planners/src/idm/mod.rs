@@ -103,9 +103,9 @@ impl Drive for Idm {
         let whole = along_the_road(self.settings.prediction.applied_to(scene).into_owned());
         let mut minded = whole.clone();
         let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
-        minded.others.retain(|other| {
-            is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name)
-        });
+        minded
+            .others
+            .retain(|other| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
         let lanes = Lanes::of_road(&minded, &self.settings.mobil);
         let now = self.lane(&minded, &lanes);
         let choice = mobil::choose(&minded, &self.settings, now);

@@ -50,13 +50,13 @@ pub enum HandOverTime {
     /// At a time \[s\].
     At(#[schemars(range(min = 0.0))] f64),
     /// When somebody is in its way.
-    When(Disturbance),
+    When(RecordDisturbance),
 }
 
 /// What ends a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Disturbance {
+pub enum RecordDisturbance {
     /// The record would lead into somebody.
     Disturbed,
 }
@@ -67,7 +67,7 @@ impl HandOver {
         let time_s = scene.step_s * scene.tick as f64;
         match self.when {
             HandOverTime::At(at_s) => (time_s + 1e-9 >= at_s).then(|| "its time has come".to_owned()),
-            HandOverTime::When(Disturbance::Disturbed) => {
+            HandOverTime::When(RecordDisturbance::Disturbed) => {
                 let other = disturbance(record, scene, time_s)?;
                 Some(format!("{other} is in its way"))
             }
@@ -108,7 +108,8 @@ fn disturbance(record: &Record, scene: &Scene, time_s: f64) -> Option<String> {
     let inflated = |other: &Agent| {
         let Body { front_m, rear_m, width_m, .. } = other.body;
         let space_m = SPACE_M * ratio;
-        let body = Body { front_m: front_m + space_m, rear_m: rear_m + space_m, width_m: width_m + space_m, ..other.body };
+        let body =
+            Body { front_m: front_m + space_m, rear_m: rear_m + space_m, width_m: width_m + space_m, ..other.body };
         Agent { body, ..other.clone() }
     };
     scene.others.iter().find(|other| touches_ahead(scene, &motion, &inflated(other))).map(|other| other.name.clone())

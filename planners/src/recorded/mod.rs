@@ -9,7 +9,7 @@
 
 mod hand_over;
 
-pub use hand_over::{Disturbance, HandOver, HandOverTime, Successor};
+pub use hand_over::{HandOver, HandOverTime, RecordDisturbance, Successor};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,10 +17,10 @@ use serde_json::json;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::plan::{PlanEvent, PlanEventKind};
 use crate::predict::{Prediction, steadily_along};
 pub use crate::record::{Record, RecordFault, next_to};
 use crate::steering::steer;
-use crate::plan::{PlanEvent, PlanEventKind};
 use crate::{DriverSettingError, Input, Plan, PlanError, Scene, Trajectory};
 
 /// The settings of a recorded driver: what was recorded.

@@ -115,7 +115,8 @@ impl RuleBook {
         }
         let before_m = stopping_distance_m(ego);
         let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
-        let signs = signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !self.arrivals.has_stood_at(ego, *line_m));
+        let signs =
+            signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !self.arrivals.has_stood_at(ego, *line_m));
         let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
         let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
         let nearest_m = lines.min_by(f64::total_cmp);

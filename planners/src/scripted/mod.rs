@@ -158,8 +158,8 @@ impl Scripted {
 mod tests {
     use super::*;
     use crate::Agent;
-    use crate::trigger::TriggerPlace;
     use crate::fixture::{agent, scene};
+    use crate::trigger::TriggerPlace;
 
     fn order(from_s: f64, speed_mps: Option<f64>, lateral_m: Option<f64>) -> Order {
         Order { from_s, speed_mps, lateral_m, ..Order::default() }

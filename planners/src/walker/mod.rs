@@ -83,7 +83,12 @@ impl Drive for Walker {
         let trajectory = roll_out(scene, |_, state| {
             let left_m = room_m.map(|room_m| room_m - (own.route.along(state.position()) - begin_m));
             Input {
-                acceleration_mps2: admissible(own, state, acceleration_mps2(scene, state.speed_mps, left_m), scene.step_s),
+                acceleration_mps2: admissible(
+                    own,
+                    state,
+                    acceleration_mps2(scene, state.speed_mps, left_m),
+                    scene.step_s,
+                ),
                 steering_rad: steer(own, state, across_m),
             }
         });
@@ -107,7 +112,8 @@ impl Drive for Walker {
 /// The acceleration towards the wanted speed, or such that the walker stands before some room has been used.
 fn acceleration_mps2(scene: &Scene, speed_mps: f64, room_m: Option<f64>) -> f64 {
     let limits = &scene.ego.limits;
-    let [softest, hardest] = [COMFORT_SHARE * limits.acceleration_max_mps2, -COMFORT_SHARE * limits.acceleration_min_mps2];
+    let [softest, hardest] =
+        [COMFORT_SHARE * limits.acceleration_max_mps2, -COMFORT_SHARE * limits.acceleration_min_mps2];
     let wanted_mps = room_m.map_or(scene.goal.target.speed_mps, |room_m| {
         // At this speed, braking in comfort from the next step on ends at the line.
         let reach_m = (room_m - 0.5 * scene.step_s * speed_mps).max(0.0);

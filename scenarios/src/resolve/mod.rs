@@ -9,7 +9,7 @@ pub(crate) mod weather_file;
 
 use serde::de::DeserializeOwned;
 
-use interplay_planners::{Body, Driver};
+use interplay_planners::Driver;
 
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
@@ -61,12 +61,10 @@ fn read(
         return Err(unread);
     }
     let moved = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
-    let Placed { network, starts } = place(&file.vehicles, (&road, &file.lights, written), (tree, registry.complete()), known_roads)?;
-    let vehicles = file.vehicles.into_iter().zip(starts).enumerate();
-    let vehicles = vehicles.map(|(index, (vehicle, start))| reader.vehicle(index, vehicle, start));
-    let mut vehicles: Vec<Vehicle> = vehicles.collect::<Result<_, _>>()?;
-    let scale = vehicles.first().map_or(Body::REAL_SCALE, |vehicle| vehicle.body.scale);
-    vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (tree, scale))?);
+    let Placed { network, starts } =
+        place(&file.vehicles, (&road, &file.lights, written), (tree, registry.complete()), known_roads)?;
+    let mut vehicles = reader.vehicles(file.vehicles, starts)?;
+    vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (tree, &vehicles))?);
     let mut scenario = Scenario {
         vehicles,
         road,
@@ -178,6 +176,11 @@ impl Reader<'_> {
     fn driver(&self, path: &str, stated: Option<Stated<Driver>>) -> Result<Driver, Fault> {
         let Some(stated) = stated else { return Ok(default_driver()) };
         self.registry.driver(stated).map_err(|error| self.refused(path, &error))
+    }
+
+    fn vehicles(&self, stated: Vec<VehicleConfig>, starts: Vec<Start>) -> Result<Vec<Vehicle>, Fault> {
+        let placed = stated.into_iter().zip(starts).enumerate();
+        placed.map(|(index, (vehicle, start))| self.vehicle(index, vehicle, start)).collect()
     }
 
     fn vehicle(&self, index: usize, stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {

@@ -42,7 +42,7 @@ use crate::file_format::weather::WeatherSource;
 use crate::file_format::weights::Weights;
 use crate::metric::RegisteredMetrics;
 use crate::road::{Branch, Road};
-use crate::scenario::obstacle::{Obstacle, Outline};
+use crate::scenario::obstacle::{ObstacleForm, Outline};
 use crate::scenario::remark::ScenarioRemarks;
 use crate::text::name::EGO;
 
@@ -227,7 +227,7 @@ pub struct Vehicle {
     /// When it is on the road.
     pub stay: Stay,
     /// What it is if nobody drives it.
-    pub obstacle: Option<Obstacle>,
+    pub obstacle: Option<ObstacleForm>,
     /// What it senses of the others; without it, it sees every state as it is.
     pub sensing: Option<sensing::Settings>,
     /// How it learns from the others' motion what they will do, where its driver infers that.

@@ -6,7 +6,7 @@ pub use crate::file_format::obstacle::ObstacleKind;
 
 /// An obstacle: what it is and its shape. It is held by a vehicle that nobody drives.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
+pub struct ObstacleForm {
     /// What it is.
     pub kind: ObstacleKind,
     /// Its outline around its middle.

@@ -6,13 +6,13 @@ pub(crate) mod reference;
 use interplay_planners::Driver;
 use serde_json::{Map, Value as Json};
 
+use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
-use crate::file_format::obstacle::ObstacleConfig;
 use crate::scenario::Counterfactual;
-use crate::scenario::obstacle::{Obstacle, Outline};
+use crate::scenario::obstacle::{ObstacleForm, Outline};
 use crate::scenario::{Scenario, Vehicle};
 use crate::write::commented::plain;
 
@@ -39,7 +39,12 @@ impl Scenario {
             plant: drives.then(|| self.plant.clone().into()),
             road: drives.then(|| self.road.clone().into()),
             start_jitter: drives.then(|| self.start_jitter.into()),
-            vehicles: self.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).map(Vehicle::to_config).collect(),
+            vehicles: self
+                .vehicles
+                .iter()
+                .filter(|vehicle| vehicle.obstacle.is_none())
+                .map(Vehicle::to_config)
+                .collect(),
             lights: self.lights.clone(),
             obstacles: self.vehicles.iter().filter_map(Vehicle::to_obstacle).collect(),
             defaults: None,
@@ -105,7 +110,7 @@ impl Vehicle {
 
     /// What a file states of an obstacle; none of a vehicle that somebody drives.
     fn to_obstacle(&self) -> Option<ObstacleConfig> {
-        let Obstacle { kind, outline } = self.obstacle.clone()?;
+        let ObstacleForm { kind, outline } = self.obstacle.clone()?;
         let Driver::Recorded(record) = &self.driver else { return None };
         let mut stated = ObstacleConfig { name: self.name.clone(), kind, ..ObstacleConfig::default() };
         match record.points.as_slice() {

@@ -138,7 +138,8 @@ fn draw_walker(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
     let width = placed.px(placed.body.width_m).max(LEAST_WALKER_PX);
     let larger = width / placed.px(placed.body.width_m);
     let shoulders = placed.rectangle([-0.7, 0.7, -1.0, 1.0]);
-    let shoulders = shoulders.map(|[x, y]| [middle[0] + larger * (x - middle[0]), middle[1] + larger * (y - middle[1])]);
+    let shoulders =
+        shoulders.map(|[x, y]| [middle[0] + larger * (x - middle[0]), middle[1] + larger * (y - middle[1])]);
     canvas.fill_rounded(&shoulders, 0.35 * width, colour);
     canvas.disc(middle, 0.27 * width, SKIN);
     canvas.disc(middle, 0.2 * width, darker(colour));

@@ -36,7 +36,11 @@ pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
         BodyStyle::Bicycle => add_bicycle(&mut mesh, &placed, colour),
         BodyStyle::Walker => {
             mesh.add_block(&placed.rounded([-0.7, 0.7, -1.0, 1.0], 0.3), placed.z([0.0, SHOULDER_WIDTHS]), colour);
-            mesh.add_block(&placed.rectangle([-0.4, 0.4, -0.35, 0.35]), placed.z([SHOULDER_WIDTHS, WALKER_WIDTHS]), TYRE);
+            mesh.add_block(
+                &placed.rectangle([-0.4, 0.4, -0.35, 0.35]),
+                placed.z([SHOULDER_WIDTHS, WALKER_WIDTHS]),
+                TYRE,
+            );
         }
         BodyStyle::Plain => {
             let corners = vehicle.outline().map(Outline::corners_m).unwrap_or_default();

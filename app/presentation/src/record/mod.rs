@@ -55,6 +55,7 @@ use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 pub use error::{RecordError, ViewerAddressError};
+use lights::LightLayer;
 pub use live::Viewer;
 pub use open::OpenRecording;
 use palette::NamedColour;
@@ -62,7 +63,6 @@ use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 use status::StatusLines;
 pub use timelines::{SIM_TIME, TICK};
-use lights::LightLayer;
 use vehicles::VehicleLayer;
 
 use crate::answer::Requests;

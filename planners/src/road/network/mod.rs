@@ -13,6 +13,7 @@ mod lane_user;
 mod light;
 mod locating;
 mod neighbours;
+mod open_lanes;
 mod road_network;
 mod route;
 mod route_conflict;

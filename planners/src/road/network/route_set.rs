@@ -42,9 +42,8 @@ impl Route {
         let mut numbers = Vec::with_capacity(routes.len());
         for mut route in routes {
             let lanes = |route: &Route| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
-            let is_same = |known: &Route| {
-                lanes(known) == lanes(&route) && known.right == route.right && known.left == route.left
-            };
+            let is_same =
+                |known: &Route| lanes(known) == lanes(&route) && known.right == route.right && known.left == route.left;
             let number = distinct.iter().position(is_same);
             numbers.push(number.unwrap_or(distinct.len()));
             if number.is_none() {

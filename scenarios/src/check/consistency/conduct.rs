@@ -36,7 +36,8 @@ impl Checker<'_> {
                 earlier.from_s == order.from_s && earlier.when == order.when && rules_the_same
             });
             if let Some(earlier) = same {
-                let message = format!("orders {earlier} and {number} of vehicle {} begin at one time", quoted(&vehicle.name));
+                let message =
+                    format!("orders {earlier} and {number} of vehicle {} begin at one time", quoted(&vehicle.name));
                 self.refuse(&path, "at the same time", message, "let one of them begin later, or leave it out");
             }
             if let Some(when) = &order.when {
@@ -48,7 +49,8 @@ impl Checker<'_> {
     fn script_speed(&mut self, vehicle: &Vehicle, speed_mps: f64, (path, shown): (&str, &str)) {
         let (slowest, fastest) = (vehicle.limits.speed_min_mps, vehicle.limits.speed_max_mps);
         if speed_mps < 0.0 {
-            let message = format!("{shown} ({}) asks for driving backwards, which no vehicle does", readable(speed_mps));
+            let message =
+                format!("{shown} ({}) asks for driving backwards, which no vehicle does", readable(speed_mps));
             self.refuse(path, "backwards", message, "0 lets it stand; reversing is not simulated");
         } else if !(slowest..=fastest).contains(&speed_mps) {
             let message = format!("{shown} ({}) is outside the vehicle's limits", readable(speed_mps));
@@ -95,7 +97,12 @@ impl Checker<'_> {
             }
             None if !lanes.is_empty() => {
                 let message = format!("{shown}: nothing says on which lane");
-                self.refuse(&path("along_m"), "of which lane", message, &format!("state `lane`: one of {}", lanes.join(", ")));
+                self.refuse(
+                    &path("along_m"),
+                    "of which lane",
+                    message,
+                    &format!("state `lane`: one of {}", lanes.join(", ")),
+                );
             }
             _ => {}
         }
@@ -108,19 +115,34 @@ impl Checker<'_> {
             return;
         }
         let (name, path) = (quoted(&vehicle.name), format!("vehicle.{index}"));
-        let key = if stay.enters_s.is_some() { "enters_s" } else if stay.leaves_s.is_some() { "leaves_s" } else { "leaves_at_end" };
+        let key = if stay.enters_s.is_some() {
+            "enters_s"
+        } else if stay.leaves_s.is_some() {
+            "leaves_s"
+        } else {
+            "leaves_at_end"
+        };
         if matches!(self.scenario.plant, Plant::Dynamic(_)) {
             let message = format!("vehicle {name} comes or leaves, which the dynamic plant cannot carry out");
             self.refuse(&format!("{path}.{key}"), "with the dynamic plant", message, "leave `plant` out");
         }
         if index == self.scenario.ego_index() && stay.enters_s.is_some_and(|enters_s| enters_s > 0.0) {
             let message = format!("the ego, {name}, is not there when the run begins");
-            self.refuse(&format!("{path}.enters_s"), "the ego", message, "let the others come later, or call another vehicle `ego`");
+            self.refuse(
+                &format!("{path}.enters_s"),
+                "the ego",
+                message,
+                "let the others come later, or call another vehicle `ego`",
+            );
         }
         if let (Some(enters_s), Some(leaves_s)) = (stay.enters_s, stay.leaves_s)
             && leaves_s <= enters_s
         {
-            let message = format!("vehicle {name} leaves ({} s) before it has come ({} s)", readable(leaves_s), readable(enters_s));
+            let message = format!(
+                "vehicle {name} leaves ({} s) before it has come ({} s)",
+                readable(leaves_s),
+                readable(enters_s)
+            );
             self.refuse(&format!("{path}.leaves_s"), "too early", message, "let it leave later");
         }
     }

@@ -97,7 +97,8 @@ pub(super) fn of_problem(
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
     let mut ego = Ego::new(state, route, goal);
-    let stated = problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-MAX_ACCELERATION_MPS2, MAX_ACCELERATION_MPS2), 3));
+    let stated =
+        problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-MAX_ACCELERATION_MPS2, MAX_ACCELERATION_MPS2), 3));
     ego.config.start.acceleration_mps2 = stated.filter(|stated| *stated != 0.0);
     Some(ego)
 }

@@ -47,6 +47,7 @@ fn config(light: &Light, lanes: Vec<String>, (step_s, begin): (f64, f64)) -> Opt
     let phases: Vec<LightPhase> = light.phases.iter().filter_map(phase).take(MAX_LIGHTS).collect();
     let offset_s = rounded((light.offset - begin) * step_s, 6);
     let is_sound = light.is_active && !phases.is_empty() && offset_s.abs() <= MAX_OFFSET_S;
-    let name: String = format!("light-{}", light.id).chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+    let name: String =
+        format!("light-{}", light.id).chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
     is_sound.then(|| LightConfig { name, lanes, phases, offset_s })
 }

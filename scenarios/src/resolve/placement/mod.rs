@@ -49,7 +49,8 @@ pub(crate) fn place(
     if !faults.is_empty() {
         return Err(faults);
     }
-    let network = known_roads.network(written, || network::network((road, lights), tree)).map_err(|fault| vec![fault])?;
+    let network =
+        known_roads.network(written, || network::network((road, lights), tree)).map_err(|fault| vec![fault])?;
     let [main, cross] = [Branch::Main, Branch::Cross].map(|branch| road.route(branch));
     let (mut starts, mut faults) = (Vec::new(), Vec::new());
     for (index, vehicle) in vehicles.iter().enumerate() {

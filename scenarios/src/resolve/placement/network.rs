@@ -14,10 +14,7 @@ use crate::road::{Road, RoadFault, to_centimetres};
 ///
 /// # Errors
 /// For lanes that are no network, and a network that cannot be left.
-pub(super) fn network(
-    (road, lights): (&Road, &[LightConfig]),
-    tree: &TomlNode,
-) -> Result<Option<RoadNetwork>, Fault> {
+pub(super) fn network((road, lights): (&Road, &[LightConfig]), tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
     let mut lanes = match road.network_lanes() {
         None => return Ok(None),
         Some(Err(fault)) => return Err(located(fault, tree)),
@@ -41,7 +38,11 @@ fn place_lights(lanes: &mut [Lane], lights: &[LightConfig], tree: &TomlNode) -> 
             let known = lanes.iter().position(|lane| lane.name == *name);
             let Some(lane) = known.map(|known| &mut lanes[known]) else {
                 let names: Vec<&str> = lanes.iter().map(|lane| lane.name.as_str()).collect();
-                let message = format!("light {} stands at lane {}, which the road does not have", quoted(&light.name), quoted(name));
+                let message = format!(
+                    "light {} stands at lane {}, which the road does not have",
+                    quoted(&light.name),
+                    quoted(name)
+                );
                 return Err(Fault::at(at, "no such lane", message).help(suggestion(name, "the lanes are", &names)));
             };
             if lane.light.is_some() {

@@ -13,22 +13,23 @@ use crate::file_format::lane_reference::LaneReference;
 use crate::file_format::obstacle::ObstacleConfig;
 use crate::read::tree::TomlNode;
 use crate::road::{Branch, Road};
-use crate::scenario::obstacle::{Obstacle, Outline};
+use crate::scenario::obstacle::{ObstacleForm, Outline};
 use crate::scenario::{Stay, Vehicle};
 use crate::text::readable::readable;
 
 /// Ratio of lengths of real cars to those of 1/10 scale.
 const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 
-/// The obstacles of a file on a road, as vehicles that nobody drives; `scale` is that of the vehicles ([`Body::scale`](interplay_planners::Body::scale)).
+/// The obstacles of a file on a road, as vehicles that nobody drives, of the scale of the others.
 ///
 /// # Errors
 /// For places that are none, and outlines that are no convex polygons.
 pub(crate) fn obstacles(
     stated: &[ObstacleConfig],
     (road, network): (&Road, Option<&RoadNetwork>),
-    (tree, scale): (&TomlNode, f64),
+    (tree, vehicles): (&TomlNode, &[Vehicle]),
 ) -> Result<Vec<Vehicle>, Vec<Fault>> {
+    let scale = vehicles.first().map_or(REAL_SCALE, |vehicle| vehicle.body.scale);
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     for (index, stated) in stated.iter().enumerate() {
         let written = Written { stated, index, tree, road, network };
@@ -76,7 +77,7 @@ impl Written<'_> {
             driver: Driver::Recorded(driver),
             rules: Some(RuleKeeping::Ignored),
             stay: Stay::default(),
-            obstacle: Some(Obstacle { kind: self.stated.kind, outline }),
+            obstacle: Some(ObstacleForm { kind: self.stated.kind, outline }),
             sensing: None,
             inference: None,
         })
@@ -91,7 +92,9 @@ impl Written<'_> {
         let stated = self.stated;
         if stated.lane.is_some() || stated.along_m.is_some() || stated.x_m.is_some() || stated.y_m.is_some() {
             let message = format!("{} has a place and a timetable", self.shown());
-            return Err(self.fault("timetable", "and a place", message).help("the rows of a timetable say where it is"));
+            return Err(self
+                .fault("timetable", "and a place", message)
+                .help("the rows of a timetable say where it is"));
         }
         let rows = &stated.timetable;
         let is_late = |pair: &[[f64; 4]]| pair[1][0] <= pair[0][0];
@@ -101,7 +104,9 @@ impl Written<'_> {
         }
         if rows[0][0] > 0.0 {
             let message = format!("the timetable of {} begins at {} s", self.shown(), readable(rows[0][0]));
-            return Err(self.fault("timetable", "not at 0 s", message).help("let the first row say where it is at 0 s"));
+            return Err(self
+                .fault("timetable", "not at 0 s", message)
+                .help("let the first row say where it is at 0 s"));
         }
         let speed_mps = |row: usize| {
             let [from, to] = [rows[row], *rows.get(row + 1)?];
@@ -138,7 +143,9 @@ impl Written<'_> {
             (_, network) => {
                 let (what, help) = if network.is_some() { ("a number", "name") } else { ("a name", "number") };
                 let message = format!("the lane of {} is {what}", self.shown());
-                return Err(self.fault("lane", "no such lane", message).help(format!("a lane of this road has a {help}")));
+                return Err(self
+                    .fault("lane", "no such lane", message)
+                    .help(format!("a lane of this road has a {help}")));
             }
         };
         Ok(State { x_m, y_m, heading_rad: along_rad + turned_rad, speed_mps: 0.0 })

@@ -140,7 +140,8 @@ impl NetworkVehicle<'_> {
     /// The route from the begin of a lane on: along the stated lanes, or to the lane of the goal, or the only one there is.
     fn route(&self, lane: &Lane) -> Result<Arc<Route>, Fault> {
         let goal = self.written.stated.goal.lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
-        let words = [&[lane.name.clone(), goal, format!("{:?}", self.user)], self.written.stated.route.as_slice()].concat();
+        let words =
+            [&[lane.name.clone(), goal, format!("{:?}", self.user)], self.written.stated.route.as_slice()].concat();
         self.known.route(words, || self.new_route(lane))
     }
 

@@ -45,7 +45,8 @@ pub(super) fn start(written: &VehicleAsWritten<'_>) -> Result<Option<(Record, St
         let message =
             format!("the record of {} does not say where it is when it comes on the road", quoted(&written.shown()));
         let [from_s, to_s] = record.span_s().map(readable);
-        let help = format!("it reaches from {from_s} to {to_s} s; `enters_s` says when the vehicle comes, by default at 0 s");
+        let help =
+            format!("it reaches from {from_s} to {to_s} s; `enters_s` says when the vehicle comes, by default at 0 s");
         return Err(written.fault("driver", "not then", message).help(help));
     };
     if let (Some(x_m), Some(y_m)) = (written.stated.start.x_m, written.stated.start.y_m) {
