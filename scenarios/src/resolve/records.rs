@@ -33,8 +33,11 @@ const MAX_NAMES: usize = 12;
 /// The rows of each vehicle of a table, by its `id`; without such a column, of one vehicle without a name.
 pub(crate) type Records = BTreeMap<String, Vec<[f64; 5]>>;
 
-/// Puts the rows of the tables that recorded drivers name in the place of their names; returns what is wrong with them.
-pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Vec<Fault> {
+/// Puts the rows of the tables that recorded drivers name in the place of their names.
+///
+/// # Errors
+/// What is wrong with the tables.
+pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<(), Vec<Fault>> {
     let mut tables: BTreeMap<PathBuf, Arc<Records>> = BTreeMap::new();
     let mut faults = Vec::new();
     for (index, vehicle) in vehicles.iter_mut().enumerate() {
@@ -51,7 +54,7 @@ pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Vec<Fault
             Err(fault) => faults.push(fault),
         }
     }
-    faults
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
 /// The rows of one vehicle.
