@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::Scene;
 
@@ -12,7 +13,8 @@ pub struct Trigger {
     /// Which vehicle; it may be the waiting one itself.
     #[schemars(example = &"ego")]
     pub vehicle: String,
-    /// The place.
+    /// The place that its mass centre reaches, on its way.
+    #[schemars(example = json!({ "lane": "street", "along_m": 40.0 }))]
     pub reaches: TriggerPlace,
 }
 

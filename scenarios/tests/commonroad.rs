@@ -48,7 +48,10 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
     assert!(lane("l1").left.as_ref().is_some_and(|left| left.lane == "l2" && left.may_change));
     assert!((lane("l1").half_width_m(50.0) - 1.75).abs() < 1e-9 && lane("l1").right.is_none());
     let names: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
-    assert_eq!(names, ["ego", "car-21", "truck-22", "parked-24"]);
+    assert_eq!(names, ["ego", "car-21", "truck-22", "car-23", "parked-24"]);
+    let later = scenario.vehicle("car-23").expect("a car that appears later");
+    assert!(later.stay.enters_s.is_some_and(|enters_s| enters_s > 0.0));
+    assert!(scenario.vehicle("parked-24").is_some_and(|parked| parked.obstacle.is_some()));
     let ego = scenario.ego().expect("an ego");
     assert_eq!((ego.start.x_m, ego.start.y_m, ego.start.speed_mps), (20.0, 1.75, 22.0));
     assert_eq!(ego.route.legs.last().map(|leg| leg.lane.as_str()), Some("l4"), "the lane of its goal");
@@ -59,10 +62,8 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
     assert_eq!((truck.body.front_m + truck.body.rear_m, truck.body.width_m), (12.0, 2.5));
     for line in [
         "1 sign `277`: not carried over yet",
-        "1 traffic light: not carried over yet",
-        "1 vehicle that appears later: not carried over yet",
+        "1 traffic light: left out",
         "1 obstacle that is no rectangle: carried over as the box around it",
-        "2 records that end before the run: the vehicle then keeps its speed",
     ] {
         assert!(imported.notes.iter().any(|note| note.starts_with(line)), "no {line:?} in {:#?}", imported.notes);
     }
@@ -116,7 +117,7 @@ fn drivers_of_ours_take_the_place_of_records() {
     let imported = import_commonroad("motorway.xml", &text("motorway.xml"), &options).expect("a sound scenario");
     let scenario = resolved(&imported);
     let kinds: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
-    assert_eq!(kinds, ["negotiation", "human", "idm", "recorded"], "what stands goes on standing");
+    assert_eq!(kinds, ["negotiation", "human", "idm", "human", "recorded"], "what stands goes on standing");
     let unknown = ImportOptions { replace: vec![replace(Some("99"), "idm", None)], ..ImportOptions::default() };
     let error = import_commonroad("motorway.xml", &text("motorway.xml"), &unknown).expect_err("no such vehicle");
     assert!(shown(&error).contains("no obstacle `99`"));

@@ -1,6 +1,6 @@
 """Every planner as the ego of recorded scenes: among recorded cars, among recorded cars that hand over, and among drivers of ours.
 
-    python tests/peers/commonroad_planners.py FOLDER [--program INTERPLAY] [--scenes 10] [--seed 1]
+    python tests/peers/commonroad_planners.py FOLDER [--program INTERPLAY] [--scenes 10] [--seed 1] [--planners human,idm]
 
 FOLDER has scenarios of CommonRoad with recorded cars and a planning problem. Of the distinct ones whose run lasts at least 4 s, some are drawn
 by the seed. Each is driven by each planner in four kinds of traffic:
@@ -78,7 +78,7 @@ def outcome(report):
 
 
 def tau(first, second):
-    pairs = list(itertools.combinations(PLANNERS, 2))
+    pairs = list(itertools.combinations(first, 2))
     agree = sum((first[a] - first[b]) * (second[a] - second[b]) > 0 for a, b in pairs)
     against = sum((first[a] - first[b]) * (second[a] - second[b]) < 0 for a, b in pairs)
     return (agree - against) / len(pairs)
@@ -90,11 +90,13 @@ def main():
     parser.add_argument("--program", default="interplay")
     parser.add_argument("--scenes", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--planners", default=",".join(PLANNERS))
     options = parser.parse_args()
+    planners = options.planners.split(",")
     candidates = scenes(options.folder, options.scenes, options.seed)
     if not candidates:
         sys.exit(print(f"skipped: no recorded scenes with planning problems in {options.folder}"))
-    results = {traffic: {planner: [] for planner in PLANNERS} for traffic in TRAFFIC}
+    results = {traffic: {planner: [] for planner in planners} for traffic in TRAFFIC}
     used = []
     with tempfile.TemporaryDirectory() as folder:
         for path in candidates:
@@ -111,7 +113,7 @@ def main():
                 continue
             used.append(path.stem)
             for traffic, (_, settings) in TRAFFIC.items():
-                reports = {planner: driven(options.program, files[traffic], planner, settings) for planner in PLANNERS}
+                reports = {planner: driven(options.program, files[traffic], planner, settings) for planner in planners}
                 found = {planner: outcome(report) for planner, report in reports.items() if report}
                 fastest = max(result["speed"] for result in found.values()) or 1.0
                 for planner, result in found.items():

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::Record;
 use crate::certificate::touches_ahead;
@@ -23,6 +24,7 @@ const LEAST_WANTED_MPS: f64 = 8.0;
 #[serde(deny_unknown_fields)]
 pub struct HandOver {
     /// The driver who takes over.
+    #[schemars(example = json!("human"))]
     pub to: Successor,
     /// The style of a human who takes over; normal by default.
     #[serde(default)]
@@ -30,6 +32,7 @@ pub struct HandOver {
     pub style: Option<Style>,
     /// When: at a time \[s\], or `"disturbed"`: as soon as the record would lead into somebody else within 2.5 s of a real car, who is
     /// expected to keep its speed.
+    #[schemars(example = json!("disturbed"))]
     pub when: HandOverTime,
 }
 

@@ -70,8 +70,8 @@ pub struct VehicleConfig {
     #[schemars(range(min = 0.0), example = 30.0)]
     pub leaves_s: Option<f64>,
     /// Whether it leaves the road where its route ends; by default it drives on straight ahead.
-    #[serde(default)]
-    pub leaves_at_end: bool,
+    #[schemars(example = true)]
+    pub leaves_at_end: Option<bool>,
     /// What it senses of the others; without it, it sees every state as it is.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
     pub sensing: Option<Stated<sensing::Settings>>,

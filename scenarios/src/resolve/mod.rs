@@ -199,7 +199,11 @@ impl Reader<'_> {
             goal: stated.goal,
             rules: stated.rules,
             obstacle: None,
-            stay: Stay { enters_s: stated.enters_s, leaves_s: stated.leaves_s, leaves_at_end: stated.leaves_at_end },
+            stay: Stay {
+                enters_s: stated.enters_s,
+                leaves_s: stated.leaves_s,
+                leaves_at_end: stated.leaves_at_end.unwrap_or(false),
+            },
         })
     }
 }

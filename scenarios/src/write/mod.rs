@@ -102,7 +102,7 @@ impl Vehicle {
             rules: self.rules,
             enters_s: self.stay.enters_s,
             leaves_s: self.stay.leaves_s,
-            leaves_at_end: self.stay.leaves_at_end,
+            leaves_at_end: Some(true).filter(|_| self.stay.leaves_at_end),
             sensing: self.sensing.map(Stated::from),
             inference: self.inference.map(Stated::from),
         }

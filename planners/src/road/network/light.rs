@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// What a traffic light shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -24,7 +25,8 @@ pub enum LightColour {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LightPhase {
-    /// What it shows.
+    /// What it shows to those who come to it.
+    #[schemars(example = json!("green"))]
     pub colour: LightColour,
     /// For how long \[s\].
     #[schemars(range(min = 0.001, max = 10_000.0), example = 20.0)]

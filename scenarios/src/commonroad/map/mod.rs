@@ -87,7 +87,7 @@ pub(super) fn mapped(
         }
         let mut config = driven(&follower, &lanes, options, notes);
         // A record that ends before the run is that of somebody who has left; a driver of ours drives to the end of its way.
-        config.leaves_at_end = !config.route.is_empty();
+        config.leaves_at_end = (!config.route.is_empty()).then_some(true);
         config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
         vehicles.push((config, Some(follower.place)));
     }
