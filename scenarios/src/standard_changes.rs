@@ -49,7 +49,7 @@ impl Registry {
         scenario: &Scenario,
         overrides: &[Override],
     ) -> Result<Vec<StandardChange>, LoadError> {
-        let stated = scenario.vehicles.iter().flat_map(|vehicle| {
+        let stated = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).flat_map(|vehicle| {
             let plain = self.plain_driver(name_or_path, vehicle, overrides);
             changes(vehicle, plain.as_ref(), self.complete())
         });

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::trigger::Trigger;
 
@@ -12,6 +13,7 @@ pub struct Settings {
     /// How careful it is before it steps on a street.
     pub style: WalkerStyle,
     /// When it begins to walk; by default at once.
+    #[schemars(example = json!({ "vehicle": "ego", "reaches": { "lane": "street", "along_m": 40.0 } }))]
     pub when: Option<Trigger>,
 }
 

@@ -49,5 +49,5 @@ fn config(light: &Light, lanes: Vec<String>, (step_s, begin): (f64, f64)) -> Opt
     let is_sound = light.is_active && !phases.is_empty() && offset_s.abs() <= MAX_OFFSET_S;
     let name: String =
         format!("light-{}", light.id).chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
-    is_sound.then(|| LightConfig { name, lanes, phases, offset_s })
+    is_sound.then_some(LightConfig { name, lanes, phases, offset_s })
 }
