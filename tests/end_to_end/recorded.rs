@@ -132,3 +132,27 @@ fn scenarios_of_commonroad_are_imported_and_run() {
     let wrong = interplay(&folder, &["import", "motorway.csv"]);
     assert!(wrong.code == Some(2) && wrong.stderr.contains("not valid XML"), "{wrong:?}");
 }
+
+/// A recorded car would drive into one that stands where it was free when it was recorded. With `hands_over` it does not, and says why.
+#[test]
+fn a_record_is_left_where_it_would_lead_into_somebody() {
+    let run = |more: &str| {
+        let text = format!(
+            "title = \"In its way\"\nshows = \"Somebody stands in the way of a recorded car\"\nduration_s = 12.0\n\
+             road = {{ kind = \"lanes\", lane_width_m = 3.5 }}\n[[vehicle]]\nname = \"ego\"\n\
+             start = {{ lane = 0, along_m = 80.0, speed_mps = 0.0 }}\ndriver = {{ kind = \"scripted\" }}\n[[vehicle]]\n\
+             name = \"rear\"\nstart = {{ x_m = 0.0, y_m = 1.75, speed_mps = 10.0 }}\ndriver = {{ kind = \"recorded\"{more}, \
+             points = [[0.0, 0.0, 1.75, 0.0, 10.0], [12.0, 120.0, 1.75, 0.0, 10.0]] }}\n"
+        );
+        film("in-its-way", from_text("way.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}")))
+    };
+    assert_eq!(run("").report.collisions.len(), 1, "a record reacts to nobody");
+    let handed = run(", hands_over = { to = \"human\", when = \"disturbed\" }");
+    assert!(handed.report.collisions.is_empty(), "{:?}", handed.report.collisions);
+    let told = handed.frames.iter().flat_map(|frame| &frame.events).find(|event| event.text.contains("drives itself"));
+    assert!(told.is_some_and(|event| event.vehicle == "rear" && event.text.contains("ego is in its way")));
+    // At a time it does so, whoever is there.
+    let at = run(", hands_over = { to = \"idm\", when = 3.0 }");
+    let left = at.frames.iter().find(|frame| frame.events.iter().any(|event| event.text.contains("drives itself")));
+    assert!(left.is_some_and(|frame| (2.99..3.5).contains(&frame.time_s)) && at.report.collisions.is_empty());
+}

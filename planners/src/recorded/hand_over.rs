@@ -20,7 +20,7 @@ const REACTION_S: f64 = 0.6;
 const LEAST_WANTED_MPS: f64 = 8.0;
 
 /// Who takes over from a record, and when.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HandOver {
     /// The driver who takes over.
@@ -47,30 +47,22 @@ pub enum Successor {
 }
 
 /// When a record ends for its vehicle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum HandOverTime {
     /// At a time \[s\].
     At(#[schemars(range(min = 0.0))] f64),
-    /// When somebody is in its way.
-    When(RecordDisturbance),
-}
-
-/// What ends a record.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RecordDisturbance {
-    /// The record would lead into somebody.
-    Disturbed,
+    /// By the word `disturbed`: when somebody is in its way.
+    Word(#[schemars(extend("pattern" = "^disturbed$"))] String),
 }
 
 impl HandOver {
     /// Whether the driver takes over now; if somebody is in the way, in words for whom.
     pub(super) fn is_due(&self, record: &Record, scene: &Scene) -> Option<String> {
         let time_s = scene.step_s * scene.tick as f64;
-        match self.when {
-            HandOverTime::At(at_s) => (time_s + 1e-9 >= at_s).then(|| "its time has come".to_owned()),
-            HandOverTime::When(RecordDisturbance::Disturbed) => {
+        match &self.when {
+            HandOverTime::At(at_s) => (time_s + 1e-9 >= *at_s).then(|| "its time has come".to_owned()),
+            HandOverTime::Word(_) => {
                 let other = disturbance(record, scene, time_s)?;
                 Some(format!("{other} is in its way"))
             }

@@ -9,7 +9,7 @@
 
 mod hand_over;
 
-pub use hand_over::{HandOver, HandOverTime, RecordDisturbance, Successor};
+pub use hand_over::{HandOver, HandOverTime, Successor};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,7 @@ impl DriverKind for Settings {
     }
 
     fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Recorded { record: self.record(), hands_over: self.hands_over, successor: None })
+        Box::new(Recorded { record: self.record(), hands_over: self.hands_over.clone(), successor: None })
     }
 
     fn prediction(&self) -> Option<Prediction> {
@@ -107,7 +107,7 @@ impl Drive for Recorded {
         if let Some(successor) = &mut self.successor {
             return successor.plan(&wanting(scene, self.record.as_ref()), outlook);
         }
-        let due = self.hands_over.zip(self.record.as_ref());
+        let due = self.hands_over.as_ref().zip(self.record.as_ref());
         if let Some((hands_over, reason)) = due.and_then(|(to, record)| Some((to, to.is_due(record, scene)?))) {
             let successor = self.successor.insert(hands_over.driver(scene));
             let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), outlook)?;
@@ -129,7 +129,7 @@ impl Drive for Recorded {
             Some(successor) => Some(successor.fork()?),
             None => None,
         };
-        Some(Box::new(Recorded { record: self.record.clone(), hands_over: self.hands_over, successor }))
+        Some(Box::new(Recorded { record: self.record.clone(), hands_over: self.hands_over.clone(), successor }))
     }
 
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {

@@ -80,9 +80,8 @@ fn lights(vehicle: &Vehicle, along_m: f64) -> Vec<LightAhead> {
 
 /// The lines of stop signs on a vehicle's way \[m\].
 fn stop_signs(vehicle: &Vehicle) -> Vec<f64> {
-    let is_signed = |leg: &&RouteLeg| {
-        leg.light.is_none() && matches!(leg.right_of_way, RightOfWay::Stop | RightOfWay::AllWayStop)
-    };
+    let is_signed =
+        |leg: &&RouteLeg| leg.light.is_none() && matches!(leg.right_of_way, RightOfWay::Stop | RightOfWay::AllWayStop);
     vehicle.route.legs.iter().filter(is_signed).map(|leg| leg.to_m).collect()
 }
 

@@ -29,11 +29,12 @@ const TIME_TO_COLLISION: LeastOfRun = LeastOfRun {
 /// length; headings stay. Only a time below `below_s` is of interest, which keeps the search small.
 fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
     let vehicles = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles).enumerate();
-    let moving = vehicles.filter(|(_, ((before, _), _))| !before.is_absent).map(|(index, ((before, after), vehicle))| {
-        let state = &before.state;
-        let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
-        (index, MovingFootprint { body: &vehicle.body, state, velocity_mps })
-    });
+    let moving =
+        vehicles.filter(|(_, ((before, _), _))| !before.is_absent).map(|(index, ((before, after), vehicle))| {
+            let state = &before.state;
+            let velocity_mps = [after.x_m - state.x_m, after.y_m - state.y_m].map(|moved_m| moved_m / tick.step_s);
+            (index, MovingFootprint { body: &vehicle.body, state, velocity_mps })
+        });
     let moving: Vec<(usize, MovingFootprint<'_>)> = moving.collect();
     let (mut within_s, mut found) = (below_s.min(MAX_TIME_TO_COLLISION_S), None);
     for (place, (index, one)) in moving.iter().enumerate() {
