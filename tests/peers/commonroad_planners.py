@@ -2,7 +2,7 @@
 
     python tests/peers/commonroad_planners.py FOLDER [--program INTERPLAY] [--scenes 10] [--seed 1] [--planners human,idm]
 
-FOLDER has scenarios of CommonRoad with recorded cars and a planning problem. Of the distinct ones whose run lasts at least 4 s, some are drawn
+FOLDER has scenarios of CommonRoad with recorded cars and a planning problem. Of the distinct ones whose run lasts at least 2.5 s, some are drawn
 by the seed. Each is driven by each planner in four kinds of traffic:
 
     recorded    everybody follows its record
@@ -33,7 +33,7 @@ TRAFFIC = {
     "humans": (["--replace", "all=human:measured"], []),
     "idm": (["--replace", "all=idm"], []),
 }
-LEAST_S = 4.0
+LEAST_S = 2.5
 
 
 def scenes(folder, count, seed):

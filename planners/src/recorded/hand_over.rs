@@ -53,10 +53,18 @@ pub enum HandOverTime {
     /// At a time \[s\].
     At(#[schemars(range(min = 0.0))] f64),
     /// By the word `disturbed`: when somebody is in its way.
-    Word(#[schemars(extend("pattern" = "^disturbed$"))] String),
+    Word(String),
 }
 
+/// The word for a record that would lead into somebody.
+const DISTURBED: &str = "disturbed";
+
 impl HandOver {
+    /// Whether its time is a number or the word that there is.
+    pub(super) fn is_sound(&self) -> bool {
+        !matches!(&self.when, HandOverTime::Word(word) if word != DISTURBED)
+    }
+
     /// Whether the driver takes over now; if somebody is in the way, in words for whom.
     pub(super) fn is_due(&self, record: &Record, scene: &Scene) -> Option<String> {
         let time_s = scene.step_s * scene.tick as f64;

@@ -79,6 +79,11 @@ impl DriverKind for Settings {
             let remedy = "state rows of time, x, y, heading and speed, each later than the one before it, or a `file`";
             Err(DriverSettingError::Unfit { key: "points", reason: message, remedy: remedy.to_owned() })
         };
+        if self.hands_over.as_ref().is_some_and(|hands_over| !hands_over.is_sound()) {
+            let remedy = "`when` is a time in seconds, or `\"disturbed\"`".to_owned();
+            let reason = "says with an unknown word when it hands over".to_owned();
+            return Err(DriverSettingError::Unfit { key: "hands_over", reason, remedy });
+        }
         match Record::new(&self.points) {
             Ok(_) => Ok(()),
             Err(RecordFault::Empty) => refused("is empty: nothing says where the vehicle was".to_owned()),
