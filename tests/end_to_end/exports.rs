@@ -119,6 +119,20 @@ fn scenarios_of_ours_become_scenarios_of_commonroad() {
     }
 }
 
+/// Who is not on the road has no row and no state: nobody stands where somebody comes later.
+#[test]
+fn whoever_comes_later_is_written_from_then_on() {
+    let folder = scratch("export-later");
+    run(&folder, "people/high-street", &["--set", "duration_s=10.0", "--trajectories", "driven.csv"]);
+    let table = columns(&folder.join("driven.csv"));
+    let row = table["vehicle"].iter().position(|name| name == "side-street").expect("it comes");
+    let comes_s: f64 = table["time_s"][row].parse().expect("a number");
+    assert!(comes_s > 7.99, "{comes_s}");
+    let exported = imported(&folder);
+    let later: Vec<f64> = exported.vehicles.iter().filter_map(|vehicle| vehicle.stay.enters_s).collect();
+    assert!(later.len() == 1 && (later[0] - comes_s).abs() < 1e-6, "{later:?}");
+}
+
 #[test]
 fn an_export_takes_the_place_of_no_input() {
     let folder = scratch("export-unharmed");

@@ -1,27 +1,29 @@
 //! What every vehicle did in a run, for whoever writes it as a scenario.
 
-use interplay_planners::{Bicycle, State};
 use interplay_scenarios::{DrivenVehicle, Scenario};
 
 use crate::frame::Frame;
+use crate::report::Report;
 
-/// What every vehicle did, from the frames of all ticks of a run.
+/// What every vehicle did while it was on the road, from the frames of all ticks of a run and its report.
 ///
-/// Frames have the state at the begin of each tick. Where a vehicle is at the end of the last one follows from its record or from the
-/// bicycle.
-pub fn driven(scenario: &Scenario, frames: &[Frame]) -> Vec<DrivenVehicle> {
-    let vehicles = scenario.vehicles.iter().enumerate();
+/// Frames have the state at the begin of each tick; where a vehicle was at the end of its last one stands in the report.
+pub fn driven(scenario: &Scenario, frames: &[Frame], report: &Report) -> Vec<DrivenVehicle> {
+    let vehicles = scenario.vehicles.iter().zip(&report.vehicles).enumerate();
     vehicles
-        .map(|(index, vehicle)| {
-            let seen = || frames.iter().filter_map(|frame| Some((frame.time_s, frame.vehicles.get(index)?)));
-            let mut states: Vec<State> = seen().map(|(_, vehicle)| vehicle.state).collect();
-            if let Some((time_s, last)) = seen().next_back() {
-                let record = vehicle.driver.record().and_then(|record| record.state_at(time_s + scenario.step_s));
-                let stepped = || Bicycle::new(&vehicle.body, scenario.step_s).step(&last.state, &last.input);
-                states.push(record.unwrap_or_else(stepped));
+        .map(|(index, (vehicle, reported))| {
+            let seen = frames.iter().filter_map(|frame| frame.vehicles.get(index)).enumerate();
+            let present: Vec<_> = seen.filter(|(_, seen)| !seen.is_absent).collect();
+            let first_step = present.first().map_or(0, |(step, _)| *step);
+            let end = present.last().map(|_| reported.last);
+            DrivenVehicle {
+                name: vehicle.name.clone(),
+                class: vehicle.class,
+                body: vehicle.body,
+                first_step,
+                states: present.iter().map(|(_, seen)| seen.state).chain(end).collect(),
+                steering_rad: present.iter().map(|(_, seen)| seen.input.steering_rad).collect(),
             }
-            let steering_rad = seen().map(|(_, vehicle)| vehicle.input.steering_rad).collect();
-            DrivenVehicle { name: vehicle.name.clone(), class: vehicle.class, body: vehicle.body, states, steering_rad }
         })
         .collect()
 }

@@ -1,4 +1,4 @@
-//! What every vehicle did at every tick, as a table: a row a vehicle and tick, as CSV or Parquet.
+//! What every vehicle on the road did at every tick, as a table: a row a vehicle and tick, as CSV or Parquet.
 //!
 //! Rows are written while the run goes on, and the file appears when the run is over.
 
@@ -81,7 +81,7 @@ impl FromStr for TrajectoryFile {
     }
 }
 
-/// Writes a row for every vehicle and tick. The file appears when the run is over; nothing of a run that is given up stays.
+/// Writes a row for every vehicle on the road and tick. The file appears when the run is over; nothing of a run that is given up stays.
 pub struct TrajectoryWriter {
     rows: Rows,
     folders: NewFolders,
@@ -122,7 +122,7 @@ impl TrajectoryWriter {
 
 impl Watcher for TrajectoryWriter {
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
-        for vehicle in &frame.vehicles {
+        for vehicle in frame.vehicles.iter().filter(|vehicle| !vehicle.is_absent) {
             if let Some(partner) = vehicle.new_partner() {
                 match partner {
                     Some(partner) => self.partners.insert(vehicle.name.clone(), partner.to_owned()),

@@ -68,7 +68,7 @@ impl ExportFile {
     /// # Errors
     /// What the disk says.
     pub(crate) fn write(&self, export: &CommonRoadExport, run: &RecordedRun) -> Result<(), CommandError> {
-        let exported = export.export(&driven(&run.scenario, &run.frames));
+        let exported = export.export(&driven(&run.scenario, &run.frames, &run.report));
         write_file(&self.scenario, exported.scenario.as_bytes())?;
         write_file(&self.solution, exported.solution.as_bytes())?;
         let reaches = if exported.reaches_goal { "reaches" } else { "does not reach" };

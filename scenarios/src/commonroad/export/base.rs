@@ -58,7 +58,7 @@ impl Base {
         text.push_str(">\n");
         text.push_str(&self.roads);
         let mut ids = self.ids.clone();
-        for vehicle in others {
+        for vehicle in others.iter().filter(|vehicle| !vehicle.states.is_empty()) {
             text.push_str(&self.obstacle(vehicle, &mut ids));
         }
         match &self.problem {
@@ -81,7 +81,7 @@ impl Base {
             ids.give(wanted)
         );
         for (index, at) in vehicle.states.iter().enumerate() {
-            let time = self.begin + index as i64;
+            let time = self.begin + (vehicle.first_step + index) as i64;
             let written = state(at, self.written(middle(vehicle, at)), time);
             let _ = match index {
                 0 => writeln!(text, "    <initialState>{written}</initialState>\n    <trajectory>"),

@@ -16,7 +16,9 @@ pub struct DrivenVehicle {
     pub class: Option<VehicleClass>,
     /// Its size and axles.
     pub body: Body,
-    /// Its states at the begin of each tick, and at the end of the last.
+    /// The tick at which it came onto the road.
+    pub first_step: usize,
+    /// Its states at the begin of each tick from then on, and at the end of the last on the road; none, if it never came.
     pub states: Vec<State>,
     /// Its steering angle during each tick \[rad\].
     pub steering_rad: Vec<f64>,
