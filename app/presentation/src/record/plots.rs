@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
 use interplay_planners::{Diagnostic, PlanEventKind};
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
@@ -22,7 +22,7 @@ pub const BUILDING_LOG: &str = "building/log";
 pub const REASONS: &str = "plots/reasons";
 /// Path of the smallest distance of the ego to another vehicle.
 pub const GAP: &str = "plots/gap";
-/// What is plotted for every vehicle: the folder below `plots`, and the number.
+/// What is plotted for every vehicle on the road: the folder below `plots`, and the number.
 type Quantity = (&'static str, fn(&VehicleFrame) -> f64);
 const QUANTITIES: [Quantity; 4] = [
     ("speed", |vehicle| vehicle.state.speed_mps),
@@ -67,7 +67,7 @@ impl Plots {
         let kind = |index: usize| scenario.vehicles[index].driver.kind();
         let mut planners = Vec::new();
         for (index, (vehicle, vehicle_colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
-            for (quantity, _) in QUANTITIES {
+            for (quantity, _) in QUANTITIES.iter().filter(|_| vehicle.obstacle.is_none()) {
                 style(
                     stream,
                     &format!("plots/{quantity}/{}", vehicle.name),
@@ -134,7 +134,8 @@ impl Plots {
     /// # Errors
     /// If Rerun refuses a component.
     pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
-        for vehicle in &frame.vehicles {
+        let drives = |(vehicle, stated): &(&VehicleFrame, &Vehicle)| !vehicle.is_absent && stated.obstacle.is_none();
+        for (vehicle, _) in frame.vehicles.iter().zip(&scenario.vehicles).filter(drives) {
             let speed_mps = vehicle.state.speed_mps;
             let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
             self.speeds_mps = Some([low.min(speed_mps), high.max(speed_mps)]);
@@ -155,7 +156,8 @@ impl Plots {
     }
 
     fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        for (vehicle, PlannerPaths { folder, end, explanation }) in frame.vehicles.iter().zip(&self.planners) {
+        let present = frame.vehicles.iter().zip(&self.planners).filter(|(vehicle, _)| !vehicle.is_absent);
+        for (vehicle, PlannerPaths { folder, end, explanation }) in present {
             for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
                 let path = format!("{folder}/{}{end}", slug(quantity));
                 if !self.seen.contains_key(&path) {

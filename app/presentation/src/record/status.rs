@@ -1,4 +1,4 @@
-//! What each driver wants and does at the moment, a line for each.
+//! What each driver on the road wants and does at the moment, a line for each.
 
 use std::fmt::Write;
 
@@ -43,7 +43,10 @@ impl StatusLines {
             return Ok(());
         }
         let mut text = String::new();
-        for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
+        let drives = |(index, (vehicle, _)): &(usize, (&Vehicle, _))| {
+            vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent
+        };
+        for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate().filter(drives) {
             let asks = requests.sentence(frame, index);
             let (name, wants, does) =
                 (&vehicle.name, wants(scenario, vehicle), does(scenario, index, &frame.vehicles[index], asks));
