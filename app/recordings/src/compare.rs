@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use interplay_common::random::SplitMix64;
+use interplay_common::random::{SplitMix64, hash_of};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -105,11 +105,7 @@ pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<Prediction
 
 /// Whether a car belongs to the half of the cars that models are fitted on: by its name alone.
 fn is_for_fitting(car: &str) -> bool {
-    // FNV-1a.
-    let hash = car
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    SplitMix64::new(hash).next_u64() & 1 == 0
+    SplitMix64::new(hash_of(car)).next_u64() & 1 == 0
 }
 
 /// The outcomes of all models at the held-out starts.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use interplay_common::random::SplitMix64;
+use interplay_common::random::{SplitMix64, hash_of};
 
 /// What a random number is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub(super) struct Noise(u64);
 impl Noise {
     /// The numbers of a seed for an observer and an observed vehicle, by their names.
     pub(super) fn new(seed: u64, observer: &str, observed: &str) -> Noise {
-        let names = [hash(observer), hash(observed)];
+        let names = [hash_of(observer), hash_of(observed)];
         Noise(names.into_iter().fold(mixed(seed), |mix, name| mixed(mix ^ name)))
     }
 
@@ -52,11 +52,6 @@ impl Noise {
 /// A number whose bits all depend on all bits of another.
 fn mixed(number: u64) -> u64 {
     SplitMix64::new(number).next_u64()
-}
-
-/// FNV-1a over the bytes of a name.
-fn hash(name: &str) -> u64 {
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]
