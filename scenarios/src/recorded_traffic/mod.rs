@@ -36,6 +36,22 @@ pub struct RecordedLane {
     pub speed_limit_mps: Option<f64>,
 }
 
+impl RecordedLane {
+    /// Whether a place is between its bounds \[m\].
+    pub fn contains(&self, place: [f64; 2]) -> bool {
+        is_inside(self.left.iter().chain(self.right.iter().rev()).copied(), place)
+    }
+}
+
+/// Whether a ray from a place crosses an outline an odd number of times.
+pub(crate) fn is_inside(corners: impl Iterator<Item = [f64; 2]> + Clone, [x, y]: [f64; 2]) -> bool {
+    let next = corners.clone().cycle().skip(1);
+    let crosses = |[from, to]: [[f64; 2]; 2]| {
+        (from[1] > y) != (to[1] > y) && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
+    };
+    corners.zip(next).filter(|(from, to)| crosses([*from, *to])).count() % 2 == 1
+}
+
 /// A vehicle, with where it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedVehicle {
@@ -62,4 +78,16 @@ pub struct RecordedMoment {
     pub heading_rad: f64,
     /// Speed along that direction, as the record states it \[m/s\].
     pub speed_mps: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lane_contains_what_is_between_its_bounds() {
+        let (left, right) = (vec![[0.0, 4.0], [20.0, 4.0]], vec![[0.0, 0.0], [7.0, 0.0], [20.0, 0.0]]);
+        let lane = RecordedLane { left, right, ..RecordedLane::default() };
+        assert!(lane.contains([5.0, 1.0]) && !lane.contains([5.0, 4.5]));
+    }
 }

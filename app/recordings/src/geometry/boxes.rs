@@ -1,5 +1,7 @@
 //! Bodies of vehicles as rectangles.
 
+use interplay_planners::certificate::overlap_m;
+
 /// A rectangle in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Box2 {
@@ -12,29 +14,20 @@ pub(crate) struct Box2 {
 }
 
 impl Box2 {
-    /// Whether two rectangles overlap: no side of either parts them.
+    /// Whether two rectangles overlap.
     pub(crate) fn overlaps(&self, other: &Box2) -> bool {
-        let apart = [other.middle[0] - self.middle[0], other.middle[1] - self.middle[1]];
-        let reach_m = self.half_m[0] + self.half_m[1] + other.half_m[0] + other.half_m[1];
-        if libm::hypot(apart[0], apart[1]) > reach_m {
-            return false;
-        }
-        let axes = [self.axes(), other.axes()].concat();
-        axes.iter().all(|axis| {
-            let distance_m = (apart[0] * axis[0] + apart[1] * axis[1]).abs();
-            distance_m < self.reach_m(axis) + other.reach_m(axis)
-        })
+        overlap_m(&self.corners(), &other.corners()) > 0.0
     }
 
-    fn axes(&self) -> [[f64; 2]; 2] {
+    /// Front right, front left, rear right, rear left \[m\].
+    fn corners(&self) -> [[f64; 2]; 4] {
         let (sin, cos) = libm::sincos(self.heading_rad);
-        [[cos, sin], [-sin, cos]]
-    }
-
-    /// How far it reaches from its middle along an axis \[m\].
-    fn reach_m(&self, axis: &[f64; 2]) -> f64 {
-        let reach = |(own, half_m): (&[f64; 2], f64)| half_m * (own[0] * axis[0] + own[1] * axis[1]).abs();
-        self.axes().iter().zip(self.half_m).map(reach).sum()
+        let [x, y] = self.middle;
+        let [length_m, width_m] = self.half_m;
+        [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0]].map(|[ahead, left]| {
+            let [ahead_m, left_m] = [ahead * length_m, left * width_m];
+            [x + ahead_m * cos - left_m * sin, y + ahead_m * sin + left_m * cos]
+        })
     }
 }
 

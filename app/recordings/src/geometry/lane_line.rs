@@ -130,20 +130,6 @@ impl LaneLine {
     }
 }
 
-/// Whether a point is inside a lane between two bounds.
-pub(crate) fn contains(left: &[[f64; 2]], right: &[[f64; 2]], point: [f64; 2]) -> bool {
-    let corners: Vec<[f64; 2]> = left.iter().chain(right.iter().rev()).copied().collect();
-    let mut is_inside = false;
-    for (index, to) in corners.iter().enumerate() {
-        let from = corners[(index + corners.len() - 1) % corners.len()];
-        let is_between = (from[1] > point[1]) != (to[1] > point[1]);
-        if is_between && point[0] < from[0] + (point[1] - from[1]) * (to[0] - from[0]) / (to[1] - from[1]) {
-            is_inside = !is_inside;
-        }
-    }
-    is_inside
-}
-
 fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(b[0] - a[0], b[1] - a[1])
 }
@@ -174,7 +160,6 @@ mod tests {
         let line = LaneLine::between(&left, &right).expect("a line");
         let at = line.project([12.0, 2.5]);
         assert!((at.across_m - 0.5).abs() < 1e-12 && (at.width_m - 4.0).abs() < 1e-12, "{at:?}");
-        assert!(contains(&left, &right, [5.0, 1.0]) && !contains(&left, &right, [5.0, 4.5]));
     }
 
     #[test]

@@ -4,4 +4,4 @@ mod boxes;
 mod lane_line;
 
 pub(crate) use boxes::Box2;
-pub(crate) use lane_line::{LaneLine, contains};
+pub(crate) use lane_line::LaneLine;

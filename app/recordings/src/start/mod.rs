@@ -17,8 +17,6 @@ use rayon::prelude::*;
 use crate::geometry::LaneLine;
 use crate::traffic::{Recordings, Timeline};
 
-/// Time between two starts of one car \[s\].
-const BETWEEN_S: f64 = 1.0;
 /// Who is slower stands, and where it will be is no question \[m/s\].
 const MIN_SPEED_MPS: f64 = 1.0;
 
@@ -52,16 +50,11 @@ pub(crate) fn starts(recordings: &Recordings) -> Vec<Start> {
 }
 
 fn of_timeline(index: usize, timeline: &Timeline) -> Vec<Start> {
-    let in_steps = |time_s: f64| (time_s / timeline.step_s).round().max(1.0) as i64;
-    let (past, between) = (in_steps(PAST_S), in_steps(BETWEEN_S));
     let mut found = Vec::new();
-    for (number, track) in timeline.tracks.iter().enumerate().filter(|(_, track)| track.is_motor) {
-        let Some(first) = track.moments.first() else { continue };
-        for (at, repeats) in track.moments.iter().zip(&track.repeats) {
-            let is_second = (at.step - first.step - past) % between == 0 && at.step >= first.step + past;
-            if *repeats || !is_second || at.speed_mps < MIN_SPEED_MPS {
-                continue;
-            }
+    for number in timeline.motor_tracks() {
+        let seconds =
+            timeline.seconds(number, PAST_S).filter(|(at, repeats)| !repeats && at.speed_mps >= MIN_SPEED_MPS);
+        for (at, _) in seconds {
             let Some((way, along_m, known)) = known_at(timeline, number, at.step) else { continue };
             let later = Later { timeline, track: number, step: at.step };
             let Some(truth) = later.truth(&way, along_m) else { continue };

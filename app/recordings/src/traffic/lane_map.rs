@@ -2,7 +2,7 @@
 
 use interplay_scenarios::RecordedLane;
 
-use crate::geometry::{LaneLine, contains};
+use crate::geometry::LaneLine;
 
 /// How far a way leads on beyond its lane, and begins before it \[m\].
 const REACH_M: [f64; 2] = [300.0, 100.0];
@@ -101,7 +101,7 @@ impl MapLane {
     fn covers(&self, point: [f64; 2]) -> bool {
         let [low, high] = self.bounds;
         let is_in_box = (0..2).all(|axis| low[axis] <= point[axis] && point[axis] <= high[axis]);
-        is_in_box && contains(&self.stated.left, &self.stated.right, point)
+        is_in_box && self.stated.contains(point)
     }
 
     fn is_near(&self, point: [f64; 2]) -> bool {

@@ -62,6 +62,21 @@ impl Timeline {
         let tracks = traffic.vehicles.into_iter().map(track).collect();
         Timeline { group, map: LaneMap::new(traffic.lanes), step_s, tracks }
     }
+
+    /// The indices of the tracks of cars, trucks and buses.
+    pub(crate) fn motor_tracks(&self) -> impl Iterator<Item = usize> {
+        (0..self.tracks.len()).filter(|track| self.tracks[*track].is_motor)
+    }
+
+    /// The moments of a vehicle a second apart, from the first that has so much of the record before it, each with whether another
+    /// track has told it before \[s\].
+    pub(crate) fn seconds(&self, track: usize, past_s: f64) -> impl Iterator<Item = (&RecordedMoment, bool)> {
+        let in_steps = |time_s: f64| (time_s / self.step_s).round().max(1.0) as i64;
+        let Track { moments, repeats, .. } = &self.tracks[track];
+        let (from, between) = (moments.first().map_or(0, |at| at.step) + in_steps(past_s), in_steps(1.0));
+        let told = moments.iter().zip(repeats.iter().copied());
+        told.filter(move |(at, _)| at.step >= from && (at.step - from) % between == 0)
+    }
 }
 
 impl Track {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use super::super::model::{Goal, Lanelet, Region};
+use crate::recorded_traffic::is_inside;
 
 /// The goals of a planning problem, with the outlines of the lanelets that they name.
 #[derive(Clone, Debug, Default)]
@@ -52,11 +53,12 @@ impl GoalPlaces {
                 along_m.abs() <= 0.5 * rectangle.length_m && across_m.abs() <= 0.5 * rectangle.width_m
             }
             Region::Circle { radius_m, centre } => libm::hypot(x_m - centre[0], y_m - centre[1]) <= *radius_m,
-            Region::Polygon(corners) => is_inside(corners, [x_m, y_m]),
+            Region::Polygon(corners) => is_inside(corners.iter().copied(), [x_m, y_m]),
             Region::Point(_) => false,
-            Region::Lanelets(ids) => {
-                ids.iter().filter_map(|id| self.outlines.get(id)).any(|outline| is_inside(outline, [x_m, y_m]))
-            }
+            Region::Lanelets(ids) => ids
+                .iter()
+                .filter_map(|id| self.outlines.get(id))
+                .any(|outline| is_inside(outline.iter().copied(), [x_m, y_m])),
         }
     }
 }
@@ -66,15 +68,6 @@ fn contains_angle([from_rad, to_rad]: [f64; 2], angle_rad: f64) -> bool {
     let middle_rad = 0.5 * (from_rad + to_rad);
     let away_rad = (angle_rad - middle_rad + PI).rem_euclid(TAU) - PI;
     away_rad.abs() <= 0.5 * (to_rad - from_rad)
-}
-
-/// Whether a ray from a place crosses the outline an odd number of times.
-fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let next = corners.iter().cycle().skip(1);
-    let crosses = |[from, to]: [[f64; 2]; 2]| {
-        (from[1] > y) != (to[1] > y) && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
-    };
-    corners.iter().zip(next).filter(|(from, to)| crosses([**from, **to])).count() % 2 == 1
 }
 
 #[cfg(test)]
