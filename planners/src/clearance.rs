@@ -39,6 +39,13 @@ fn share_of(weight: f64) -> f64 {
     tough + (nice - tough) * politeness
 }
 
+/// The safety weight of which a human keeps a share of the usual time gap; those of shares beyond all weights are the outermost ones.
+pub fn safety_weight_keeping(share: f64) -> f64 {
+    let [tough, nice] = GAP_SHARES;
+    let politeness = ((share - tough) / (nice - tough)).clamp(0.0, 1.0);
+    libm::expm1(politeness * libm::log1p(NICE_WEIGHT))
+}
+
 impl Scene {
     /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
     /// Each ellipse lies along `route`.

@@ -60,7 +60,8 @@ mod population;
 mod settings;
 mod sighting;
 
-pub use settings::{Settings, Style};
+pub use crate::clearance::safety_weight_keeping;
+pub use settings::{REACTION_S, Settings, Style};
 
 use std::borrow::Cow;
 

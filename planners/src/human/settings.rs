@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::predict::Prediction;
 use crate::trajectory::HomotopySearch;
 
+/// The reaction of people in real cars, of whom each needs 0.5 to 1.5 s \[s\].
+pub const REACTION_S: f64 = 0.6;
+
 /// Named points on the continuum of safety weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

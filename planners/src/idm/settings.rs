@@ -44,6 +44,13 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The values of the literature for real cars: 1.5 s, 2 m, 1.4 and 2.0 m/s² (Treiber, Hennecke and Helbing, 2000).
+    pub fn literature() -> Settings {
+        Settings { headway_s: 1.5, gap_m: 2.0, acceleration_mps2: 1.4, braking_mps2: 2.0, ..Settings::default() }
+    }
+}
+
 /// When the driver changes lanes (MOBIL).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -25,15 +25,9 @@ pub struct CarFollowing {
 }
 
 impl CarFollowing {
-    /// The values of the literature for motorways: 1.5 s, 2 m, 1.4 and 2.0 m/s².
+    /// The values of the literature for real cars, [`idm::Settings::literature`].
     pub fn literature() -> CarFollowing {
-        let settings = idm::Settings {
-            headway_s: 1.5,
-            gap_m: 2.0,
-            acceleration_mps2: 1.4,
-            braking_mps2: 2.0,
-            ..idm::Settings::default()
-        };
+        let settings = idm::Settings::literature();
         CarFollowing { settings, wanted_above_mps: None, lag_s: 0.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept }
     }
 

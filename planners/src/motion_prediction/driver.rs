@@ -187,7 +187,7 @@ fn travelled_m(states: &[State]) -> Vec<f64> {
         at_m += 0.5 * STEP_S * (pair[0].speed_mps + pair[1].speed_mps);
         at_m
     });
-    [0.0].into_iter().chain(further.collect::<Vec<_>>()).collect()
+    [0.0].into_iter().chain(further).collect()
 }
 
 #[cfg(test)]

@@ -14,8 +14,6 @@ use crate::{Agent, Body, Scene, Trajectory, human, idm};
 const LOOK_S: f64 = 2.5;
 /// Space around others without which the record is not followed on, for real cars \[m\].
 const SPACE_M: f64 = 0.5;
-/// The reaction of a human who takes over, for real cars \[s\].
-const REACTION_S: f64 = 0.6;
 /// Who was never faster than this wants to be so fast, for real cars \[m/s\].
 const LEAST_WANTED_MPS: f64 = 8.0;
 
@@ -83,16 +81,13 @@ impl HandOver {
         match self.to {
             Successor::Human => {
                 let style = Some(self.style.unwrap_or(Style::Normal));
-                human::Settings { style, reaction_s: REACTION_S * times, ..human::Settings::default() }.driver()
+                human::Settings { style, reaction_s: human::REACTION_S * times, ..human::Settings::default() }.driver()
             }
-            Successor::Idm => idm::Settings {
-                headway_s: 1.5 * times,
-                gap_m: 2.0 * scene.ego.body.real_ratio(),
-                acceleration_mps2: 1.4,
-                braking_mps2: 2.0,
-                ..idm::Settings::default()
+            Successor::Idm => {
+                let real = idm::Settings::literature();
+                let (headway_s, gap_m) = (real.headway_s * times, real.gap_m * scene.ego.body.real_ratio());
+                idm::Settings { headway_s, gap_m, ..real }.driver()
             }
-            .driver(),
         }
     }
 }

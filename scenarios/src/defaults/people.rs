@@ -1,7 +1,7 @@
 //! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
 //! which that shows.
 
-use interplay_planners::ComfortLimits;
+use interplay_planners::{ComfortLimits, human, idm};
 use serde_json::{Map, Value as Json, json};
 
 use super::fill::scaled;
@@ -18,10 +18,11 @@ const HORIZON_STEPS: usize = 40;
 /// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
 /// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
 fn driver_defaults(kind: &str) -> Json {
+    let idm::Settings { headway_s, gap_m, acceleration_mps2, braking_mps2, .. } = idm::Settings::literature();
     match kind {
-        "human" => json!({ "reaction_s": 0.6 }),
+        "human" => json!({ "reaction_s": human::REACTION_S }),
         "idm" => json!({
-            "headway_s": 1.5, "gap_m": 2.0, "acceleration_mps2": 1.4, "braking_mps2": 2.0,
+            "headway_s": headway_s, "gap_m": gap_m, "acceleration_mps2": acceleration_mps2, "braking_mps2": braking_mps2,
             "mobil": { "safe_braking_mps2": 2.0 },
         }),
         "negotiation" => json!({ "answer_s": 0.9, "concedes": "order" }),

@@ -6,6 +6,7 @@ use interplay_planners::motion_prediction::TrafficMoment;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::measure::nearest_rank;
 use crate::start::{PAST_S, known_at};
 use crate::traffic::{Recordings, Timeline};
 use lane_changes::LaneChange;
@@ -115,15 +116,9 @@ impl Counted {
 
 fn counted(timeline: &Timeline) -> Counted {
     let mut all = Counted::default();
-    let in_steps = |time_s: f64| (time_s / timeline.step_s).round().max(1.0) as i64;
-    for (number, track) in timeline.tracks.iter().enumerate().filter(|(_, track)| track.is_motor) {
-        let Some(first) = track.moments.first() else { continue };
-        let (past, between) = (in_steps(PAST_S), in_steps(1.0));
+    for number in timeline.motor_tracks() {
         let (mut steady_s, mut peak_mps2, mut last_mps2) = (Vec::new(), None, None);
-        for (at, repeats) in track.moments.iter().zip(&track.repeats) {
-            if *repeats || at.step < first.step + past || (at.step - first.step - past) % between != 0 {
-                continue;
-            }
+        for (at, _) in timeline.seconds(number, PAST_S).filter(|(_, repeats)| !repeats) {
             let Some((_, _, known)) = known_at(timeline, number, at.step) else { continue };
             let braking_mps2 = -known.acceleration_mps2;
             peak_mps2 = Some(peak_mps2.map_or(braking_mps2, |peak: f64| peak.max(braking_mps2)));
@@ -155,9 +150,8 @@ fn followed(known: &TrafficMoment) -> Option<(f64, f64)> {
 /// The quantiles of some numbers; none without any.
 fn quantiles(mut numbers: Vec<f64>) -> Option<Spread> {
     numbers.sort_by(f64::total_cmp);
-    let last = numbers.len().checked_sub(1)?;
-    let at = |share: f64| numbers[(share * last as f64).round() as usize];
-    Some(Spread { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
+    let at = |share: f64| nearest_rank(&numbers, share);
+    (!numbers.is_empty()).then(|| Spread { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
 }
 
 /// The standard deviation of some numbers; none for fewer than two.

@@ -14,9 +14,6 @@ pub(super) const RATIOS: [f64; 13] = [0.4, 0.47, 0.55, 0.64, 0.74, 0.85, 0.97, 1
 pub(super) const COMFORTS: [f64; 7] = [0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.9];
 /// Wanted speeds, as multiples of the highest one in the record.
 pub(super) const WANTED_RATIOS: [f64; 5] = [0.95, 1.0, 1.08, 1.2, 1.4];
-/// Shares of the usual time gap of drivers of safety weights 0 and 50, as `planners/src/clearance.rs` has them.
-const GAP_SHARES: [f64; 2] = [0.6, 1.4];
-const NICE_WEIGHT: f64 = 50.0;
 
 /// A candidate.
 pub(super) fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: f64) -> PredictedDriver {
@@ -28,13 +25,6 @@ pub(super) fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: 
         lateral: Some(LateralMotion::Kept),
         ..PredictedDriver::usual()
     }
-}
-
-/// The safety weight of which a driver keeps a multiple of the usual time gap.
-pub(super) fn safety_weight(ratio: f64) -> f64 {
-    let [tough, nice] = GAP_SHARES;
-    let politeness = ((ratio - tough) / (nice - tough)).clamp(0.0, 1.0);
-    libm::expm1(politeness * libm::log1p(NICE_WEIGHT))
 }
 
 /// The style whose weight is nearest, on the scale on which weights change time gaps.
@@ -73,12 +63,14 @@ pub(super) fn least(grid: &[[usize; 2]], errors: &[Vec<f64>], counts: &[u32]) ->
 
 #[cfg(test)]
 mod tests {
+    use interplay_planners::human::safety_weight_keeping;
+
     use super::*;
 
     #[test]
     fn weights_and_time_gaps_belong_together() {
         for (ratio, weight) in [(0.6, 0.0), (1.4, 50.0), (0.3, 0.0), (2.0, 50.0)] {
-            assert!((safety_weight(ratio) - weight).abs() < 1e-9, "{ratio}");
+            assert!((safety_weight_keeping(ratio) - weight).abs() < 1e-9, "{ratio}");
         }
         assert_eq!([0.0, 3.0, 9.0, 45.0].map(style_of), ["tough", "assertive", "normal", "nice"]);
     }

@@ -33,11 +33,7 @@ pub(super) struct EvidenceStart {
 /// The evidence of a vehicle.
 pub(super) fn evidence(timeline: &Timeline, track: usize) -> Evidence {
     let car = &timeline.tracks[track];
-    let in_steps = |time_s: f64| (time_s / timeline.step_s).round().max(1.0) as i64;
-    let (past, between) = (in_steps(PAST_S), in_steps(1.0));
-    let first = car.moments.first().map_or(0, |at| at.step);
-    let seconds = car.moments.iter().filter(|at| at.step >= first + past && (at.step - first - past) % between == 0);
-    let starts = seconds.filter_map(|at| {
+    let starts = timeline.seconds(track, PAST_S).filter_map(|(at, _)| {
         let (way, along_m, known) = known_at(timeline, track, at.step)?;
         let leader = known.leaders().first().copied()?;
         let gap_m = known.gap_m(&leader);

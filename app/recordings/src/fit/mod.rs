@@ -11,18 +11,22 @@
 mod candidates;
 mod evidence;
 
+use interplay_planners::ComfortLimits;
+use interplay_planners::human::safety_weight_keeping;
 use interplay_planners::motion_prediction::PredictedDriver;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::error::RecordingsError;
-use crate::measure::MeasureInterval;
+use crate::measure::{MeasureInterval, nearest_rank};
 use crate::traffic::Recordings;
-use candidates::{COMFORTS, RATIOS, WANTED_RATIOS, driver, safety_weight, style_of};
+use candidates::{COMFORTS, RATIOS, WANTED_RATIOS, driver, style_of};
 use evidence::{Evidence, evidence};
 
 /// The time gap of which drivers keep a multiple \[s\].
-const USUAL_GAP_S: f64 = 1.15;
+fn usual_gap_s() -> f64 {
+    ComfortLimits::default().time_gap_s
+}
 
 /// A driver that was fitted to a vehicle.
 #[derive(Clone, Debug, Serialize)]
@@ -97,18 +101,18 @@ fn fitted(vehicle: &str, evidence: &Evidence) -> FittedDriver {
     let interval = |value: f64, index: usize, steps: [f64; 2]| {
         let mut values: Vec<f64> = drawn.iter().map(|drawn| drawn[index]).collect();
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
+        let at = |share: f64| nearest_rank(&values, share);
         MeasureInterval { value, low: at(0.025).min(value) / steps[0], high: at(0.975).max(value) * steps[1] }
     };
     let gap = interval(ratio, 0, [candidates::RATIO_STEP; 2]);
     let scaled = |by: f64| MeasureInterval { value: by * gap.value, low: by * gap.low, high: by * gap.high };
-    let weight = |ratio: f64| safety_weight(ratio);
-    let safety = MeasureInterval { value: weight(gap.value), low: weight(gap.low), high: weight(gap.high) };
+    let [value, low, high] = [gap.value, gap.low, gap.high].map(safety_weight_keeping);
+    let safety = MeasureInterval { value, low, high };
     let best: PredictedDriver = driver(ratio, comfort, wanted_mps);
     FittedDriver {
         vehicle: vehicle.to_owned(),
         starts: evidence.starts.len(),
-        time_gap_s: scaled(USUAL_GAP_S),
+        time_gap_s: scaled(usual_gap_s()),
         acceleration_change: interval(comfort, 1, [candidates::COMFORT_STEP; 2]),
         safety_weight: safety,
         style: style_of(safety.value),

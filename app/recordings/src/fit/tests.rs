@@ -76,9 +76,9 @@ fn drivers_are_recovered_from_what_they_drove() {
     for (seed, [ratio, comfort]) in DRIVERS.into_iter().enumerate() {
         let found = fit_driver(&driven(ratio, comfort, seed as u64), "own").expect("it followed somebody");
         let gap = found.time_gap_s;
-        assert!((gap.value / USUAL_GAP_S / ratio - 1.0).abs() < 0.25, "{ratio}, {comfort}: {found:?}");
+        assert!((gap.value / usual_gap_s() / ratio - 1.0).abs() < 0.25, "{ratio}, {comfort}: {found:?}");
         assert!(found.along_rmse_m < found.constant_velocity_rmse_m, "{found:?}");
-        covered += usize::from((gap.low..=gap.high).contains(&(USUAL_GAP_S * ratio)));
+        covered += usize::from((gap.low..=gap.high).contains(&(usual_gap_s() * ratio)));
     }
     assert!(covered >= 2, "{covered} of {} intervals have the truth", DRIVERS.len());
 }
@@ -102,7 +102,7 @@ fn coverage_of_the_intervals() {
         let (ratio, comfort) = (random.uniform(0.55, 1.6), libm::exp(random.uniform(libm::log(0.05), libm::log(0.5))));
         let found = fit_driver(&driven(ratio, comfort, 100 + seed), "own").expect("it followed somebody");
         let has = |it: MeasureInterval, truth: f64| u32::from((it.low..=it.high).contains(&truth));
-        covered[0] += has(found.time_gap_s, USUAL_GAP_S * ratio);
+        covered[0] += has(found.time_gap_s, usual_gap_s() * ratio);
         covered[1] += has(found.acceleration_change, comfort);
         println!("{ratio:.2} {:?} | {comfort:.2} {:?}", found.time_gap_s, found.acceleration_change);
     }

@@ -3,7 +3,7 @@
 use interplay_common::random::Random;
 use rayon::prelude::*;
 
-use super::estimate::MeasureInterval;
+use super::estimate::{MeasureInterval, nearest_rank};
 use super::outcome::Outcome;
 
 /// How often cars are drawn again.
@@ -74,7 +74,7 @@ impl Resamples {
         let of = |counts: &[u32]| value(std::array::from_fn(|index| sums[index].mean(counts)));
         let mut drawn: Vec<f64> = self.counts.iter().map(|counts| of(counts)).collect();
         drawn.sort_by(f64::total_cmp);
-        let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
+        let at = |share: f64| nearest_rank(&drawn, share);
         MeasureInterval { value: of(&vec![1; self.cars]), low: at(0.025), high: at(0.975) }
     }
 }

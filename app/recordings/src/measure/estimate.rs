@@ -12,3 +12,8 @@ pub struct MeasureInterval {
     /// The upper bound.
     pub high: f64,
 }
+
+/// The number at a share of some ascending ones, of which there is at least one.
+pub(crate) fn nearest_rank(ascending: &[f64], share: f64) -> f64 {
+    ascending[(share * (ascending.len() - 1) as f64).round() as usize]
+}

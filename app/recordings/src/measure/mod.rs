@@ -6,6 +6,7 @@ mod outcome;
 
 pub(crate) use bootstrap::{Resamples, Sums};
 pub use estimate::MeasureInterval;
+pub(crate) use estimate::nearest_rank;
 pub(crate) use outcome::{Outcome, Scales};
 
 use serde::Serialize;
