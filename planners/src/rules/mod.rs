@@ -50,7 +50,8 @@ impl RuleBook {
         }
         self.arrivals.note_all((tick, step_s), users);
         let time_s = tick as f64 * step_s;
-        let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, time_s)).collect();
+        let lights_m: Vec<Option<f64>> = users.iter().map(|user| lights::line_m(user.agent, time_s)).collect();
+        let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, &lights_m)).collect();
         let turns: Vec<_> = users.iter().map(|user| self.arrivals.turn(user.agent)).collect();
         waiting::release(&mut holds, &turns);
         let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, (holds, time_s));
@@ -75,8 +76,8 @@ impl RuleBook {
         }
     }
 
-    /// Everybody that a vehicle has to wait for, judged in pairs.
-    fn holds(&self, users: &[Obliged<'_>], vehicle: usize, time_s: f64) -> Vec<Hold> {
+    /// Everybody that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop.
+    fn holds(&self, users: &[Obliged<'_>], vehicle: usize, lights_m: &[Option<f64>]) -> Vec<Hold> {
         let ego = &users[vehicle].agent;
         if !ego.route.is_in_network() {
             return Vec::new();
@@ -84,10 +85,9 @@ impl RuleBook {
         let wanted_mps = users[vehicle].wanted_mps;
         let mut found = Vec::new();
         for (by, other) in users.iter().enumerate().filter(|(by, _)| *by != vehicle) {
-            let their_light_m = lights::line_m(other.agent, time_s);
             for conflict in ego.route.conflicts_with(&other.agent.route) {
                 // Who has to stop at a light before the conflict does not come.
-                if their_light_m.is_some_and(|line_m| line_m <= conflict.their_m[0]) {
+                if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
                     continue;
                 }
                 let arrived = Arrived {

@@ -36,6 +36,11 @@ impl FootprintGaps {
         FootprintGaps { ego: scenario.ego_index(), footprints, absent, smallest_m: None, closest: None }
     }
 
+    /// The footprint of each vehicle.
+    pub fn footprints(&self) -> &[Footprint] {
+        &self.footprints
+    }
+
     /// Begins a tick in which some are not on the road; returns the distance of the ego there \[m\], none without other vehicles.
     pub fn begin(&mut self, states: &[State], absent: Vec<bool>) -> Option<f64> {
         self.absent = absent;

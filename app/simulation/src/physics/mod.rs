@@ -137,19 +137,19 @@ pub fn step(
 ) {
     let mut sorted: Vec<_> = vehicles.iter_mut().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
+    let frame = &mut current_frame.0;
+    let Physics { world, dynamic, gaps } = &mut *physics;
     let moving =
         |(identity, parameters, motion, body): &(&Identity, &VehicleParameters, Mut<Motion>, &VehicleBody)| Moving {
             handle: body.0,
             body: parameters.body,
-            footprint: Footprint::new(&parameters.body, parameters.outline.as_ref()),
+            footprint: gaps.footprints()[identity.index].clone(),
             state: motion.state,
             input: motion.input,
-            is_absent: current_frame.0.vehicles.get(identity.index).is_some_and(|vehicle| vehicle.is_absent),
+            is_absent: frame.vehicles.get(identity.index).is_some_and(|vehicle| vehicle.is_absent),
             recorded: recorded(parameters, motion, clock.within_s(1.0)),
         };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
-    let frame = &mut current_frame.0;
-    let Physics { world, dynamic, gaps } = &mut *physics;
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
     frame.gap_m = gaps.begin(&before, moving.iter().map(|vehicle| vehicle.is_absent).collect());
     let (states, contacts) = match dynamic {
