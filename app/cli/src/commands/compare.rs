@@ -11,7 +11,7 @@ use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 use crate::output::error::{CommandError, write_file};
 use crate::output::exit_status::ExitStatus;
 use crate::output::refusal::gave_up;
-use crate::output::{json, print, print_error};
+use crate::output::{ending, json, print, print_error};
 
 /// Say what the rows of a sweep tell of the planners, or what two sweeps of one plan do differently.
 #[derive(Debug, Args)]
@@ -107,13 +107,7 @@ impl Compare {
             };
             write(&target, &page(&title)?)
         });
-        match shown {
-            Ok(()) => ExitStatus::Well,
-            Err(error) => {
-                print_error(&error.to_string());
-                ExitStatus::Unfinished
-            }
-        }
+        ending(shown)
     }
 }
 

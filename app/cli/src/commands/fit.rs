@@ -8,7 +8,7 @@ use interplay_recordings::{FittedDriver, MeasureInterval, Recordings, Recordings
 
 use super::predict::refused;
 use crate::output::exit_status::ExitStatus;
-use crate::output::{json, print, print_error};
+use crate::output::{ending, json, print};
 
 /// Find the human driver of ours that drives as a recorded vehicle did: time gap, comfort and style, with intervals at 95 %.
 ///
@@ -38,13 +38,7 @@ impl Fit {
             Err(error) => return refused(error),
         };
         let text = if self.json { json("the drivers", &fitted) } else { Ok(text(&fitted)) };
-        match text.and_then(|text| print(&text)) {
-            Ok(()) => ExitStatus::Well,
-            Err(error) => {
-                print_error(&error.to_string());
-                ExitStatus::Unfinished
-            }
-        }
+        ending(text.and_then(|text| print(&text)))
     }
 
     fn fitted(&self, recordings: &Recordings) -> Result<Vec<FittedDriver>, RecordingsError> {

@@ -9,7 +9,7 @@ use interplay_recordings::{Recordings, RecordingsError, compare};
 
 use crate::flag_values::values::count;
 use crate::output::exit_status::ExitStatus;
-use crate::output::{json, print, print_error, print_load_error};
+use crate::output::{ending, json, print, print_error, print_load_error};
 
 /// Say how well drivers predict recorded cars, from each second 1 to 5 s ahead.
 ///
@@ -53,13 +53,7 @@ impl Predict {
             Err(error) => return refused(error),
         };
         let text = if self.json { json("the measures", &comparison) } else { Ok(report::prediction(&comparison)) };
-        match text.and_then(|text| print(&text)) {
-            Ok(()) => ExitStatus::Well,
-            Err(error) => {
-                print_error(&error.to_string());
-                ExitStatus::Unfinished
-            }
-        }
+        ending(text.and_then(|text| print(&text)))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::flag_values::values;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::progress::Progress;
-use crate::output::{json, print, print_error, print_load_error, without_input};
+use crate::output::{ending, json, print, print_error, print_load_error, without_input};
 use crate::process::threads::pool;
 
 /// Find out what the outcome of a drive depends on: run it again with one thing changed at a time.
@@ -74,13 +74,7 @@ impl Why {
                 report::why(&scenario.title, &self.words(), &report)
             })
         });
-        match printed {
-            Ok(()) => ExitStatus::Well,
-            Err(error) => {
-                print_error(&error.to_string());
-                ExitStatus::Unfinished
-            }
-        }
+        ending(printed)
     }
 
     /// The words that run the scenario itself.

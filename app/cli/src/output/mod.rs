@@ -42,7 +42,8 @@ pub(crate) fn ended(written: io::Result<()>) -> ExitStatus {
     ending(delivered(written))
 }
 
-fn ending(shown: Result<(), CommandError>) -> ExitStatus {
+/// How a command ends whose result was shown or not; says why not.
+pub(crate) fn ending(shown: Result<(), CommandError>) -> ExitStatus {
     match shown {
         Ok(()) => ExitStatus::Well,
         Err(error) => {
