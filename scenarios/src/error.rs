@@ -45,6 +45,22 @@ impl Document {
         Arc::new(Document { name: self.name.clone(), is_key: self.is_key, text: self.text.clone(), rank })
     }
 
+    /// The key at a span: the span itself if a value follows, else the last key before it on its line, or the header of a table.
+    fn key_at(&self, span: &Range<usize>) -> Option<&str> {
+        let (before, after) = (self.text.get(..span.start)?, self.text.get(span.end..)?);
+        let is_of_key = |letter: char| letter.is_alphanumeric() || "_-.*\"'".contains(letter);
+        if after.trim_start().starts_with('=') {
+            return self.text.get(span.clone());
+        }
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let of_value = line.rfind('=').map(|at| line[..at].trim_end());
+        let header = || line.trim_start().trim_start_matches('[').trim();
+        let text = of_value.unwrap_or_else(header);
+        let key = text.rsplit(|letter: char| !is_of_key(letter)).next().unwrap_or_default();
+        let key = if of_value.is_none() && key.is_empty() { self.text.get(span.clone())? } else { key };
+        Some(key).filter(|key| !key.is_empty() && key.chars().all(is_of_key))
+    }
+
     fn has_same_text(&self, other: &Document) -> bool {
         std::ptr::eq(self, other) || (self.name == other.name && self.text == other.text)
     }
@@ -212,6 +228,15 @@ impl Fault {
             .as_ref()
             .filter(|place| !place.document.is_key)
             .map(|place| place.document.line_and_column(place.span.start))
+    }
+
+    /// The key in which the error lies: of a text the one on its line, such as `speed_mps`, and in a scenario that code made its whole path.
+    pub fn key(&self) -> Option<&str> {
+        let place = self.place.as_ref()?;
+        if place.document.is_key {
+            return self.file();
+        }
+        place.document.key_at(&place.span)
     }
 
     fn order(&self) -> (usize, usize) {

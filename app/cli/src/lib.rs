@@ -16,6 +16,7 @@ mod flag_values;
 mod output;
 mod process;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -23,6 +24,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
 use interplay_simulation::measure::RegisterMetrics;
 
+use crate::output::exit_status::ExitStatus;
 use commands::{
     check, compare, completions, export_fmu, fit, identify, import, list, man, new, predict, reproduce, run, schema,
     suite, sweep, view, why,
@@ -68,24 +70,34 @@ pub fn main() -> ExitCode {
 /// The same with the kinds of drivers and the metrics of a registry: the whole command for a crate with drivers or metrics of its
 /// own.
 pub fn main_with(registry: &Registry) -> ExitCode {
-    match registry.clone().with_own_metrics() {
-        Ok(registry) => run_command(&registry),
-        Err(error) => {
-            output::print_error(&error.to_string());
-            output::exit_status::ExitStatus::BadInput.into()
-        }
-    }
+    exit_code(registry, std::env::args_os()).into()
 }
 
-fn run_command(registry: &Registry) -> ExitCode {
+/// Does what arguments say, the first of which is the program's name, with what a registry has: the whole command inside another program.
+/// Returns the exit code.
+pub fn exit_code(registry: &Registry, arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let ending = match registry.clone().with_own_metrics() {
+        Ok(registry) => run_command(&registry, arguments),
+        Err(error) => {
+            output::print_error(&error.to_string());
+            ExitStatus::BadInput
+        }
+    };
+    ending as u8
+}
+
+fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     let mut command = command(registry);
-    let parsed = command.try_get_matches_from_mut(std::env::args_os());
+    let parsed = command.try_get_matches_from_mut(arguments);
     let interplay = match parsed.and_then(|found| Interplay::from_arg_matches(&found)) {
         Ok(interplay) => interplay,
-        Err(said) if said.use_stderr() => said.exit(),
-        Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())).into(),
+        Err(said) if said.use_stderr() => {
+            let _ = said.print();
+            return ExitStatus::BadInput;
+        }
+        Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())),
     };
-    let ending = match interplay.command {
+    match interplay.command {
         None => run::Run::default().execute(registry),
         Some(Command::Run(command)) => command.execute(registry),
         Some(Command::List(command)) => command.execute(),
@@ -105,8 +117,7 @@ fn run_command(registry: &Registry) -> ExitCode {
         Some(Command::ExportFmu(command)) => command.execute(registry),
         Some(Command::Completions(asked)) => asked.execute(command),
         Some(Command::Man(asked)) => asked.execute(command),
-    };
-    ending.into()
+    }
 }
 
 /// The arguments, with the kinds of drivers that `--planner` takes.

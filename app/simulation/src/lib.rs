@@ -31,6 +31,7 @@ pub mod climate;
 pub mod components;
 pub mod day;
 pub mod driven;
+pub mod environment;
 mod external;
 pub mod frame;
 pub mod measure;
@@ -59,4 +60,4 @@ pub mod worst_zones;
 struct Readme;
 
 pub use not_copied::NotCopied;
-pub use simulation::{SavedRunError, Simulation, Snapshot};
+pub use simulation::{SavedRunError, Simulation, Snapshot, Zone};

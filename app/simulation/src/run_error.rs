@@ -69,6 +69,17 @@ pub enum RunError {
         /// The steps of the scenario's horizon.
         steps: usize,
     },
+    /// The scenario has no building.
+    #[error("the scenario has no building")]
+    NoBuilding,
+    /// Heat was handed in for another number of zones.
+    #[error("{found} heats were handed in, and the building has {zones} zones")]
+    WrongHeats {
+        /// The heats that were handed in.
+        found: usize,
+        /// The zones of the building.
+        zones: usize,
+    },
     /// A part of the world cannot be copied.
     #[error(transparent)]
     NotCopied(#[from] NotCopied),

@@ -7,15 +7,7 @@
 //! `s` is the gap between bumpers to the vehicle ahead and `Δv` the speed at which it closes.
 
 use super::Settings;
-
-/// A vehicle ahead, or what is as good as one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Leader {
-    /// Gap between bumpers \[m\].
-    pub gap_m: f64,
-    /// Its speed \[m/s\].
-    pub speed_mps: f64,
-}
+use crate::lanes::Leader;
 
 /// A gap that is closed counts as this \[m\].
 const MIN_GAP_M: f64 = 1e-3;

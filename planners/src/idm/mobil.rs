@@ -11,8 +11,8 @@
 //! known: they are taken to be content with their present speeds.
 
 use super::Settings;
-use super::car_following::Leader;
-use super::lanes::{Lanes, follower, leader};
+use crate::lanes::Leader;
+use crate::lanes::{Lanes, follower, leader};
 use crate::{Agent, Scene};
 
 /// A lane and by how much it is better than staying, threshold included; negative for staying.
@@ -24,14 +24,14 @@ pub(super) struct LaneChoice {
 
 /// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first.
 pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoice {
-    let (mobil, lanes) = (&settings.mobil, Lanes::of_road(scene, &settings.mobil));
+    let (mobil, lanes) = (&settings.mobil, Lanes::of_road(scene, settings.mobil.lane_width_m));
     let off_centre = scene.ego.route.across(scene.ego.state.position()) - lanes.centre_m(now);
     let goal = lanes.at(scene.ego.route.across(scene.goal.target.position()));
     let mut best = LaneChoice { lane: now, incentive_mps2: f64::NEG_INFINITY };
-    if off_centre.abs() > 0.25 * lanes.width_m {
+    if off_centre.abs() > 0.25 * lanes.width_m() {
         return LaneChoice { incentive_mps2: 0.0, ..best };
     }
-    let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count)].into_iter().flatten();
+    let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count())].into_iter().flatten();
     // Nobody changes to a lane that will have to be left again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };

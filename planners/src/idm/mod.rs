@@ -6,7 +6,6 @@
 
 mod car_following;
 pub mod diagnostics;
-mod lanes;
 mod mobil;
 mod motion;
 mod settings;
@@ -17,6 +16,7 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::lanes::{Lanes, leader};
 use crate::obstacle::ObstacleMemory;
 use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
@@ -24,7 +24,6 @@ use crate::road::network::ConflictKind;
 use crate::road_rules::Obstacle;
 use crate::{Agent, Plan, PlanError, PlanEvent, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
-use lanes::{Lanes, leader};
 use motion::Motion;
 
 /// Free space beside what stands, for 1/10 scale cars \[m\].
@@ -106,7 +105,7 @@ impl Drive for Idm {
         minded
             .others
             .retain(|other| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
-        let lanes = Lanes::of_road(&minded, &self.settings.mobil);
+        let lanes = Lanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
         let choice = mobil::choose(&minded, &self.settings, now);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));

@@ -1,8 +1,8 @@
 //! The motion of a driver who has chosen a lane.
 
 use super::Settings;
-use super::car_following::Leader;
-use super::lanes::{Lanes, leader};
+use crate::lanes::Leader;
+use crate::lanes::{Lanes, leader};
 use crate::obstacle::swing_m;
 use crate::road_rules::Obstacle;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};

@@ -1,27 +1,14 @@
 //! How a command ends.
 
-use std::process::ExitCode;
-
-/// How a command ended, from well to worst.
+/// How a command ended, from well to worst; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
     /// Everything that was asked for was done and held.
-    Well,
+    Well = 0,
     /// An expectation failed.
-    Failed,
+    Failed = 1,
     /// The input was wrong.
-    BadInput,
+    BadInput = 2,
     /// A run could not be finished.
-    Unfinished,
-}
-
-impl From<ExitStatus> for ExitCode {
-    fn from(ending: ExitStatus) -> Self {
-        match ending {
-            ExitStatus::Well => ExitCode::SUCCESS,
-            ExitStatus::Failed => ExitCode::from(1),
-            ExitStatus::BadInput => ExitCode::from(2),
-            ExitStatus::Unfinished => ExitCode::from(3),
-        }
-    }
+    Unfinished = 3,
 }

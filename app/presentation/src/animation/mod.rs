@@ -83,6 +83,12 @@ pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8
     }
 }
 
+/// The last picture of a run with vehicles: its width and height \[px\], and red, green and blue of every pixel, row by row.
+pub fn last_picture(recorded: &RecordedRun) -> Option<([u32; 2], Vec<u8>)> {
+    let pictures = DrivingPictures::from_run(recorded)?;
+    Some((pictures.size(), pictures.draw(pictures.count().checked_sub(1)?)?))
+}
+
 fn encode(pictures: &dyn Pictures, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
     let film = || Film::draw(pictures).ok_or(AnimationError::Nothing);
     match format {

@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_building::control::ControlError;
+use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Node, Temperature};
@@ -48,11 +48,32 @@ pub fn control(
 
 /// Plans at midnight, and asks for the heat of the step.
 fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
-    let Building { model, controller, targets, today, design_s, .. } = building;
+    let Building { model, controller, targets, today, design_s, handed_in_kw, .. } = building;
     if step == 0 {
         let began = Instant::now();
         today.plan(&mut **controller, targets)?;
         *design_s += began.elapsed().as_secs_f64();
     }
-    Ok(today.control(model, &mut **controller, targets, step, temperatures_c))
+    match handed_in_kw.take() {
+        Some(heat_kw) => Ok(today.control(model, &mut HandedHeat(heat_kw), targets, step, temperatures_c)),
+        None => Ok(today.control(model, &mut **controller, targets, step, temperatures_c)),
+    }
+}
+
+/// Heat that was decided from outside, in place of the controller for one step.
+#[derive(Debug)]
+struct HandedHeat(Vec<f64>);
+
+impl Control for HandedHeat {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
+        Ok(())
+    }
+
+    fn act(&mut self, _: &Observation<'_>) -> Vec<f64> {
+        self.0.clone()
+    }
+
+    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
 }

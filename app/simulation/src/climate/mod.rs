@@ -90,6 +90,8 @@ pub struct Building {
     pub today: Day,
     /// Wall time of planning and learning today \[s\]; never part of a digest.
     pub design_s: f64,
+    /// The heat of each zone in the next step, where it is decided from outside \[kW\].
+    pub handed_in_kw: Option<Vec<f64>>,
     /// The failure because of which the run cannot go on, if there is one.
     pub failure: Option<BuildingFailure>,
 }
@@ -115,6 +117,7 @@ impl Building {
             step: self.step,
             today: self.today.clone(),
             design_s: self.design_s,
+            handed_in_kw: self.handed_in_kw.clone(),
             failure: None,
         })
     }

@@ -81,6 +81,7 @@ impl ClimateState {
             step: 0,
             today: Day::new(Vec::new(), nothing(), nothing()),
             design_s: 0.0,
+            handed_in_kw: None,
             failure: None,
             plant,
             model,

@@ -101,6 +101,12 @@ impl Measurements {
         self.0.iter_mut().for_each(|(_, measurement)| measurement.observe(tick));
     }
 
+    /// One of the values that were measured until now, as a number; 0 of what is not measured.
+    pub fn number(&self, name: &str) -> f64 {
+        let found = self.0.iter().find(|(declaration, _)| declaration.name == name);
+        found.and_then(|(_, measurement)| measurement.measured().value).map_or(0.0, |value| value.as_number())
+    }
+
     /// What was measured until now.
     pub fn values(&self) -> MetricValues {
         let measured = |(declaration, measurement): &(MetricDeclaration, Box<dyn Measurement>)| {
@@ -111,6 +117,11 @@ impl Measurements {
 }
 
 impl Measures {
+    /// How far each vehicle is along its route \[m\].
+    pub fn along_m(&self) -> &[f64] {
+        &self.along_m
+    }
+
     /// Nothing measured yet.
     pub fn new(scenario: &Scenario) -> Self {
         let starts = scenario.starts();

@@ -2,16 +2,18 @@
 
 mod saved_run;
 mod snapshot;
+mod zones;
 
 pub use saved_run::SavedRunError;
 pub use snapshot::Snapshot;
+pub use zones::Zone;
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::sensing::SensedScene;
-use interplay_planners::{Drive, Input};
+use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
 use self::saved_run::HandedInput;
@@ -156,6 +158,11 @@ impl Simulation {
         self.time_points.reached_s()
     }
 
+    /// Whether the scenario is over, so that a step moves nothing.
+    pub fn is_over(&self) -> bool {
+        self.time_points.clone().next().is_none()
+    }
+
     /// What the driver of a vehicle would be given at the next tick, sensing included: the state of every vehicle that it sees, the
     /// roads, its own goal. Nothing changes: twice gives the same, and no digest depends on it.
     ///
@@ -273,10 +280,23 @@ impl Simulation {
     pub fn finish(mut self) -> Result<Report, RunError> {
         let watchers = self.world.remove_resource::<Watchers>().unwrap_or_default();
         watchers.finish().map_err(RunError::Watch)?;
-        let is_over = self.time_points.clone().next().is_none();
-        let ended_early_s = (!is_over).then(|| self.time_s());
+        Ok(self.report())
+    }
+
+    /// What was measured until now, judged as if the run ended here.
+    pub fn report(&self) -> Report {
+        let ended_early_s = (!self.is_over()).then(|| self.time_s());
         let measures = (self.world.resource::<Measures>(), self.world.get_resource::<BuildingMeasures>());
-        Ok(Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s)))
+        Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s))
+    }
+
+    /// The state of every vehicle now, in the scenario's order.
+    pub fn states(&self) -> Vec<State> {
+        let Some(mut vehicles) = self.world.try_query::<(&Identity, &Motion)>() else { return Vec::new() };
+        let mut states: Vec<(usize, State)> =
+            vehicles.iter(&self.world).map(|(identity, motion)| (identity.index, motion.state)).collect();
+        states.sort_by_key(|(index, _)| *index);
+        states.into_iter().map(|(_, state)| state).collect()
     }
 }
 
@@ -291,7 +311,7 @@ impl Simulation {
     }
 
     /// Hands in what an external driver decided.
-    fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
+    pub(crate) fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
         let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
         let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.index == index);

@@ -4,9 +4,8 @@
 
 use std::cmp::Ordering;
 
-use super::Mobil;
-use super::car_following::Leader;
-use crate::{Agent, Scene, State};
+use crate::steering::{admissible, steer, steer_over_step};
+use crate::{Agent, Input, Scene, State};
 
 /// What is missing of the width of a lane beside the route may be up to this share.
 const LEAST_LANE_SHARE: f64 = 0.1;
@@ -19,26 +18,36 @@ const LOOKS: usize = 20;
 /// Width of lanes where nothing is said of it, for 1/10 scale cars \[m\].
 const LANE_WIDTH_M: f64 = 0.37;
 
-/// The lanes of a road.
+/// What is ahead in a lane: a vehicle, or what is as good as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lanes {
+pub struct Leader {
+    /// Gap between bumpers \[m\].
+    pub gap_m: f64,
+    /// Its speed \[m/s\].
+    pub speed_mps: f64,
+}
+
+/// The lanes of a road, numbered from the right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lanes {
     right_m: f64,
-    pub(super) width_m: f64,
-    pub(super) count: usize,
+    width_m: f64,
+    count: usize,
     /// On a route of a network: which lane it follows, and where the first lane to the right and to the left of it end \[m\].
     ends: Option<(usize, [Option<f64>; 2])>,
 }
 
 impl Lanes {
-    /// The lanes of the ego's road; at least one.
-    pub(super) fn of_road(scene: &Scene, mobil: &Mobil) -> Lanes {
+    /// The lanes of the ego's road; at least one. On a road of parallel lanes without names they are as wide as stated \[m\], and by
+    /// default as is usual.
+    pub fn of_road(scene: &Scene, width_m: Option<f64>) -> Lanes {
         let road = &scene.ego.route;
         let along_m = road.along(scene.ego.state.position());
         if road.is_in_network() {
             return Lanes::beside_route(scene, along_m);
         }
         let [right_m, left_m] = road.edges_before_end_m(along_m);
-        let width_m = mobil.lane_width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
+        let width_m = width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
         let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
         Lanes { right_m, width_m, count, ends: None }
     }
@@ -64,8 +73,18 @@ impl Lanes {
         Lanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count, ends: Some((to_right, ends)) }
     }
 
+    /// How many lanes there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// How wide each of them is \[m\].
+    pub fn width_m(&self) -> f64 {
+        self.width_m
+    }
+
     /// Where a lane beside the route ends \[m\]; none if it does not end soon.
-    pub(super) fn end_m(&self, lane: usize) -> Option<f64> {
+    pub fn end_m(&self, lane: usize) -> Option<f64> {
         let (own, [right_m, left_m]) = self.ends?;
         match lane.cmp(&own) {
             Ordering::Less => right_m,
@@ -75,13 +94,13 @@ impl Lanes {
     }
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
-    pub(super) fn at(&self, lateral_m: f64) -> usize {
+    pub fn at(&self, lateral_m: f64) -> usize {
         let lane = ((lateral_m - self.right_m) / self.width_m).floor().max(0.0) as usize;
         lane.min(self.count - 1)
     }
 
     /// The lateral position of a lane's centre \[m\].
-    pub(super) fn centre_m(&self, lane: usize) -> f64 {
+    pub fn centre_m(&self, lane: usize) -> f64 {
         self.right_m + (lane as f64 + 0.5) * self.width_m
     }
 }
@@ -99,7 +118,7 @@ fn at(other: &Agent, t: usize) -> State {
 }
 
 /// What is ahead of a state in a lane at time `t`: the nearest vehicle, or the lane's end.
-pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
+pub fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
     let (ego, road) = (&scene.ego, &scene.ego.route);
     let own = road.along(state.position());
     let vehicles = scene.others.iter().filter(|other| is_in(scene, lanes, lane, other, t)).filter_map(|other| {
@@ -118,8 +137,28 @@ pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t
 }
 
 /// The nearest vehicle behind the ego in a lane, now.
-pub(super) fn follower<'a>(scene: &'a Scene, lanes: &Lanes, lane: usize) -> Option<&'a Agent> {
+pub fn follower<'a>(scene: &'a Scene, lanes: &Lanes, lane: usize) -> Option<&'a Agent> {
     let behind = |other: &&Agent| scene.ego.lead_of(other) <= 0.0 && is_in(scene, lanes, lane, other, 0);
     let behind = scene.others.iter().filter(behind);
     behind.max_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
+}
+
+/// Time in which a speed is reached but for a third, for 1/10 scale cars \[s\].
+const SPEED_TIME_S: f64 = 0.2;
+
+/// The input with which a vehicle comes to a lateral position on its route \[m\] and to a speed, whoever is in the way: the steering of
+/// our drivers without an optimiser, and an acceleration in proportion to the speed that is missing, both as comfortable as the vehicle's
+/// limits ask.
+pub fn towards(scene: &Scene, lateral_m: f64, speed_mps: f64) -> Input {
+    let (own, step_s) = (&scene.ego, scene.step_s);
+    let state = &own.state;
+    let steering_rad = match own.route.straight() {
+        Some(_) => steer(own, state, lateral_m),
+        None => steer_over_step(own, state, lateral_m, step_s),
+    };
+    let missing_mps = speed_mps - state.speed_mps;
+    let wanted =
+        Input { acceleration_mps2: missing_mps / (SPEED_TIME_S * own.body.time_ratio()).max(step_s), steering_rad };
+    let input = own.comfortably(&own.previous_input, wanted, (state.speed_mps, step_s));
+    Input { acceleration_mps2: admissible(own, state, input.acceleration_mps2, step_s), ..input }
 }

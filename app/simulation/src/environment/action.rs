@@ -1,0 +1,187 @@
+//! What an agent decides, as numbers, and what its vehicle does with it.
+
+use interplay_planners::lanes::{Lanes, towards};
+use interplay_planners::{Agent, Input, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::components::HandedIn;
+
+/// What an agent decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Action {
+    /// Acceleration and steering, each from −1 to 1: of the strongest braking or acceleration, and of the largest steering angle to the
+    /// right or left.
+    #[default]
+    Continuous,
+    /// One of five: 0 lane left, 1 idle, 2 lane right, 3 faster, 4 slower. The vehicle then steers to the lane and comes to the speed.
+    DiscreteMeta,
+    /// A whole plan, as our planners give it: acceleration and steering for every step of the horizon. The others are told it.
+    Plan,
+}
+
+/// The numbers of an action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActionSpace {
+    /// Numbers from −1 to 1: so many rows of acceleration and steering.
+    Rows(usize),
+    /// One of so many.
+    OneOf(usize),
+}
+
+impl ActionSpace {
+    /// How many numbers an action has.
+    pub fn len(self) -> usize {
+        match self {
+            ActionSpace::Rows(rows) => 2 * rows,
+            ActionSpace::OneOf(_) => 1,
+        }
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// What is wrong with an action, if anything.
+    pub(super) fn fault(self, action: &[f32]) -> Option<String> {
+        match self {
+            _ if action.len() != self.len() => {
+                Some(format!("has {} numbers, and {} are needed", action.len(), self.len()))
+            }
+            _ if !action.iter().all(|number| number.is_finite()) => Some("is not finite".to_owned()),
+            ActionSpace::Rows(_) => None,
+            ActionSpace::OneOf(count) => {
+                let is_one = action[0].fract() == 0.0 && (0.0..count as f32).contains(&action[0]);
+                (!is_one).then(|| format!("is {}, and is one of 0 to {}", action[0], count - 1))
+            }
+        }
+    }
+}
+
+impl Action {
+    /// The numbers of such an action of a vehicle with a horizon.
+    pub fn space(self, horizon: usize) -> ActionSpace {
+        match self {
+            Action::Continuous => ActionSpace::Rows(1),
+            Action::DiscreteMeta => ActionSpace::OneOf(DiscreteMeta::COUNT),
+            Action::Plan => ActionSpace::Rows(horizon),
+        }
+    }
+}
+
+/// A meta-action, with the numbers of HighwayEnv.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiscreteMeta {
+    /// To the lane on the left.
+    LaneLeft,
+    /// Lane and speed stay.
+    Idle,
+    /// To the lane on the right.
+    LaneRight,
+    /// A step faster.
+    Faster,
+    /// A step slower.
+    Slower,
+}
+
+impl DiscreteMeta {
+    /// How many there are.
+    pub const COUNT: usize = 5;
+
+    /// All, by number.
+    pub const ALL: [DiscreteMeta; Self::COUNT] = [
+        DiscreteMeta::LaneLeft,
+        DiscreteMeta::Idle,
+        DiscreteMeta::LaneRight,
+        DiscreteMeta::Faster,
+        DiscreteMeta::Slower,
+    ];
+}
+
+/// A step of the wanted speed, as a share of the goal's.
+const SPEED_STEP: f64 = 0.25;
+
+/// The lane and the speed to which meta-actions have led.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MetaTarget {
+    /// The middle of the lane, across the route \[m\].
+    pub lane_m: f64,
+    pub speed_mps: f64,
+}
+
+impl MetaTarget {
+    /// The lane in which a vehicle is, and its speed.
+    pub fn of(scene: &Scene) -> MetaTarget {
+        let lanes = Lanes::of_road(scene, None);
+        let now_m = scene.ego.route.across(scene.ego.state.position());
+        MetaTarget { lane_m: lanes.centre_m(lanes.at(now_m)), speed_mps: scene.ego.state.speed_mps }
+    }
+
+    /// The lane and speed after a meta-action; none that cannot be done.
+    pub fn after(self, action: DiscreteMeta, scene: &Scene) -> Option<MetaTarget> {
+        let lanes = Lanes::of_road(scene, None);
+        let now = lanes.at(self.lane_m);
+        let lane = |lane: Option<usize>| {
+            let lane = lane.filter(|lane| *lane < lanes.count())?;
+            Some(MetaTarget { lane_m: lanes.centre_m(lane), ..self })
+        };
+        let (limits, wanted_mps) = (&scene.ego.limits, scene.goal.target.speed_mps);
+        let step_mps = SPEED_STEP * if wanted_mps > 0.0 { wanted_mps } else { limits.speed_max_mps };
+        let speed = |speed_mps: f64| {
+            let speed_mps = speed_mps.max(limits.speed_min_mps).min(limits.speed_max_mps);
+            (speed_mps != self.speed_mps).then_some(MetaTarget { speed_mps, ..self })
+        };
+        match action {
+            DiscreteMeta::LaneLeft => lane(Some(now + 1)),
+            DiscreteMeta::Idle => Some(self),
+            DiscreteMeta::LaneRight => lane(now.checked_sub(1)),
+            DiscreteMeta::Faster => speed(self.speed_mps + step_mps),
+            DiscreteMeta::Slower => speed(self.speed_mps - step_mps),
+        }
+    }
+
+    /// What the vehicle does now.
+    pub fn input(self, scene: &Scene) -> Input {
+        towards(scene, self.lane_m, self.speed_mps)
+    }
+
+    /// The meta-action that comes nearest to a motion of a planner: a change of lane if it ends in another one, else of the speed.
+    pub fn nearest(self, scene: &Scene, end: &interplay_planners::State) -> DiscreteMeta {
+        let lanes = Lanes::of_road(scene, None);
+        let [now, then] = [self.lane_m, scene.ego.route.across(end.position())].map(|across_m| lanes.at(across_m));
+        let faster = |action| self.after(action, scene).map(|target| target.speed_mps);
+        let nearer = |speed_mps: f64| (speed_mps - end.speed_mps).abs() < (self.speed_mps - end.speed_mps).abs();
+        match then.cmp(&now) {
+            std::cmp::Ordering::Greater => DiscreteMeta::LaneLeft,
+            std::cmp::Ordering::Less => DiscreteMeta::LaneRight,
+            std::cmp::Ordering::Equal if faster(DiscreteMeta::Faster).is_some_and(nearer) => DiscreteMeta::Faster,
+            std::cmp::Ordering::Equal if faster(DiscreteMeta::Slower).is_some_and(nearer) => DiscreteMeta::Slower,
+            std::cmp::Ordering::Equal => DiscreteMeta::Idle,
+        }
+    }
+}
+
+/// The input that a row of numbers from −1 to 1 means; numbers beyond are cut off.
+pub(super) fn input_of(row: &[f32], agent: &Agent) -> Input {
+    let [acceleration, steering] = [row[0], row[1]].map(|number| f64::from(number).clamp(-1.0, 1.0));
+    let limits = &agent.limits;
+    let strongest = if acceleration < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+    Input { acceleration_mps2: acceleration * strongest, steering_rad: steering * limits.steering_max_rad }
+}
+
+/// The row of numbers that means an input.
+pub(super) fn row_of(input: &Input, agent: &Agent) -> [f32; 2] {
+    let limits = &agent.limits;
+    let acceleration = input.acceleration_mps2;
+    let strongest = if acceleration < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+    [(acceleration / strongest) as f32, (input.steering_rad / limits.steering_max_rad) as f32]
+}
+
+/// What a row or rows of numbers hand in.
+pub(super) fn handed_in(action: Action, numbers: &[f32], agent: &Agent) -> HandedIn {
+    match action {
+        Action::Plan => HandedIn::Plan(numbers.chunks_exact(2).map(|row| input_of(row, agent)).collect()),
+        Action::Continuous | Action::DiscreteMeta => HandedIn::Input(input_of(numbers, agent)),
+    }
+}

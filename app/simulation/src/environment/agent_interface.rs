@@ -1,0 +1,136 @@
+//! What stands between an agent and its vehicle: what it sees as numbers, and what its numbers make the vehicle do.
+
+use interplay_planners::belief::{self, DriverBeliefs};
+use interplay_planners::driver_estimate::DriverEstimate;
+use interplay_planners::sensing::SensedScene;
+use interplay_planners::{Plan, Scene};
+
+use super::action::{MetaTarget, handed_in, row_of};
+use super::observation::{Observation, ObservationSpace, Seen};
+use super::{Action, ActionSpace, DiscreteMeta};
+use crate::components::HandedIn;
+
+/// What stands between an agent and its vehicle. It remembers what it believes of the others, if that is seen, and to which lane and
+/// speed meta-actions have led.
+#[derive(Clone, Debug)]
+pub struct AgentInterface {
+    observations: Vec<Observation>,
+    action: Action,
+    horizon: usize,
+    beliefs: Option<Box<DriverBeliefs>>,
+    estimates: Vec<DriverEstimate>,
+    target: Option<MetaTarget>,
+    /// The plan that is followed where decisions are rarer than plans, and how many steps of it have passed.
+    followed: (Vec<f32>, usize),
+}
+
+impl AgentInterface {
+    /// The interface of a vehicle whose plans have so many steps, before its first decision.
+    pub fn new(observations: &[Observation], action: Action, horizon: usize) -> AgentInterface {
+        let is_belief = |observation: &Observation| matches!(observation, Observation::Belief(_));
+        let infers = observations.iter().any(is_belief);
+        AgentInterface {
+            observations: observations.to_vec(),
+            action,
+            horizon,
+            beliefs: infers.then(|| Box::new(DriverBeliefs::new(belief::Settings::default()))),
+            estimates: Vec::new(),
+            target: None,
+            followed: (Vec::new(), 0),
+        }
+    }
+
+    /// What the agent sees, one space after the other.
+    pub fn observation_spaces(&self) -> Vec<ObservationSpace> {
+        self.observations.iter().map(|observation| observation.space(self.horizon)).collect()
+    }
+
+    /// How many numbers it sees.
+    pub fn observation_len(&self) -> usize {
+        self.observation_spaces().iter().map(ObservationSpace::len).sum()
+    }
+
+    /// What the agent decides.
+    pub fn action_space(&self) -> ActionSpace {
+        self.action.space(self.horizon)
+    }
+
+    /// Looks at the others as they are at a plan; to be called at every one.
+    pub fn look(&mut self, sensed: &SensedScene) {
+        if let Some(beliefs) = &mut self.beliefs {
+            self.estimates = beliefs.infer(sensed).estimates;
+        }
+    }
+
+    /// Writes what the agent sees; `out` has [`AgentInterface::observation_len`] numbers.
+    pub fn observe(&self, scene: &Scene, out: &mut [f32]) {
+        let seen = Seen { scene, beliefs: &self.estimates };
+        let mut rest = out;
+        for observation in &self.observations {
+            let (own, others) = rest.split_at_mut(observation.space(self.horizon).len());
+            observation.write(&seen, own);
+            rest = others;
+        }
+    }
+
+    /// Takes a decision. Beyond −1 and 1 it is cut off; a meta-action that cannot be done leaves all as it is.
+    ///
+    /// # Errors
+    /// What is wrong with the numbers.
+    pub fn decide(&mut self, scene: &Scene, numbers: &[f32]) -> Result<(), String> {
+        if let Some(fault) = self.action_space().fault(numbers) {
+            return Err(fault);
+        }
+        if self.action == Action::DiscreteMeta {
+            let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
+            let action = DiscreteMeta::ALL[numbers[0] as usize];
+            self.target = Some(target.after(action, scene).unwrap_or(target));
+        } else {
+            self.followed = (numbers.to_vec(), 0);
+        }
+        Ok(())
+    }
+
+    /// What the vehicle does at this plan, by the last decision. Of a plan that is older than a step, the rest, and then its last row.
+    pub(crate) fn handed_in(&mut self, scene: &Scene) -> HandedIn {
+        if let Some(target) = self.target {
+            return HandedIn::Input(target.input(scene));
+        }
+        let (numbers, passed) = &mut self.followed;
+        if numbers.is_empty() {
+            return HandedIn::Input(MetaTarget::of(scene).input(scene));
+        }
+        let rows = numbers.len() / 2;
+        let later = (0..rows).flat_map(|row| {
+            let row = (row + *passed).min(rows - 1);
+            [numbers[2 * row], numbers[2 * row + 1]]
+        });
+        let later: Vec<f32> = later.collect();
+        *passed += 1;
+        handed_in(self.action, &later, &scene.ego)
+    }
+
+    /// Which meta-actions can be done, by number; of other actions nothing is said.
+    pub fn action_mask(&self, scene: &Scene) -> Option<[bool; DiscreteMeta::COUNT]> {
+        let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
+        let mask = DiscreteMeta::ALL.map(|action| target.after(action, scene).is_some());
+        (self.action == Action::DiscreteMeta).then_some(mask)
+    }
+
+    /// The numbers that come nearest to a plan: how one of our planners acts through this interface.
+    pub fn numbers_of(&self, scene: &Scene, plan: &Plan) -> Vec<f32> {
+        let trajectory = &plan.trajectory;
+        match self.action {
+            Action::DiscreteMeta => {
+                let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
+                let end = trajectory.states.last().unwrap_or(&scene.ego.state);
+                vec![target.nearest(scene, end) as usize as f32]
+            }
+            Action::Continuous | Action::Plan => {
+                let rows = self.action_space().len() / 2;
+                let inputs = (0..rows).map(|t| trajectory.inputs.get(t).or(trajectory.inputs.last()).copied());
+                inputs.flat_map(|input| row_of(&input.unwrap_or_default(), &scene.ego)).collect()
+            }
+        }
+    }
+}

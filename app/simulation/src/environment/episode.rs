@@ -1,0 +1,136 @@
+//! How an agent's episode goes, and how it has ended.
+
+use interplay_planners::State;
+use interplay_scenarios::{Scenario, Vehicle};
+
+use super::RewardTerm;
+use super::reward::TermValues;
+use crate::frame::Frame;
+use crate::measure::{Measures, VehicleMeasures};
+use crate::physics::gap_m;
+
+/// How an episode has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The goal is reached.
+    Goal,
+    /// It touched somebody.
+    Contact,
+    /// A corner is off the road.
+    OffRoad,
+    /// The time of the scenario is over.
+    Time,
+}
+
+impl Ending {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Ending::Goal => "goal",
+            Ending::Contact => "contact",
+            Ending::OffRoad => "off_road",
+            Ending::Time => "time",
+        }
+    }
+}
+
+/// The episode of one agent.
+#[derive(Clone, Debug, Default)]
+pub struct Episode {
+    /// The terms of the reward of the last decision, in the order of [`RewardTerm::ALL`].
+    pub terms: TermValues,
+    /// How it has ended, if it has.
+    pub ending: Option<Ending>,
+    /// Decisions so far.
+    pub decisions: usize,
+    /// What the measures were before the decision.
+    before: Counts,
+}
+
+/// What is counted of a vehicle.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    along_m: f64,
+    emergencies: f64,
+    broken: f64,
+}
+
+impl Episode {
+    /// Whether it has ended.
+    pub fn is_over(&self) -> bool {
+        self.ending.is_some()
+    }
+
+    /// Whether it has ended by what happened, and not because the time is over.
+    pub fn is_terminated(&self) -> bool {
+        self.ending.is_some_and(|ending| ending != Ending::Time)
+    }
+
+    /// Begins a decision.
+    pub(super) fn begin_decision(&mut self) {
+        self.terms = TermValues::default();
+        self.decisions += 1;
+    }
+
+    /// Looks at a vehicle at its start.
+    pub(super) fn begin(vehicle: &Vehicle, start: &State) -> Episode {
+        let before = Counts { along_m: vehicle.route.along(start.position()), ..Counts::default() };
+        Episode { before, ..Episode::default() }
+    }
+
+    /// Adds what a tick was worth, and says how it ended, if it did.
+    pub(super) fn observe(&mut self, (scenario, index): (&Scenario, usize), measures: &Measures, frame: &Frame) {
+        let (vehicle, measured) = (&scenario.vehicles[index], &measures.vehicles[index]);
+        let now = Counts {
+            along_m: measures.along_m()[index],
+            emergencies: measured.metrics.number("emergency_braking"),
+            broken: measured.metrics.number("rules_broken"),
+        };
+        let wanted_mps = vehicle.target(&scenario.road).speed_mps;
+        let full_mps = if wanted_mps > 0.0 { wanted_mps } else { vehicle.limits.speed_max_mps };
+        let has_contact = frame.collisions.iter().any(|contact| contact.between.contains(&vehicle.name));
+        let is_off_road = measured.metrics.number("leaves_road") > 0.0;
+        let reaches_goal = measured.completion.completed_s.is_some();
+        let mut add = |term: RewardTerm, value: f64| self.terms[term as usize] += value;
+        add(RewardTerm::Progress, (now.along_m - self.before.along_m) / full_mps);
+        add(RewardTerm::HardBraking, now.emergencies - self.before.emergencies);
+        add(RewardTerm::RuleBroken, now.broken - self.before.broken);
+        add(RewardTerm::Gap, scenario.step_s * closeness((vehicle, index), &measures.vehicles, (scenario, frame)));
+        add(RewardTerm::Goal, f64::from(reaches_goal));
+        add(RewardTerm::Contact, f64::from(has_contact));
+        add(RewardTerm::OffRoad, f64::from(is_off_road));
+        self.before = now;
+        self.ending = match (has_contact, is_off_road, reaches_goal) {
+            (true, ..) => Some(Ending::Contact),
+            (_, true, _) => Some(Ending::OffRoad),
+            (.., true) => Some(Ending::Goal),
+            _ => None,
+        };
+    }
+
+    /// The time of the scenario is over.
+    pub(super) fn time_is_over(&mut self) {
+        self.ending = self.ending.or(Some(Ending::Time));
+    }
+}
+
+/// The share of half a length of its body by which a vehicle is too near to the nearest other one.
+fn closeness(
+    (vehicle, index): (&Vehicle, usize),
+    measured: &[VehicleMeasures],
+    (scenario, frame): (&Scenario, &Frame),
+) -> f64 {
+    let near_m = 0.5 * (vehicle.body.front_m + vehicle.body.rear_m);
+    let own = &measured[index].last;
+    let others = scenario.vehicles.iter().zip(measured).enumerate().filter(|(other, (stated, measured))| {
+        let reach_m = near_m
+            + [&vehicle.body, &stated.body]
+                .map(|body| body.front_m.max(body.rear_m) + body.width_m)
+                .iter()
+                .sum::<f64>();
+        let [dx, dy] = [measured.last.x_m - own.x_m, measured.last.y_m - own.y_m];
+        *other != index && !frame.vehicles[*other].is_absent && libm::hypot(dx, dy) < reach_m
+    });
+    let gaps_m = others.map(|(_, (stated, measured))| gap_m((&vehicle.body, own), (&stated.body, &measured.last)));
+    gaps_m.map(|gap_m| (1.0 - gap_m / near_m).max(0.0)).fold(0.0, f64::max)
+}

@@ -1,0 +1,46 @@
+//! A scenario as an environment for learning: episodes, what an agent sees, what it may do, and what it is worth.
+//!
+//! ```text
+//! reset(seed) -> observation;   step(actions) -> observation, terms of the reward, terminated, truncated
+//! ```
+//!
+//! An [`Environment`] is a loop over [`Simulation::step`](crate::Simulation::step) in which some vehicles, its agents, are driven from
+//! outside; everybody else has the scenario's drivers. An [`EnvironmentBatch`] steps many of them on all cores. A [`Policy`] closes
+//! the loop the other way round: what learned to act in an environment drives a vehicle of any run ([`PolicyDriver`]).
+//!
+//! ```
+//! use interplay_simulation::environment::{Environment, EnvironmentSettings};
+//!
+//! let scenario = interplay_scenarios::load("lane-change/front-nice", &[])?;
+//! let mut environment = Environment::new(&scenario, &EnvironmentSettings::default())?;
+//! environment.reset(Some(1))?;
+//! while environment.is_live() {
+//!     environment.step(&[0.0, 0.0])?;
+//! }
+//! assert!(environment.episode(0).is_over());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod action;
+mod agent_interface;
+mod batch;
+mod episode;
+mod observation;
+mod policy;
+mod reward;
+mod settings;
+mod start;
+#[cfg(test)]
+mod tests;
+mod world;
+
+pub use action::{Action, ActionSpace, DiscreteMeta};
+pub use agent_interface::AgentInterface;
+pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
+pub use episode::{Ending, Episode};
+pub use observation::{BeliefView, Kinematics, LaneView, Observation, ObservationSpace, OccupancyGrid, PlanView};
+pub use policy::{Policy, PolicyDriver, PolicyError};
+pub use reward::{RewardTerm, RewardWeights};
+pub use settings::{EnvironmentError, EnvironmentSettings};
+pub use start::StartDraw;
+pub use world::Environment;

@@ -1,0 +1,41 @@
+//! How nice the nearest others are, as our inference learns it from their motion.
+
+use interplay_planners::driver_estimate::DriverModel;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ObservationSpace, Seen, names, nearest_first};
+
+/// The probabilities of the kinds of driver that each of the nearest others may be: tough, normal, nice, IDM, none of these. Rows of
+/// nobody are 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BeliefView {
+    /// How many rows there are.
+    pub count: usize,
+}
+
+impl Default for BeliefView {
+    fn default() -> Self {
+        BeliefView { count: 4 }
+    }
+}
+
+impl BeliefView {
+    pub(super) fn space(&self) -> ObservationSpace {
+        let names = names(&DriverModel::ALL.map(|model| model.name()));
+        let shape = vec![self.count, names.len()];
+        ObservationSpace { low: 0.0, ..ObservationSpace::normalised("Belief", shape, names, true) }
+    }
+
+    pub(super) fn write(&self, seen: &Seen<'_>, out: &mut [f32]) {
+        out.fill(0.0);
+        let rows = out.chunks_exact_mut(DriverModel::ALL.len());
+        for (other, row) in nearest_first(seen.scene).into_iter().zip(rows) {
+            let Some(belief) = seen.beliefs.iter().find(|belief| belief.vehicle == other.name) else { continue };
+            for (out, probability) in row.iter_mut().zip(belief.probabilities) {
+                *out = probability as f32;
+            }
+        }
+    }
+}

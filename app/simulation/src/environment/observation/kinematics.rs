@@ -1,0 +1,67 @@
+//! The nearest vehicles: where they are and how they move.
+
+use interplay_planners::{Agent, State};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ObservationSpace, Scales, Seen, names, nearest_first, share};
+
+/// The agent and the nearest others, a row each: presence, x, y, vx, vy, cos h, sin h, in the axes of the world. Rows of nobody are 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Kinematics {
+    /// How many rows there are, the agent's own included.
+    pub count: usize,
+    /// Whether positions and speeds of the others are those in the world, and not relative to the agent, whose own row always is.
+    pub absolute: bool,
+    /// Whether positions are divided by what the agent drives in five seconds of a real car at its largest speed, and speeds by that
+    /// speed, and all is cut off at −1 and 1.
+    pub normalize: bool,
+}
+
+impl Default for Kinematics {
+    fn default() -> Self {
+        Kinematics { count: 5, absolute: false, normalize: true }
+    }
+}
+
+const ROW: [&str; 7] = ["presence", "x", "y", "vx", "vy", "cos_h", "sin_h"];
+
+impl Kinematics {
+    pub(super) fn space(&self) -> ObservationSpace {
+        ObservationSpace::normalised("Kinematics", vec![self.count, ROW.len()], names(&ROW), self.normalize)
+    }
+
+    pub(super) fn write(&self, seen: &Seen<'_>, out: &mut [f32]) {
+        let (ego, others) = (&seen.scene.ego, nearest_first(seen.scene));
+        let origin = if self.absolute { [0.0; 4] } else { motion(&ego.state) };
+        let rows = std::iter::once((ego, [0.0; 4])).chain(others.into_iter().map(|other| (other, origin)));
+        let scales = Scales::of_ego(seen.scene);
+        out.fill(0.0);
+        for ((agent, origin), row) in rows.zip(out.chunks_exact_mut(ROW.len())) {
+            row.copy_from_slice(&self.row(agent, origin, scales));
+        }
+    }
+
+    fn row(&self, agent: &Agent, origin: [f64; 4], scales: Scales) -> [f32; ROW.len()] {
+        let (sin, cos) = libm::sincos(agent.state.heading_rad);
+        let along = [scales.along_m, scales.along_m, scales.speed_mps, scales.speed_mps];
+        let mut moved = motion(&agent.state);
+        for (value, from) in moved.iter_mut().zip(origin) {
+            *value -= from;
+        }
+        let [x, y, vx, vy] =
+            std::array::from_fn(
+                |index| {
+                    if self.normalize { share(moved[index], along[index]) } else { moved[index] as f32 }
+                },
+            );
+        [1.0, x, y, vx, vy, cos as f32, sin as f32]
+    }
+}
+
+/// Position \[m\] and velocity \[m/s\].
+fn motion(state: &State) -> [f64; 4] {
+    let (sin, cos) = libm::sincos(state.heading_rad);
+    [state.x_m, state.y_m, state.speed_mps * cos, state.speed_mps * sin]
+}

@@ -1,0 +1,346 @@
+//! One scenario, one world, some agents.
+
+use interplay_common::random::SplitMix64;
+use interplay_planners::sensing::SensedScene;
+use interplay_planners::{Driver, DriverKind, Planner, external};
+use interplay_scenarios::Scenario;
+
+use super::agent_interface::AgentInterface;
+use super::{Action, ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
+use crate::Simulation;
+use crate::measure::Measures;
+use crate::report::Report;
+
+/// Meta-actions are kept for this time by a real car unless it is said otherwise \[s\].
+const META_S: f64 = 0.5;
+
+/// A scenario in which some vehicles are driven from outside, episode by episode.
+///
+/// Numbers of several agents follow one another in the order of [`Environment::agents`].
+pub struct Environment {
+    scenario: Scenario,
+    settings: EnvironmentSettings,
+    /// The seeds of episodes.
+    seeds: SplitMix64,
+    /// Plans from one decision to the next.
+    plans_per_decision: usize,
+    seats: Vec<Seat>,
+    world: Option<Simulation>,
+}
+
+/// An agent at its vehicle.
+struct Seat {
+    vehicle: usize,
+    name: String,
+    interface: AgentInterface,
+    episode: Episode,
+    /// What it senses now.
+    sensed: Option<SensedScene>,
+}
+
+impl Environment {
+    /// The environment of a scenario, before its first episode.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] names the setting that does not fit, and what would.
+    pub fn new(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Environment, EnvironmentError> {
+        let mut scenario = Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario.clone() };
+        let agents = agents(&scenario, settings)?;
+        let plan_s = scenario.step_s * scenario.ticks_per_plan as f64;
+        let Some(ego) = scenario.ego() else { return Err(EnvironmentError::NoVehicles) };
+        let usual_s = match settings.action {
+            Action::DiscreteMeta => META_S * ego.body.real_ratio().sqrt(),
+            Action::Continuous | Action::Plan => plan_s,
+        };
+        let decision_s = settings.decision_s.unwrap_or(usual_s);
+        if !(decision_s > 0.0 && decision_s <= scenario.duration_s) {
+            let reason = format!("above 0 and at most the {} s of the scenario", scenario.duration_s);
+            return Err(EnvironmentError::Setting { setting: "decision_s", reason });
+        }
+        for agent in &agents {
+            scenario.vehicles[*agent].driver = Driver::External(external::Settings::default());
+        }
+        let horizon = scenario.horizon_steps;
+        let seat = |vehicle: usize| Seat {
+            vehicle,
+            name: scenario.vehicles[vehicle].name.clone(),
+            interface: AgentInterface::new(&settings.observations, settings.action, horizon),
+            episode: Episode::default(),
+            sensed: None,
+        };
+        Ok(Environment {
+            seats: agents.into_iter().map(seat).collect(),
+            seeds: SplitMix64::new(scenario.seed),
+            plans_per_decision: (decision_s / plan_s).round().max(1.0) as usize,
+            settings: settings.clone(),
+            scenario,
+            world: None,
+        })
+    }
+
+    /// The scenario, with its agents driven from outside.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// What was chosen.
+    pub fn settings(&self) -> &EnvironmentSettings {
+        &self.settings
+    }
+
+    /// The agents' vehicles.
+    pub fn agents(&self) -> impl Iterator<Item = &str> {
+        self.seats.iter().map(|seat| seat.name.as_str())
+    }
+
+    /// Time from one decision to the next \[s\].
+    pub fn decision_s(&self) -> f64 {
+        self.plans_per_decision as f64 * self.scenario.step_s * self.scenario.ticks_per_plan as f64
+    }
+
+    /// What each agent sees, one space after the other.
+    pub fn observation_spaces(&self) -> Vec<ObservationSpace> {
+        self.seats[0].interface.observation_spaces()
+    }
+
+    /// What each agent decides.
+    pub fn action_space(&self) -> ActionSpace {
+        self.seats[0].interface.action_space()
+    }
+
+    /// How many numbers each agent sees.
+    pub fn observation_len(&self) -> usize {
+        self.seats[0].interface.observation_len()
+    }
+
+    /// Begins an episode. A seed begins a sequence of episodes, and without one the next of the sequence follows.
+    ///
+    /// # Errors
+    /// [`EnvironmentError::Run`] if the world cannot be built.
+    pub fn reset(&mut self, seed: Option<u64>) -> Result<(), EnvironmentError> {
+        if let Some(seed) = seed {
+            self.seeds = SplitMix64::new(seed);
+        }
+        let drawn = self.settings.start.drawn(&self.scenario, self.seeds.next_u64());
+        self.begin(&drawn)
+    }
+
+    /// Begins the episode of the scenario as it is written, with a seed of its random numbers, as `interplay run --seed` does.
+    ///
+    /// # Errors
+    /// As [`Environment::reset`].
+    pub fn reset_as_written(&mut self, seed: u64) -> Result<(), EnvironmentError> {
+        self.begin(&Scenario { seed, ..self.scenario.clone() })
+    }
+
+    fn begin(&mut self, drawn: &Scenario) -> Result<(), EnvironmentError> {
+        let world = Simulation::new(drawn)?;
+        let starts = drawn.starts();
+        let (settings, horizon) = (&self.settings, drawn.horizon_steps);
+        for seat in &mut self.seats {
+            seat.interface = AgentInterface::new(&settings.observations, settings.action, horizon);
+            seat.episode = Episode::begin(&drawn.vehicles[seat.vehicle], &starts[seat.vehicle]);
+        }
+        self.world = Some(world);
+        self.look()
+    }
+
+    /// Every agent looks at the world.
+    fn look(&mut self) -> Result<(), EnvironmentError> {
+        let Some(world) = &self.world else { return Err(EnvironmentError::Over) };
+        for seat in &mut self.seats {
+            let sensed = world.observe(&seat.name)?;
+            seat.interface.look(&sensed);
+            seat.sensed = Some(sensed);
+        }
+        Ok(())
+    }
+
+    /// Moves the world by one decision of every agent. Of agents whose episode is over the numbers are not looked at; their vehicles go on
+    /// along their lanes.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] if there is no episode that could go on, or an action is none; nothing has moved then.
+    pub fn step(&mut self, actions: &[f32]) -> Result<(), EnvironmentError> {
+        self.decide(actions)?;
+        for _ in 0..self.plans_per_decision {
+            self.hand_in()?;
+            let is_over = self.step_to_next_plan()?;
+            self.look()?;
+            if is_over || !self.is_live() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn decide(&mut self, actions: &[f32]) -> Result<(), EnvironmentError> {
+        if !self.is_live() {
+            return Err(EnvironmentError::Over);
+        }
+        let (each, wanted) = (self.action_space(), self.action_space().len() * self.seats.len());
+        if actions.len() != wanted {
+            return Err(EnvironmentError::Length { what: "actions", found: actions.len(), wanted });
+        }
+        let live =
+            || self.seats.iter().zip(actions.chunks_exact(each.len())).filter(|(seat, _)| !seat.episode.is_over());
+        for (seat, numbers) in live() {
+            if let Some(reason) = each.fault(numbers) {
+                return Err(EnvironmentError::Action { agent: seat.name.clone(), reason });
+            }
+        }
+        for (seat, numbers) in self.seats.iter_mut().zip(actions.chunks_exact(each.len())) {
+            let is_over = seat.episode.is_over();
+            seat.episode.begin_decision();
+            if let (false, Some(sensed)) = (is_over, &seat.sensed) {
+                let decided = seat.interface.decide(&sensed.scene, numbers);
+                decided.map_err(|reason| EnvironmentError::Action { agent: seat.name.clone(), reason })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn hand_in(&mut self) -> Result<(), EnvironmentError> {
+        let Some(world) = &mut self.world else { return Err(EnvironmentError::Over) };
+        for seat in &mut self.seats {
+            let Some(sensed) = &seat.sensed else { continue };
+            if seat.episode.is_over() {
+                let horizon = self.scenario.horizon_steps;
+                seat.interface = AgentInterface::new(&self.settings.observations, self.settings.action, horizon);
+            }
+            world.hand_in(&seat.name, seat.interface.handed_in(&sensed.scene))?;
+        }
+        Ok(())
+    }
+
+    /// Steps the world until the vehicles plan anew; whether there is no time left.
+    fn step_to_next_plan(&mut self) -> Result<bool, EnvironmentError> {
+        let Some(world) = &mut self.world else { return Err(EnvironmentError::Over) };
+        for _ in 0..self.scenario.ticks_per_plan {
+            if world.step()?.is_none() {
+                self.seats.iter_mut().for_each(|seat| seat.episode.time_is_over());
+                return Ok(true);
+            }
+            let (measures, frame) = (world.world.resource::<Measures>(), world.frame());
+            for seat in self.seats.iter_mut().filter(|seat| !seat.episode.is_over()) {
+                if let Some(frame) = frame {
+                    seat.episode.observe((world.scenario(), seat.vehicle), measures, frame);
+                }
+            }
+        }
+        let is_over = world.is_over();
+        if is_over {
+            self.seats.iter_mut().for_each(|seat| seat.episode.time_is_over());
+        }
+        Ok(is_over)
+    }
+
+    /// Whether any agent's episode goes on.
+    pub fn is_live(&self) -> bool {
+        self.world.is_some() && self.seats.iter().any(|seat| !seat.episode.is_over())
+    }
+
+    /// The episode of an agent.
+    pub fn episode(&self, agent: usize) -> &Episode {
+        &self.seats[agent].episode
+    }
+
+    /// The reward of an agent for the last decision.
+    pub fn reward(&self, agent: usize) -> f64 {
+        self.settings.reward.sum(&self.seats[agent].episode.terms)
+    }
+
+    /// Writes what an agent sees now; `out` has [`Environment::observation_len`] numbers.
+    ///
+    /// # Errors
+    /// [`EnvironmentError::Over`] before the first episode; [`EnvironmentError::Length`].
+    pub fn observe(&self, agent: usize, out: &mut [f32]) -> Result<(), EnvironmentError> {
+        let wanted = self.observation_len();
+        if out.len() != wanted {
+            return Err(EnvironmentError::Length { what: "an observation", found: out.len(), wanted });
+        }
+        let seat = &self.seats[agent];
+        let Some(sensed) = &seat.sensed else { return Err(EnvironmentError::Over) };
+        seat.interface.observe(&sensed.scene, out);
+        Ok(())
+    }
+
+    /// Which meta-actions an agent can do now; none with other actions, or before the first episode.
+    pub fn action_mask(&self, agent: usize) -> Option<[bool; DiscreteMeta::COUNT]> {
+        let seat = &self.seats[agent];
+        seat.interface.action_mask(&seat.sensed.as_ref()?.scene)
+    }
+
+    /// A planner of one of our kinds for an agent: what it senses and infers is as in a run of that driver.
+    pub fn planner(&self, agent: usize, kind: &dyn DriverKind) -> Planner {
+        let stated = &self.scenario.vehicles[self.seats[agent].vehicle];
+        Planner::new(kind, &stated.inference.unwrap_or_default())
+    }
+
+    /// The action of a planner of ours in place of an agent now. It plans in what the agent senses; where there is no plan it brakes.
+    ///
+    /// # Errors
+    /// [`EnvironmentError::Over`] before the first episode.
+    pub fn action_of(&self, agent: usize, planner: &mut Planner) -> Result<Vec<f32>, EnvironmentError> {
+        let seat = &self.seats[agent];
+        let Some(sensed) = &seat.sensed else { return Err(EnvironmentError::Over) };
+        let plan = planner.plan_sensed(sensed).unwrap_or_else(|_| super::policy::braking(&sensed.scene));
+        Ok(seat.interface.numbers_of(&sensed.scene, &plan))
+    }
+
+    /// The world of the episode; none before the first.
+    pub fn world(&self) -> Option<&Simulation> {
+        self.world.as_ref()
+    }
+
+    /// Ends the episode and says what was measured in it; none before the first.
+    ///
+    /// # Errors
+    /// [`EnvironmentError::Run`] if a watcher could not keep what it saw.
+    pub fn finish(&mut self) -> Result<Option<Report>, EnvironmentError> {
+        Ok(self.world.take().map(Simulation::finish).transpose()?)
+    }
+}
+
+/// The vehicles of the agents; without any, the ego.
+fn agents(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Vec<usize>, EnvironmentError> {
+    let fault = |setting, reason| Err(EnvironmentError::Setting { setting, reason });
+    if scenario.vehicles.is_empty() {
+        return Err(EnvironmentError::NoVehicles);
+    }
+    if settings.observations.is_empty() {
+        return fault("observations", "at least one is needed".to_owned());
+    }
+    if let Some(reason) = settings.observations.iter().find_map(|observation| observation.fault()) {
+        return fault("observations", reason);
+    }
+    let weights = settings.reward.to_array();
+    let jitter = [settings.start.position_m, settings.start.speed_mps].into_iter().flatten();
+    let drawn = jitter.chain(settings.start.safety_weights.iter().flatten().copied());
+    if !weights.iter().all(|weight| weight.is_finite()) {
+        return fault("reward", "every weight is a finite number".to_owned());
+    }
+    if !drawn.into_iter().all(|amount| amount.is_finite() && amount >= 0.0) {
+        return fault("start", "every number is finite and not negative".to_owned());
+    }
+    let drivable = |index: &usize| {
+        let vehicle = &scenario.vehicles[*index];
+        vehicle.obstacle.is_none() && !vehicle.driver.kind().eq("walker")
+    };
+    let mut agents = Vec::new();
+    for name in &settings.agents {
+        match scenario.index_of(name).filter(drivable) {
+            Some(index) if !agents.contains(&index) => agents.push(index),
+            Some(_) => return fault("agents", format!("`{name}` is named twice")),
+            None => {
+                let names = (0..scenario.vehicles.len()).filter(drivable);
+                let names: Vec<&str> = names.map(|index| scenario.vehicles[index].name.as_str()).collect();
+                return fault(
+                    "agents",
+                    format!("`{name}` is no vehicle that could be driven; choose from {}", names.join(", ")),
+                );
+            }
+        }
+    }
+    Ok(if agents.is_empty() { vec![scenario.ego_index()] } else { agents })
+}
