@@ -1,7 +1,7 @@
 //! What an agent decides, as numbers, and what its vehicle does with it.
 
 use interplay_planners::lanes::{Lanes, towards};
-use interplay_planners::{Agent, Input, Scene};
+use interplay_planners::{Agent, Body, Input, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,19 @@ impl ActionSpace {
     }
 }
 
+/// Meta-actions are kept for this time by a real car unless it is said otherwise \[s\].
+const META_S: f64 = 0.5;
+
 impl Action {
+    /// How many plans there are from one decision of a vehicle to the next, if decisions are so far apart as stated \[s\], or as is usual.
+    pub fn plans_per_decision(self, decision_s: Option<f64>, body: &Body, plan_s: f64) -> usize {
+        let usual_s = match self {
+            Action::DiscreteMeta => META_S * body.real_ratio().sqrt(),
+            Action::Continuous | Action::Plan => plan_s,
+        };
+        (decision_s.unwrap_or(usual_s) / plan_s).round().max(1.0) as usize
+    }
+
     /// The numbers of such an action of a vehicle with a horizon.
     pub fn space(self, horizon: usize) -> ActionSpace {
         match self {

@@ -6,13 +6,10 @@ use interplay_planners::{Driver, DriverKind, Planner, external};
 use interplay_scenarios::Scenario;
 
 use super::agent_interface::AgentInterface;
-use super::{Action, ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
+use super::{ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
 use crate::Simulation;
 use crate::measure::Measures;
 use crate::report::Report;
-
-/// Meta-actions are kept for this time by a real car unless it is said otherwise \[s\].
-const META_S: f64 = 0.5;
 
 /// A scenario in which some vehicles are driven from outside, episode by episode.
 ///
@@ -48,15 +45,11 @@ impl Environment {
         let agents = agents(&scenario, settings)?;
         let plan_s = scenario.step_s * scenario.ticks_per_plan as f64;
         let Some(ego) = scenario.ego() else { return Err(EnvironmentError::NoVehicles) };
-        let usual_s = match settings.action {
-            Action::DiscreteMeta => META_S * ego.body.real_ratio().sqrt(),
-            Action::Continuous | Action::Plan => plan_s,
-        };
-        let decision_s = settings.decision_s.unwrap_or(usual_s);
-        if !(decision_s > 0.0 && decision_s <= scenario.duration_s) {
+        if settings.decision_s.is_some_and(|decision_s| !(decision_s > 0.0 && decision_s <= scenario.duration_s)) {
             let reason = format!("above 0 and at most the {} s of the scenario", scenario.duration_s);
             return Err(EnvironmentError::Setting { setting: "decision_s", reason });
         }
+        let plans_per_decision = settings.action.plans_per_decision(settings.decision_s, &ego.body, plan_s);
         for agent in &agents {
             scenario.vehicles[*agent].driver = Driver::External(external::Settings::default());
         }
@@ -71,7 +64,7 @@ impl Environment {
         Ok(Environment {
             seats: agents.into_iter().map(seat).collect(),
             seeds: SplitMix64::new(scenario.seed),
-            plans_per_decision: (decision_s / plan_s).round().max(1.0) as usize,
+            plans_per_decision,
             settings: settings.clone(),
             scenario,
             world: None,

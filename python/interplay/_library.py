@@ -1,0 +1,256 @@
+"""Scenarios, runs and reports."""
+
+from __future__ import annotations
+
+import builtins
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _native
+from ._native import Scenario
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from ._policies import Planner
+
+ScenarioLike = Union[str, "os.PathLike[str]", Scenario]
+Changes = Union[Mapping[str, Any], Sequence[str], None]
+
+
+class Record(dict[str, Any]):
+    """A table of JSON whose keys are attributes, too."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"no `{name}`; there are {', '.join(self)}") from None
+
+    def __dir__(self) -> builtins.list[str]:
+        return [*super().__dir__(), *self]
+
+
+def records(text: str) -> Any:
+    """JSON as numbers, lists and records."""
+    return json.loads(text, object_hook=Record)
+
+
+def toml_value(value: Any) -> str:
+    """A value as TOML, for ``set``."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml_value(entry)}" for key, entry in value.items() if entry is not None) + " }"
+    if isinstance(value, Sequence) or isinstance(value, np.ndarray):
+        return "[" + ", ".join(toml_value(entry) for entry in value) + "]"
+    if isinstance(value, np.generic):
+        return toml_value(value.item())
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise TypeError(f"a scenario cannot hold {value!r}; choose numbers, texts, lists and dictionaries")
+
+
+def changes(set: Changes) -> builtins.list[str]:
+    """Changes as ``--set`` takes them: ``PATH=VALUE``."""
+    if set is None:
+        return []
+    if isinstance(set, str):
+        return [set]
+    if isinstance(set, Mapping):
+        return [f"{path}={toml_value(value)}" for path, value in set.items()]
+    return builtins.list(set)
+
+
+def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = None, planner: str | None = None) -> Scenario:
+    """Reads a scenario: a name of :func:`interplay.list`, or the path of a file.
+
+    ``set`` are changes by path, such as ``{"vehicle.ego.goal.speed_mps": 1.2}``; ``planner`` is a kind of driver for the ego.
+    Raises :class:`interplay.ScenarioError` with ``file``, ``line``, ``column``, ``key`` and ``faults``.
+    """
+    if isinstance(name_or_path, Scenario):
+        if set is None and seed is None and planner is None:
+            return name_or_path
+        name_or_path = name_or_path.source
+    return Scenario.load(os.fspath(name_or_path), changes(set), seed, planner)
+
+
+def list() -> builtins.list[Record]:
+    """The scenarios of the package: name, title, what each shows, figure of the source."""
+    names = ("name", "title", "shows", "figure")
+    return [Record(zip(names, row)) for row in _native.list_scenarios()]
+
+
+def check(name_or_path: ScenarioLike, *, set: Changes = None) -> builtins.list[str]:
+    """Checks a scenario without running it; returns what is allowed and may not have been meant."""
+    return load(name_or_path, set=set).remarks
+
+
+class Frames(Mapping[str, Any]):
+    """The ticks of a run as arrays by name; the first axis is time.
+
+    ``about`` has unit and axes of each: ``{"speed_mps": ("m/s", ("time", "vehicle"))}``.
+    """
+
+    _AXES = {
+        "time_s": ("time",),
+        "gap_m": ("time",),
+        "plan": ("time", "vehicle", "step", "x_m, y_m, heading_rad, speed_mps"),
+        "building_time_s": ("building_time",),
+        "ambient_c": ("building_time",),
+        "forecast_c": ("building_time",),
+    }
+    _ZONE = ("temperature_c", "next_c", "reference_c", "band_k", "requested_kw", "heat_kw", "gains_kw")
+    _UNITS = {"_m": "m", "_s": "s", "_rad": "rad", "_mps": "m/s", "_mps2": "m/s²", "_c": "°C", "_k": "K", "_kw": "kW"}
+
+    def __init__(self, arrays: Mapping[str, Any]) -> None:
+        self._arrays = dict(arrays)
+        self.vehicles: builtins.list[str] = self._arrays.pop("vehicles", [])
+
+    def __getitem__(self, name: str) -> Any:
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    @property
+    def about(self) -> dict[str, tuple[str, tuple[str, ...]]]:
+        """Unit and axes of each array."""
+
+        def unit(name: str) -> str:
+            ends = [end for end in self._UNITS if name.endswith(end)]
+            return self._UNITS[max(ends, key=len)] if ends else "1"
+
+        def axes(name: str) -> tuple[str, ...]:
+            usual = ("building_time", "zone") if name in self._ZONE else ("time", "vehicle")
+            return self._AXES.get(name, usual)
+
+        return {name: (unit(name), axes(name)) for name in self}
+
+    def __repr__(self) -> str:
+        return "<Frames " + ", ".join(f"{name} {np.shape(array)}" for name, array in self._arrays.items()) + ">"
+
+
+class Report(Record):
+    """What was measured in a run, with the keys of ``interplay run --json``."""
+
+    _recorded: _native.RecordedRun | None = None
+
+    @classmethod
+    def of(cls, recorded: _native.RecordedRun) -> Report:
+        """The report of a run with its ticks."""
+        report = cls(records(recorded.report()))
+        object.__setattr__(report, "_recorded", recorded)
+        return report
+
+    def _run(self) -> _native.RecordedRun:
+        if self._recorded is None:
+            raise _native.RunError("only `interplay.run` keeps all ticks")
+        return self._recorded
+
+    def to_dict(self) -> dict[str, Any]:
+        """The report as plain dictionaries and lists."""
+        plain: dict[str, Any] = json.loads(json.dumps(self))
+        return plain
+
+    def frames(self) -> Frames:
+        """All ticks as arrays."""
+        return Frames(self._run().frames())
+
+    def to_pandas(self) -> pd.DataFrame:
+        """All ticks of all vehicles, or of all zones, as one table: a row for each of them at each time."""
+        import pandas as pd
+
+        frames = self.frames()
+        axes = {name: axes for name, (_, axes) in frames.about.items()}
+        of_vehicles = [name for name in frames if axes[name] == ("time", "vehicle")]
+        if of_vehicles:
+            count = len(frames.vehicles)
+            table = {"time_s": np.repeat(frames["time_s"], count), "vehicle": frames.vehicles * len(frames["time_s"])}
+            return pd.DataFrame({**table, **{name: frames[name].ravel() for name in of_vehicles}})
+        of_zones = [name for name in frames if axes[name] == ("building_time", "zone")]
+        times, count = frames["building_time_s"], frames[of_zones[0]].shape[1]
+        table = {"time_s": np.repeat(times, count), "zone": builtins.list(range(count)) * len(times)}
+        return pd.DataFrame({**table, **{name: frames[name].ravel() for name in of_zones}})
+
+    def animation(self, format: str = "gif") -> bytes:
+        """The moving picture of the run, as the bytes of a ``gif``, ``webp`` or ``png`` (a filmstrip)."""
+        return self._run().animation(format)
+
+    def summary(self) -> str:
+        """The words of ``interplay run``."""
+        return self._run().summary()
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the moving picture, and the summary below it."""
+        import base64
+        import html
+
+        words = html.escape(self.summary()) if self._recorded is not None else html.escape(json.dumps(self, indent=1))
+        picture = ""
+        if self._recorded is not None:
+            data = base64.b64encode(self.animation("webp")).decode()
+            picture = f'<img alt="animation of the run" src="data:image/webp;base64,{data}">'
+        return f"<div>{picture}<pre>{words}</pre></div>"
+
+
+def run(
+    scenario: ScenarioLike,
+    planner: Planner = None,
+    *,
+    set: Changes = None,
+    seed: int | None = None,
+    record: str | os.PathLike[str] | None = None,
+    animate: str | os.PathLike[str] | None = None,
+    trajectories: str | os.PathLike[str] | None = None,
+) -> Report:
+    """Runs a scenario to its end and returns its report.
+
+    ``planner`` drives the ego instead of the scenario's choice: a kind of driver, or ``{name: function}``, where the function maps
+    an observation to an action (:class:`interplay.PolicyFunction`). ``record``, ``animate`` and ``trajectories`` are files to be
+    written: ``.rrd``; ``.gif``, ``.webp``, ``.png`` or ``.mp4``; ``.csv`` or ``.parquet``.
+    """
+    from ._policies import registered
+
+    kind, driver = registered(planner)
+    if driver is not None:
+        set = [*changes(set), f"vehicle.ego.driver={toml_value(driver)}"]
+    loaded = load(scenario, set=set, seed=seed, planner=kind)
+    paths = [None if path is None else os.fspath(path) for path in (record, animate, trajectories)]
+    return Report.of(_native.run(loaded, *paths))
+
+
+def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Record:
+    """Finds thermal parameters in telemetry: the document of ``interplay identify --json``.
+
+    ``table`` is a pandas table or the path of a CSV file, ``mapping`` says which column is what (``interplay identify --help``): a
+    dictionary or the path of a TOML file. With ``scenario`` a scenario with the network that was found is written there; a file that
+    exists is never overwritten.
+    """
+    if hasattr(table, "to_csv"):
+        text, name = table.to_csv(index=False), "table"
+    else:
+        text, name = Path(table).read_text(encoding="utf-8-sig"), os.fspath(table)
+    if isinstance(mapping, Mapping):
+        described, where = "\n".join(f"{key} = {toml_value(value)}" for key, value in mapping.items()), "mapping"
+    else:
+        described, where = Path(mapping).read_text(encoding="utf-8-sig"), os.fspath(mapping)
+    report, summary, found = _native.identify(text, described, (name, where))
+    result: Record = records(report)
+    object.__setattr__(result, "summary", lambda: summary)
+    if scenario is not None:
+        if found is None:
+            raise _native.RunError(f"{name}: no network was found that a scenario could hold")
+        with open(scenario, "x", encoding="utf-8") as file:
+            file.write(found)
+    return result

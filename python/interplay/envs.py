@@ -1,0 +1,366 @@
+"""Environments of Gymnasium: one world, many worlds, and a building."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from . import _native
+from ._library import Changes, Report, ScenarioLike, load, records
+from ._spaces import environment_settings, flat_action, shaped_observation
+
+#: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
+PICTURE_PX = (640, 960)
+PICTURES_PER_S = 10
+
+
+class Views:
+    """What the environments of one and of many agents have in common: the spaces of a native environment."""
+
+    def __init__(self, native: Any, observation: Any) -> None:
+        described = native.observation_spaces()
+        self.is_single = isinstance(observation, (str, Mapping))
+        self.shapes: list[tuple[str, tuple[int, ...]]] = [(kind, tuple(shape)) for kind, shape, *_ in described]
+        #: What the entries of the last axis are, by view.
+        self.names: dict[str, list[str]] = {kind: names for kind, _, names, *_ in described}
+        boxes = {kind: spaces.Box(low, high, tuple(shape), np.float32) for kind, shape, _, low, high in described}
+        if len(boxes) < len(described):
+            raise ValueError("`observation` names a view twice")
+        self.observation_space: spaces.Space[Any] = boxes[described[0][0]] if self.is_single else spaces.Dict(boxes)
+        rows, count = native.action_space()
+        self.action_space: spaces.Space[Any]
+        if count is not None:
+            self.action_space = spaces.Discrete(count)
+        else:
+            self.action_space = spaces.Box(-1.0, 1.0, (2,) if rows == 1 else (rows, 2), np.float32)
+
+    def observed(self, numbers: NDArray[np.float32]) -> Any:
+        """Numbers in the shapes of the views."""
+        return shaped_observation(numbers, self.shapes, self.is_single)
+
+    def acted(self, action: Any) -> NDArray[np.float32]:
+        """The numbers of one action; what is none is a ValueError."""
+        numbers = np.asarray(action)
+        if numbers.dtype.kind not in "fiub":
+            raise ValueError(f"an action is numbers, and not {action!r}")
+        if numbers.shape != self.action_space.shape:
+            raise ValueError(f"an action has the shape {self.action_space.shape}, and not {numbers.shape}")
+        return flat_action(numbers)
+
+    def planned(self, numbers: NDArray[np.float32]) -> Any:
+        """Numbers as an action."""
+        if isinstance(self.action_space, spaces.Discrete):
+            return np.int64(numbers[0])
+        return numbers.reshape(self.action_space.shape or (2,))
+
+
+class InterplayEnv(gymnasium.Env[Any, Any]):
+    """A scenario in which one vehicle, by default the ego, is driven by an agent; all others are driven by their planners.
+
+    :param scenario: a name of ``interplay.list()``, a path, or a :class:`interplay.Scenario`.
+    :param observation: ``Kinematics``, ``Lane``, ``OccupancyGrid``, ``Plan`` or ``Belief``, or a dictionary with a ``kind`` and
+        settings, or a list of them, of which the observation is a dictionary.
+    :param action: ``Continuous``, ``DiscreteMeta`` or ``Plan``.
+    :param reward: weights of the terms by name; those that are not named keep their defaults.
+    :param agent: the vehicle; by default the ego.
+    :param perturb: whether starts and styles are drawn for each episode, or what of them: ``position_m``, ``speed_mps``,
+        ``safety_weights``.
+    :param decision_s: time from one decision to the next; by default each plan is a decision, and a meta-action is kept for half a
+        second of a real car.
+    :param set: changes of the scenario by path.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": PICTURES_PER_S}
+
+    def __init__(
+        self,
+        scenario: ScenarioLike = "lane-change/front-nice",
+        *,
+        observation: Any = "Kinematics",
+        action: Any = "Continuous",
+        reward: Mapping[str, float] | None = None,
+        agent: str | None = None,
+        perturb: bool | Mapping[str, Any] = True,
+        decision_s: float | None = None,
+        set: Changes = None,
+        render_mode: str | None = None,
+    ) -> None:
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise ValueError(f"render_mode {render_mode!r}; choose from {', '.join(self.metadata['render_modes'])}")
+        self.render_mode = render_mode
+        self._observation = observation
+        agents = None if agent is None else [agent]
+        self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
+        self._set = set
+        self.scenario = load(scenario, set=set)
+        self._native = _native.Environment(self.scenario, self._settings)
+        self._views = Views(self._native, observation)
+        self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
+        self._is_seeded = False
+        self._window: Any = None
+
+    @property
+    def agent(self) -> str:
+        """The vehicle that the agent drives."""
+        return self._native.agents[0]
+
+    @property
+    def decision_s(self) -> float:
+        """Time from one decision to the next [s]."""
+        return self._native.decision_s
+
+    @property
+    def observation_names(self) -> dict[str, list[str]]:
+        """What the entries of the last axis of each view are."""
+        return self._views.names
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode, of which everything is drawn from ``seed``; without a seed the next one of the sequence.
+
+        ``options`` may have another ``scenario`` with the same spaces, or a ``seed`` of the scenario itself: then the episode is the
+        scenario as it is written, as ``interplay run --seed`` runs it.
+        """
+        super().reset(seed=seed)
+        options = options or {}
+        if unknown := [name for name in options if name not in ("scenario", "seed")]:
+            raise ValueError(f"option {unknown[0]!r}; choose from scenario, seed")
+        if "scenario" in options:
+            self._change_scenario(options["scenario"])
+        if options.get("seed") is not None:
+            self._native.reset_as_written(int(options["seed"]))
+        else:
+            if seed is None and not self._is_seeded:
+                seed = int(self.np_random.integers(2**63))
+            self._native.reset(seed)
+        self._is_seeded = True
+        if self.render_mode == "human":
+            self.render()
+        return self._views.observed(self._native.observe(0)), self._info(None)
+
+    def _change_scenario(self, scenario: ScenarioLike) -> None:
+        changed = load(scenario, set=self._set if not isinstance(scenario, _native.Scenario) else None)
+        native = _native.Environment(changed, self._settings)
+        views = Views(native, self._observation)
+        if (views.observation_space, views.action_space) != (self.observation_space, self.action_space):
+            raise ValueError(f"`{changed.source}` has other spaces than `{self.scenario.source}`, and options never change spaces")
+        self.scenario, self._native, self._is_seeded = changed, native, False
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Drives for one decision; ``info`` has the terms of the reward, and how the episode ended."""
+        self._native.step(self._views.acted(action))
+        reward, terminated, truncated, ending = self._native.outcome(0)
+        if self.render_mode == "human":
+            self.render()
+        return self._views.observed(self._native.observe(0)), reward, terminated, truncated, self._info(ending)
+
+    def _info(self, ending: str | None) -> dict[str, Any]:
+        info: dict[str, Any] = {"time_s": self._native.time_s, "reward_terms": self._native.terms(0)}
+        if (mask := self._native.action_mask(0)) is not None:
+            info["action_mask"] = np.array(mask, dtype=np.int8)
+        if ending is not None:
+            info["ending"], info["is_success"] = ending, ending == "goal"
+        return info
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """Which meta-actions can be done now, by number."""
+        mask = self._native.action_mask(0)
+        if mask is None:
+            raise ValueError("only meta-actions have a mask")
+        return np.array(mask, dtype=np.bool_)
+
+    def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
+        """The action of a planner of ours now; see :func:`interplay.policy`."""
+        return self._views.planned(planner.act(self._native, 0))
+
+    def states(self) -> dict[str, NDArray[np.float64]]:
+        """x_m, y_m, heading_rad and speed_mps of every vehicle now."""
+        return {name: np.array(state) for name, state in self._native.states()}
+
+    def report(self) -> Report | None:
+        """Ends the episode and says what was measured in it; none before the first."""
+        text = self._native.finish()
+        return None if text is None else Report(records(text))
+
+    def render(self) -> Any:
+        """The world from above: an array of 640 × 960 pixels, or a window."""
+        if self.render_mode is None:
+            gymnasium.logger.warn("say how to render: gymnasium.make(…, render_mode='rgb_array')")
+            return None
+        picture = self._native.picture()
+        if picture is None:
+            raise _native.RunError("call reset before render")
+        picture = _of_size(picture, PICTURE_PX)
+        if self.render_mode == "rgb_array":
+            return picture
+        self._show(picture)
+        return None
+
+    def _show(self, picture: NDArray[np.uint8]) -> None:
+        try:
+            import pygame
+        except ImportError:
+            raise gymnasium.error.DependencyNotInstalled("pygame is not here: pip install 'interplay[render]'") from None
+        if self._window is None:
+            pygame.display.init()
+            self._window = pygame.display.set_mode((picture.shape[1], picture.shape[0]))
+            pygame.display.set_caption(self.scenario.title)
+        self._window.blit(pygame.surfarray.make_surface(picture.swapaxes(0, 1)), (0, 0))
+        pygame.event.pump()
+        pygame.display.flip()
+
+    def close(self) -> None:
+        """Closes the window, if there is one."""
+        if self._window is not None:
+            import pygame
+
+            pygame.display.quit()
+            self._window = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        kept = ("render_mode", "_observation", "_settings", "_set", "_np_random", "_np_random_seed", "spec")
+        state = {name: self.__dict__[name] for name in kept if name in self.__dict__}
+        return {**state, "scenario": self.scenario.source}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """A copy before its first episode."""
+        self.__dict__.update(state)
+        self.scenario = load(state["scenario"], set=self._set)
+        self._native = _native.Environment(self.scenario, self._settings)
+        self._views = Views(self._native, self._observation)
+        self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
+        self._is_seeded, self._window = False, None
+
+
+def _of_size(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
+    """A picture in the middle of another size: cut off, or with a margin in the colour of its last corner."""
+    fitted = np.empty((*size, 3), dtype=np.uint8)
+    fitted[:] = picture[-1, -1]
+    high, wide = min(size[0], picture.shape[0]), min(size[1], picture.shape[1])
+    fitted[:high, :wide] = picture[:high, :wide]
+    return fitted
+
+
+class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
+    """Many worlds that are stepped in one call, on all cores: same seeds and actions, same numbers as each world alone.
+
+    :param scenario: one for all worlds, or a list with one for each.
+    :param autoreset_mode: one of Gymnasium's.
+    :param copy: whether every observation is a new array; otherwise the last one is overwritten.
+
+    The rest is as in :class:`InterplayEnv`.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+
+    def __init__(
+        self,
+        scenario: ScenarioLike | Sequence[ScenarioLike] = "lane-change/front-nice",
+        *,
+        num_envs: int = 1,
+        observation: Any = "Kinematics",
+        action: Any = "Continuous",
+        reward: Mapping[str, float] | None = None,
+        agent: str | None = None,
+        perturb: bool | Mapping[str, Any] = True,
+        decision_s: float | None = None,
+        set: Changes = None,
+        autoreset_mode: gymnasium.vector.AutoresetMode | str = gymnasium.vector.AutoresetMode.NEXT_STEP,
+        copy: bool = True,
+        render_mode: str | None = None,
+    ) -> None:
+        if num_envs < 1:
+            raise ValueError("num_envs is at least 1")
+        mode = gymnasium.vector.AutoresetMode(autoreset_mode)
+        names = {"NEXT_STEP": "next_step", "SAME_STEP": "same_step", "DISABLED": "disabled"}
+        self.num_envs, self._mode, self._copy, self.render_mode = num_envs, mode, copy, render_mode
+        self.metadata = {**self.metadata, "autoreset_mode": mode}
+        settings = environment_settings(observation, action, reward, None if agent is None else [agent], perturb, decision_s)
+        several = isinstance(scenario, Sequence) and not isinstance(scenario, str)
+        listed: list[Any] = list(scenario) if several else [scenario] * num_envs  # type: ignore[arg-type]
+        if len(listed) != num_envs:
+            raise ValueError(f"{len(listed)} scenarios for {num_envs} worlds")
+        loaded = {name if isinstance(name, str) else id(name): load(name, set=set) for name in listed}
+        self.scenarios = [loaded[name if isinstance(name, str) else id(name)] for name in listed]
+        self._native = _native.Batch(self.scenarios, settings, names[mode.name])
+        self._views = Views(self._native, observation)
+        self.single_observation_space, self.single_action_space = self._views.observation_space, self._views.action_space
+        self.observation_space = gymnasium.vector.utils.batch_space(self.single_observation_space, num_envs)
+        self.action_space = gymnasium.vector.utils.batch_space(self.single_action_space, num_envs)
+        self._is_seeded = False
+        self._terms = _native.Environment.reward_terms()
+        self._buffer: NDArray[np.float32] | None = None
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode in every world; world ``i`` has the seed ``seed + i``. ``options={"reset_mask": …}`` resets some."""
+        seeds: list[int | None]
+        if seed is None:
+            seeds = [None] * self.num_envs
+            if not self._is_seeded:
+                seeds = [int(number) for number in self.np_random.integers(2**63, size=self.num_envs)]
+        elif isinstance(seed, (int, np.integer)):
+            self._np_random, self._np_random_seed = gymnasium.utils.seeding.np_random(int(seed))
+            seeds = [int(seed) + world for world in range(self.num_envs)]
+        else:
+            seeds = [None if number is None else int(number) for number in seed]
+        which = np.ones(self.num_envs, dtype=np.bool_)
+        if options is not None:
+            options = dict(options)
+            which = np.asarray(options.pop("reset_mask", which), dtype=np.bool_)
+            if options:
+                raise ValueError(f"option {next(iter(options))!r}; the only one of many worlds is reset_mask")
+        self._native.reset(seeds, [bool(word) for word in which])
+        self._is_seeded = True
+        return self._observed(self._native.observe()), self._masks()
+
+    def _observed(self, numbers: NDArray[np.float32]) -> Any:
+        if not self._copy:
+            if self._buffer is None:
+                self._buffer = np.empty_like(numbers)
+            self._buffer[:] = numbers
+            numbers = self._buffer
+        return self._views.observed(numbers)
+
+    def _masks(self) -> dict[str, Any]:
+        if not isinstance(self.single_action_space, spaces.Discrete):
+            return {}
+        return {"action_mask": np.array(self._native.action_masks(), dtype=np.int8)}
+
+    def step(self, actions: Any) -> tuple[Any, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Steps all worlds by one decision each."""
+        numbers = np.asarray(actions)
+        if numbers.shape != self.action_space.shape or numbers.dtype.kind not in "fiub":
+            raise ValueError(f"actions of all worlds have the shape {self.action_space.shape}, and not {numbers.shape}")
+        seen, last, rewards, terminated, truncated, terms, endings = self._native.step(flat_action(numbers))
+        info: dict[str, Any] = {"reward_terms": {name: terms[:, place] for place, name in enumerate(self._terms)}}
+        over = terminated | truncated
+        if over.any():
+            info["ending"] = np.array(endings, dtype=object)
+            info["_ending"] = over
+            info["is_success"] = np.array([ending == "goal" for ending in endings])
+            info["_is_success"] = over
+            if self._mode == gymnasium.vector.AutoresetMode.SAME_STEP:
+                final = np.full(self.num_envs, None, dtype=object)
+                for world in np.flatnonzero(over):
+                    final[world] = self._views.observed(last[world])
+                info["final_obs"], info["_final_obs"] = final, over
+                info["final_info"] = {"ending": info["ending"], "is_success": info["is_success"]}
+                info["_final_info"] = over
+        return self._observed(seen), rewards, terminated, truncated, {**info, **self._masks()}
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """Which meta-actions can be done now, a row a world."""
+        return np.array(self._native.action_masks(), dtype=np.bool_)
+
+    def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
+        """The actions of a planner of ours in all worlds now; see :func:`interplay.policy`."""
+        actions = [self._views.planned(planner.act_in(self._native, world)) for world in range(self.num_envs)]
+        return np.stack(actions)
+
+

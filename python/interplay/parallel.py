@@ -1,0 +1,141 @@
+"""Several agents at once, with the interface of PettingZoo."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from . import _native
+from ._library import Changes, ScenarioLike, load
+from ._spaces import environment_settings
+from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size
+
+
+class InterplayParallelEnv(ParallelEnv):  # type: ignore[misc]
+    """A scenario in which any vehicles are agents, by default all that have a driver; our planners drive the rest.
+
+    An agent leaves when its episode is over: its vehicle then goes on along its lane. Settings are those of
+    :class:`interplay.envs.InterplayEnv`.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "interplay_v0",
+        "render_modes": ["rgb_array"],
+        "render_fps": PICTURES_PER_S,
+        "is_parallelizable": True,
+    }
+
+    def __init__(
+        self,
+        scenario: ScenarioLike = "lane-change/front-nice",
+        agents: Sequence[str] | None = None,
+        *,
+        observation: Any = "Kinematics",
+        action: Any = "Continuous",
+        reward: Mapping[str, float] | None = None,
+        perturb: bool | Mapping[str, Any] = True,
+        decision_s: float | None = None,
+        set: Changes = None,
+        render_mode: str | None = None,
+    ) -> None:
+        self.scenario = load(scenario, set=set)
+        if agents is None:
+            idle = ("walker", "recorded", "scripted")
+            obstacles = self.scenario.obstacles
+            pairs = zip(self.scenario.vehicles, self.scenario.drivers)
+            agents = [name for name, kind in pairs if kind not in idle and name not in obstacles]
+        self.render_mode = render_mode
+        settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
+        self._native = _native.Environment(self.scenario, settings)
+        self._views = Views(self._native, observation)
+        self.possible_agents: list[str] = list(self._native.agents)
+        self.agents: list[str] = []
+        self._rng = np.random.default_rng()
+        self._is_seeded = False
+
+    @functools.lru_cache(maxsize=None)
+    def observation_space(self, agent: str) -> Any:
+        """What an agent sees."""
+        return self._own_space(self._views.observation_space)
+
+    @functools.lru_cache(maxsize=None)
+    def action_space(self, agent: str) -> Any:
+        """What an agent decides."""
+        return self._own_space(self._views.action_space)
+
+    @staticmethod
+    def _own_space(space: Any) -> Any:
+        import copy
+
+        return copy.deepcopy(space)
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Begins an episode with all agents, of which everything is drawn from the seed."""
+        if options and (unknown := [name for name in options if name != "seed"]):
+            raise ValueError(f"option {unknown[0]!r}; the only one is seed")
+        if options and options.get("seed") is not None:
+            self._native.reset_as_written(int(options["seed"]))
+        else:
+            if seed is None and not self._is_seeded:
+                seed = int(self._rng.integers(2**63))
+            self._native.reset(seed)
+        self._is_seeded = True
+        self.agents = list(self.possible_agents)
+        return self._seen(self.agents), {agent: self._info(agent, None) for agent in self.agents}
+
+    def _seen(self, agents: Sequence[str]) -> dict[str, Any]:
+        return {agent: self._views.observed(self._native.observe(self._place(agent))) for agent in agents}
+
+    def _place(self, agent: str) -> int:
+        return self.possible_agents.index(agent)
+
+    def _info(self, agent: str, ending: str | None) -> dict[str, Any]:
+        place = self._place(agent)
+        info: dict[str, Any] = {"time_s": self._native.time_s, "reward_terms": self._native.terms(place)}
+        if (mask := self._native.action_mask(place)) is not None:
+            info["action_mask"] = np.array(mask, dtype=np.int8)
+        return info if ending is None else {**info, "ending": ending, "is_success": ending == "goal"}
+
+    def step(
+        self, actions: Mapping[str, Any]
+    ) -> tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, Any]]:
+        """Drives all agents for one decision."""
+        if not self.agents:
+            return {}, {}, {}, {}, {}
+        if missing := [agent for agent in self.agents if agent not in actions]:
+            raise ValueError(f"there is no action for `{missing[0]}`")
+        rows, count = self._native.action_space()
+        idle: NDArray[np.float32] = np.zeros(1 if count is not None else 2 * (rows or 1), dtype=np.float32)
+        acts = [self._views.acted(actions[agent]) if agent in self.agents else idle for agent in self.possible_agents]
+        self._native.step(np.concatenate(acts))
+        outcomes = {agent: self._native.outcome(self._place(agent)) for agent in self.agents}
+        seen = self._seen(self.agents)
+        rewards = {agent: outcome[0] for agent, outcome in outcomes.items()}
+        terminated = {agent: outcome[1] for agent, outcome in outcomes.items()}
+        truncated = {agent: outcome[2] for agent, outcome in outcomes.items()}
+        infos = {agent: self._info(agent, outcome[3]) for agent, outcome in outcomes.items()}
+        self.agents = [agent for agent in self.agents if not (terminated[agent] or truncated[agent])]
+        return seen, rewards, terminated, truncated, infos
+
+    def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
+        """The action of a planner of ours for an agent now; see :func:`interplay.policy`."""
+        place = agent if isinstance(agent, int) else self._place(agent or self.possible_agents[0])
+        return self._views.planned(planner.act(self._native, place))
+
+    def render(self) -> Any:
+        """The world from above, an array of 640 × 960 pixels."""
+        picture = self._native.picture()
+        return None if picture is None else _of_size(picture, PICTURE_PX)
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+
+def parallel_env(scenario: ScenarioLike = "lane-change/front-nice", agents: Sequence[str] | None = None, **settings: Any) -> InterplayParallelEnv:
+    """An environment of several agents; see :class:`InterplayParallelEnv`."""
+    return InterplayParallelEnv(scenario, agents, **settings)

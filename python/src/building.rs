@@ -1,0 +1,30 @@
+//! Thermal parameters from telemetry.
+
+use interplay_building::identify::{Mapping, Telemetry};
+use pyo3::prelude::*;
+
+use crate::errors::ScenarioError;
+
+/// Finds thermal parameters in a table; returns the document of `interplay identify --json`, the summary, and a scenario with the network
+/// that was found, if one can be made. `names` are those of table and mapping in errors.
+#[pyfunction]
+pub fn identify(
+    py: Python<'_>,
+    table: &str,
+    mapping: &str,
+    names: (String, String),
+) -> PyResult<(String, String, Option<String>)> {
+    py.detach(|| {
+        let refused = |error: &dyn std::fmt::Display| ScenarioError::new_err(error.to_string());
+        let mapping = Mapping::parse(&names.1, mapping).map_err(|error| refused(&error))?;
+        let telemetry = Telemetry::read(&names.0, table, &mapping).map_err(|error| refused(&error))?;
+        let found = interplay_building::identify::identify(&telemetry, &mapping.identify);
+        let found = found.map_err(|error| refused(&format!("{}: {error}", names.0)))?;
+        let report = serde_json::to_string(&found.report).map_err(|error| refused(&error))?;
+        let summary = interplay_presentation::report::identification(&names.0, &found);
+        let network = found.network.as_ref().ok();
+        let scenario = network
+            .map(|network| interplay_presentation::report::identified_scenario(&names.0, &found.report, network));
+        Ok((report, summary, scenario))
+    })
+}

@@ -1,0 +1,163 @@
+//! Scenarios: loaded, changed, checked.
+
+use std::sync::{Arc, OnceLock};
+
+use interplay_scenarios::{Override, Registry, Scenario, embedded};
+use interplay_simulation::measure::RegisterMetrics;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::refused;
+use crate::policy::PythonPolicy;
+
+/// The kinds of drivers and metrics of Interplay, and policies of Python.
+pub fn registry() -> PyResult<&'static Registry> {
+    static REGISTRY: OnceLock<Result<Registry, String>> = OnceLock::new();
+    let made = REGISTRY.get_or_init(|| {
+        let registry = Registry::default().with_driver::<PythonPolicy>().and_then(Registry::with_own_metrics);
+        registry.map_err(|error| error.to_string())
+    });
+    made.as_ref().map_err(|error| PyValueError::new_err(error.clone()))
+}
+
+/// A scenario that was read and checked; it does not change.
+#[pyclass(name = "Scenario", module = "interplay._native", frozen)]
+pub struct PyScenario {
+    pub scenario: Arc<Scenario>,
+    /// What the scenario is called in reports, and how it was asked for.
+    pub name: String,
+    pub source: String,
+}
+
+#[pymethods]
+impl PyScenario {
+    /// Reads a scenario: a name of `interplay.list()`, or a path. `sets` are changes as `--set` takes them.
+    #[staticmethod]
+    #[pyo3(signature = (source, sets=Vec::new(), seed=None, planner=None))]
+    fn load(
+        py: Python<'_>,
+        source: &str,
+        sets: Vec<String>,
+        seed: Option<u64>,
+        planner: Option<String>,
+    ) -> PyResult<PyScenario> {
+        let planner = planner.into_iter().map(Override::Planner);
+        let seed = seed.into_iter().map(Override::Seed);
+        let overrides: Vec<Override> = planner.chain(seed).chain(sets.into_iter().map(Override::Set)).collect();
+        let registry = registry()?;
+        let mut scenario = py.detach(|| registry.load(source, &overrides)).map_err(refused)?;
+        if overrides.iter().any(|change| matches!(change, Override::Planner(_))) {
+            // They are claims about the file's own planner.
+            (scenario.counterfactuals, scenario.left_out) = (Vec::new(), Vec::new());
+        }
+        let name = std::path::Path::new(source).file_stem().filter(|_| source.ends_with(".toml"));
+        let name = name.map_or_else(|| source.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        Ok(PyScenario { scenario: Arc::new(scenario), name, source: source.to_owned() })
+    }
+
+    /// The scenario as a file: everything stated.
+    fn to_toml(&self) -> String {
+        self.scenario.to_file().to_toml()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How it was asked for.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.source
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.scenario.title
+    }
+
+    #[getter]
+    fn shows(&self) -> &str {
+        &self.scenario.shows
+    }
+
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.scenario.seed
+    }
+
+    #[getter]
+    fn duration_s(&self) -> f64 {
+        self.scenario.duration_s
+    }
+
+    #[getter]
+    fn step_s(&self) -> f64 {
+        self.scenario.step_s
+    }
+
+    #[getter]
+    fn horizon_steps(&self) -> usize {
+        self.scenario.horizon_steps
+    }
+
+    /// The names of the vehicles, obstacles last.
+    #[getter]
+    fn vehicles(&self) -> Vec<&str> {
+        self.scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect()
+    }
+
+    /// The kind of driver of each vehicle.
+    #[getter]
+    fn drivers(&self) -> Vec<&str> {
+        self.scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect()
+    }
+
+    /// The names of those in whom nobody drives: parked cars, cones, walls.
+    #[getter]
+    fn obstacles(&self) -> Vec<&str> {
+        let obstacles = self.scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_some());
+        obstacles.map(|vehicle| vehicle.name.as_str()).collect()
+    }
+
+    /// Whether it has a building.
+    #[getter]
+    fn has_building(&self) -> bool {
+        self.scenario.building.is_some()
+    }
+
+    /// What is allowed and may not have been meant.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.scenario.remarks.iter().map(ToString::to_string).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Scenario {:?}: {}>", self.source, self.scenario.title)
+    }
+}
+
+/// The scenarios in the package: name, title, what it shows, figure of the source.
+#[pyfunction]
+pub fn list_scenarios(py: Python<'_>) -> PyResult<Vec<(String, String, String, Option<String>)>> {
+    let registry = registry()?;
+    py.detach(|| {
+        let row = |name: &str| {
+            let scenario = registry.load(name, &[]).map_err(refused)?;
+            Ok((name.to_owned(), scenario.title, scenario.shows, scenario.figure))
+        };
+        embedded().iter().map(|file| row(file.name)).collect()
+    })
+}
+
+/// The names of the scenarios in the package.
+#[pyfunction]
+pub fn scenario_names() -> Vec<&'static str> {
+    embedded().iter().map(|file| file.name).collect()
+}
+
+/// The kinds of drivers.
+#[pyfunction]
+pub fn driver_kinds() -> PyResult<Vec<String>> {
+    Ok(registry()?.driver_kinds().into_iter().filter(|kind| *kind != "python").map(str::to_owned).collect())
+}

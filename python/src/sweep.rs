@@ -1,0 +1,70 @@
+//! Many runs from a plan.
+
+use std::path::PathBuf;
+
+use interplay_presentation::record::{OpenRecording, Recorder, Sink};
+use interplay_sweep::{Shard, SweepOptions, SweepRow};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::{RunError, refused};
+use crate::scenario::registry;
+
+/// Runs a plan into a folder, on all cores, and returns the path of the table of rows, how many were made, and how many have no result.
+/// `text` is a plan as JSON; without it `source` is a name or a path.
+#[pyfunction]
+#[pyo3(signature = (source, folder, text=None, jobs=None, samples=None, keep_failures=false))]
+pub fn sweep(
+    py: Python<'_>,
+    source: &str,
+    folder: PathBuf,
+    text: Option<&str>,
+    jobs: Option<usize>,
+    samples: Option<u64>,
+    keep_failures: bool,
+) -> PyResult<(PathBuf, u64, usize)> {
+    let registry = registry()?;
+    let plan = match text {
+        None => py.detach(|| registry.sweep_plan(source, samples)).map_err(refused)?,
+        Some(json) => {
+            let table: toml::Table =
+                serde_json::from_str(json).map_err(|error| PyValueError::new_err(error.to_string()))?;
+            let text = toml::to_string(&table).map_err(|error| PyValueError::new_err(error.to_string()))?;
+            py.detach(|| registry.sweep_plan_from_text(source, &text, std::path::Path::new(""))).map_err(refused)?
+        }
+    };
+    let jobs = jobs.unwrap_or(0);
+    let record = |row: &SweepRow, scenario: &interplay_scenarios::Scenario| -> Result<(), String> {
+        if row.error.is_some() {
+            return Ok(());
+        }
+        let path = folder.join("recordings").join(format!("{}.rrd", row.key));
+        let recorder =
+            Recorder::begin(scenario, &row.scenario, &Sink::File(path)).map_err(|error| error.to_string())?;
+        let recording = OpenRecording::new(recorder);
+        let watchers: Vec<Box<dyn interplay_simulation::watch::Watcher>> = vec![Box::new(recording.clone())];
+        let report =
+            interplay_simulation::run::run(&row.scenario, scenario, watchers).map_err(|error| error.to_string())?;
+        recording.close(&report).map_err(|error| error.to_string())
+    };
+    let options = SweepOptions {
+        folder: &folder,
+        shard: Shard::WHOLE,
+        keep: keep_failures.then_some(&record),
+        trajectories: false,
+        checked: &|| (),
+        begin: &|_, _| (),
+        advance: &|| (),
+    };
+    py.detach(|| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+        let pool = pool.map_err(|error| RunError::new_err(error.to_string()))?;
+        let outcome = pool.install(|| interplay_sweep::sweep(&plan, &options));
+        let outcome = outcome.map_err(|error| match error {
+            interplay_sweep::SweepError::Refused(error) => refused(*error),
+            error if error.is_bad_input() => PyValueError::new_err(error.to_string()),
+            error => RunError::new_err(error.to_string()),
+        })?;
+        Ok((outcome.table, outcome.made, outcome.unfinished))
+    })
+}
