@@ -5,5 +5,6 @@ import sys
 
 from . import _native
 
-signal.signal(signal.SIGINT, signal.SIG_DFL)
-sys.exit(_native.main(["interplay", *sys.argv[1:]]))
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sys.exit(_native.main(["interplay", *sys.argv[1:]]))

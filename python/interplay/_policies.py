@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -57,7 +57,7 @@ class PolicyFunction:
     def register(self, name: str) -> dict[str, Any]:
         """Lets drivers of that name call it, and returns such a driver."""
 
-        def act(numbers: NDArray[np.float32], shapes: list[tuple[str, tuple[int, ...]]]) -> NDArray[np.float32]:
+        def act(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, Sequence[int]]]) -> NDArray[np.float32]:
             return flat_action(self.function(shaped_observation(numbers, shapes, self.is_single)))
 
         _native.register_policy(name, act)

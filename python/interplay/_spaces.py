@@ -57,7 +57,7 @@ def environment_settings(
     return json.dumps(settings)
 
 
-def shaped_observation(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, tuple[int, ...]]], is_single: bool) -> Any:
+def shaped_observation(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, Sequence[int]]], is_single: bool) -> Any:
     """Numbers in the shapes of views: one array, or a dictionary of arrays by the names of the views. A first axis may be worlds."""
     worlds, place, views = numbers.shape[:-1], 0, {}
     for name, shape in shapes:

@@ -28,7 +28,7 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
     ``perturb`` draws weather and people anew for each episode, by the seed of the scenario.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "render_fps": 1}
+    metadata: dict[str, Any] = {"render_modes": [], "render_fps": 1}
     TERMS: ClassVar[dict[str, float]] = {"discomfort": -1.0, "heat": -0.05}
 
     def __init__(
@@ -76,7 +76,8 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
         angle = 2 * np.pi * (self._world.time_s / 86_400 % 1)
         rest = [np.sin(angle), np.cos(angle), self._outdoor_c / OUTDOOR_C]
         numbers = np.concatenate([error, wanted, occupied, self._heats, rest])
-        return np.clip(numbers, -1, 1).astype(np.float32)
+        seen: NDArray[np.float32] = np.clip(numbers, -1, 1).astype(np.float32)
+        return seen
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Heats for one step of the building."""

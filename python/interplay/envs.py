@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -28,7 +28,9 @@ class Views:
         self.shapes: list[tuple[str, tuple[int, ...]]] = [(kind, tuple(shape)) for kind, shape, *_ in described]
         #: What the entries of the last axis are, by view.
         self.names: dict[str, list[str]] = {kind: names for kind, _, names, *_ in described}
-        boxes = {kind: spaces.Box(low, high, tuple(shape), np.float32) for kind, shape, _, low, high in described}
+        boxes: dict[str, spaces.Space[Any]] = {
+            kind: spaces.Box(low, high, tuple(shape), np.float32) for kind, shape, _, low, high in described
+        }
         if len(boxes) < len(described):
             raise ValueError("`observation` names a view twice")
         self.observation_space: spaces.Space[Any] = boxes[described[0][0]] if self.is_single else spaces.Dict(boxes)
@@ -75,7 +77,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     :param set: changes of the scenario by path.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": PICTURES_PER_S}
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": PICTURES_PER_S}
 
     def __init__(
         self,
@@ -255,7 +257,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
     The rest is as in :class:`InterplayEnv`.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
 
     def __init__(
         self,

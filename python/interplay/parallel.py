@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import functools
+import copy
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +16,14 @@ from ._spaces import environment_settings
 from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size
 
 
-class InterplayParallelEnv(ParallelEnv):  # type: ignore[misc]
+class InterplayParallelEnv(ParallelEnv):
     """A scenario in which any vehicles are agents, by default all that have a driver; our planners drive the rest.
 
     An agent leaves when its episode is over: its vehicle then goes on along its lane. Settings are those of
     :class:`interplay.envs.InterplayEnv`.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: dict[str, Any] = {
         "name": "interplay_v0",
         "render_modes": ["rgb_array"],
         "render_fps": PICTURES_PER_S,
@@ -54,25 +54,20 @@ class InterplayParallelEnv(ParallelEnv):  # type: ignore[misc]
         self._native = _native.Environment(self.scenario, settings)
         self._views = Views(self._native, observation)
         self.possible_agents: list[str] = list(self._native.agents)
+        # Each agent has spaces of its own, which draw random samples of their own.
+        own = (self._views.observation_space, self._views.action_space)
+        self._spaces = {agent: copy.deepcopy(own) for agent in self.possible_agents}
         self.agents: list[str] = []
         self._rng = np.random.default_rng()
         self._is_seeded = False
 
-    @functools.lru_cache(maxsize=None)
     def observation_space(self, agent: str) -> Any:
         """What an agent sees."""
-        return self._own_space(self._views.observation_space)
+        return self._spaces[agent][0]
 
-    @functools.lru_cache(maxsize=None)
     def action_space(self, agent: str) -> Any:
         """What an agent decides."""
-        return self._own_space(self._views.action_space)
-
-    @staticmethod
-    def _own_space(space: Any) -> Any:
-        import copy
-
-        return copy.deepcopy(space)
+        return self._spaces[agent][1]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode with all agents, of which everything is drawn from the seed."""
