@@ -6,7 +6,7 @@ from stable_baselines3 import DQN
 
 env = gymnasium.make("interplay/RampMerge-v0", scenario="ramp-merge/nice", action="DiscreteMeta")
 model = DQN("MlpPolicy", env, learning_rate=5e-4, learning_starts=200, gamma=0.95, target_update_interval=50, seed=1)
-model.learn(total_timesteps=2_000)
+model.learn(total_timesteps=6_000)
 
 for episode in range(5):
     observation, info = env.reset(seed=episode)
