@@ -6,21 +6,22 @@ import gymnasium
 
 from . import _native
 
-#: The scenario of a family whose environment is not asked for another one; of other families the first.
-USUAL = {"lane-change": "lane-change/front-nice", "ramp-merge": "ramp-merge/front-nice", "intersection": "intersection/nice"}
+#: The scenario of a family, where it has one of them, whose environment is not asked for another one; of other families the first.
+USUAL = ("front-nice", "nice")
 #: Families without vehicles that could be driven.
 BUILDINGS = "building"
 
 
 def families() -> dict[str, str]:
     """The families of scenarios with vehicles, each with its usual scenario."""
-    found: dict[str, str] = {}
-    names = _native.scenario_names()
-    for name in names:
+    found: dict[str, list[str]] = {}
+    for name in _native.scenario_names():
         family = name.split("/")[0]
         if family != BUILDINGS:
-            found.setdefault(family, USUAL.get(family, name))
-    return {family: scenario if scenario in names else found[family] for family, scenario in found.items()}
+            found.setdefault(family, []).append(name)
+    return {
+        family: next((usual for word in USUAL if (usual := f"{family}/{word}") in names), names[0]) for family, names in found.items()
+    }
 
 
 def identifier(family: str) -> str:
