@@ -217,17 +217,20 @@ def run(
     """Runs a scenario to its end and returns its report.
 
     ``planner`` drives the ego instead of the scenario's choice: a kind of driver, or ``{name: function}``, where the function maps
-    an observation to an action (:class:`interplay.PolicyFunction`). ``record``, ``animate`` and ``trajectories`` are files to be
-    written: ``.rrd``; ``.gif``, ``.webp``, ``.png`` or ``.mp4``; ``.csv`` or ``.parquet``.
+    an observation to an action (:class:`interplay.PolicyFunction`); what it raises is raised when the run is over. ``record``,
+    ``animate`` and ``trajectories`` are files to be written: ``.rrd``; ``.gif``, ``.webp``, ``.png`` or ``.mp4``; ``.csv`` or
+    ``.parquet``.
     """
-    from ._policies import registered
+    from ._policies import raise_failures, registered
 
     kind, driver = registered(planner)
     if driver is not None:
         set = [*changes(set), f"vehicle.ego.driver={toml_value(driver)}"]
     loaded = load(scenario, set=set, seed=seed, planner=kind)
     paths = [None if path is None else os.fspath(path) for path in (record, animate, trajectories)]
-    return Report.of(_native.run(loaded, *paths))
+    recorded = _native.run(loaded, *paths)
+    raise_failures(planner if isinstance(planner, Mapping) else ())
+    return Report.of(recorded)
 
 
 def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Record:

@@ -43,7 +43,7 @@ class ScenarioError(ValueError):
     file: str | None
     line: int | None
     column: int | None
-    #: The path of the key that is at fault, such as ``vehicle.ego.goal.speed_mps``.
+    #: The key that is at fault, such as ``speed_mps``.
     key: str | None
     #: All faults: file, line and column, what is wrong, and what would work.
     faults: list[tuple[str | None, tuple[int, int] | None, str, str | None]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -16,6 +16,9 @@ from ._spaces import flat_action, observation_settings, shaped_observation
 
 #: A kind of driver, or functions by name; none for the scenario's own.
 Planner = Union[str, Mapping[str, Any], None]
+
+#: The first error of each function that was registered, by its name.
+_failures: dict[str, BaseException] = {}
 
 
 class PolicyFunction:
@@ -58,10 +61,31 @@ class PolicyFunction:
         """Lets drivers of that name call it, and returns such a driver."""
 
         def act(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, Sequence[int]]]) -> NDArray[np.float32]:
-            return flat_action(self.function(shaped_observation(numbers, shapes, self.is_single)))
+            try:
+                return self._checked(self.function(shaped_observation(numbers, shapes, self.is_single)))
+            except BaseException as error:
+                _failures.setdefault(name, error)
+                raise
 
+        _failures.pop(name, None)
         _native.register_policy(name, act)
         return self.settings(name)
+
+
+    def _checked(self, action: Any) -> NDArray[np.float32]:
+        """The numbers of an action of the function; what is none is a ValueError."""
+        numbers = np.asarray(action)
+        count = {"Continuous": 2, "DiscreteMeta": 1}.get(self.action, numbers.size)
+        if numbers.dtype.kind not in "fiub" or numbers.size != count or not np.isfinite(numbers).all():
+            raise ValueError(f"a function with the action {self.action} returned {action!r}")
+        return flat_action(numbers)
+
+
+def raise_failures(names: Iterable[str]) -> None:
+    """Raises the first error of the functions with these names, if there was one; runs go on with failed plans meanwhile."""
+    for name in names:
+        if (error := _failures.pop(name, None)) is not None:
+            raise error
 
 
 def _version(function: Any) -> str:

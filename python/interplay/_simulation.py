@@ -74,7 +74,10 @@ class Simulation:
 
     def apply_plan(self, vehicle: str, inputs: ArrayLike) -> None:
         """The same with a plan, of which the others are told: rows of acceleration and steering, one for each step of the horizon."""
-        self._world.apply_plan(vehicle, np.ascontiguousarray(inputs, dtype=np.float64).reshape(-1, 2))
+        rows = np.ascontiguousarray(inputs, dtype=np.float64)
+        if rows.ndim != 2:
+            raise ValueError(f"a plan is rows of acceleration and steering, and not of the shape {rows.shape}")
+        self._world.apply_plan(vehicle, rows)
 
     def zones(self) -> list[Zone]:
         """The zones of the building now."""

@@ -67,6 +67,14 @@ def shaped_observation(numbers: NDArray[np.float32], shapes: Sequence[tuple[str,
     return views[shapes[0][0]] if is_single else views
 
 
+def own_seed(seed: Any) -> int:
+    """A seed of a scenario."""
+    number = int(seed)
+    if not 0 <= number < 2**64:
+        raise ValueError(f"a seed is at least 0 and below 2^64, and not {seed}")
+    return number
+
+
 def flat_action(action: Any) -> NDArray[np.float32]:
     """The numbers of an action, whatever its shape."""
     return np.ascontiguousarray(action, dtype=np.float32).reshape(-1)

@@ -11,19 +11,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._policies import as_function
+from ._policies import as_function, raise_failures
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-def _planners(planners: Any) -> list[Any]:
-    """Planners of a plan, functions of Python as tables."""
+def _is_function(value: Any) -> bool:
+    return callable(value) or hasattr(value, "function") or hasattr(value, "predict")
+
+
+def _planners(planners: Any, names: list[str]) -> list[Any]:
+    """Planners of a plan, functions of Python as tables; ``names`` gets the names of those."""
     listed = planners if isinstance(planners, (list, tuple)) else [planners]
     found: list[Any] = []
     for planner in listed:
-        if isinstance(planner, Mapping) and all(callable(value) or hasattr(value, "function") or hasattr(value, "predict") for value in planner.values()):
+        if isinstance(planner, Mapping) and all(_is_function(value) for value in planner.values()):
             for name, function in planner.items():
+                names.append(name)
                 driver = as_function(function).register(name)
                 kind = driver.pop("kind")
                 found.append({"name": name, "kind": kind, "set": {f"vehicle.ego.driver.{key}": value for key, value in driver.items()}})
@@ -48,17 +53,18 @@ def sweep(
     """
     import pandas as pd
 
-    text = None
+    text, functions = None, list[str]()
     if isinstance(plan, Mapping):
         written = dict(plan)
         if "planner" in written:
-            written["planner"] = _planners(written["planner"])
+            written["planner"] = _planners(written["planner"], functions)
         if samples is not None:
             written["samples"] = samples
         text, plan = json.dumps(written), "the plan"
     with tempfile.TemporaryDirectory() as passing:
         folder = Path(passing) / "rows" if out is None else Path(out)
         table, _, unfinished = _native.sweep(os.fspath(plan), folder, text, jobs, samples, keep_failures)
+        raise_failures(functions)
         rows = pd.read_parquet(table)
     if unfinished:
         import warnings

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._library import Changes, Report, ScenarioLike, load, records
-from ._spaces import environment_settings, flat_action, shaped_observation
+from ._spaces import environment_settings, flat_action, own_seed, shaped_observation
 
 #: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
 PICTURE_PX = (640, 960)
@@ -134,11 +134,11 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         if "scenario" in options:
             self._change_scenario(options["scenario"])
         if options.get("seed") is not None:
-            self._native.reset_as_written(int(options["seed"]))
+            self._native.reset_as_written(own_seed(options["seed"]))
         else:
             if seed is None and not self._is_seeded:
                 seed = int(self.np_random.integers(2**63))
-            self._native.reset(seed)
+            self._native.reset(None if seed is None else own_seed(seed))
         self._is_seeded = True
         if self.render_mode == "human":
             self.render()
@@ -308,9 +308,9 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
                 seeds = [int(number) for number in self.np_random.integers(2**63, size=self.num_envs)]
         elif isinstance(seed, (int, np.integer)):
             self._np_random, self._np_random_seed = gymnasium.utils.seeding.np_random(int(seed))
-            seeds = [int(seed) + world for world in range(self.num_envs)]
+            seeds = [own_seed(int(seed) + world) for world in range(self.num_envs)]
         else:
-            seeds = [None if number is None else int(number) for number in seed]
+            seeds = [None if number is None else own_seed(number) for number in seed]
         which = np.ones(self.num_envs, dtype=np.bool_)
         if options is not None:
             options = dict(options)

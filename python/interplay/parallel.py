@@ -12,7 +12,7 @@ from pettingzoo import ParallelEnv
 
 from . import _native
 from ._library import Changes, ScenarioLike, load
-from ._spaces import environment_settings
+from ._spaces import environment_settings, own_seed
 from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size
 
 
@@ -74,11 +74,11 @@ class InterplayParallelEnv(ParallelEnv):
         if options and (unknown := [name for name in options if name != "seed"]):
             raise ValueError(f"option {unknown[0]!r}; the only one is seed")
         if options and options.get("seed") is not None:
-            self._native.reset_as_written(int(options["seed"]))
+            self._native.reset_as_written(own_seed(options["seed"]))
         else:
             if seed is None and not self._is_seeded:
                 seed = int(self._rng.integers(2**63))
-            self._native.reset(seed)
+            self._native.reset(None if seed is None else own_seed(seed))
         self._is_seeded = True
         self.agents = list(self.possible_agents)
         return self._seen(self.agents), {agent: self._info(agent, None) for agent in self.agents}

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env.base_vec_env import VecEnv as BaseVecEnv
 
+from . import _native
 from .envs import InterplayVectorEnv
 
 
@@ -59,6 +60,10 @@ class VecEnv(BaseVecEnv):
     def action_masks(self) -> Any:
         """Which meta-actions can be done now, for ``MaskablePPO``."""
         return self.worlds.action_masks()
+
+    def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
+        """The actions of a planner of ours in all worlds now; see :func:`interplay.policy`."""
+        return self.worlds.planned(planner, agent)
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
         """An attribute of the worlds, once for each."""
