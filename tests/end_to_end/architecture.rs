@@ -94,7 +94,7 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are a crate of the repository")
 }
 
-fn manifest(folder: &Path) -> Table {
+pub fn manifest(folder: &Path) -> Table {
     let path = folder.join("Cargo.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -107,7 +107,7 @@ pub fn members() -> Vec<String> {
 }
 
 /// All dependencies of a crate: normal, development and build dependencies, for every target.
-fn dependencies(table: &Table) -> Vec<String> {
+pub fn dependencies(table: &Table) -> Vec<String> {
     let mut found = Vec::new();
     for (key, value) in table {
         let Some(below) = value.as_table() else { continue };
@@ -120,7 +120,7 @@ fn dependencies(table: &Table) -> Vec<String> {
 }
 
 /// The folder of a package of the workspace.
-fn crate_folder(package: &str) -> Option<String> {
+pub fn crate_folder(package: &str) -> Option<String> {
     members().into_iter().find(|member| manifest(&root().join(member))["package"]["name"].as_str() == Some(package))
 }
 
@@ -140,7 +140,8 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn all_rust_files() -> Vec<PathBuf> {
-    members().iter().flat_map(|member| rust_files(&root().join(member))).collect()
+    let folders = members().into_iter().chain(["python/src".to_owned()]);
+    folders.flat_map(|folder| rust_files(&root().join(folder))).collect()
 }
 
 fn read(path: &Path) -> String {

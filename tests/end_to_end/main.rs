@@ -15,7 +15,7 @@
 //!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
 //!   and for other programs: [`fmu`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`]
+//! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`], [`python_package`]
 
 mod animations;
 mod architecture;
@@ -50,6 +50,7 @@ mod own;
 mod packages;
 mod plants;
 mod predictions;
+mod python_package;
 mod recorded;
 mod recordings;
 mod rectangles;

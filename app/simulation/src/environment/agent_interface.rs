@@ -112,9 +112,10 @@ impl AgentInterface {
 
     /// Which meta-actions can be done, by number; of other actions nothing is said.
     pub fn action_mask(&self, scene: &Scene) -> Option<[bool; DiscreteMeta::COUNT]> {
-        let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
-        let mask = DiscreteMeta::ALL.map(|action| target.after(action, scene).is_some());
-        (self.action == Action::DiscreteMeta).then_some(mask)
+        (self.action == Action::DiscreteMeta).then(|| {
+            let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
+            DiscreteMeta::ALL.map(|action| target.after(action, scene).is_some())
+        })
     }
 
     /// The numbers that come nearest to a plan: how one of our planners acts through this interface.

@@ -35,8 +35,10 @@ impl Metric for PostEncroachment {
             .better(Better::Higher)
     }
 
-    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
-        Box::new(Encounters { vehicle, past: VecDeque::new(), least_s: None })
+    fn begin(&self, _: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        let reach_m = start.vehicles.iter().map(|vehicle| half_diagonal_m(&vehicle.body)).collect();
+        let headings_rad = vec![[f64::INFINITY, f64::NEG_INFINITY]; start.vehicles.len()];
+        Box::new(Encounters { vehicle, reach_m, headings_rad, past: VecDeque::new(), least_s: None })
     }
 }
 
@@ -52,6 +54,10 @@ struct PastMoment {
 #[derive(Clone, Debug)]
 struct Encounters {
     vehicle: usize,
+    /// No point of a body is further than this from its mass centre, in the scenario's order \[m\].
+    reach_m: Vec<f64>,
+    /// Between which headings each vehicle has driven so far \[rad\].
+    headings_rad: Vec<[f64; 2]>,
     /// The moments that still count, oldest first.
     past: VecDeque<PastMoment>,
     least_s: Option<f64>,
@@ -70,8 +76,14 @@ impl Measurement for Encounters {
             let time_s = tick.end.time_s - (1.0 - share) * tick.step_s;
             let moved = tick.frame.vehicles.iter().zip(tick.end.states);
             let at = |(from, to): (&VehicleFrame, &State)| (!from.is_absent).then(|| between(&from.state, to, share));
-            let states = moved.map(at).collect();
-            self.past.retain(|moment| time_s - moment.time_s <= LONGEST_S * times);
+            let states: Vec<Option<State>> = moved.map(at).collect();
+            for ([low, high], state) in self.headings_rad.iter_mut().zip(&states) {
+                let heading_rad = state.as_ref().map(|state| state.heading_rad);
+                (*low, *high) = heading_rad.map_or((*low, *high), |rad| (low.min(rad), high.max(rad)));
+            }
+            while self.past.front().is_some_and(|moment| time_s - moment.time_s > LONGEST_S * times) {
+                self.past.pop_front();
+            }
             self.past.push_back(PastMoment { time_s, states });
             self.compare_last(&bodies);
         }
@@ -87,21 +99,32 @@ impl Measurement for Encounters {
 }
 
 impl Encounters {
+    /// Whether another vehicle has ever driven in another direction than this one may have.
+    fn may_cross(&self, other: usize) -> bool {
+        let [own, theirs] = [self.vehicle, other].map(|vehicle| self.headings_rad[vehicle]);
+        other != self.vehicle && (own[1] - theirs[0]).max(theirs[1] - own[0]) >= ALONG_RAD
+    }
+
     /// Compares the last footprints with those before, the latest first.
     fn compare_last(&mut self, bodies: &[&Body]) {
         let Some(now) = self.past.back() else { return };
+        let others: Vec<usize> = (0..bodies.len()).filter(|other| self.may_cross(*other)).collect();
+        if others.is_empty() {
+            return;
+        }
         for past in self.past.iter().rev() {
             let apart_s = now.time_s - past.time_s;
             if self.least_s.is_some_and(|least_s| apart_s >= least_s) {
                 return;
             }
-            let others = (0..bodies.len()).filter(|other| *other != self.vehicle);
             let meets = |first: usize, second: usize| {
                 let (Some(then), Some(there)) = (&past.states[first], &now.states[second]) else { return false };
-                let (first, second) = ((bodies[first], then), (bodies[second], there));
-                is_near(first, second) && !is_along(first.1, second.1) && overlap(first, second)
+                let reach_m = self.reach_m[first] + self.reach_m[second];
+                is_near(then, there, reach_m)
+                    && !is_along(then, there)
+                    && overlap((bodies[first], then), (bodies[second], there))
             };
-            if { others }.any(|other| meets(self.vehicle, other) || meets(other, self.vehicle)) {
+            if others.iter().any(|other| meets(self.vehicle, *other) || meets(*other, self.vehicle)) {
                 self.least_s = Some(apart_s);
                 return;
             }
@@ -109,15 +132,17 @@ impl Encounters {
     }
 }
 
+/// Headings that differ by less are one direction, by any rounding of [`is_along`] \[rad\].
+const ALONG_RAD: f64 = 0.785;
+
 /// Whether two vehicles drive in one direction.
 fn is_along(one: &State, other: &State) -> bool {
     libm::cos(one.heading_rad - other.heading_rad) > std::f64::consts::FRAC_1_SQRT_2
 }
 
-/// Whether two bodies are so near that they may overlap.
-fn is_near(one: (&Body, &State), other: (&Body, &State)) -> bool {
-    let reach_m = half_diagonal_m(one.0) + half_diagonal_m(other.0);
-    let [x_m, y_m] = [one.1.x_m - other.1.x_m, one.1.y_m - other.1.y_m];
+/// Whether two vehicles are within a reach \[m\], so that they may overlap.
+fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
+    let [x_m, y_m] = [one.x_m - other.x_m, one.y_m - other.y_m];
     x_m * x_m + y_m * y_m <= reach_m * reach_m
 }
 
