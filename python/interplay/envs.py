@@ -15,7 +15,7 @@ from ._library import Changes, Report, ScenarioLike, load, records
 from ._spaces import environment_settings, flat_action, own_seed, shaped_observation
 
 #: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
-PICTURE_PX = (640, 960)
+PICTURE_PX = (544, 720)
 PICTURES_PER_S = 10
 
 
@@ -186,10 +186,10 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     def report(self) -> Report | None:
         """Ends the episode and says what was measured in it; none before the first."""
         text = self._native.finish()
-        return None if text is None else Report(records(text))
+        return None if text is None else Report({**records(text), "scenario": self.scenario.name})
 
     def render(self) -> Any:
-        """The world from above: an array of 640 × 960 pixels, or a window."""
+        """The world from above: an array of 544 × 720 pixels, or a window."""
         if self.render_mode is None:
             gymnasium.logger.warn("say how to render: gymnasium.make(…, render_mode='rgb_array')")
             return None

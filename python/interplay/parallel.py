@@ -70,9 +70,10 @@ class InterplayParallelEnv(ParallelEnv):
         return self._spaces[agent][1]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Begins an episode with all agents, of which everything is drawn from the seed."""
-        if options and (unknown := [name for name in options if name != "seed"]):
-            raise ValueError(f"option {unknown[0]!r}; the only one is seed")
+        """Begins an episode with all agents, of which everything is drawn from the seed.
+
+        ``options={"seed": …}`` is the seed of the scenario itself; other options are not looked at, which PettingZoo asks for.
+        """
         if options and options.get("seed") is not None:
             self._native.reset_as_written(own_seed(options["seed"]))
         else:
@@ -123,7 +124,7 @@ class InterplayParallelEnv(ParallelEnv):
         return self._views.planned(planner.act(self._native, place))
 
     def render(self) -> Any:
-        """The world from above, an array of 640 × 960 pixels."""
+        """The world from above, an array of 544 × 720 pixels."""
         picture = self._native.picture()
         return None if picture is None else _of_size(picture, PICTURE_PX)
 
