@@ -61,3 +61,7 @@ fuzz *ARGS:
 package:
     packaging/archive.sh
     packaging/try_archive.sh target/dist/*.tar.gz
+
+# The wheel of the package for Python, and a trial of it (needs maturin and an index of packages)
+wheel:
+    packaging/try_wheel.sh

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints a software bill of materials of the command: CycloneDX 1.5 as JSON.
+"""Prints a software bill of materials of the command, or with the word `python` of the package for Python: CycloneDX 1.5 as JSON.
 
 It has no time and no random number in it, so the same tree gives the same bytes.
 """
@@ -9,12 +9,12 @@ import re
 import sys
 import tomllib
 
-from shipped import ROOT, is_own, shipped
+from shipped import PRODUCTS, is_own, product, shipped
 
 
-def checksums() -> dict[tuple[str, str], str]:
+def checksums(of: str) -> dict[tuple[str, str], str]:
     """The SHA-256 of each crate's archive, by name and version, as Cargo.lock has them."""
-    lock = tomllib.loads((ROOT / "Cargo.lock").read_text("utf-8"))
+    lock = tomllib.loads((PRODUCTS[of][0] / "Cargo.lock").read_text("utf-8"))
     return {(it["name"], it["version"]): it["checksum"] for it in lock["package"] if "checksum" in it}
 
 
@@ -45,14 +45,16 @@ def component(package: dict, known: dict[tuple[str, str], str]) -> dict:
 
 
 def main() -> int:
-    known, packages = checksums(), shipped()
-    command = next(package for package in packages if package["name"] == "interplay")
-    libraries = [component(package, known) for package in packages if package is not command]
+    of = product()
+    known, packages = checksums(of), shipped(of)
+    whole = next(package for package in packages if package["name"] == PRODUCTS[of][1])
+    kind = "application" if of == "command" else "library"
+    libraries = [component(package, known) for package in packages if package is not whole]
     document = {
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",
         "version": 1,
-        "metadata": {"component": component(command, known) | {"type": "application"}},
+        "metadata": {"component": component(whole, known) | {"type": kind}},
         "components": libraries,
         "dependencies": [
             {"ref": reference(it), "dependsOn": [reference(packages[at]) for at in it["links"]]} for it in packages

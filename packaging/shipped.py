@@ -1,10 +1,21 @@
-"""The crates that are linked into the command, from `cargo metadata`."""
+"""The crates that are linked into the command, or into the package for Python, from `cargo metadata`."""
 
 import json
 import pathlib
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# What is shipped: the folder of its lock file, and its crate.
+PRODUCTS = {"command": (ROOT, "interplay"), "python": (ROOT / "python", "interplay-python")}
+
+
+def product() -> str:
+    """What the first argument of a script names; without any, the command."""
+    word = sys.argv[1] if len(sys.argv) > 1 else "command"
+    if word not in PRODUCTS:
+        sys.exit(f"{word}: choose from {', '.join(PRODUCTS)}")
+    return word
 
 
 def said(*command: str) -> str:
@@ -12,17 +23,20 @@ def said(*command: str) -> str:
     return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
 
 
-def shipped() -> list[dict]:
-    """Packages of the tree of `interplay`, sorted by name and version; `links` of each are the indices of what it depends on.
+def shipped(of: str) -> list[dict]:
+    """Packages of the tree of a product, sorted by name and version; `links` of each are the indices of what it depends on.
 
     Only dependencies that are linked count: none of build scripts and tests, and no procedural macros, whose code runs
     in the compiler. The platform is that of this machine.
     """
     target = next(line.removeprefix("host: ") for line in said("rustc", "-vV").splitlines() if line.startswith("host: "))
-    metadata = json.loads(said("cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target))
+    folder, name = PRODUCTS[of]
+    manifest = f"--manifest-path={folder / 'Cargo.toml'}"
+    asked = ("cargo", "metadata", "--format-version=1", "--locked", manifest, "--filter-platform", target)
+    metadata = json.loads(said(*asked))
     packages = {package["id"]: package for package in metadata["packages"]}
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-    root = next(package["id"] for package in metadata["packages"] if package["name"] == "interplay")
+    root = next(package["id"] for package in metadata["packages"] if package["name"] == name)
     found, waiting = {}, [root]
     while waiting:
         package = waiting.pop()

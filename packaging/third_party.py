@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints the licences of everything in the command, as Markdown: a table, then each text once with its crates.
+"""Prints the licences of everything in the command, or with the word `python` in the package for Python, as Markdown: a table, then
+each text once with its crates.
 
 Exits with 1 if a crate states no licence.
 """
@@ -8,7 +9,7 @@ import pathlib
 import re
 import sys
 
-from shipped import ROOT, is_own, shipped
+from shipped import ROOT, is_own, product, shipped
 
 NAMES = ("licen", "copying", "notice", "copyright", "unlicense")
 # Archives of some crates have no licence text. Of what their manifests state, the first of these applies.
@@ -32,12 +33,13 @@ def general(package: dict) -> str:
 
 
 def main() -> int:
-    crates = [package for package in shipped() if not is_own(package)]
+    of = product()
+    crates = [package for package in shipped(of) if not is_own(package)]
     unstated = [package["name"] for package in crates if not (package["license"] or package["license_file"])]
     if unstated:
         print(f"no licence is stated by {', '.join(unstated)}", file=sys.stderr)
         return 1
-    print(f"# What is in the command\n\n{len(crates)} crates, the standard library of Rust (MIT OR Apache-2.0), and the font DejaVu Sans.\n")
+    print(f"# What is in the {'command' if of == 'command' else 'package'}\n\n{len(crates)} crates, the standard library of Rust (MIT OR Apache-2.0), and the font DejaVu Sans.\n")
     print("| crate | version | licence | source |\n|---|---|---|---|")
     by_text: dict[str, list[str]] = {}
     for package in crates:
