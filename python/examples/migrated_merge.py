@@ -4,7 +4,7 @@ import gymnasium
 import interplay
 from stable_baselines3 import DQN
 
-env = gymnasium.make("interplay/RampMerge-v0", scenario="ramp-merge/nice", action="DiscreteMeta")
+env = gymnasium.make("interplay/RampMerge-v0", action="DiscreteMeta")
 model = DQN("MlpPolicy", env, learning_rate=5e-4, learning_starts=200, gamma=0.95, target_update_interval=50, seed=1)
 model.learn(total_timesteps=6_000)
 
