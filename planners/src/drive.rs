@@ -60,6 +60,12 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         false
     }
 
+    /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Those who go first, and whoever
+    /// decides from outside, drive as they do.
+    fn may_be_refused(&self) -> bool {
+        !self.goes_first()
+    }
+
     /// The motion that its vehicle carries out, whatever its inputs are; `None` for a driver whose inputs move it. While the record
     /// lasts, the others are told nothing of its plan.
     fn record(&self) -> Option<Record> {

@@ -37,7 +37,7 @@ impl Planner {
             branches: kind.branches(),
             homotopy_log: HomotopyLog::default(),
             prediction: kind.prediction().unwrap_or_default(),
-            may_be_refused: !kind.goes_first(),
+            may_be_refused: kind.may_be_refused(),
             deadline: None,
         }
     }
@@ -61,7 +61,7 @@ impl Planner {
         self.beliefs = beliefs.filter(|_| !kind.knows_plans());
         self.branches = kind.branches();
         self.prediction = kind.prediction().unwrap_or_default();
-        self.may_be_refused = !kind.goes_first();
+        self.may_be_refused = kind.may_be_refused();
     }
 
     /// A copy that remembers the same; `None` if its driver cannot be copied.

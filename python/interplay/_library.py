@@ -128,6 +128,8 @@ class Frames(Mapping[str, Any]):
         """Unit and axes of each array."""
 
         def unit(name: str) -> str:
+            if name == "plan":
+                return "m, m, rad, m/s"
             ends = [end for end in self._UNITS if name.endswith(end)]
             return self._UNITS[max(ends, key=len)] if ends else "1"
 

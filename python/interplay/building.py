@@ -92,7 +92,7 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
         limits = np.where(self._heats < 0, self._limits[:, 0], self._limits[:, 1])
         self._world.apply_heats(self._heats * limits)
         self._world.step()
-        while not self._world.is_over and (frame := self._world.frame()) is not None and "heat_kw" not in frame:
+        while not self._world.is_over and (frame := self._world.frame()) is not None and not len(frame["heat_kw"]):
             self._world.step()
         frame = self._world.frame()
         assert frame is not None

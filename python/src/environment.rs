@@ -140,7 +140,7 @@ impl PyEnvironment {
     /// Simulated time; 0 before the first episode.
     #[getter]
     fn time_s(&self) -> f64 {
-        self.environment.world().map_or(0.0, |world| world.time_s())
+        self.environment.time_s()
     }
 
     /// Which meta-actions an agent can do now.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
 use interplay_planners::belief::Outlook;
+use interplay_planners::predict::Prediction;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
 use interplay_simulation::environment::{Action, AgentInterface, Observation, Policy, PolicyDriver, PolicyError};
 use numpy::{IntoPyArray, PyReadonlyArrayDyn};
@@ -83,6 +84,15 @@ impl DriverKind for PythonPolicy {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Waiting { settings: self.clone(), driver: None })
+    }
+
+    fn prediction(&self) -> Option<Prediction> {
+        None
+    }
+
+    /// It drives as it did where it learned, in an environment.
+    fn may_be_refused(&self) -> bool {
+        false
     }
 
     fn description(&self) -> String {

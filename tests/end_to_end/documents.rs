@@ -133,6 +133,7 @@ fn is_path(word: &str) -> bool {
         "examples/",
         "packaging/",
         "planners/",
+        "python/",
         "scenarios/",
         "tests/",
     ];

@@ -27,6 +27,10 @@ impl DriverKind for Settings {
     fn prediction(&self) -> Option<Prediction> {
         None
     }
+
+    fn may_be_refused(&self) -> bool {
+        false
+    }
 }
 
 /// The driver that is asked where no input has come from outside.

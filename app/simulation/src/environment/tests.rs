@@ -117,6 +117,19 @@ fn a_planner_of_ours_reaches_the_goal_through_an_interface() {
     }
 }
 
+/// A building beside the road has steps of its own, which are no ticks of the vehicles.
+#[test]
+fn a_building_beside_the_road_takes_no_time_of_the_vehicles() {
+    let mixed = interplay_scenarios::embedded().iter().find(|file| file.name.starts_with("mixed/")).expect("one");
+    let scenario = load(mixed.name, &[]).expect("authored");
+    let mut environment = Environment::new(&scenario, &EnvironmentSettings::default()).expect("an environment");
+    environment.reset(Some(1)).expect("an episode");
+    for step in 1..=8 {
+        environment.step(&[0.0, 0.0]).expect("a step");
+        assert!((environment.time_s() - f64::from(step) * environment.decision_s()).abs() < 1e-9);
+    }
+}
+
 #[test]
 fn what_is_no_action_is_refused_and_nothing_moves() {
     let mut environment = environment(&EnvironmentSettings::default());

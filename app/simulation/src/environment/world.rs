@@ -23,6 +23,7 @@ pub struct Environment {
     plans_per_decision: usize,
     seats: Vec<Seat>,
     world: Option<Simulation>,
+    time_s: f64,
 }
 
 /// An agent at its vehicle.
@@ -68,6 +69,7 @@ impl Environment {
             settings: settings.clone(),
             scenario,
             world: None,
+            time_s: 0.0,
         })
     }
 
@@ -134,7 +136,7 @@ impl Environment {
             seat.interface = AgentInterface::new(&settings.observations, settings.action, horizon);
             seat.episode = Episode::begin(&drawn.vehicles[seat.vehicle], &starts[seat.vehicle]);
         }
-        self.world = Some(world);
+        (self.world, self.time_s) = (Some(world), 0.0);
         self.look()
     }
 
@@ -206,26 +208,30 @@ impl Environment {
         Ok(())
     }
 
-    /// Steps the world until the vehicles plan anew; whether there is no time left.
+    /// Steps the world until the vehicles plan anew; whether there is no time left. Steps of a building between them pass, too.
     fn step_to_next_plan(&mut self) -> Result<bool, EnvironmentError> {
         let Some(world) = &mut self.world else { return Err(EnvironmentError::Over) };
-        for _ in 0..self.scenario.ticks_per_plan {
-            if world.step()?.is_none() {
-                self.seats.iter_mut().for_each(|seat| seat.episode.time_is_over());
-                return Ok(true);
-            }
+        let mut ticks = 0;
+        while ticks < self.scenario.ticks_per_plan && world.vehicles_move_again() {
+            world.step()?;
             let (measures, frame) = (world.world.resource::<Measures>(), world.frame());
+            let Some(frame) = frame.filter(|frame| !frame.vehicles.is_empty()) else { continue };
+            ticks += 1;
             for seat in self.seats.iter_mut().filter(|seat| !seat.episode.is_over()) {
-                if let Some(frame) = frame {
-                    seat.episode.observe((world.scenario(), seat.vehicle), measures, frame);
-                }
+                seat.episode.observe((world.scenario(), seat.vehicle), measures, frame);
             }
         }
-        let is_over = world.is_over();
+        self.time_s += ticks as f64 * self.scenario.step_s;
+        let is_over = !world.vehicles_move_again();
         if is_over {
             self.seats.iter_mut().for_each(|seat| seat.episode.time_is_over());
         }
         Ok(is_over)
+    }
+
+    /// Simulated time of the vehicles since the episode began \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.time_s
     }
 
     /// Whether any agent's episode goes on.

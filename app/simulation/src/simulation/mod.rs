@@ -163,6 +163,11 @@ impl Simulation {
         self.time_points.clone().next().is_none()
     }
 
+    /// Whether there is a tick of the vehicles left.
+    pub(crate) fn vehicles_move_again(&self) -> bool {
+        self.world.get_resource::<Clock>().is_some_and(|clock| clock.tick < self.scenario.tick_count())
+    }
+
     /// What the driver of a vehicle would be given at the next tick, sensing included: the state of every vehicle that it sees, the
     /// roads, its own goal. Nothing changes: twice gives the same, and no digest depends on it.
     ///
