@@ -99,14 +99,18 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=200_000, help="decisions of training for each seed")
     parser.add_argument("--samples", type=int, default=200)
     parser.add_argument("--seeds", type=int, default=len(TRAINING_SEEDS))
+    parser.add_argument("--evaluate-only", action="store_true", help="with the networks that are there")
     asked = parser.parse_args()
     torch.set_num_threads(1)
     asked.out.mkdir(parents=True, exist_ok=True)
     networks, rows = {}, []
     for number, seed in enumerate(TRAINING_SEEDS[: asked.seeds], start=1):
-        began = time.perf_counter()
+        began, saved = time.perf_counter(), asked.out / f"ppo-{number}.zip"
+        if asked.evaluate_only:
+            networks[f"ppo-{number}"] = PPO.load(saved, device="cpu")
+            continue
         networks[f"ppo-{number}"], curve = train(seed, asked.steps)
-        networks[f"ppo-{number}"].save(asked.out / f"ppo-{number}.zip")
+        networks[f"ppo-{number}"].save(saved)
         rows += curve
         print(f"seed {number}: {time.perf_counter() - began:.0f} s, {curve[-1]}", flush=True)
         with (asked.out / "curves.csv").open("w", newline="") as file:
