@@ -66,6 +66,16 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         !self.goes_first()
     }
 
+    /// Whether its inputs are handed in from outside, by whoever runs the simulation.
+    fn is_driven_from_outside(&self) -> bool {
+        false
+    }
+
+    /// The inputs that were handed in once and are to be handed in again.
+    fn inputs(&self) -> Option<&crate::inputs::Settings> {
+        None
+    }
+
     /// The motion that its vehicle carries out, whatever its inputs are; `None` for a driver whose inputs move it. While the record
     /// lasts, the others are told nothing of its plan.
     fn record(&self) -> Option<Record> {

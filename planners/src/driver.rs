@@ -67,6 +67,8 @@ drivers! {
     Walker(walker),
     /// Its inputs come from outside: from a person or another program, through the library.
     External(external),
+    /// Repeats inputs that came from outside once: what a person has played.
+    Inputs(inputs),
     /// Baseline: keeps out of the safety ellipses around the others' plans (eq. 6.13).
     Conservative(conservative),
     /// Negotiation with concession and persuasion (chapter 6).
@@ -84,6 +86,13 @@ drivers! {
 }
 
 impl Driver {
+    /// The driver of a kind of Interplay with the defaults of its settings; none without such a kind, and of those that need more.
+    pub fn of_kind(kind: &str) -> Option<Driver> {
+        let driver: Driver = serde_json::from_value(serde_json::json!({ "kind": kind })).ok()?;
+        let needs_more = driver.is_driven_from_outside() || driver.record().is_some() || driver.check(usize::MAX).is_err();
+        (!needs_more && kind != "recorded" && kind != "walker").then_some(driver)
+    }
+
     /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
     pub fn planner(&self) -> Planner {
         self.planner_believing(&belief::Settings::default())

@@ -91,6 +91,7 @@ mod giving_way;
 pub mod homotopy;
 pub mod human;
 pub mod idm;
+pub mod inputs;
 pub mod lanes;
 pub mod motion_prediction;
 pub mod nash;

@@ -24,9 +24,11 @@ const ARROWS: &[(&str, &[&str])] = &[
         "app/presentation",
         &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
     ),
+    ("app/play", &["planners", "scenarios", "app/files", "app/simulation", "app/presentation"]),
     (
         "app/cli",
         &[
+            "app/play",
             "planners",
             "building",
             "scenarios",
@@ -60,6 +62,8 @@ const OWNERS: &[(&str, &str)] = &[
     ("gif", "app/presentation"),
     ("image-webp", "app/presentation"),
     ("clap", "app/cli"),
+    ("axum", "app/play"),
+    ("tokio", "app/play"),
 ];
 
 /// Libraries that only one folder of their crate may name. Cargo limits a library to the crate that depends on it; this list

@@ -26,7 +26,7 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::exit_status::ExitStatus;
 use commands::{
-    check, compare, completions, export_fmu, fit, identify, import, list, man, new, predict, reproduce, run, schema,
+    check, compare, completions, export_fmu, fit, identify, import, list, man, new, play, predict, reproduce, run, schema,
     suite, sweep, view, why,
 };
 
@@ -51,6 +51,7 @@ enum Command {
     Compare(compare::Compare),
     New(new::New),
     Import(import::Import),
+    Play(play::Play),
     Predict(predict::Predict),
     Fit(fit::Fit),
     Schema(schema::Schema),
@@ -108,6 +109,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Some(Command::Compare(command)) => command.execute(registry),
         Some(Command::New(command)) => command.execute(registry),
         Some(Command::Import(command)) => command.execute(registry),
+        Some(Command::Play(command)) => command.execute(registry),
         Some(Command::Predict(command)) => command.execute(),
         Some(Command::Fit(command)) => command.execute(),
         Some(Command::Schema(command)) => command.execute(registry),

@@ -38,4 +38,5 @@ mod road_shapes;
 pub mod shell;
 mod shown_extent;
 mod signals;
+pub mod stage;
 mod wanted_temperature;

@@ -66,13 +66,10 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
                 sensor: vehicle.sensor(scenario.seed),
                 sight: None,
             },
-            handed_in: HandedIn::awaited_if(vehicle.driver.kind() == EXTERNAL),
+            handed_in: HandedIn::awaited_if(vehicle.driver.is_driven_from_outside()),
             committed: Committed::default(),
             body: VehicleBody(physics.add(index, (&vehicle.body, vehicle.outline()), &state)),
         }
     });
     vehicles.collect()
 }
-
-/// The word for drivers whose inputs come from outside.
-const EXTERNAL: &str = "external";

@@ -31,6 +31,10 @@ impl DriverKind for Settings {
     fn may_be_refused(&self) -> bool {
         false
     }
+
+    fn is_driven_from_outside(&self) -> bool {
+        true
+    }
 }
 
 /// The driver that is asked where no input has come from outside.

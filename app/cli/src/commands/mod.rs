@@ -10,6 +10,7 @@ pub(crate) mod import;
 pub(crate) mod list;
 pub(crate) mod man;
 pub(crate) mod new;
+pub(crate) mod play;
 pub(crate) mod predict;
 pub(crate) mod reproduce;
 pub(crate) mod run;

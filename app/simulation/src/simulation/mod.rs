@@ -2,6 +2,7 @@
 
 mod saved_run;
 mod snapshot;
+mod wheel;
 mod zones;
 
 pub use saved_run::SavedRunError;
@@ -131,6 +132,7 @@ impl Simulation {
         let mut ahead = self.time_points.clone();
         let Some(time_point) = ahead.next() else { return Ok(None) };
         if time_point.vehicles && self.world.resource::<Clock>().ticks_since_plan() == 0 {
+            self.repeat_inputs()?;
             self.refuse_without_input()?;
         }
         let tick = self.time_points.passed();

@@ -1,0 +1,236 @@
+//! The game: sessions in real time, and who sits where. It has a thread of its own; pages reach it by requests.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::{Duration, Instant};
+
+use interplay_presentation::figures::RecordedRun;
+use serde_json::Error as JsonError;
+use tokio::sync::{mpsc, oneshot};
+
+use super::ServeOptions;
+use super::playing::Playing;
+use crate::menu::Menu;
+use crate::protocol::{Chosen, PageMessage, ServerMessage};
+use crate::session::{ScoreRow, SessionError};
+
+/// How long the game sleeps while nothing is played.
+const IDLE: Duration = Duration::from_millis(250);
+/// Most pages at a time.
+const MOST_PAGES: usize = 16;
+
+/// What the game is asked for.
+pub(super) enum Request {
+    /// A page is there; it is told its number.
+    Join { seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64> },
+    /// A page says something.
+    Said { page: u64, text: String },
+    /// A page is gone.
+    Leave { page: u64 },
+    /// Somebody wants the moving picture of the run.
+    Animation { answer: oneshot::Sender<Option<RecordedRun>> },
+    /// Planners have driven from the same start.
+    Others { run: u64, rows: Vec<ScoreRow> },
+    /// The server ends.
+    Stop,
+}
+
+/// A page.
+pub(super) struct PageAtGame {
+    pub number: u64,
+    /// The seat that its address names.
+    pub seat: Option<String>,
+    outgoing: mpsc::Sender<String>,
+}
+
+impl PageAtGame {
+    /// Sends a message; a page for whom too many wait is gone.
+    pub fn send(&self, message: &ServerMessage) -> bool {
+        let Ok(text) = serde_json::to_string(message) else { return true };
+        // A tick that does not arrive is followed by others; what else does not arrive would be missing.
+        self.outgoing.try_send(text).is_ok()
+    }
+}
+
+/// The game and all pages at it.
+pub(super) struct Game {
+    options: Arc<ServeOptions>,
+    received: Receiver<Request>,
+    requests: Sender<Request>,
+    pages: Vec<PageAtGame>,
+    next_number: u64,
+    next_run: u64,
+    menu: Menu,
+    playing: Option<Playing>,
+}
+
+impl Game {
+    pub fn new(options: Arc<ServeOptions>, received: Receiver<Request>, requests: Sender<Request>) -> Game {
+        let menu = Menu::of(&options.registry);
+        Game { options, received, requests, pages: Vec::new(), next_number: 1, next_run: 1, menu, playing: None }
+    }
+
+    /// Plays until the server ends; what is being played then is kept.
+    pub fn run(mut self) {
+        if let Some((scenario, seat)) = self.options.chosen.clone() {
+            self.start(&scenario, &seat);
+        }
+        loop {
+            let now = Instant::now();
+            let wait = self.playing.as_ref().and_then(|playing| playing.next_tick(now)).unwrap_or(IDLE);
+            match self.received.recv_timeout(wait) {
+                Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
+                Ok(request) => self.answer(request),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            self.tick();
+        }
+        if let Some(playing) = &mut self.playing {
+            playing.save();
+        }
+        self.tell(&ServerMessage::Bye { text: "the server has ended".to_owned() });
+    }
+
+    fn answer(&mut self, request: Request) {
+        match request {
+            Request::Join { seat, outgoing, number } => self.join(seat, outgoing, number),
+            Request::Said { page, text } => self.hear(page, &text),
+            Request::Leave { page } => self.leave(page),
+            Request::Animation { answer } => {
+                let _ = answer.send(self.playing.as_ref().and_then(Playing::recorded));
+            }
+            Request::Others { run, rows } => {
+                if let Some(playing) = self.playing.as_mut().filter(|playing| playing.run == run) {
+                    playing.others = Some(rows);
+                    playing.tell_score(&self.pages);
+                }
+            }
+            Request::Stop => {}
+        }
+    }
+
+    fn join(&mut self, seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64>) {
+        if self.pages.len() >= MOST_PAGES {
+            return;
+        }
+        let page = PageAtGame { number: self.next_number, seat, outgoing };
+        self.next_number += 1;
+        let _ = number.send(page.number);
+        let chosen = self.playing.as_ref().map(|playing| Chosen {
+            scenario: playing.session.name().to_owned(),
+            seat: playing.seat_of(&page).to_owned(),
+        });
+        page.send(&ServerMessage::Menu { families: self.menu.families.clone(), chosen });
+        if let Some(playing) = &mut self.playing {
+            playing.come(&page);
+        }
+        self.pages.push(page);
+    }
+
+    /// A page is gone: its seat is braked. When the last one goes, time stands still and what was played is kept.
+    fn leave(&mut self, number: u64) {
+        let Some(place) = self.pages.iter().position(|page| page.number == number) else { return };
+        let page = self.pages.remove(place);
+        if let Some(playing) = &mut self.playing {
+            playing.go(&page);
+            if self.pages.is_empty() {
+                playing.pause(true);
+                playing.save();
+            }
+        }
+    }
+
+    fn tell(&mut self, message: &ServerMessage) {
+        let gone: Vec<u64> = self.pages.iter().filter(|page| !page.send(message)).map(|page| page.number).collect();
+        gone.into_iter().for_each(|page| self.leave(page));
+    }
+
+    fn refuse(&self, number: u64, text: &str) {
+        if let Some(page) = self.pages.iter().find(|page| page.number == number) {
+            page.send(&ServerMessage::Refused { text: text.to_owned() });
+        }
+    }
+
+    fn hear(&mut self, number: u64, text: &str) {
+        let message: Result<PageMessage, JsonError> = serde_json::from_str(text);
+        let heard = match message {
+            Ok(message) => self.follow(number, message),
+            Err(error) => {
+                let reason = error.to_string();
+                Err(format!("this is no message: {}", reason.split(" at line").next().unwrap_or_default()))
+            }
+        };
+        if let Err(text) = heard {
+            self.refuse(number, &text);
+        }
+    }
+
+    /// Does what a page asks for, or says why not.
+    fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
+        match message {
+            PageMessage::Start { scenario, seat } => self.start_as(&scenario, &seat),
+            PageMessage::Menu => {
+                if let Some(mut playing) = self.playing.take() {
+                    playing.save();
+                }
+                let families = self.menu.families.clone();
+                self.tell(&ServerMessage::Menu { families, chosen: None });
+                Ok(())
+            }
+            PageMessage::Echo { at } => {
+                if let Some(page) = self.pages.iter().find(|page| page.number == number) {
+                    page.send(&ServerMessage::Echo { at });
+                }
+                Ok(())
+            }
+            PageMessage::Next => {
+                let name = self.playing.as_ref().map(|playing| playing.session.name().to_owned()).unwrap_or_default();
+                let Some((scenario, seat)) = self.menu.after(&name) else { return Err("there is no next one".to_owned()) };
+                self.start_as(&scenario, &seat)
+            }
+            PageMessage::Seat { seat } => {
+                let playing = self.playing.as_ref().ok_or("nothing is played: choose a scenario")?;
+                let name = playing.session.name().to_owned();
+                self.start_as(&name, &seat)
+            }
+            PageMessage::Restart => {
+                let playing = self.playing.as_ref().ok_or("nothing is played: choose a scenario")?;
+                let (name, seat) = (playing.session.name().to_owned(), playing.main_seat().to_owned());
+                self.start_as(&name, &seat)
+            }
+            other => {
+                let playing = self.playing.as_mut().ok_or("nothing is played: choose a scenario")?;
+                let page = self.pages.iter().find(|page| page.number == number).ok_or("this page is gone")?;
+                playing.follow(page, other, &self.pages).map_err(|error: SessionError| error.to_string())
+            }
+        }
+    }
+
+    fn start_as(&mut self, scenario: &str, seat: &str) -> Result<(), String> {
+        if let Some(mut before) = self.playing.take() {
+            before.save();
+        }
+        let run = self.next_run;
+        self.next_run += 1;
+        let playing = Playing::start(&self.options, (scenario, seat), run, self.requests.clone())?;
+        let playing = self.playing.insert(playing);
+        self.pages.iter().for_each(|page| playing.come(page));
+        Ok(())
+    }
+
+    /// The same where nobody hears why it cannot be.
+    fn start(&mut self, scenario: &str, seat: &str) {
+        if let Err(text) = self.start_as(scenario, seat) {
+            self.tell(&ServerMessage::Refused { text });
+        }
+    }
+
+    fn tick(&mut self) {
+        let Some(playing) = &mut self.playing else { return };
+        if let Err(error) = playing.tick_if_due(Instant::now(), &self.pages) {
+            playing.pause(true);
+            playing.save();
+            self.tell(&ServerMessage::Refused { text: error.to_string() });
+        }
+    }
+}

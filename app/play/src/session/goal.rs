@@ -1,0 +1,44 @@
+//! What a seat wants to reach, in words and as a mark on the road.
+
+use interplay_scenarios::{Scenario, Vehicle};
+
+use crate::protocol::PlayGoal;
+
+/// The mark of a lane reaches so many lengths of a car ahead.
+const MARK_CARS: f64 = 30.0;
+const MARK_PLACES: usize = 24;
+
+pub(super) fn of(scenario: &Scenario, index: usize) -> PlayGoal {
+    let vehicle = &scenario.vehicles[index];
+    let route = &vehicle.route;
+    let start_m = [route.along(vehicle.start.position()), route.across(vehicle.start.position())];
+    let line = |along_m: f64| {
+        let half_m = route.half_width.value(along_m).max(0.5 * scenario.road.lane_width_m());
+        Some([-half_m, half_m].map(|across_m| route.position(along_m, across_m)))
+    };
+    if let Some([_, end_m]) = scenario.road.conflict_zone_m(vehicle.road) {
+        let text = "Get across the other road".to_owned();
+        return PlayGoal { kind: "cross", text, line: line(end_m + vehicle.body.rear_m), lane: None };
+    }
+    let last = route.legs.last().filter(|_| scenario.road.parallel_lanes().is_none() && route.legs.len() > 1);
+    if let Some(leg) = last {
+        let text = format!("Drive to the end of your way: {}", leg.lane.replace(['-', '_'], " "));
+        return PlayGoal { kind: "last-lane", text, line: line(leg.from_m + vehicle.body.rear_m), lane: None };
+    }
+    let across_m = route.across(vehicle.target(&scenario.road).position());
+    let is_elsewhere = (across_m - start_m[1]).abs() > 0.5 * vehicle.body.width_m;
+    let text = match (is_elsewhere, across_m > start_m[1]) {
+        (false, _) => "Keep your lane and come on".to_owned(),
+        (true, true) => "Get into the lane on your left".to_owned(),
+        (true, false) => "Get into the lane on your right".to_owned(),
+    };
+    let lane = is_elsewhere.then(|| mark(vehicle, start_m[0], across_m));
+    PlayGoal { kind: if is_elsewhere { "lane" } else { "drive" }, text, line: None, lane }
+}
+
+/// The middle of a lane from beside the start on \[m\].
+fn mark(vehicle: &Vehicle, from_m: f64, across_m: f64) -> Vec<[f64; 2]> {
+    let reach_m = MARK_CARS * (vehicle.body.front_m + vehicle.body.rear_m);
+    let place = |place: usize| from_m + reach_m * place as f64 / MARK_PLACES as f64;
+    (0..=MARK_PLACES).map(|at| vehicle.route.position(place(at), across_m)).collect()
+}

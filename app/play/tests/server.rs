@@ -1,0 +1,188 @@
+//! The server beside pages that are wrong, slow, gone, or not its own.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::path::Path;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use interplay_play::{PlayServer, ServeError, ServeOptions, StopPlay};
+use interplay_scenarios::{Registry, load};
+use interplay_simulation::run::run;
+use serde_json::{Value as Json, json};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::{Message, WebSocket, client};
+
+/// A server in a thread of its own.
+struct Served {
+    address: SocketAddr,
+    url: String,
+    stop: StopPlay,
+    thread: JoinHandle<Result<(), ServeError>>,
+}
+
+impl Served {
+    fn start(folder: &Path) -> Served {
+        let chosen = Some(("lane-change/front-nice".to_owned(), "ego".to_owned()));
+        let folder = folder.to_owned();
+        let options = ServeOptions { chosen, folder, joined: Some("rear".to_owned()), ..ServeOptions::new(Registry::standard()) };
+        let server = PlayServer::bind(options).expect("a free port");
+        let (url, stop) = (server.url(), server.stop_handle());
+        let address = url.trim_start_matches("http://").split('/').next().and_then(|host| host.parse().ok());
+        Served { address: address.expect("an address"), url, stop, thread: std::thread::spawn(move || server.run()) }
+    }
+
+    fn token(&self) -> &str {
+        self.url.trim_end_matches('/').rsplit('/').next().expect("a token")
+    }
+
+    /// The status of a request.
+    fn status(&self, path: &str, headers: &str) -> u16 {
+        let mut stream = TcpStream::connect(self.address).expect("the server listens");
+        write!(stream, "GET {path} HTTP/1.1\r\n{headers}Connection: close\r\n\r\n").expect("the server reads");
+        let mut text = String::new();
+        stream.read_to_string(&mut text).expect("an answer");
+        text.split_whitespace().nth(1).and_then(|status| status.parse().ok()).unwrap_or_default()
+    }
+
+    fn page(&self, query: &str, origin: &str) -> Option<Page> {
+        let url = format!("ws://{}/{}/socket{query}", self.address, self.token());
+        let mut request = url.into_client_request().expect("a request");
+        request.headers_mut().insert("Origin", origin.parse().expect("an origin"));
+        let stream = TcpStream::connect(self.address).expect("the server listens");
+        stream.set_read_timeout(Some(Duration::from_secs(20))).expect("a time");
+        client(request, stream).ok().map(|(socket, _)| Page(socket))
+    }
+
+    fn own_page(&self) -> Page {
+        self.page("", &format!("http://{}", self.address)).expect("the own page is served")
+    }
+
+    fn end(self) {
+        self.stop.stop();
+        self.thread.join().expect("no panic").expect("it ends well");
+    }
+}
+
+/// A page at the server.
+struct Page(WebSocket<TcpStream>);
+
+impl Page {
+    fn say(&mut self, message: &Json) {
+        self.0.send(Message::text(message.to_string())).expect("the server reads");
+    }
+
+    /// The next message of a type.
+    fn hear(&mut self, kind: &str) -> Json {
+        loop {
+            let Message::Text(text) = self.0.read().expect("a message") else { continue };
+            let json: Json = serde_json::from_str(&text).expect("messages are JSON");
+            if json["type"] == kind {
+                return json;
+            }
+        }
+    }
+
+    fn drive(&mut self) {
+        self.say(&json!({ "type": "input", "seq": 1, "acceleration": 0.4, "steering": 0.2, "assist": true }));
+    }
+}
+
+/// The files in a folder.
+fn files(folder: &Path) -> usize {
+    std::fs::read_dir(folder).map_or(0, Iterator::count)
+}
+
+fn wait_for(what: &str, is_so: impl Fn() -> bool) {
+    let began = Instant::now();
+    while !is_so() {
+        assert!(began.elapsed() < Duration::from_secs(20), "{what}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn only_the_own_page_is_served() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let served = Served::start(folder.path());
+    let (host, token) = (format!("Host: {}\r\n", served.address), served.token().to_owned());
+    assert_eq!(served.status(&format!("/{token}/"), &host), 200);
+    assert_eq!(served.status(&format!("/{token}/page.js"), &host), 200);
+    for path in ["/", "/socket", "/0123456789abcdef0123456789abcdef/", &format!("/{token}x/"), &format!("/{token}/../{token}/")] {
+        assert_eq!(served.status(path, &host), 404, "{path}");
+    }
+    assert_eq!(served.status(&format!("/{token}/"), "Host: evil.example\r\n"), 403);
+    assert_eq!(served.status(&format!("/{token}/"), &format!("{host}Origin: http://evil.example\r\n")), 403);
+    assert!(served.page("", "http://evil.example").is_none());
+    assert!(served.address.ip().is_loopback());
+    served.end();
+}
+
+#[test]
+fn what_is_played_is_kept_when_the_page_is_gone_and_repeats_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let served = Served::start(folder.path());
+    let mut page = served.own_page();
+    assert_eq!(page.hear("world")["seat"], "ego");
+    let mut other = served.page("?seat=rear", &format!("http://{}", served.address)).expect("a second page");
+    assert_eq!(other.hear("world")["seat"], "rear");
+    page.drive();
+    while page.hear("frame")["tick"].as_u64().unwrap_or_default() < 8 {}
+    other.say(&json!({ "type": "input", "acceleration": -0.5, "steering": 0.0 }));
+    page.say(&json!({ "type": "hand_over", "to": "negotiation" }));
+    while page.hear("frame")["driven_by"] != "negotiation" {}
+    drop(page);
+    drop(other);
+    wait_for("what was played is kept", || files(folder.path()) == 1);
+    served.end();
+    let path = folder.path().join("lane-change-front-nice-1.toml");
+    let scenario = load(&path.to_string_lossy(), &[]).expect("what was played is a scenario");
+    let twice = [1, 2].map(|_| run("played", &scenario, Vec::new()).expect("a run").digest);
+    assert_eq!(twice[0], twice[1]);
+    assert!(scenario.vehicles.iter().filter(|vehicle| vehicle.driver.kind() == "inputs").count() == 2);
+}
+
+#[test]
+fn garbage_is_refused_and_nobody_else_notices() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let served = Served::start(folder.path());
+    let mut page = served.own_page();
+    page.hear("world");
+    let mut state = 1_u64;
+    for _ in 0..2_000 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        let garbage: String = (0..state % 60).map(|at| char::from(32 + ((state >> (at % 32)) % 95) as u8)).collect();
+        page.0.write(Message::text(garbage)).expect("the server reads");
+    }
+    page.0.flush().expect("the server reads");
+    page.say(&json!({ "type": "echo", "at": 7.0 }));
+    assert_eq!(page.hear("echo")["at"], 7.0);
+    for wrong in [json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }), json!({ "type": "seat", "seat": "nobody" })] {
+        page.say(&wrong);
+    }
+    page.hear("refused");
+    let mut huge = served.own_page();
+    let _ = huge.0.send(Message::text("x".repeat(100_000)));
+    let mut bytes = served.own_page();
+    let _ = bytes.0.send(Message::binary(vec![0_u8; 64]));
+    page.say(&json!({ "type": "start", "scenario": "lane-change/front-nice", "seat": "front" }));
+    assert_eq!(page.hear("world")["seat"], "front");
+    served.end();
+}
+
+/// A page that reads nothing holds up nobody.
+#[test]
+fn a_slow_reader_is_not_waited_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let served = Served::start(folder.path());
+    let mut slow = served.own_page();
+    let mut page = served.own_page();
+    page.hear("world");
+    slow.drive();
+    page.say(&json!({ "type": "rate", "ratio": 16.0 }));
+    page.drive();
+    let score = page.hear("score");
+    assert_eq!(score["you"]["name"], "you");
+    wait_for("the run is kept", || files(folder.path()) == 1);
+    served.end();
+}

@@ -1,0 +1,65 @@
+//! What a page needs to draw a world itself: shapes as data, and ticks as they happen.
+//!
+//! The shapes are those of the animations (`body_shape`, `road_shapes`, `palette`); only who fills them is another program.
+
+mod moment;
+mod road;
+mod vehicle;
+
+pub use moment::{StageBelief, StageEvent, StageMoment, StageProposal, StageWitness};
+pub use road::{RoadShape, StageLight};
+pub use vehicle::{StageLamps, StageShape, StageVehicle, StageWheels};
+
+use interplay_scenarios::Scenario;
+use serde::Serialize;
+
+use crate::camera::car_m;
+use crate::palette::{Colour, GRASS, vehicle_colours};
+
+/// A world as a page draws it; lengths in metres.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stage {
+    /// What is called how.
+    pub title: String,
+    /// What the scenario shows.
+    pub shows: String,
+    /// Length of a tick \[s\].
+    pub step_s: f64,
+    /// Duration of the scenario \[s\].
+    pub duration_s: f64,
+    /// Length of a car, from which the zoom follows.
+    pub car_m: f64,
+    /// The vehicles, in the scenario's order.
+    pub vehicles: Vec<StageVehicle>,
+    /// The road, in the order in which it is painted.
+    pub road: Vec<RoadShape>,
+    /// Traffic lights.
+    pub lights: Vec<StageLight>,
+    /// The colour beside the road.
+    pub grass: String,
+}
+
+impl Stage {
+    /// The world of a scenario with vehicles.
+    pub fn of(scenario: &Scenario) -> Stage {
+        let colours = vehicle_colours(scenario);
+        let vehicles = scenario.vehicles.iter().zip(&colours);
+        let (road, lights) = road::shapes(scenario);
+        Stage {
+            title: scenario.title.clone(),
+            shows: scenario.shows.clone(),
+            step_s: scenario.step_s,
+            duration_s: scenario.duration_s,
+            car_m: car_m(scenario),
+            vehicles: vehicles.map(|(vehicle, colour)| StageVehicle::of(vehicle, colour.rgb)).collect(),
+            road,
+            lights,
+            grass: css(GRASS),
+        }
+    }
+}
+
+/// A colour as style sheets write it.
+fn css([red, green, blue]: Colour) -> String {
+    format!("#{red:02X}{green:02X}{blue:02X}")
+}

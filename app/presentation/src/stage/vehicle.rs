@@ -1,0 +1,132 @@
+//! Vehicles as filled shapes in their own frame.
+
+use interplay_planners::{Body, Limits};
+use interplay_scenarios::{Outline, Vehicle};
+use serde::Serialize;
+
+use super::css;
+use crate::body_shape::{Wheels, body_parts, light_depth, place_on, rectangle};
+use crate::body_style::BodyStyle;
+use crate::palette::Colour;
+
+/// A ring of points ahead of the mass centre and to its left \[m\].
+type Ring = Vec<[f64; 2]>;
+
+/// A vehicle as a page draws it.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageVehicle {
+    /// Its name.
+    pub name: String,
+    /// Its driver in a few words.
+    pub driver: String,
+    /// Its colour.
+    pub colour: String,
+    /// Whether nobody drives it.
+    pub is_obstacle: bool,
+    /// Its size and axles.
+    pub body: Body,
+    /// The bounds of its inputs and its speed.
+    pub limits: Limits,
+    /// What is filled, from below to above.
+    pub shape: Vec<StageShape>,
+    /// Its shadow on the road; none of what is flat.
+    pub shadow: Option<Ring>,
+    /// Its wheels, if they are seen.
+    pub wheels: Option<StageWheels>,
+    /// Its lamps, if it has any.
+    pub lamps: Option<StageLamps>,
+}
+
+/// A filled ring with rounded corners.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageShape {
+    /// The corners \[m\].
+    pub ring: Ring,
+    /// Radius of the corners \[m\].
+    pub radius: f64,
+    /// Its colour.
+    pub colour: String,
+}
+
+/// The wheels of a vehicle that steers straight on, front right, front left, rear right, rear left.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageWheels {
+    /// The corners of each \[m\].
+    pub rings: [[[f64; 2]; 4]; 4],
+    /// The middle of each, about which it turns \[m\].
+    pub axles: [[f64; 2]; 4],
+    /// Whether it turns with the steering.
+    pub steered: [bool; 4],
+}
+
+/// The lamps of a vehicle, those on the right first.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageLamps {
+    /// Tail lamps \[m\].
+    pub tail: [Ring; 2],
+    /// The same while it brakes \[m\].
+    pub brake: [Ring; 2],
+    /// Indicators on the left \[m\].
+    pub indicator_left: [[f64; 2]; 2],
+    /// Indicators on the right \[m\].
+    pub indicator_right: [[f64; 2]; 2],
+    /// Radius of an indicator \[m\].
+    pub radius: f64,
+}
+
+impl StageVehicle {
+    pub(super) fn of(vehicle: &Vehicle, colour: Colour) -> StageVehicle {
+        let (body, style) = (&vehicle.body, BodyStyle::choose(vehicle));
+        let has_lamps = matches!(style, BodyStyle::Car | BodyStyle::Van | BodyStyle::Lorry);
+        let whole: Ring = rectangle([-1.0, 1.0, -1.0, 1.0]).map(|corner| place_on(body, corner)).to_vec();
+        StageVehicle {
+            name: vehicle.name.clone(),
+            driver: vehicle.driver.description(),
+            colour: css(colour),
+            is_obstacle: vehicle.obstacle.is_some(),
+            body: *body,
+            limits: vehicle.limits,
+            shape: shape(vehicle, style, colour),
+            shadow: (style != BodyStyle::Plain).then_some(whole),
+            wheels: has_lamps.then(|| wheels(body, style)),
+            lamps: has_lamps.then(|| lamps(body)),
+        }
+    }
+}
+
+fn shape(vehicle: &Vehicle, style: BodyStyle, colour: Colour) -> Vec<StageShape> {
+    let body = &vehicle.body;
+    if style == BodyStyle::Plain {
+        let ring = vehicle.outline().map(Outline::corners_m).unwrap_or_default();
+        return vec![StageShape { ring, radius: 0.0, colour: css(colour) }];
+    }
+    let parts = body_parts(style).into_iter().map(|part| StageShape {
+        ring: part.ring.iter().map(|corner| place_on(body, *corner)).collect(),
+        radius: part.radius * body.width_m,
+        colour: css(part.paint.colour(colour)),
+    });
+    parts.collect()
+}
+
+fn wheels(body: &Body, style: BodyStyle) -> StageWheels {
+    let rings = Wheels::place(body, style, 0.0).rings_m;
+    let middle = |ring: [[f64; 2]; 4]| [0, 1].map(|axis| ring.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0);
+    StageWheels { rings, axles: rings.map(middle), steered: [true, true, false, false] }
+}
+
+fn lamps(body: &Body) -> StageLamps {
+    let deep = light_depth(body);
+    let ring = |depth: f64, side: f64| {
+        let across = [side * 0.88, side * 0.5];
+        let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
+        rectangle([-1.0, -1.0 + depth, right, left]).map(|corner| place_on(body, corner)).to_vec()
+    };
+    let indicators = |side: f64| [-1.0, 1.0].map(|end| place_on(body, [end * (1.0 - 0.8 * deep), side * 0.92]));
+    StageLamps {
+        tail: [-1.0, 1.0].map(|side| ring(0.9 * deep, side)),
+        brake: [-1.0, 1.0].map(|side| ring(1.5 * deep, side)),
+        indicator_left: indicators(1.0),
+        indicator_right: indicators(-1.0),
+        radius: 0.15 * body.width_m,
+    }
+}

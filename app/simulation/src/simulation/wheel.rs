@@ -1,0 +1,102 @@
+//! Who has the wheel of a vehicle that is driven from outside: whoever hands in inputs, a record of them, or a planner for a while.
+
+use interplay_planners::{Driver, Input};
+
+use super::Simulation;
+use crate::components::{Clock, Driving, HandedIn, Identity};
+use crate::run_error::RunError;
+
+impl Simulation {
+    /// From the next plan on a planner has the wheel of a vehicle that is driven from outside, or, without one, whoever hands in inputs
+    /// again. What the vehicle is told of the others' plans, and what they are told of it, stays.
+    ///
+    /// # Errors
+    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the vehicle has a driver of its own.
+    pub fn hand_over(&mut self, vehicle: &str, to: Option<&Driver>) -> Result<(), RunError> {
+        let index = self.index_of(vehicle)?;
+        let stated = &self.scenario.vehicles[index].driver;
+        if !stated.is_driven_from_outside() {
+            return Err(RunError::NotExternal { vehicle: vehicle.to_owned() });
+        }
+        // A snapshot as text repeats hand-overs only where the scenario has them.
+        if stated.inputs().is_none() && !self.replaced.iter().any(|replaced| replaced == vehicle) {
+            self.replaced.push(vehicle.to_owned());
+        }
+        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
+        for (identity, mut driving, mut handed_in) in vehicles.iter_mut(&mut self.world) {
+            if identity.index == index {
+                *handed_in = HandedIn::awaited_if(to.is_none());
+                if let Some(driver) = to {
+                    driving.planner.replace_driver(driver.driver());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Hands in what was handed in once for the next plan.
+    pub(super) fn repeat_inputs(&mut self) -> Result<(), RunError> {
+        let plan = self.world.resource::<Clock>().plans();
+        let scenario = std::sync::Arc::clone(&self.scenario);
+        for vehicle in &scenario.vehicles {
+            let Some(record) = vehicle.driver.inputs() else { continue };
+            if let Some(to) = record.handed_over_at(plan) {
+                self.hand_over(&vehicle.name, to.as_ref())?;
+            }
+            self.repeat(&vehicle.name, record.at(plan));
+        }
+        Ok(())
+    }
+
+    /// Hands in an input, unless a planner has the wheel. It is part of the scenario and no input from outside of this run.
+    fn repeat(&mut self, vehicle: &str, input: Input) {
+        let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
+        let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.name == vehicle);
+        if let Some((_, mut handed_in)) = found.filter(|(_, handed_in)| **handed_in != HandedIn::NotExternal) {
+            *handed_in = HandedIn::Input(input);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::Driver;
+    use interplay_planners::inputs::{Settings, WheelHandOver};
+    use interplay_planners::Input;
+    use interplay_scenarios::{Override, load};
+
+    use crate::Simulation;
+
+    /// Whoever plays hands in other inputs at every plan and lets a planner drive in between; the record of that is the same run.
+    #[test]
+    fn a_record_of_inputs_is_the_run_in_which_they_were_handed_in() {
+        let outside = Override::Set("vehicle.ego.driver={ kind = 'external' }".to_owned());
+        let scenario = load("lane-change/front-nice", &[outside]).expect("authored");
+        let mut played = Simulation::new(&scenario).expect("a world");
+        let mut record = Settings::default();
+        let (from, until) = (20, 60);
+        let mut plan = 0_u32;
+        loop {
+            if plan == from || plan == until {
+                let to = (plan == from).then(|| "negotiation".to_owned());
+                played.hand_over("ego", to.as_deref().and_then(Driver::of_kind).as_ref()).expect("external");
+                record.hand_overs.push(WheelHandOver { plan, to });
+            }
+            let input = Input { acceleration_mps2: 0.3 * libm::sin(0.7 * f64::from(plan)), steering_rad: 0.01 };
+            if !(from..until).contains(&plan) {
+                played.apply("ego", input).expect("external");
+                record.inputs.push([f64::from(plan), input.acceleration_mps2, input.steering_rad]);
+            }
+            if played.step().expect("a step").is_none() {
+                break;
+            }
+            plan += 1;
+        }
+        let mut repeated = scenario.clone();
+        repeated.vehicles[0].driver = Driver::Inputs(record);
+        let text = repeated.to_file().to_toml();
+        let again = interplay_scenarios::from_text("played.toml", &text, &[]).expect("a scenario");
+        let again = crate::run::run("again", &again, Vec::new()).expect("a run");
+        assert_eq!(again.digest, played.finish().expect("a run").digest);
+    }
+}
