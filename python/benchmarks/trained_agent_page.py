@@ -49,7 +49,7 @@ def curves(out: Path, picture: Path) -> dict[str, float]:
 def table(figures: dict[str, Any]) -> list[str]:
     """A table for each style: a row for each planner."""
     lines = []
-    for group in figures["groups"]:
+    for group in (group for group in figures["groups"] if group["style"] is not None):
         planners = {entry["planner"]: entry for entry in group["planners"]}
         networks = sorted(name for name in planners if name.startswith("ppo"))
         lines += [f"Others: **{group['style']}**", "", "| | success | contacts | brakes hard | time to the goal [s] |", "|---|---|---|---|---|"]

@@ -64,7 +64,7 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
         if own is None and self._perturb:
             own = int(self.np_random.integers(2**63))
         self._world = Simulation(self._scenario, set=self._set, seed=own)
-        self._heats = np.zeros(len(self.zones))
+        self._heats: NDArray[np.float64] = np.zeros(len(self.zones))
         self._outdoor_c, self._before_s = OUTDOOR_C / 3, 0.0
         return self._observed(self._world.zones()), {"time_s": 0.0}
 

@@ -311,7 +311,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             seeds = [own_seed(int(seed) + world) for world in range(self.num_envs)]
         else:
             seeds = [None if number is None else own_seed(number) for number in seed]
-        which = np.ones(self.num_envs, dtype=np.bool_)
+        which: NDArray[np.bool_] = np.ones(self.num_envs, dtype=np.bool_)
         if options is not None:
             options = dict(options)
             which = np.asarray(options.pop("reset_mask", which), dtype=np.bool_)

@@ -122,7 +122,6 @@ def test_a_function_and_the_environment_come_to_the_same() -> None:
     assert env.states()["ego"][:2] == pytest.approx([frames["x_m"][tick, place], frames["y_m"][tick, place]], abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="a plan that keeps the largest speed is refused in a run")
 def test_a_function_at_the_largest_speed_and_the_environment_come_to_the_same() -> None:
     report = interplay.run("lane-change/front-nice", planner={"mine": lambda seen: [1.0, 0.0]})
     assert report.vehicles[0].plans.failed == 0

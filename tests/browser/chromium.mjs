@@ -1,4 +1,4 @@
-// Headless Chromium, offline, for the checks of pages: speaks the DevTools protocol over a pipe; needs Node 18 or later, no packages.
+// Headless Chromium for the checks of pages, offline or with one server: speaks the DevTools protocol over a pipe; needs Node 18 or later, no packages.
 // CHROMIUM names the browser if it is not on the PATH as `chromium` or `google-chrome`. Without one the process ends with exit code 2.
 
 import { spawn, spawnSync } from "node:child_process";
@@ -23,6 +23,8 @@ let last = 0;
 const waiting = new Map();
 let trouble = [];
 let loaded = () => {};
+/** What may be asked for; anything else is trouble. */
+let allowed = /^(file|data):/;
 
 /** Asks the browser and waits for its answer. */
 function ask(method, params = {}, sessionId) {
@@ -38,9 +40,9 @@ function hear({ method, params }) {
   if (method === "Runtime.consoleAPICalled" && ["error", "warning"].includes(params.type))
     trouble.push(`console ${params.type}: ${params.args.map((word) => word.value).join(" ")}`);
   if (method === "Log.entryAdded" && ["error", "warning"].includes(params.entry.level))
-    trouble.push(`log ${params.entry.level}: ${params.entry.text}`);
-  if (method === "Network.loadingFailed") trouble.push(`not loaded: ${params.errorText}`);
-  if (method === "Network.requestWillBeSent" && !/^(file|data):/.test(params.request.url))
+    trouble.push(`log ${params.entry.level}: ${params.entry.text} ${params.entry.url ?? ""}`.trim());
+  if (method === "Network.loadingFailed" && !params.canceled) trouble.push(`not loaded: ${params.errorText}`);
+  if (method === "Network.requestWillBeSent" && !allowed.test(params.request.url))
     trouble.push(`asks for ${params.request.url}`);
 }
 
@@ -60,26 +62,44 @@ reader.on("data", (piece) => {
 
 let session;
 
-/** Begins a session in which nothing but files can be opened. */
-export async function begin() {
+/** Begins a session in which nothing but files can be opened, or nothing but what is below an address on this machine. */
+export async function begin(origin) {
   const { targetInfos } = await ask("Target.getTargets");
   const { targetId } = targetInfos.find(({ type }) => type === "page");
   session = (await ask("Target.attachToTarget", { targetId, flatten: true })).sessionId;
   for (const domain of ["Page", "Runtime", "Log", "Network"]) await ask(`${domain}.enable`, {}, session);
-  await ask("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 }, session);
+  if (origin) allowed = { test: (url) => url.startsWith(origin) || url.startsWith(origin.replace(/^http/, "ws")) };
+  else await ask("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 }, session);
 }
 
 /** Opens a page and runs a function in it; returns its result, and what went wrong meanwhile. */
 export async function inspectPage(file, inspect, ...words) {
+  await open(pathToFileURL(resolve(file)).href);
+  const found = await evaluate(inspect, ...words);
+  return { found, trouble: [...trouble] };
+}
+
+/** Opens an address and waits until it is loaded. */
+export async function open(url) {
   trouble = [];
   const done = new Promise((resolve) => (loaded = resolve));
-  await ask("Page.navigate", { url: pathToFileURL(resolve(file)).href }, session);
+  await ask("Page.navigate", { url }, session);
   await done;
+}
+
+/** Runs a function in the page and returns its result. */
+export async function evaluate(inspect, ...words) {
   const expression = `(${inspect})(...${JSON.stringify(words)})`;
   const { result, exceptionDetails } = await ask("Runtime.evaluate", { expression, returnByValue: true, awaitPromise: true }, session);
   if (exceptionDetails) trouble.push(`exception: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
-  return { found: result.value, trouble: [...trouble] };
+  return result.value;
 }
+
+/** Sends a command of the DevTools protocol for the page. */
+export const command = (method, params = {}) => ask(method, params, session);
+
+/** What went wrong since the last page was opened. */
+export const troubles = () => [...trouble];
 
 /** Ends the browser and removes what it wrote. */
 export async function end() {
