@@ -89,7 +89,8 @@ impl Driver {
     /// The driver of a kind of Interplay with the defaults of its settings; none without such a kind, and of those that need more.
     pub fn of_kind(kind: &str) -> Option<Driver> {
         let driver: Driver = serde_json::from_value(serde_json::json!({ "kind": kind })).ok()?;
-        let needs_more = driver.is_driven_from_outside() || driver.record().is_some() || driver.check(usize::MAX).is_err();
+        let needs_more =
+            driver.is_driven_from_outside() || driver.record().is_some() || driver.check(usize::MAX).is_err();
         (!needs_more && kind != "recorded" && kind != "walker").then_some(driver)
     }
 

@@ -4,7 +4,7 @@
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`]
 //! - many runs from one plan: [`sweeps`]; what vehicles did as tables: [`trajectories`]; as scenarios of others: [`exports`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
-//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`]
+//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
@@ -49,6 +49,7 @@ mod output;
 mod own;
 mod packages;
 mod plants;
+mod played;
 mod predictions;
 mod python_package;
 mod recorded;

@@ -26,8 +26,8 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::exit_status::ExitStatus;
 use commands::{
-    check, compare, completions, export_fmu, fit, identify, import, list, man, new, play, predict, reproduce, run, schema,
-    suite, sweep, view, why,
+    check, compare, completions, export_fmu, fit, identify, import, list, man, new, play, predict, reproduce, run,
+    schema, suite, sweep, view, why,
 };
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.

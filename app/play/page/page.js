@@ -216,6 +216,7 @@ const receive = {
 
 function connect() {
   const address = new URL("socket", document.baseURI);
+  address.search = location.search;
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
   phase = document.body.dataset.phase = "connecting";
   const opened = (socket = new WebSocket(address));

@@ -22,7 +22,8 @@ impl Menu {
                 continue;
             }
             let family = file.name.split('/').next().unwrap_or(file.name);
-            let entry = MenuScenario { name: file.name.to_owned(), title: scenario.title, shows: scenario.shows, seats };
+            let entry =
+                MenuScenario { name: file.name.to_owned(), title: scenario.title, shows: scenario.shows, seats };
             match families.last_mut().filter(|last| last.family == family) {
                 Some(last) => last.scenarios.push(entry),
                 None => families.push(MenuFamily {

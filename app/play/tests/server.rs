@@ -25,7 +25,8 @@ impl Served {
     fn start(folder: &Path) -> Served {
         let chosen = Some(("lane-change/front-nice".to_owned(), "ego".to_owned()));
         let folder = folder.to_owned();
-        let options = ServeOptions { chosen, folder, joined: Some("rear".to_owned()), ..ServeOptions::new(Registry::standard()) };
+        let options =
+            ServeOptions { chosen, folder, joined: Some("rear".to_owned()), ..ServeOptions::new(Registry::standard()) };
         let server = PlayServer::bind(options).expect("a free port");
         let (url, stop) = (server.url(), server.stop_handle());
         let address = url.trim_start_matches("http://").split('/').next().and_then(|host| host.parse().ok());
@@ -108,7 +109,9 @@ fn only_the_own_page_is_served() {
     let (host, token) = (format!("Host: {}\r\n", served.address), served.token().to_owned());
     assert_eq!(served.status(&format!("/{token}/"), &host), 200);
     assert_eq!(served.status(&format!("/{token}/page.js"), &host), 200);
-    for path in ["/", "/socket", "/0123456789abcdef0123456789abcdef/", &format!("/{token}x/"), &format!("/{token}/../{token}/")] {
+    for path in
+        ["/", "/socket", "/0123456789abcdef0123456789abcdef/", &format!("/{token}x/"), &format!("/{token}/../{token}/")]
+    {
         assert_eq!(served.status(path, &host), 404, "{path}");
     }
     assert_eq!(served.status(&format!("/{token}/"), "Host: evil.example\r\n"), 403);
@@ -157,7 +160,9 @@ fn garbage_is_refused_and_nobody_else_notices() {
     page.0.flush().expect("the server reads");
     page.say(&json!({ "type": "echo", "at": 7.0 }));
     assert_eq!(page.hear("echo")["at"], 7.0);
-    for wrong in [json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }), json!({ "type": "seat", "seat": "nobody" })] {
+    for wrong in
+        [json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }), json!({ "type": "seat", "seat": "nobody" })]
+    {
         page.say(&wrong);
     }
     page.hear("refused");

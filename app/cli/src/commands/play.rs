@@ -124,7 +124,9 @@ impl Play {
             return ExitStatus::Unfinished;
         }
         if self.no_browser || !open(&url) {
-            print_error("open the address above in a browser; over SSH, forward the port first (see --help); Ctrl-C ends");
+            print_error(
+                "open the address above in a browser; over SSH, forward the port first (see --help); Ctrl-C ends",
+            );
         } else {
             print_error("playing in the browser; Ctrl-C ends");
         }
@@ -137,7 +139,12 @@ impl Play {
         }
     }
 
-    fn play_file(&self, registry: &Registry, input: &Path, (name, scenario, seat): (&str, &Scenario, &str)) -> ExitStatus {
+    fn play_file(
+        &self,
+        registry: &Registry,
+        input: &Path,
+        (name, scenario, seat): (&str, &Scenario, &str),
+    ) -> ExitStatus {
         let refused = |text: &str| {
             print_error(text);
             ExitStatus::BadInput
@@ -211,7 +218,8 @@ fn words(score: &Score) -> String {
 
 /// Opens an address in the browser; whether there is one.
 fn open(url: &str) -> bool {
-    let has_screen = cfg!(target_os = "macos") || ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some());
+    let has_screen =
+        cfg!(target_os = "macos") || ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some());
     let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
     has_screen && Command::new(program).arg(url).stdout(Stdio::null()).stderr(Stdio::null()).spawn().is_ok()
 }

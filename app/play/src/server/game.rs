@@ -1,6 +1,5 @@
 //! The game: sessions in real time, and who sits where. It has a thread of its own; pages reach it by requests.
 
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
@@ -54,7 +53,9 @@ impl PageAtGame {
 
 /// The game and all pages at it.
 pub(super) struct Game {
-    options: Arc<ServeOptions>,
+    options: ServeOptions,
+    /// The path of the moving picture.
+    animation: String,
     received: Receiver<Request>,
     requests: Sender<Request>,
     pages: Vec<PageAtGame>,
@@ -65,9 +66,23 @@ pub(super) struct Game {
 }
 
 impl Game {
-    pub fn new(options: Arc<ServeOptions>, received: Receiver<Request>, requests: Sender<Request>) -> Game {
+    pub fn new(
+        options: ServeOptions,
+        animation: String,
+        (received, requests): (Receiver<Request>, Sender<Request>),
+    ) -> Game {
         let menu = Menu::of(&options.registry);
-        Game { options, received, requests, pages: Vec::new(), next_number: 1, next_run: 1, menu, playing: None }
+        Game {
+            options,
+            animation,
+            received,
+            requests,
+            pages: Vec::new(),
+            next_number: 1,
+            next_run: 1,
+            menu,
+            playing: None,
+        }
     }
 
     /// Plays until the server ends; what is being played then is kept.
@@ -185,7 +200,9 @@ impl Game {
             }
             PageMessage::Next => {
                 let name = self.playing.as_ref().map(|playing| playing.session.name().to_owned()).unwrap_or_default();
-                let Some((scenario, seat)) = self.menu.after(&name) else { return Err("there is no next one".to_owned()) };
+                let Some((scenario, seat)) = self.menu.after(&name) else {
+                    return Err("there is no next one".to_owned());
+                };
                 self.start_as(&scenario, &seat)
             }
             PageMessage::Seat { seat } => {
@@ -212,7 +229,7 @@ impl Game {
         }
         let run = self.next_run;
         self.next_run += 1;
-        let playing = Playing::start(&self.options, (scenario, seat), run, self.requests.clone())?;
+        let playing = Playing::start(&self.options, (scenario, seat), run, (self.requests.clone(), &self.animation))?;
         let playing = self.playing.insert(playing);
         self.pages.iter().for_each(|page| playing.come(page));
         Ok(())

@@ -103,7 +103,6 @@ pub struct PlayServer {
 struct Served {
     guard: Arc<Guard>,
     requests: std::sync::mpsc::Sender<Request>,
-    options: Arc<ServeOptions>,
 }
 
 impl PlayServer {
@@ -140,11 +139,11 @@ impl PlayServer {
     pub fn run(self) -> Result<(), ServeError> {
         let PlayServer { stop, runtime, listener, guard, options } = self;
         let (requests, received) = std::sync::mpsc::channel();
-        let options = Arc::new(options);
-        let game = Game::new(Arc::clone(&options), received, requests.clone());
+        let animation = format!("/{}/animation.webp", guard.token());
+        let game = Game::new(options, animation, (received, requests.clone()));
         let thread = std::thread::Builder::new().name("play".to_owned()).spawn(move || game.run());
         let thread = thread.map_err(|error| ServeError::Start(error.to_string()))?;
-        let served = Served { guard: Arc::new(guard), requests: requests.clone(), options };
+        let served = Served { guard: Arc::new(guard), requests: requests.clone() };
         let app = routes(served);
         let ended = runtime.block_on(async move {
             tokio::select! {
@@ -195,8 +194,12 @@ async fn talk(mut socket: WebSocket, served: Served, seat: Option<String>) {
     loop {
         tokio::select! {
             said = waiting.recv() => match said {
-                Some(text) if socket.send(Message::Text(text.into())).await.is_ok() => {}
-                _ => break,
+                Some(text) => {
+                    if socket.send(Message::Text(text.into())).await.is_err() {
+                        break;
+                    }
+                }
+                None => break,
             },
             heard = socket.recv() => match heard {
                 Some(Ok(Message::Text(text))) => {

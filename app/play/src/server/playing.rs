@@ -43,6 +43,8 @@ pub(super) struct Playing {
     ends_s: Option<f64>,
     has_ended: bool,
     saved: Option<(usize, PathBuf)>,
+    /// The path of the moving picture.
+    animation: String,
 }
 
 /// A seat and when its person was heard last.
@@ -58,7 +60,7 @@ impl Playing {
         options: &ServeOptions,
         (name, seat): (&str, &str),
         run: u64,
-        requests: Sender<Request>,
+        (requests, animation): (Sender<Request>, &str),
     ) -> Result<Playing, String> {
         let scenario = options.registry.load(name, &[]).map_err(|error| {
             let faults: Vec<&str> = error.faults().iter().map(interplay_scenarios::Fault::message).collect();
@@ -85,6 +87,7 @@ impl Playing {
             ends_s: None,
             has_ended: false,
             saved: None,
+            animation: animation.to_owned(),
         })
     }
 
@@ -136,11 +139,20 @@ impl Playing {
     }
 
     /// Does what a page asks for.
-    pub fn follow(&mut self, page: &PageAtGame, message: PageMessage, pages: &[PageAtGame]) -> Result<(), SessionError> {
+    pub fn follow(
+        &mut self,
+        page: &PageAtGame,
+        message: PageMessage,
+        pages: &[PageAtGame],
+    ) -> Result<(), SessionError> {
         let seat = self.seat_of(page).to_owned();
         match message {
             PageMessage::Input { seq, acceleration, steering, assist } => {
-                if self.is_paused && !self.has_ended && (acceleration != 0.0 || steering != 0.0) && self.session.ticks() == 0 {
+                if self.is_paused
+                    && !self.has_ended
+                    && (acceleration != 0.0 || steering != 0.0)
+                    && self.session.ticks() == 0
+                {
                     self.pause(false);
                 }
                 if let Some(heard) = self.seats.iter_mut().find(|heard| heard.seat == seat) {
@@ -150,20 +162,24 @@ impl Playing {
             }
             PageMessage::Pause { paused } => {
                 self.pause(paused);
-                pages.iter().for_each(|page| drop(page.send(&self.frame(page))));
+                self.show(pages);
             }
             PageMessage::Rewind { seconds } => {
                 self.session.rewind(seconds)?;
                 (self.has_ended, self.ends_s, self.others) = (false, None, None);
                 self.moment = StageWitness::standing(&self.session.states());
                 self.next = Instant::now();
-                pages.iter().for_each(|page| drop(page.send(&self.frame(page))));
+                self.show(pages);
             }
-            PageMessage::HandOver { to } => self.session.hand_over(&seat, to.as_deref())?,
+            PageMessage::HandOver { to } => {
+                self.session.hand_over(&seat, to.as_deref())?;
+                self.show(pages);
+            }
             PageMessage::Rate { ratio } => {
                 let [least, most] = RATES;
                 self.rate = if ratio.is_finite() { ratio.clamp(least, most) } else { 1.0 };
                 (self.next, self.made) = (Instant::now(), Vec::new());
+                self.show(pages);
             }
             PageMessage::End => self.end(pages),
             _ => {}
@@ -189,7 +205,7 @@ impl Playing {
         }
         // No tick is left out: where the machine is too slow, time passes more slowly.
         self.next = (self.next + step).max(Instant::now());
-        pages.iter().for_each(|page| drop(page.send(&self.frame(page))));
+        self.show(pages);
         if self.ends_s.is_none() && self.session.is_decided() {
             let real = self.session.scenario().ego().map_or(1.0, |ego| ego.body.real_ratio().sqrt());
             self.ends_s = Some(self.session.time_s() + AFTER_S * real);
@@ -208,6 +224,13 @@ impl Playing {
             }
         }
         Ok(())
+    }
+
+    /// Every page is told what is seen now.
+    fn show(&self, pages: &[PageAtGame]) {
+        for page in pages {
+            page.send(&self.frame(page));
+        }
     }
 
     /// What a page sees now.
@@ -258,8 +281,8 @@ impl Playing {
             let mut score = self.session.score(self.seat_of(page));
             score.others = self.others.clone().unwrap_or_default();
             let saved = self.saved.as_ref().map(|(_, path)| path.display().to_string());
-            // The page asks for it relative to its own address.
-            page.send(&ServerMessage::Score { score, saved, animation: Some("animation.webp".to_owned()) });
+            let animation = Some(self.animation.clone());
+            page.send(&ServerMessage::Score { score, saved, animation });
         }
     }
 
@@ -279,6 +302,12 @@ impl Playing {
     pub fn recorded(&self) -> Option<RecordedRun> {
         let (frames, report) = (self.session.frames().to_vec(), self.session.report());
         let scenario = self.session.scenario().clone();
-        (!frames.is_empty()).then_some(RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report })
+        (!frames.is_empty()).then_some(RecordedRun {
+            label: String::new(),
+            command: Vec::new(),
+            scenario,
+            frames,
+            report,
+        })
     }
 }

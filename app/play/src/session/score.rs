@@ -73,7 +73,12 @@ impl Session {
         if story.is_empty() && report.order.len() > 1 {
             story.push(format!("In the end: {}", report.order.join(" before ")));
         }
-        story.extend(report.collisions.iter().map(|contact| format!("{} and {} touched", contact.between[0], contact.between[1])));
+        story.extend(
+            report
+                .collisions
+                .iter()
+                .map(|contact| format!("{} and {} touched", contact.between[0], contact.between[1])),
+        );
         Score { you: ScoreRow::of("you", seat, &report), others: Vec::new(), story }
     }
 }

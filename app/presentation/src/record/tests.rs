@@ -205,8 +205,10 @@ impl Watcher for Listener {
 #[test]
 fn planners_give_every_number_that_a_panel_shows() {
     // Nothing comes from outside here.
-    let planning =
-        Registry::standard().driver_kinds().into_iter().filter(|kind| !["external", "inputs", "recorded"].contains(kind));
+    let planning = Registry::standard()
+        .driver_kinds()
+        .into_iter()
+        .filter(|kind| !["external", "inputs", "recorded"].contains(kind));
     for kind in planning {
         let mut scenario = scenario(Some(kind));
         scenario.duration_s = 0.5;

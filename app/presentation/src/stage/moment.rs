@@ -124,15 +124,16 @@ impl StageWitness {
                 text: format!("takes {} for {}", belief.vehicle, belief.model.name()),
             })
         });
-        let events = frame.events.iter().filter(|event| is_event_said(scenario, frame, event)).map(|event| StageEvent {
-            vehicle: event.vehicle.clone(),
-            level: match event.level {
-                Level::Note => "note",
-                Level::Warning => "warning",
-                Level::Alarm => "alarm",
-            },
-            text: event.text.clone(),
-        });
+        let events =
+            frame.events.iter().filter(|event| is_event_said(scenario, frame, event)).map(|event| StageEvent {
+                vehicle: event.vehicle.clone(),
+                level: match event.level {
+                    Level::Note => "note",
+                    Level::Warning => "warning",
+                    Level::Alarm => "alarm",
+                },
+                text: event.text.clone(),
+            });
         StageMoment {
             states: states.iter().map(|state| state.to_array()).collect(),
             inputs: frame.vehicles.iter().map(|vehicle| vehicle.input.to_array()).collect(),

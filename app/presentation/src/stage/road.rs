@@ -94,7 +94,8 @@ pub(super) fn shapes(scenario: &Scenario) -> (Vec<RoadShape>, Vec<StageLight>) {
         let steps = (scenario.duration_s / LIGHT_STEP_S).ceil() as usize + 1;
         let mut colours: Vec<(String, f64)> = Vec::new();
         for step in 0..steps {
-            let (colour, until_s) = (css(light.colour_at(step as f64 * LIGHT_STEP_S)), (step + 1) as f64 * LIGHT_STEP_S);
+            let (colour, until_s) =
+                (css(light.colour_at(step as f64 * LIGHT_STEP_S)), (step + 1) as f64 * LIGHT_STEP_S);
             match colours.last_mut() {
                 Some((last, end_s)) if *last == colour => *end_s = until_s,
                 _ => colours.push((colour, until_s)),

@@ -61,8 +61,8 @@ impl Simulation {
 #[cfg(test)]
 mod tests {
     use interplay_planners::Driver;
-    use interplay_planners::inputs::{Settings, WheelHandOver};
     use interplay_planners::Input;
+    use interplay_planners::inputs::{Settings, WheelHandOver};
     use interplay_scenarios::{Override, load};
 
     use crate::Simulation;
