@@ -15,7 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("planners", &["common", "convex"]),
     ("building", &["common", "convex"]),
     ("scenarios", &["common", "planners", "building"]),
-    ("app/simulation", &["planners", "building", "scenarios"]),
+    ("app/simulation", &["common", "planners", "building", "scenarios"]),
     ("app/files", &[]),
     ("app/recordings", &["common", "planners", "scenarios"]),
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
