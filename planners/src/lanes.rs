@@ -29,7 +29,7 @@ pub struct Leader {
 
 /// The lanes of a road, numbered from the right.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lanes {
+pub struct RoadLanes {
     right_m: f64,
     width_m: f64,
     count: usize,
@@ -37,23 +37,23 @@ pub struct Lanes {
     ends: Option<(usize, [Option<f64>; 2])>,
 }
 
-impl Lanes {
+impl RoadLanes {
     /// The lanes of the ego's road; at least one. On a road of parallel lanes without names they are as wide as stated \[m\], and by
     /// default as is usual.
-    pub fn of_road(scene: &Scene, width_m: Option<f64>) -> Lanes {
+    pub fn of_road(scene: &Scene, width_m: Option<f64>) -> RoadLanes {
         let road = &scene.ego.route;
         let along_m = road.along(scene.ego.state.position());
         if road.is_in_network() {
-            return Lanes::beside_route(scene, along_m);
+            return RoadLanes::beside_route(scene, along_m);
         }
         let [right_m, left_m] = road.edges_before_end_m(along_m);
         let width_m = width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
         let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
-        Lanes { right_m, width_m, count, ends: None }
+        RoadLanes { right_m, width_m, count, ends: None }
     }
 
     /// The lane that the route follows, and those beside it that have room between the edges.
-    fn beside_route(scene: &Scene, along_m: f64) -> Lanes {
+    fn beside_route(scene: &Scene, along_m: f64) -> RoadLanes {
         let (ego, road) = (&scene.ego, &scene.ego.route);
         let width_m = 2.0 * road.half_width.value(along_m);
         let on_side = |room_m: f64| (room_m / width_m - 0.5 + LEAST_LANE_SHARE).floor().max(0.0) as usize;
@@ -70,7 +70,7 @@ impl Lanes {
         let [to_right, to_left] = beside(along_m);
         let ends = [0, 1].map(|side| ahead.iter().find(|(_, lanes)| lanes[side] == 0).map(|(at_m, _)| *at_m));
         let count = to_right + 1 + to_left;
-        Lanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count, ends: Some((to_right, ends)) }
+        RoadLanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count, ends: Some((to_right, ends)) }
     }
 
     /// How many lanes there are.
@@ -106,7 +106,7 @@ impl Lanes {
 }
 
 /// Whether a vehicle is at least partly in a lane of the ego's road at time `t` of its prediction.
-fn is_in(scene: &Scene, lanes: &Lanes, lane: usize, other: &Agent, t: usize) -> bool {
+fn is_in(scene: &Scene, lanes: &RoadLanes, lane: usize, other: &Agent, t: usize) -> bool {
     let lateral = scene.ego.route.across(at(other, t).position());
     let reach = 0.5 * (lanes.width_m + other.body.width_m);
     (lateral - lanes.centre_m(lane)).abs() < reach
@@ -118,7 +118,7 @@ fn at(other: &Agent, t: usize) -> State {
 }
 
 /// What is ahead of a state in a lane at time `t`: the nearest vehicle, or the lane's end.
-pub fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
+pub fn leader(scene: &Scene, lanes: &RoadLanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
     let (ego, road) = (&scene.ego, &scene.ego.route);
     let own = road.along(state.position());
     let vehicles = scene.others.iter().filter(|other| is_in(scene, lanes, lane, other, t)).filter_map(|other| {
@@ -137,7 +137,7 @@ pub fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize
 }
 
 /// The nearest vehicle behind the ego in a lane, now.
-pub fn follower<'a>(scene: &'a Scene, lanes: &Lanes, lane: usize) -> Option<&'a Agent> {
+pub fn follower<'a>(scene: &'a Scene, lanes: &RoadLanes, lane: usize) -> Option<&'a Agent> {
     let behind = |other: &&Agent| scene.ego.lead_of(other) <= 0.0 && is_in(scene, lanes, lane, other, 0);
     let behind = scene.others.iter().filter(behind);
     behind.max_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))

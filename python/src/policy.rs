@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 use interplay_planners::belief::Outlook;
 use interplay_planners::predict::Prediction;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
-use interplay_simulation::environment::{Action, AgentInterface, Observation, Policy, PolicyDriver, PolicyError};
+use interplay_simulation::environment::{Action, AgentInterface, AgentView, Policy, PolicyDriver, PolicyError};
 use numpy::{IntoPyArray, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -58,7 +58,7 @@ pub struct PythonPolicy {
     /// What tells its results from those of earlier versions.
     pub version: String,
     /// What it sees.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<AgentView>,
     /// What it decides.
     pub action: Action,
     /// Time from one decision to the next; without it as in an environment.
@@ -70,7 +70,7 @@ impl Default for PythonPolicy {
         PythonPolicy {
             policy: String::new(),
             version: String::new(),
-            observations: vec![Observation::Kinematics(Default::default())],
+            observations: vec![AgentView::Kinematics(Default::default())],
             action: Action::Continuous,
             decision_s: None,
         }

@@ -60,4 +60,4 @@ pub mod worst_zones;
 struct Readme;
 
 pub use not_copied::NotCopied;
-pub use simulation::{SavedRunError, Simulation, Snapshot, Zone};
+pub use simulation::{SavedRunError, Simulation, Snapshot, ZoneNow};

@@ -12,7 +12,7 @@
 
 use super::Settings;
 use crate::lanes::Leader;
-use crate::lanes::{Lanes, follower, leader};
+use crate::lanes::{RoadLanes, follower, leader};
 use crate::{Agent, Scene};
 
 /// A lane and by how much it is better than staying, threshold included; negative for staying.
@@ -24,7 +24,7 @@ pub(super) struct LaneChoice {
 
 /// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first.
 pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoice {
-    let (mobil, lanes) = (&settings.mobil, Lanes::of_road(scene, settings.mobil.lane_width_m));
+    let (mobil, lanes) = (&settings.mobil, RoadLanes::of_road(scene, settings.mobil.lane_width_m));
     let off_centre = scene.ego.route.across(scene.ego.state.position()) - lanes.centre_m(now);
     let goal = lanes.at(scene.ego.route.across(scene.goal.target.position()));
     let mut best = LaneChoice { lane: now, incentive_mps2: f64::NEG_INFINITY };
@@ -50,7 +50,7 @@ pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoi
 struct Change<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
-    lanes: Lanes,
+    lanes: RoadLanes,
     now: usize,
     lane: usize,
 }

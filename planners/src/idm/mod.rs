@@ -16,7 +16,7 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
-use crate::lanes::{Lanes, leader};
+use crate::lanes::{RoadLanes, leader};
 use crate::obstacle::ObstacleMemory;
 use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
@@ -47,7 +47,7 @@ impl Idm {
     }
 
     /// The lane it is in: the chosen one, while that is near.
-    fn lane(&self, scene: &Scene, lanes: &Lanes) -> usize {
+    fn lane(&self, scene: &Scene, lanes: &RoadLanes) -> usize {
         let route = &scene.ego.route;
         let nearest = lanes.at(route.across(scene.ego.state.position()));
         let is_near = |lane: &usize| !route.is_in_network() || lane.abs_diff(nearest) <= 1;
@@ -105,7 +105,7 @@ impl Drive for Idm {
         minded
             .others
             .retain(|other| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
-        let lanes = Lanes::of_road(&minded, self.settings.mobil.lane_width_m);
+        let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
         let choice = mobil::choose(&minded, &self.settings, now);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));

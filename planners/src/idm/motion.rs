@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::lanes::Leader;
-use crate::lanes::{Lanes, leader};
+use crate::lanes::{RoadLanes, leader};
 use crate::obstacle::swing_m;
 use crate::road_rules::Obstacle;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};
@@ -22,7 +22,7 @@ pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
     /// What it minds: everybody on the same road but what it passes.
     pub scene: &'a Scene,
-    pub lanes: Lanes,
+    pub lanes: RoadLanes,
     /// The lane it is in, and the one it drives in or changes to.
     pub from_to: [usize; 2],
     /// Where it has to wait \[m\].

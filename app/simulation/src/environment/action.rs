@@ -1,6 +1,6 @@
 //! What an agent decides, as numbers, and what its vehicle does with it.
 
-use interplay_planners::lanes::{Lanes, towards};
+use interplay_planners::lanes::{RoadLanes, towards};
 use interplay_planners::{Agent, Body, Input, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -125,14 +125,14 @@ pub(super) struct MetaTarget {
 impl MetaTarget {
     /// The lane in which a vehicle is, and its speed.
     pub fn of(scene: &Scene) -> MetaTarget {
-        let lanes = Lanes::of_road(scene, None);
+        let lanes = RoadLanes::of_road(scene, None);
         let now_m = scene.ego.route.across(scene.ego.state.position());
         MetaTarget { lane_m: lanes.centre_m(lanes.at(now_m)), speed_mps: scene.ego.state.speed_mps }
     }
 
     /// The lane and speed after a meta-action; none that cannot be done.
     pub fn after(self, action: DiscreteMeta, scene: &Scene) -> Option<MetaTarget> {
-        let lanes = Lanes::of_road(scene, None);
+        let lanes = RoadLanes::of_road(scene, None);
         let now = lanes.at(self.lane_m);
         let lane = |lane: Option<usize>| {
             let lane = lane.filter(|lane| *lane < lanes.count())?;
@@ -160,7 +160,7 @@ impl MetaTarget {
 
     /// The meta-action that comes nearest to a motion of a planner: a change of lane if it ends in another one, else of the speed.
     pub fn nearest(self, scene: &Scene, end: &interplay_planners::State) -> DiscreteMeta {
-        let lanes = Lanes::of_road(scene, None);
+        let lanes = RoadLanes::of_road(scene, None);
         let [now, then] = [self.lane_m, scene.ego.route.across(end.position())].map(|across_m| lanes.at(across_m));
         let faster = |action| self.after(action, scene).map(|target| target.speed_mps);
         let nearer = |speed_mps: f64| (speed_mps - end.speed_mps).abs() < (self.speed_mps - end.speed_mps).abs();

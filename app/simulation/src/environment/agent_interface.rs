@@ -6,7 +6,7 @@ use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Plan, Scene};
 
 use super::action::{MetaTarget, handed_in, row_of};
-use super::observation::{Observation, ObservationSpace, Seen};
+use super::observation::{AgentView, ObservationSpace, Seen};
 use super::{Action, ActionSpace, DiscreteMeta};
 use crate::components::HandedIn;
 
@@ -14,7 +14,7 @@ use crate::components::HandedIn;
 /// speed meta-actions have led.
 #[derive(Clone, Debug)]
 pub struct AgentInterface {
-    observations: Vec<Observation>,
+    observations: Vec<AgentView>,
     action: Action,
     horizon: usize,
     beliefs: Option<Box<DriverBeliefs>>,
@@ -26,8 +26,8 @@ pub struct AgentInterface {
 
 impl AgentInterface {
     /// The interface of a vehicle whose plans have so many steps, before its first decision.
-    pub fn new(observations: &[Observation], action: Action, horizon: usize) -> AgentInterface {
-        let is_belief = |observation: &Observation| matches!(observation, Observation::Belief(_));
+    pub fn new(observations: &[AgentView], action: Action, horizon: usize) -> AgentInterface {
+        let is_belief = |observation: &AgentView| matches!(observation, AgentView::Belief(_));
         let infers = observations.iter().any(is_belief);
         AgentInterface {
             observations: observations.to_vec(),

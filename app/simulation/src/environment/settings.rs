@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Action, Observation, RewardWeights, StartDraw};
+use super::{Action, AgentView, RewardWeights, StartDraw};
 use crate::run_error::RunError;
 
 /// What is chosen of an environment beside its scenario.
@@ -14,7 +14,7 @@ pub struct EnvironmentSettings {
     /// The vehicles that are driven from outside; without any, the ego.
     pub agents: Vec<String>,
     /// What each agent sees, one after the other.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<AgentView>,
     /// What each agent decides.
     pub action: Action,
     /// What the reward is made of.
@@ -30,7 +30,7 @@ impl Default for EnvironmentSettings {
     fn default() -> Self {
         EnvironmentSettings {
             agents: Vec::new(),
-            observations: vec![Observation::Kinematics(Default::default())],
+            observations: vec![AgentView::Kinematics(Default::default())],
             action: Action::Continuous,
             reward: RewardWeights::default(),
             start: StartDraw::default(),

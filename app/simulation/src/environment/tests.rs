@@ -29,11 +29,11 @@ fn action(step: usize) -> [f32; 2] {
 #[test]
 fn every_view_writes_numbers_within_its_bounds() {
     let observations = vec![
-        Observation::Kinematics(Kinematics::default()),
-        Observation::Lane(LaneView::default()),
-        Observation::OccupancyGrid(OccupancyGrid::default()),
-        Observation::Plan(PlanView::default()),
-        Observation::Belief(BeliefView::default()),
+        AgentView::Kinematics(Kinematics::default()),
+        AgentView::Lane(LaneView::default()),
+        AgentView::OccupancyGrid(OccupancyGrid::default()),
+        AgentView::Plan(PlanView::default()),
+        AgentView::Belief(BeliefView::default()),
     ];
     let mut environment = environment(&EnvironmentSettings { observations, ..EnvironmentSettings::default() });
     environment.reset(Some(3)).expect("an episode");

@@ -7,7 +7,7 @@ mod zones;
 
 pub use saved_run::SavedRunError;
 pub use snapshot::Snapshot;
-pub use zones::Zone;
+pub use zones::ZoneNow;
 
 use std::sync::Arc;
 use std::time::Instant;

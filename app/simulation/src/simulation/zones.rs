@@ -7,7 +7,7 @@ use crate::run_error::RunError;
 
 /// A zone of a building before its next step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Zone {
+pub struct ZoneNow {
     /// Its name.
     pub name: String,
     /// Its temperature \[°C\].
@@ -24,7 +24,7 @@ pub struct Zone {
 
 impl Simulation {
     /// The zones of the building as they are now, with what is wanted of them in the next step; none without a building.
-    pub fn zones(&self) -> Vec<Zone> {
+    pub fn zones(&self) -> Vec<ZoneNow> {
         let (Some(building), Some(measures)) =
             (self.world.get_resource::<Building>(), self.world.get_resource::<BuildingMeasures>())
         else {
@@ -35,7 +35,7 @@ impl Simulation {
         let limits = building.model.network().limits();
         let (reference_c, band_k) = (targets.reference_at(step), targets.band_at(step));
         let temperatures_c = self.node_temperatures_c();
-        let zone = |(index, name): (usize, &String)| Zone {
+        let zone = |(index, name): (usize, &String)| ZoneNow {
             name: name.clone(),
             temperature_c: temperatures_c.get(index).copied().unwrap_or(f64::NAN),
             reference_c: Some(reference_c[index]).filter(|_| targets.weight_at(step)[index] > 0.0),

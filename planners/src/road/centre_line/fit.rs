@@ -26,7 +26,7 @@ impl CentreLine {
 
     /// Like [`CentreLine::through`], with a given heading at the begin, at the end, or at both \[rad\].
     ///
-    /// Lanes that follow each other thus have one heading where they meet. The curvature at an end with a given heading need
+    /// RoadLanes that follow each other thus have one heading where they meet. The curvature at an end with a given heading need
     /// not be zero.
     ///
     /// # Errors

@@ -17,7 +17,7 @@ pub struct Conflict {
 /// Ends of conflicts are found to this share of the narrowest lane.
 pub const CONFLICT_TOLERANCE_RATIO: f64 = 0.01;
 
-/// Lanes that overlap by less than this share of their width lie side by side, and do not conflict.
+/// RoadLanes that overlap by less than this share of their width lie side by side, and do not conflict.
 const SIDE_BY_SIDE_RATIO: f64 = 0.05;
 
 /// Edges that touch do not overlap: each lane is taken as narrower by this share.

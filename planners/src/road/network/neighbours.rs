@@ -30,7 +30,7 @@ struct Beside {
 
 /// What keeps a lane from being the neighbour that it should be, on a side: 1 for the left, −1 for the right.
 ///
-/// Lanes may be of different length and are compared where both are. In the middle they run in the direction that is said of
+/// RoadLanes may be of different length and are compared where both are. In the middle they run in the direction that is said of
 /// them. The neighbour is nowhere on the other side. Somewhere both lie side by side; elsewhere they may merge or part.
 pub(super) fn is_beside(lane: &Lane, neighbour: &LaneNeighbour, other: &Lane, side: f64) -> Option<LaneFault> {
     let other_middle = other.centre.at(0.5 * other.centre.length_m()).position;

@@ -7,7 +7,7 @@ use super::lane::Lane;
 use super::neighbours::is_beside;
 use super::self_overlap::self_overlap_m;
 
-/// Lanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
+/// RoadLanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
 /// itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadNetwork {
@@ -52,7 +52,7 @@ impl RoadNetwork {
             }
         }
         let network = RoadNetwork { lanes, numbers };
-        // Lanes are checked alone before they are compared: a comparison needs lanes with ends.
+        // RoadLanes are checked alone before they are compared: a comparison needs lanes with ends.
         for check in [RoadNetwork::check_alone, RoadNetwork::check_beside_others] {
             for (index, lane) in network.lanes.iter().enumerate() {
                 check(&network, lane).map_err(|(field, fault)| RoadNetworkError {

@@ -1,7 +1,7 @@
 //! The own lane, the lanes beside it, and who is ahead and behind in each of them.
 
 use interplay_planners::Scene;
-use interplay_planners::lanes::{Lanes, follower, leader};
+use interplay_planners::lanes::{RoadLanes, follower, leader};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ impl LaneView {
 
     pub(super) fn write(&self, seen: &Seen<'_>, out: &mut [f32]) {
         let scene = seen.scene;
-        let lanes = Lanes::of_road(scene, None);
+        let lanes = RoadLanes::of_road(scene, None);
         let now = lanes.at(scene.ego.route.across(scene.ego.state.position()));
         let (own, beside) = out.split_at_mut(OWN.len());
         own.copy_from_slice(&itself(scene, &lanes, now));
@@ -54,7 +54,7 @@ impl LaneView {
 }
 
 /// The agent's own place and motion.
-fn itself(scene: &Scene, lanes: &Lanes, now: usize) -> [f32; OWN.len()] {
+fn itself(scene: &Scene, lanes: &RoadLanes, now: usize) -> [f32; OWN.len()] {
     let (ego, scales) = (&scene.ego, Scales::of_ego(scene));
     let at = ego.route.locate(ego.state.position(), None);
     let goal_across_m = ego.route.across(scene.goal.target.position());
@@ -84,7 +84,7 @@ fn itself(scene: &Scene, lanes: &Lanes, now: usize) -> [f32; OWN.len()] {
 }
 
 /// Who is ahead and behind in a lane; gaps of nobody are 1 and speeds 0, gaps beside the agent are negative.
-fn traffic(scene: &Scene, lanes: &Lanes, lane: usize) -> [f32; LANE.len()] {
+fn traffic(scene: &Scene, lanes: &RoadLanes, lane: usize) -> [f32; LANE.len()] {
     let (ego, scales) = (&scene.ego, Scales::of_ego(scene));
     let faster = |speed_mps: f64| share(speed_mps - ego.state.speed_mps, scales.speed_mps);
     let ahead = leader(scene, lanes, lane, &ego.state, 0);

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// A view of a scene, with the names that users of HighwayEnv know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind")]
-pub enum Observation {
+pub enum AgentView {
     /// The nearest vehicles: where they are and how they move.
     Kinematics(Kinematics),
     /// The own lane, the lanes beside it, and who is ahead and behind in each of them.
@@ -73,38 +73,38 @@ pub(super) struct Seen<'a> {
     pub beliefs: &'a [DriverEstimate],
 }
 
-impl Observation {
+impl AgentView {
     /// The numbers of the view of a vehicle with a horizon.
     pub fn space(&self, horizon: usize) -> ObservationSpace {
         match self {
-            Observation::Kinematics(view) => view.space(),
-            Observation::Lane(view) => view.space(),
-            Observation::OccupancyGrid(view) => view.space(),
-            Observation::Plan(view) => view.space(horizon),
-            Observation::Belief(view) => view.space(),
+            AgentView::Kinematics(view) => view.space(),
+            AgentView::Lane(view) => view.space(),
+            AgentView::OccupancyGrid(view) => view.space(),
+            AgentView::Plan(view) => view.space(horizon),
+            AgentView::Belief(view) => view.space(),
         }
     }
 
     /// What is wrong with the settings, if anything.
     pub(super) fn fault(&self) -> Option<String> {
         match self {
-            Observation::OccupancyGrid(view) => view.fault(),
-            Observation::Kinematics(Kinematics { count, .. })
-            | Observation::Plan(PlanView { count, .. })
-            | Observation::Belief(BeliefView { count }) => {
+            AgentView::OccupancyGrid(view) => view.fault(),
+            AgentView::Kinematics(Kinematics { count, .. })
+            | AgentView::Plan(PlanView { count, .. })
+            | AgentView::Belief(BeliefView { count }) => {
                 (*count == 0 || *count > MOST_SEEN).then(|| format!("`count` is from 1 to {MOST_SEEN}"))
             }
-            Observation::Lane(_) => None,
+            AgentView::Lane(_) => None,
         }
     }
 
     pub(super) fn write(&self, seen: &Seen<'_>, out: &mut [f32]) {
         match self {
-            Observation::Kinematics(view) => view.write(seen, out),
-            Observation::Lane(view) => view.write(seen, out),
-            Observation::OccupancyGrid(view) => view.write(seen, out),
-            Observation::Plan(view) => view.write(seen, out),
-            Observation::Belief(view) => view.write(seen, out),
+            AgentView::Kinematics(view) => view.write(seen, out),
+            AgentView::Lane(view) => view.write(seen, out),
+            AgentView::OccupancyGrid(view) => view.write(seen, out),
+            AgentView::Plan(view) => view.write(seen, out),
+            AgentView::Belief(view) => view.write(seen, out),
         }
     }
 }
