@@ -31,7 +31,9 @@ fn what_was_played_from_a_file_runs_again_to_the_same_digest() {
 fn negotiation_answers_the_person_in_the_other_car() {
     let folder = scratch("played-front");
     let order = |acceleration: &str| {
-        let line = format!("{{\"tick\": 0, \"type\": \"input\", \"acceleration\": {acceleration}, \"steering\": 0, \"assist\": true}}\n");
+        let line = format!(
+            "{{\"tick\": 0, \"type\": \"input\", \"acceleration\": {acceleration}, \"steering\": 0, \"assist\": true}}\n"
+        );
         let release = "{\"tick\": 12, \"type\": \"input\", \"acceleration\": 0, \"steering\": 0, \"assist\": true}\n";
         fs::write(folder.join("front.jsonl"), line + release).expect("the folder can be written");
         let out = format!("front{acceleration}.toml");
@@ -53,7 +55,10 @@ fn what_cannot_be_played_is_refused_before_anything_is_written() {
         (&["lane-change/front-nice", "--as", "nobody", "--input", "drive.jsonl"][..], "choose from ego, front, rear"),
         (&["lane-change/front-nice", "--input", "wrong.jsonl"], "wrong.jsonl:1: unknown variant `fly`"),
         (&["lane-change/front-nice", "--input", "nowhere.jsonl"], "cannot read nowhere.jsonl"),
-        (&["lane-change/front-nice", "--input", "drive.jsonl", "--out", "drive.jsonl"], "would overwrite `drive.jsonl`"),
+        (
+            &["lane-change/front-nice", "--input", "drive.jsonl", "--out", "drive.jsonl"],
+            "would overwrite `drive.jsonl`",
+        ),
         (&["building/four-room-pid", "--input", "drive.jsonl"], "no vehicle that a person can drive"),
         (&["lane-change/front-nice", "--join", "ego"], "the seat of the first page already"),
     ] {

@@ -1,7 +1,7 @@
 //! A seat: what its person wishes, and what was done.
 
 use interplay_planners::inputs::{self, WheelHandOver};
-use interplay_planners::lanes::{Lanes, towards};
+use interplay_planners::lanes::{RoadLanes, towards};
 use interplay_planners::{Driver, Input, Scene};
 use interplay_simulation::Simulation;
 
@@ -90,7 +90,7 @@ impl Seat {
             let most_rad = limits.steering_max_at_rad(&ego.body, ego.state.speed_mps);
             return Input { acceleration_mps2, steering_rad: steering * most_rad };
         }
-        let lanes = Lanes::of_road(scene, None);
+        let lanes = RoadLanes::of_road(scene, None);
         let now_m = ego.route.across(ego.state.position());
         let mut place_m = self.place_m.unwrap_or(now_m);
         if steering == 0.0 {
