@@ -4,7 +4,7 @@ use interplay_planners::driver_estimate::DriverModel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ObservationSpace, Seen, names, nearest_first};
+use super::view::{ObservationSpace, Seen, names, nearest_first};
 
 /// The probabilities of the kinds of driver that each of the nearest others may be: tough, normal, nice, IDM, none of these. Rows of
 /// nobody are 0.

@@ -4,7 +4,7 @@ use interplay_planners::{Agent, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ObservationSpace, Scales, Seen, names, share};
+use super::view::{ObservationSpace, Scales, Seen, names, share};
 
 /// A grid around the agent, along its road and across it: in each cell whether somebody is there, how fast compared with the agent, and
 /// whether there is road. The agent itself is in no cell.

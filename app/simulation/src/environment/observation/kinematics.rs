@@ -4,7 +4,7 @@ use interplay_planners::{Agent, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ObservationSpace, Scales, Seen, names, nearest_first, share};
+use super::view::{ObservationSpace, Scales, Seen, names, nearest_first, share};
 
 /// The agent and the nearest others, a row each: presence, x, y, vx, vy, cos h, sin h, in the axes of the world. Rows of nobody are 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@ use interplay_planners::lanes::{RoadLanes, follower, leader};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ObservationSpace, Scales, Seen, names, share};
+use super::view::{ObservationSpace, Scales, Seen, names, share};
 
 /// The agent beside its route (Frenet frame) and the traffic by lane, as one row of numbers from −1 to 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

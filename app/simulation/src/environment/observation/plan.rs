@@ -4,7 +4,7 @@ use interplay_planners::Trajectory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ObservationSpace, Scales, Seen, names, nearest_first, share};
+use super::view::{ObservationSpace, Scales, Seen, names, nearest_first, share};
 
 /// Where the agent and the nearest others will be: a row a vehicle, its positions from now to the end of the horizon, relative to where
 /// the agent is now along the axes of the world. Of who announces nothing it is motion at constant velocity. The agent's own row is its
