@@ -3,7 +3,7 @@
 use interplay_presentation::stage::{Stage, StageMoment};
 use serde::{Deserialize, Serialize};
 
-use crate::session::Score;
+use crate::session::{PlayGoal, Score};
 
 /// What a page says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,19 +100,6 @@ pub struct Chosen {
     pub scenario: String,
     /// The vehicle.
     pub seat: String,
-}
-
-/// What a person in a seat wants to reach.
-#[derive(Clone, Debug, Serialize)]
-pub struct PlayGoal {
-    /// `lane`, `cross`, `last-lane` or `drive`.
-    pub kind: &'static str,
-    /// The same in words.
-    pub text: String,
-    /// A line to be crossed \[m\].
-    pub line: Option<[[f64; 2]; 2]>,
-    /// The middle of the lane to be reached \[m\].
-    pub lane: Option<Vec<[f64; 2]>>,
 }
 
 /// What the server says.

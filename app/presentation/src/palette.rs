@@ -96,6 +96,11 @@ pub fn vehicle_colours(scenario: &Scenario) -> Vec<NamedColour> {
         .collect()
 }
 
+/// A colour as style sheets write it.
+pub fn css([red, green, blue]: Colour) -> String {
+    format!("#{red:02X}{green:02X}{blue:02X}")
+}
+
 /// A darker shade.
 pub fn darker(colour: Colour) -> Colour {
     colour.map(|part| (f64::from(part) * 0.55) as u8)

@@ -3,53 +3,20 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
-use interplay_presentation::figures::RecordedRun;
 use serde_json::Error as JsonError;
 use tokio::sync::{mpsc, oneshot};
 
-use super::ServeOptions;
+use super::options::ServeOptions;
 use super::playing::Playing;
+use super::request::{PageAtGame, Request};
 use crate::menu::Menu;
 use crate::protocol::{Chosen, PageMessage, ServerMessage};
-use crate::session::{ScoreRow, SessionError};
+use crate::session::SessionError;
 
 /// How long the game sleeps while nothing is played.
 const IDLE: Duration = Duration::from_millis(250);
 /// Most pages at a time.
 const MOST_PAGES: usize = 16;
-
-/// What the game is asked for.
-pub(super) enum Request {
-    /// A page is there; it is told its number.
-    Join { seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64> },
-    /// A page says something.
-    Said { page: u64, text: String },
-    /// A page is gone.
-    Leave { page: u64 },
-    /// Somebody wants the moving picture of the run.
-    Animation { answer: oneshot::Sender<Option<RecordedRun>> },
-    /// Planners have driven from the same start.
-    Others { run: u64, rows: Vec<ScoreRow> },
-    /// The server ends.
-    Stop,
-}
-
-/// A page.
-pub(super) struct PageAtGame {
-    pub number: u64,
-    /// The seat that its address names.
-    pub seat: Option<String>,
-    outgoing: mpsc::Sender<String>,
-}
-
-impl PageAtGame {
-    /// Sends a message; a page for whom too many wait is gone.
-    pub fn send(&self, message: &ServerMessage) -> bool {
-        let Ok(text) = serde_json::to_string(message) else { return true };
-        // A tick that does not arrive is followed by others; what else does not arrive would be missing.
-        self.outgoing.try_send(text).is_ok()
-    }
-}
 
 /// The game and all pages at it.
 pub(super) struct Game {
@@ -128,7 +95,7 @@ impl Game {
         if self.pages.len() >= MOST_PAGES {
             return;
         }
-        let page = PageAtGame { number: self.next_number, seat, outgoing };
+        let page = PageAtGame::new(self.next_number, seat, outgoing);
         self.next_number += 1;
         let _ = number.send(page.number);
         let chosen = self.playing.as_ref().map(|playing| Chosen {

@@ -2,12 +2,15 @@
 
 mod game;
 mod guard;
+mod options;
 mod pages;
 mod pictures;
 mod playing;
+mod request;
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+pub use options::ServeOptions;
+
+use std::net::SocketAddr;
 use std::sync::Arc;
 
 use axum::Router;
@@ -17,50 +20,19 @@ use axum::http::StatusCode;
 use axum::middleware;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use interplay_scenarios::Registry;
 use serde::Deserialize;
 use thiserror::Error;
 use tokio::net::TcpListener;
 use tokio::sync::mpsc;
 
-use self::game::{Game, Request};
+use self::game::Game;
 use self::guard::Guard;
+use self::request::Request;
 
 /// Messages of pages are longer than this only by mistake or malice \[bytes\].
 const MOST_BYTES: usize = 4096;
 /// Messages that wait for a slow page. A page that reads none for so long is closed.
 const MOST_WAITING: usize = 256;
-
-/// How a scenario is served.
-#[derive(Clone, Debug)]
-pub struct ServeOptions {
-    /// The address; by default that of this machine alone.
-    pub address: IpAddr,
-    /// The port; 0 takes a free one.
-    pub port: u16,
-    /// The scenario that is played first and its seat; none for the menu.
-    pub chosen: Option<(String, String)>,
-    /// A second seat, for a second page.
-    pub joined: Option<String>,
-    /// Where what is played is kept.
-    pub folder: PathBuf,
-    /// The kinds of drivers and metrics.
-    pub registry: Registry,
-}
-
-impl ServeOptions {
-    /// A server for this machine alone, on a free port.
-    pub fn new(registry: &Registry) -> ServeOptions {
-        ServeOptions {
-            address: Ipv4Addr::LOCALHOST.into(),
-            port: 0,
-            chosen: None,
-            joined: None,
-            folder: PathBuf::from("played"),
-            registry: registry.clone(),
-        }
-    }
-}
 
 /// Why nothing is served.
 #[derive(Debug, Error)]

@@ -8,8 +8,8 @@ use interplay_presentation::figures::RecordedRun;
 use interplay_presentation::stage::{StageMoment, StageWitness};
 use interplay_scenarios::Scenario;
 
-use super::ServeOptions;
-use super::game::{PageAtGame, Request};
+use super::options::ServeOptions;
+use super::request::{PageAtGame, Request};
 use crate::protocol::{PageMessage, ServerMessage};
 use crate::session::{ScoreRow, Session, SessionError, Wish, others};
 

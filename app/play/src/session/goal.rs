@@ -1,8 +1,20 @@
 //! What a seat wants to reach, in words and as a mark on the road.
 
 use interplay_scenarios::{Scenario, Vehicle};
+use serde::Serialize;
 
-use crate::protocol::PlayGoal;
+/// What a person in a seat wants to reach.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlayGoal {
+    /// `lane`, `cross`, `last-lane` or `drive`.
+    pub kind: &'static str,
+    /// The same in words.
+    pub text: String,
+    /// A line to be crossed \[m\].
+    pub line: Option<[[f64; 2]; 2]>,
+    /// The middle of the lane to be reached \[m\].
+    pub lane: Option<Vec<[f64; 2]>>,
+}
 
 /// The mark of a lane reaches so many lengths of a car ahead.
 const MARK_CARS: f64 = 30.0;

@@ -7,7 +7,8 @@ use interplay_simulation::report::Report;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-use super::{Session, SessionError};
+use super::error::SessionError;
+use super::live::Session;
 
 /// Who drives the ego beside a person who did.
 const PLANNERS: [&str; 3] = ["negotiation", "conservative", "bayesian"];

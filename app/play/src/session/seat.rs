@@ -5,7 +5,7 @@ use interplay_planners::lanes::{RoadLanes, towards};
 use interplay_planners::{Driver, Input, Scene};
 use interplay_simulation::Simulation;
 
-use super::SessionError;
+use super::error::SessionError;
 
 /// What a person wishes: keys, a stick or a finger.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,9 +1,11 @@
 //! What was played is a scenario that repeats it, whatever was played.
 
-use interplay_scenarios::{Scenario, embedded, from_text, load};
+use interplay_scenarios::{embedded, from_text, load};
 use interplay_simulation::run::run;
 
 use super::*;
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::Frame;
 
 /// Numbers from 0 to below `count` that follow from a seed.
 struct Dice(u64);

@@ -14,7 +14,7 @@ use interplay_scenarios::Scenario;
 use serde::Serialize;
 
 use crate::camera::car_m;
-use crate::palette::{Colour, GRASS, vehicle_colours};
+use crate::palette::{GRASS, css, vehicle_colours};
 
 /// A world as a page draws it; lengths in metres.
 #[derive(Clone, Debug, Serialize)]
@@ -57,9 +57,4 @@ impl Stage {
             grass: css(GRASS),
         }
     }
-}
-
-/// A colour as style sheets write it.
-fn css([red, green, blue]: Colour) -> String {
-    format!("#{red:02X}{green:02X}{blue:02X}")
 }

@@ -4,9 +4,8 @@ use interplay_planners::Route;
 use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
-use super::css;
 use crate::camera::car_m;
-use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, PAINT, PATH};
+use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, PAINT, PATH, css};
 use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
 
 /// The same as in animations, in lane widths.

@@ -4,10 +4,9 @@ use interplay_planners::{Body, Limits};
 use interplay_scenarios::{Outline, Vehicle};
 use serde::Serialize;
 
-use super::css;
 use crate::body_shape::{Wheels, body_parts, light_depth, place_on, rectangle};
 use crate::body_style::BodyStyle;
-use crate::palette::Colour;
+use crate::palette::{Colour, css};
 
 /// A ring of points ahead of the mass centre and to its left \[m\].
 type Ring = Vec<[f64; 2]>;
