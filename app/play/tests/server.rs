@@ -109,9 +109,7 @@ fn only_the_own_page_is_served() {
     let (host, token) = (format!("Host: {}\r\n", served.address), served.token().to_owned());
     assert_eq!(served.status(&format!("/{token}/"), &host), 200);
     assert_eq!(served.status(&format!("/{token}/page.js"), &host), 200);
-    for path in
-        ["/", "/socket", "/0123456789abcdef0123456789abcdef/", &format!("/{token}x/"), &format!("/{token}/../{token}/")]
-    {
+    for path in ["/", "/0123456789abcdef0123456789abcdef/", &format!("/{token}x/"), &format!("/{token}/../{token}/")] {
         assert_eq!(served.status(path, &host), 404, "{path}");
     }
     assert_eq!(served.status(&format!("/{token}/"), "Host: evil.example\r\n"), 403);
