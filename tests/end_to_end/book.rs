@@ -38,6 +38,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("mdbook ", "another program"),
     ("tests/cluster/", "needs a scheduler"),
     ("interplay view ", "waits for a viewer: see `authoring`"),
+    ("interplay play ", "serves a page until Ctrl-C: see `played`"),
     ("interplay run mine.toml --watch", "never ends: see `authoring`"),
     ("interplay run lane-change/front-tough --connect", "needs a viewer that listens"),
     ("interplay predict us101/", "the recordings are not part of this repository; the mechanism is in `predictions`"),
