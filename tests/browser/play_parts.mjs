@@ -1,9 +1,8 @@
 // Tests the parts of the page of `interplay play` that need no browser: the bicycle, the motion between frames, keys, camera.
 //
 //     node --test tests/browser/play_parts.mjs
-//     BICYCLE_CASES=cases.json node --test tests/browser/play_parts.mjs
 //
-// A file of cases holds what the simulation computed: [{ body, limits, step_s, state, inputs: [[acceleration, steering], ...],
+// bicycle_cases.json holds what the simulation computed (app/play/tests/bicycle.rs): [{ body, limits, step_s, state, inputs: [[acceleration, steering], ...],
 // states: [[x, y, heading, speed], ...] }], one state after each input.
 
 import assert from "node:assert/strict";
@@ -160,8 +159,8 @@ test("the camera keeps the own car in view, with its direction up", () => {
   assert.ok(to[1] < from[1]);
 });
 
-test("the bicycle agrees with the simulation to 1 mm", { skip: !process.env.BICYCLE_CASES }, () => {
-  const cases = JSON.parse(readFileSync(process.env.BICYCLE_CASES, "utf8"));
+test("the bicycle agrees with the simulation to 1 mm", () => {
+  const cases = JSON.parse(readFileSync(new URL("bicycle_cases.json", import.meta.url), "utf8"));
   assert.ok(cases.length > 0);
   for (const [number, { body, limits, step_s, state, inputs, states }] of cases.entries()) {
     let found = state;
