@@ -30,7 +30,7 @@ pub struct Settings {
 #[serde(deny_unknown_fields)]
 pub struct WheelHandOver {
     /// The plan from which the other drives, counted from 0.
-    #[schemars(extend("x-unit" = "dimensionless"))]
+    #[schemars(example = 30, extend("x-unit" = "dimensionless"))]
     pub plan: u32,
     /// The kind of driver that takes over, with the defaults of its settings; without it, the inputs take over again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
