@@ -78,7 +78,7 @@ fn the_readme_s_example_is_a_scenario_and_its_commands_exist() {
     if let Err(error) = from_text("README.toml", &example, &[]) {
         panic!("{:?}", error.faults());
     }
-    let help = ["run", "suite", "new", "identify"]
+    let help = ["run", "suite", "new", "identify", "play"]
         .map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout)
         .concat();
     for flag in readme.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| is_flag(word)) {
