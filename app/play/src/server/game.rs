@@ -95,6 +95,12 @@ impl Game {
         if self.pages.len() >= MOST_PAGES {
             return;
         }
+        // Whoever opens the address anew begins with what was asked for on the command line.
+        if let (None, true, Some((scenario, seat))) =
+            (&self.playing, self.pages.is_empty(), self.options.chosen.clone())
+        {
+            self.start(&scenario, &seat);
+        }
         let page = PageAtGame::new(self.next_number, seat, outgoing);
         self.next_number += 1;
         let _ = number.send(page.number);
