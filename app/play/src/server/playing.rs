@@ -110,7 +110,7 @@ impl Playing {
             scenario: self.session.name().to_owned(),
             seats: crate::session::seats_of(self.session.scenario()),
             stage: Box::new(self.session.stage()),
-            help: goal.text.clone(),
+            help: self.session.scenario().shows.clone(),
             goal,
             states: self.session.states().into_iter().map(interplay_planners::State::to_array).collect(),
             seat,
