@@ -78,7 +78,9 @@ def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = 
     if isinstance(name_or_path, Scenario):
         if set is None and seed is None and planner is None:
             return name_or_path
-        name_or_path = name_or_path.source
+        before, old_seed, old_planner = name_or_path.changes
+        set, seed = [*before, *changes(set)], old_seed if seed is None else seed
+        name_or_path, planner = name_or_path.source, planner or old_planner
     return Scenario.load(os.fspath(name_or_path), changes(set), seed, planner)
 
 

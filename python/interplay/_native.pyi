@@ -71,6 +71,12 @@ class Scenario:
         """How it was asked for."""
 
     @property
+    def changes(self) -> tuple[list[str], int | None, str | None]:
+        """With which changes it was asked for: those of `set`, the seed, and the planner."""
+
+    def __reduce__(self) -> tuple[Any, tuple[str, list[str], int | None, str | None]]: ...
+
+    @property
     def title(self) -> str:
         """Its title."""
 

@@ -226,12 +226,12 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     def __getstate__(self) -> dict[str, Any]:
         kept = ("render_mode", "_observation", "_settings", "_set", "_np_random", "_np_random_seed", "spec")
         state = {name: self.__dict__[name] for name in kept if name in self.__dict__}
-        return {**state, "scenario": self.scenario.source}
+        return {**state, "scenario": self.scenario}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """A copy before its first episode."""
         self.__dict__.update(state)
-        self.scenario = load(state["scenario"], set=self._set)
+        self.scenario = state["scenario"]
         self._native = _native.Environment(self.scenario, self._settings)
         self._views = Views(self._native, self._observation)
         self.observation_space, self.action_space = self._views.observation_space, self._views.action_space

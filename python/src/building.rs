@@ -3,7 +3,7 @@
 use interplay_building::identify::{Mapping, Telemetry};
 use pyo3::prelude::*;
 
-use crate::errors::ScenarioError;
+use crate::errors::refused_text;
 
 /// Finds thermal parameters in a table; returns the document of `interplay identify --json`, the summary, and a scenario with the network
 /// that was found, if one can be made. `names` are those of table and mapping in errors.
@@ -15,7 +15,7 @@ pub fn identify(
     names: (String, String),
 ) -> PyResult<(String, String, Option<String>)> {
     py.detach(|| {
-        let refused = |error: &dyn std::fmt::Display| ScenarioError::new_err(error.to_string());
+        let refused = |error: &dyn std::fmt::Display| refused_text(&error.to_string());
         let mapping = Mapping::parse(&names.1, mapping).map_err(|error| refused(&error))?;
         let telemetry = Telemetry::read(&names.0, table, &mapping).map_err(|error| refused(&error))?;
         let found = interplay_building::identify::identify(&telemetry, &mapping.identify);

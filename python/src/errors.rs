@@ -22,6 +22,11 @@ create_exception!(
 /// Adds the exceptions to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
+    // An error that lies in no text has none of these.
+    for attribute in ["file", "line", "column", "key"] {
+        py.get_type::<ScenarioError>().setattr(attribute, py.None())?;
+    }
+    py.get_type::<ScenarioError>().setattr("faults", Vec::<String>::new())?;
     module.add("ScenarioError", py.get_type::<ScenarioError>())?;
     module.add("RunError", py.get_type::<RunError>())
 }
@@ -50,6 +55,20 @@ pub fn refused(error: LoadError) -> PyErr {
             value.setattr("faults", faults)
         })();
         attributes.err().unwrap_or(raised)
+    })
+}
+
+/// A refusal of which only the text is known; it begins with file and line where these are known.
+pub fn refused_text(text: &str) -> PyErr {
+    Python::attach(|py| {
+        let raised = ScenarioError::new_err(text.to_owned());
+        let mut parts = text.splitn(3, ':');
+        let place = parts.next().zip(parts.next().and_then(|line| line.parse::<usize>().ok()));
+        let located = place.map_or(Ok(()), |(file, line)| {
+            let value = raised.value(py);
+            value.setattr("file", file).and_then(|()| value.setattr("line", line))
+        });
+        located.err().unwrap_or(raised)
     })
 }
 

@@ -27,7 +27,14 @@ pub struct PyScenario {
     /// What the scenario is called in reports, and how it was asked for.
     pub name: String,
     pub source: String,
+    /// With which changes it was asked for.
+    sets: Vec<String>,
+    seed: Option<u64>,
+    planner: Option<String>,
 }
+
+/// What a scenario was loaded with: source, changes, seed, planner.
+type LoadedWith = (String, Vec<String>, Option<u64>, Option<String>);
 
 #[pymethods]
 impl PyScenario {
@@ -41,9 +48,9 @@ impl PyScenario {
         seed: Option<u64>,
         planner: Option<String>,
     ) -> PyResult<PyScenario> {
-        let planner = planner.into_iter().map(Override::Planner);
-        let seed = seed.into_iter().map(Override::Seed);
-        let overrides: Vec<Override> = planner.chain(seed).chain(sets.into_iter().map(Override::Set)).collect();
+        let kinds = planner.iter().cloned().map(Override::Planner);
+        let seeds = seed.into_iter().map(Override::Seed);
+        let overrides: Vec<Override> = kinds.chain(seeds).chain(sets.iter().cloned().map(Override::Set)).collect();
         let registry = registry()?;
         let mut scenario = py.detach(|| registry.load(source, &overrides)).map_err(refused)?;
         if overrides.iter().any(|change| matches!(change, Override::Planner(_))) {
@@ -52,7 +59,19 @@ impl PyScenario {
         }
         let name = std::path::Path::new(source).file_stem().filter(|_| source.ends_with(".toml"));
         let name = name.map_or_else(|| source.to_owned(), |stem| stem.to_string_lossy().into_owned());
-        Ok(PyScenario { scenario: Arc::new(scenario), name, source: source.to_owned() })
+        Ok(PyScenario { scenario: Arc::new(scenario), name, source: source.to_owned(), sets, seed, planner })
+    }
+
+    /// With which changes it was asked for: those of `set`, the seed, and the planner.
+    #[getter]
+    fn changes(&self) -> (Vec<String>, Option<u64>, Option<String>) {
+        (self.sets.clone(), self.seed, self.planner.clone())
+    }
+
+    /// A copy reads the same again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, LoadedWith)> {
+        let load = py.get_type::<PyScenario>().getattr("load")?;
+        Ok((load, (self.source.clone(), self.sets.clone(), self.seed, self.planner.clone())))
     }
 
     /// The scenario as a file: everything stated.

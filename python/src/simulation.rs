@@ -192,7 +192,9 @@ impl PySimulation {
     /// Goes back, or forth, to a snapshot.
     fn restore(&mut self, py: Python<'_>, snapshot: &PySnapshot) -> PyResult<()> {
         let (snapshot, world) = (Arc::clone(&snapshot.0), self.world_mut()?);
-        py.detach(|| world.restore(&snapshot)).map_err(unfinished)
+        py.detach(|| world.restore(&snapshot)).map_err(unfinished)?;
+        self.scenario = Arc::new(world.scenario().clone());
+        Ok(())
     }
 
     /// Ends the run and returns its report, the document of `interplay run --json`.

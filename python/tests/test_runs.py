@@ -179,7 +179,6 @@ def test_a_mapping_that_means_nothing_is_refused() -> None:
     assert "colour" in words
 
 
-@pytest.mark.xfail(strict=True, reason="a refused mapping has no attributes yet")
 def test_the_error_of_a_mapping_has_the_attributes_of_an_error() -> None:
     pandas = pytest.importorskip("pandas")
     table = pandas.read_csv(io.StringIO(telemetry()))

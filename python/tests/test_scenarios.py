@@ -50,7 +50,6 @@ def test_a_scenario_is_changed_by_path() -> None:
         interplay.load("lane-change/front-nice", set={"duration_s": object()})
 
 
-@pytest.mark.xfail(strict=True, reason="a loaded scenario does not keep how it was changed")
 def test_a_changed_scenario_keeps_its_changes() -> None:
     changed = interplay.load("lane-change/front-nice", set={"duration_s": 5.0})
     assert interplay.load(changed, seed=9).duration_s == 5.0

@@ -49,7 +49,6 @@ def test_a_snapshot_outlives_its_world() -> None:
     assert other.time_s == snapshot.time_s
 
 
-@pytest.mark.xfail(strict=True, reason="the ticks are still read as those of the scenario before")
 def test_a_world_may_be_restored_to_one_of_another_scenario() -> None:
     world = interplay.Simulation("lane-change/front-nice")
     world.step()

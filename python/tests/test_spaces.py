@@ -134,7 +134,6 @@ def test_a_pickled_environment_has_the_same_episodes() -> None:
     assert equal(episode(env, 4, actions), episode(copy, 4, actions))
 
 
-@pytest.mark.xfail(strict=True, reason="a loaded scenario does not keep how it was changed")
 def test_an_environment_of_a_changed_scenario_can_be_pickled() -> None:
     env = InterplayEnv(interplay.load("lane-change/front-nice", set={"duration_s": 2.0}))
     assert pickle.loads(pickle.dumps(env)).scenario.duration_s == 2.0

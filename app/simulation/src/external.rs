@@ -29,7 +29,7 @@ fn then_steadily(input: &Input, scene: &Scene) -> Trajectory {
     let later = steadily_along(&ego.route, &ego.body, &next, scene.horizon.saturating_sub(1), scene.step_s);
     Trajectory {
         states: [ego.state].into_iter().chain(later.states).collect(),
-        inputs: [*input].into_iter().chain(later.inputs).collect(),
+        inputs: [applied].into_iter().chain(later.inputs).collect(),
     }
 }
 
