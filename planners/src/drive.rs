@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::belief::Outlook;
 use crate::diagnostic::Explanation;
+use crate::input_record::InputRecord;
 use crate::predict::Prediction;
 use crate::record::Record;
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
@@ -72,7 +73,7 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     }
 
     /// The inputs that were handed in once and are to be handed in again.
-    fn inputs(&self) -> Option<&crate::inputs::Settings> {
+    fn inputs(&self) -> Option<&InputRecord> {
         None
     }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::drive::DriverKind;
 use crate::foreign_driver::ForeignDriver;
+use crate::input_record::WHEEL_KINDS;
 use crate::{Planner, belief};
 
 /// Makes the enumeration of the listed kinds, each with the settings of its folder.
@@ -86,12 +87,10 @@ drivers! {
 }
 
 impl Driver {
-    /// The driver of a kind of Interplay with the defaults of its settings; none without such a kind, and of those that need more.
+    /// The driver of a kind that may take the wheel ([`WHEEL_KINDS`]), with the defaults of its settings.
     pub fn of_kind(kind: &str) -> Option<Driver> {
-        let driver: Driver = serde_json::from_value(serde_json::json!({ "kind": kind })).ok()?;
-        let needs_more =
-            driver.is_driven_from_outside() || driver.record().is_some() || driver.check(usize::MAX).is_err();
-        (!needs_more && kind != "recorded" && kind != "walker").then_some(driver)
+        let is_known = WHEEL_KINDS.contains(&kind);
+        is_known.then(|| serde_json::from_value(serde_json::json!({ "kind": kind })).ok()).flatten()
     }
 
     /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.

@@ -3,56 +3,15 @@
 //! It is the external driver with a record. Whoever runs the simulation hands in its rows as they were handed in then; so a run with it is
 //! the run in which they were recorded, bit for bit. Where the wheel was handed over to a planner, that planner drives again.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use serde_json::json;
+pub use crate::input_record::{InputRecord as Settings, WheelHandOver};
 
+use crate::DriverSettingError;
 use crate::drive::{Drive, DriverKind};
 use crate::external::External;
+use crate::input_record::{InputRecord, WHEEL_KINDS};
 use crate::predict::Prediction;
-use crate::{Driver, DriverSettingError, Input};
 
-/// The settings of a driver that repeats inputs: what was handed in, and when.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Settings {
-    /// Rows of the plan from which an input holds (0 is the first of the run), the acceleration \[m/s²\] and the steering angle \[rad\].
-    /// Before the first row both are 0.
-    #[schemars(length(max = 1_000_000), example = vec![[0.0, 0.5, 0.0], [12.0, -1.0, 0.1]])]
-    pub inputs: Vec<[f64; 3]>,
-    /// When the wheel was handed over to a planner, or taken back.
-    #[schemars(example = json!([{ "plan": 30, "to": "negotiation" }, { "plan": 60 }]))]
-    pub hand_overs: Vec<WheelHandOver>,
-}
-
-/// The wheel is handed over.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WheelHandOver {
-    /// The plan from which the other drives, counted from 0.
-    #[schemars(example = 30, extend("x-unit" = "dimensionless"))]
-    pub plan: u32,
-    /// The kind of driver that takes over, with the defaults of its settings; without it, the inputs take over again.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(example = &"negotiation")]
-    pub to: Option<String>,
-}
-
-impl Settings {
-    /// The input that holds at a plan.
-    pub fn at(&self, plan: usize) -> Input {
-        let row = self.inputs.iter().rev().find(|[from, ..]| *from <= plan as f64);
-        row.map_or_else(Input::default, |[_, acceleration, steering]| Input::from_array([*acceleration, *steering]))
-    }
-
-    /// Who takes the wheel at a plan, if anybody does: a planner, or the inputs again.
-    pub fn handed_over_at(&self, plan: usize) -> Option<Option<Driver>> {
-        let handed = self.hand_overs.iter().rev().find(|handed| handed.plan as usize == plan)?;
-        Some(handed.to.as_deref().and_then(Driver::of_kind))
-    }
-}
-
-impl DriverKind for Settings {
+impl DriverKind for InputRecord {
     fn kind(&self) -> &'static str {
         "inputs"
     }
@@ -73,7 +32,7 @@ impl DriverKind for Settings {
         true
     }
 
-    fn inputs(&self) -> Option<&Settings> {
+    fn inputs(&self) -> Option<&InputRecord> {
         Some(self)
     }
 
@@ -90,11 +49,11 @@ impl DriverKind for Settings {
             let reason = format!("row {} of `inputs` is not later than the one before it", at + 2);
             return refused("inputs", reason, "state each row once, the earliest first");
         }
-        let unknown = |handed: &&WheelHandOver| handed.to.as_deref().is_some_and(|to| Driver::of_kind(to).is_none());
-        match self.hand_overs.iter().find(unknown) {
-            Some(handed) => {
-                let reason = format!("`{}` is no kind of driver", handed.to.as_deref().unwrap_or_default());
-                refused("hand_overs", reason, "choose from human, idm, conservative, negotiation, bayesian, game, nash")
+        let is_unknown = |to: &&str| !WHEEL_KINDS.contains(to);
+        match self.hand_overs.iter().filter_map(|handed| handed.to.as_deref()).find(is_unknown) {
+            Some(to) => {
+                let reason = format!("`{to}` is no driver that takes the wheel");
+                refused("hand_overs", reason, &format!("choose from {}", WHEEL_KINDS.join(", ")))
             }
             None => Ok(()),
         }
@@ -110,6 +69,18 @@ mod tests {
         let settings = Settings { inputs: vec![[2.0, 1.0, 0.1], [5.0, -1.0, 0.0]], hand_overs: Vec::new() };
         let accelerations: Vec<f64> = (0..7).map(|plan| settings.at(plan).acceleration_mps2).collect();
         assert_eq!(accelerations, [0.0, 0.0, 1.0, 1.0, 1.0, -1.0, -1.0]);
+    }
+
+    #[test]
+    fn whoever_may_take_the_wheel_is_a_driver() {
+        for kind in WHEEL_KINDS {
+            assert_eq!(crate::Driver::of_kind(kind).map(|driver| driver.kind()), Some(kind));
+        }
+        assert!(
+            ["external", "inputs", "recorded", "walker", "nobody"]
+                .iter()
+                .all(|kind| crate::Driver::of_kind(kind).is_none())
+        );
     }
 
     #[test]

@@ -41,7 +41,7 @@ impl Simulation {
         for vehicle in &scenario.vehicles {
             let Some(record) = vehicle.driver.inputs() else { continue };
             if let Some(to) = record.handed_over_at(plan) {
-                self.hand_over(&vehicle.name, to.as_ref())?;
+                self.hand_over(&vehicle.name, to.and_then(Driver::of_kind).as_ref())?;
             }
             self.repeat(&vehicle.name, record.at(plan));
         }
