@@ -108,9 +108,9 @@ impl Playing {
         let goal = self.session.goal(&seat);
         page.send(&ServerMessage::World {
             scenario: self.session.name().to_owned(),
-            seats: crate::session::seats_of(self.session.scenario()),
+            seats: crate::session::seats_of(self.session.written()),
             stage: Box::new(self.session.stage()),
-            help: self.session.scenario().shows.clone(),
+            help: self.session.written().shows.clone(),
             goal,
             states: self.session.states().into_iter().map(interplay_planners::State::to_array).collect(),
             seat,
@@ -198,7 +198,7 @@ impl Playing {
             return Ok(());
         };
         self.moment = moment;
-        let step = Duration::from_secs_f64(self.session.scenario().step_s / self.rate);
+        let step = Duration::from_secs_f64(self.session.written().step_s / self.rate);
         self.made.push(now);
         if self.made.len() > MEASURED {
             self.made.remove(0);
@@ -207,7 +207,7 @@ impl Playing {
         self.next = (self.next + step).max(Instant::now());
         self.show(pages);
         if self.ends_s.is_none() && self.session.is_decided() {
-            let real = self.session.scenario().ego().map_or(1.0, |ego| ego.body.real_ratio().sqrt());
+            let real = self.session.written().ego().map_or(1.0, |ego| ego.body.real_ratio().sqrt());
             self.ends_s = Some(self.session.time_s() + AFTER_S * real);
         }
         if self.ends_s.is_some_and(|ends_s| self.session.time_s() >= ends_s) || self.session.is_over() {
@@ -253,7 +253,7 @@ impl Playing {
     /// How fast time has passed in the last ticks, as a share of how fast it should.
     fn dilation(&self) -> f64 {
         let (Some(first), Some(last)) = (self.made.first(), self.made.last()) else { return 1.0 };
-        let wanted_s = (self.made.len() - 1) as f64 * self.session.scenario().step_s / self.rate;
+        let wanted_s = (self.made.len() - 1) as f64 * self.session.written().step_s / self.rate;
         let took_s = last.duration_since(*first).as_secs_f64();
         if took_s > 0.0 && wanted_s > 0.0 { (wanted_s / took_s).min(1.0) } else { 1.0 }
     }
@@ -267,7 +267,7 @@ impl Playing {
         self.save();
         self.tell_score(pages);
         let (requests, run) = (self.requests.clone(), self.run);
-        let (written, seat): (Scenario, String) = (self.session.scenario().clone(), self.main_seat().to_owned());
+        let (written, seat): (Scenario, String) = (self.session.written().clone(), self.main_seat().to_owned());
         let duration_s = written.duration_s;
         std::thread::spawn(move || {
             let rows = others(&written, &seat, duration_s).unwrap_or_default();
@@ -301,7 +301,7 @@ impl Playing {
     /// The run with its ticks, for a moving picture; none before the first tick.
     pub fn recorded(&self) -> Option<RecordedRun> {
         let (frames, report) = (self.session.frames().to_vec(), self.session.report());
-        let scenario = self.session.scenario().clone();
+        let scenario = self.session.written().clone();
         (!frames.is_empty()).then_some(RecordedRun {
             label: String::new(),
             command: Vec::new(),

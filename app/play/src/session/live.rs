@@ -94,7 +94,7 @@ impl Session {
     }
 
     /// The scenario as it is written.
-    pub fn scenario(&self) -> &Scenario {
+    pub fn written(&self) -> &Scenario {
         &self.written
     }
 
