@@ -150,14 +150,18 @@ fn garbage_is_refused_and_nobody_else_notices() {
     let mut page = served.own_page();
     page.hear("world");
     let mut state = 1_u64;
-    for _ in 0..2_000 {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        let garbage: String = (0..state % 60).map(|at| char::from(32 + ((state >> (at % 32)) % 95) as u8)).collect();
-        page.0.write(Message::text(garbage)).expect("the server reads");
+    // Ten thousand frames; fewer at a time than wait for a page that reads none.
+    for round in 0..100 {
+        for _ in 0..100 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let letter = |at: u64| char::from(32 + ((state >> (at % 32)) % 95) as u8);
+            let garbage: String = (0..state % 60).map(letter).collect();
+            page.0.write(Message::text(garbage)).expect("the server reads");
+        }
+        page.0.flush().expect("the server reads");
+        page.say(&json!({ "type": "echo", "at": f64::from(round) }));
+        assert_eq!(page.hear("echo")["at"], f64::from(round));
     }
-    page.0.flush().expect("the server reads");
-    page.say(&json!({ "type": "echo", "at": 7.0 }));
-    assert_eq!(page.hear("echo")["at"], 7.0);
     for wrong in
         [json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }), json!({ "type": "seat", "seat": "nobody" })]
     {
