@@ -63,6 +63,24 @@ pub fn light_depth(body: &Body) -> f64 {
     0.24 * body.width_m / (body.front_m + body.rear_m)
 }
 
+/// A lamp at the rear of a body, on the left (1) or the right (−1): deeper while it brakes.
+pub fn rear_lamp(body: &Body, side: f64, brakes: bool) -> BodyArea {
+    let depth = if brakes { 1.5 } else { 0.9 } * light_depth(body);
+    let [right, left] = lamp_across(side);
+    [-1.0, -1.0 + depth, right, left]
+}
+
+/// Where a lamp at the front or the rear is across a body, on the left (1) or the right (−1): its right and its left edge.
+pub fn lamp_across(side: f64) -> [f64; 2] {
+    let across = [side * 0.88, side * 0.5];
+    [across[0].min(across[1]), across[0].max(across[1])]
+}
+
+/// The indicators of a body on the left (1) or the right (−1), the one at the rear first.
+pub fn indicators(body: &Body, side: f64) -> [[f64; 2]; 2] {
+    [-1.0, 1.0].map(|end| [end * (1.0 - 0.8 * light_depth(body)), side * 0.92])
+}
+
 /// The wheels of a vehicle, which the body does not cover quite.
 pub struct Wheels {
     /// Length and thickness of each \[m\].

@@ -35,6 +35,7 @@ pub mod record;
 mod rectangle;
 pub mod report;
 mod road_shapes;
+mod road_widths;
 pub mod shell;
 mod shown_extent;
 mod signals;

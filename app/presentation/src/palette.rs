@@ -49,6 +49,10 @@ pub const PATH: Colour = [0x8C, 0x8B, 0x86];
 pub const KEPT_LANE: Colour = [0x6A, 0x4C, 0x45];
 /// The surface of roads.
 pub const ASPHALT: Colour = [0x4B, 0x4F, 0x56];
+/// The strip of gravel beside a road.
+pub const VERGE: Colour = [0xCD, 0xD3, 0xB8];
+/// The stones between a road and its verge.
+pub const KERB: Colour = [0x9A, 0x9C, 0x9A];
 /// Beside the road.
 pub const GRASS: Colour = [0xB9, 0xCB, 0xA4];
 /// Lines on the road.

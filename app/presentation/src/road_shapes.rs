@@ -8,8 +8,6 @@ use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
 use crate::light_shapes::LightShape;
 use crate::network_lines::NetworkLines;
 
-/// Width of the lines where vehicles stop or yield, in lane widths.
-pub const STOP_LINE_LANES: f64 = 0.11;
 /// Length of a dash and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
 /// Most dashes of one line: on a longer road they are farther apart.

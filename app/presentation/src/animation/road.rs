@@ -3,18 +3,10 @@
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
 use crate::curved_road::WorldLine;
-use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, PAINT, PATH, TYRE};
-use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
+use crate::palette::{ARROW, ASPHALT, KEPT_LANE, KERB, PAINT, PATH, TYRE, VERGE};
+use crate::road_shapes::RoadShapes;
+use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
-const VERGE: Colour = [0xCD, 0xD3, 0xB8];
-const KERB: Colour = [0x9A, 0x9C, 0x9A];
-/// How far the asphalt reaches beyond the edges, in lane widths.
-const SHOULDER_LANES: f64 = 0.05;
-/// Widths of verge and kerb, of a line and of an arrow, in lane widths.
-const VERGE_LANES: f64 = 0.34;
-const KERB_LANES: f64 = 0.07;
-const LINE_LANES: f64 = 0.035;
-const ARROW_WIDTH_LANES: f64 = 0.07;
 /// Thickness of the bar of a traffic light, in lane widths.
 const LIGHT_LANES: f64 = 0.14;
 

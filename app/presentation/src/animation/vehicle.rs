@@ -6,7 +6,9 @@ use interplay_scenarios::{Outline, Vehicle};
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::SeenVehicle;
-use crate::body_shape::{BodyArea, BodyPart, RIDER, Wheels, body_parts, light_depth, place_on, rectangle};
+use crate::body_shape::{
+    BodyArea, BodyPart, RIDER, Wheels, body_parts, indicators, lamp_across, light_depth, place_on, rear_lamp, rectangle,
+};
 use crate::body_style::BodyStyle;
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
 use crate::signals::Turn;
@@ -109,21 +111,20 @@ fn draw_pillars(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
 fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
     let deep = light_depth(placed.body);
     for side in [-1.0_f64, 1.0] {
-        let across = [side * 0.88, side * 0.5];
-        let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
+        let [right, left] = lamp_across(side);
         let head = placed.rectangle([1.0 - 1.3 * deep, 1.0 - 0.3 * deep, right, left]);
         canvas.fill_rounded(&head, 0.08 * placed.px(placed.body.width_m), HEADLIGHT);
         if seen.brakes {
             let behind = placed.shared([-1.0 - 0.3 * deep, side * 0.68]);
             canvas.disc(behind, placed.px(0.3 * placed.body.width_m), brake_glow());
         }
-        let (colour, depth) = if seen.brakes { (BRAKE_LIGHT, 1.5 * deep) } else { (TAIL_LIGHT, 0.9 * deep) };
-        let tail = placed.rectangle([-1.0, -1.0 + depth, right, left]);
+        let colour = if seen.brakes { BRAKE_LIGHT } else { TAIL_LIGHT };
+        let tail = placed.rectangle(rear_lamp(placed.body, side, seen.brakes));
         canvas.fill_rounded(&tail, 0.06 * placed.px(placed.body.width_m), colour);
         let lit = seen.blinks && seen.turn == Some(if side > 0.0 { Turn::Left } else { Turn::Right });
         if lit {
-            for end in [-1.0, 1.0] {
-                let at = placed.shared([end * (1.0 - 0.8 * deep), side * 0.92]);
+            for place in indicators(placed.body, side) {
+                let at = placed.shared(place);
                 canvas.disc(at, placed.px(0.3 * placed.body.width_m), Ink::veiled(INDICATOR, 0.45));
                 canvas.disc(at, placed.px(0.19 * placed.body.width_m), TYRE);
                 canvas.disc(at, placed.px(0.15 * placed.body.width_m), INDICATOR);

@@ -8,7 +8,8 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::mesh::Mesh;
 use crate::curved_road::WorldLine;
 use crate::palette::{ARROW, ASPHALT, Colour, GRASS, KEPT_LANE, PAINT, PATH};
-use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
+use crate::road_shapes::RoadShapes;
+use crate::road_widths::STOP_LINE_LANES;
 
 /// How far below the road the ground is, and how far above it its lines are, in lane widths.
 const GROUND_LANES: f64 = -0.02;

@@ -5,17 +5,9 @@ use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
 use crate::camera::car_m;
-use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, PAINT, PATH, css};
-use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
-
-/// The same as in animations, in lane widths.
-const KERB: Colour = [0x9A, 0x9C, 0x9A];
-const VERGE: Colour = [0xCD, 0xD3, 0xB8];
-const VERGE_LANES: f64 = 0.34;
-const SHOULDER_LANES: f64 = 0.05;
-const KERB_LANES: f64 = 0.07;
-const LINE_LANES: f64 = 0.035;
-const ARROW_LANES: f64 = 0.07;
+use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, KERB, PAINT, PATH, VERGE, css};
+use crate::road_shapes::RoadShapes;
+use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
 /// The road is traced this far around everybody's way, in lengths of a car.
 const MARGIN_CARS: f64 = 12.0;
@@ -85,8 +77,8 @@ pub(super) fn shapes(scenario: &Scenario) -> (Vec<RoadShape>, Vec<StageLight>) {
         shapes.extend(lines.iter().map(|points| line(points, lanes * lane_m, PAINT)));
     }
     for arrow in road.arrows() {
-        shapes.push(line(&arrow.stem, ARROW_LANES * lane_m, ARROW));
-        shapes.extend(arrow.bends.iter().map(|bend| line(bend, ARROW_LANES * lane_m, ARROW)));
+        shapes.push(line(&arrow.stem, ARROW_WIDTH_LANES * lane_m, ARROW));
+        shapes.extend(arrow.bends.iter().map(|bend| line(bend, ARROW_WIDTH_LANES * lane_m, ARROW)));
         shapes.extend(arrow.heads.iter().map(|head| fill(head, ARROW)));
     }
     let lights = road.lights.iter().map(|light| {

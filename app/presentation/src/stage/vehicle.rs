@@ -4,7 +4,7 @@ use interplay_planners::{Body, Limits};
 use interplay_scenarios::{Outline, Vehicle};
 use serde::Serialize;
 
-use crate::body_shape::{Wheels, body_parts, light_depth, place_on, rectangle};
+use crate::body_shape::{Wheels, body_parts, indicators, place_on, rear_lamp, rectangle};
 use crate::body_style::BodyStyle;
 use crate::palette::{Colour, css};
 
@@ -114,18 +114,15 @@ fn wheels(body: &Body, style: BodyStyle) -> StageWheels {
 }
 
 fn lamps(body: &Body) -> StageLamps {
-    let deep = light_depth(body);
-    let ring = |depth: f64, side: f64| {
-        let across = [side * 0.88, side * 0.5];
-        let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
-        rectangle([-1.0, -1.0 + depth, right, left]).map(|corner| place_on(body, corner)).to_vec()
+    let ring = |brakes: bool, side: f64| {
+        rectangle(rear_lamp(body, side, brakes)).map(|corner| place_on(body, corner)).to_vec()
     };
-    let indicators = |side: f64| [-1.0, 1.0].map(|end| place_on(body, [end * (1.0 - 0.8 * deep), side * 0.92]));
+    let blinking = |side: f64| indicators(body, side).map(|place| place_on(body, place));
     StageLamps {
-        tail: [-1.0, 1.0].map(|side| ring(0.9 * deep, side)),
-        brake: [-1.0, 1.0].map(|side| ring(1.5 * deep, side)),
-        indicator_left: indicators(1.0),
-        indicator_right: indicators(-1.0),
+        tail: [-1.0, 1.0].map(|side| ring(false, side)),
+        brake: [-1.0, 1.0].map(|side| ring(true, side)),
+        indicator_left: blinking(1.0),
+        indicator_right: blinking(-1.0),
         radius: 0.15 * body.width_m,
     }
 }
