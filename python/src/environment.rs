@@ -174,14 +174,8 @@ impl PyEnvironment {
             });
             let frame =
                 Frame { time_s: world.time_s(), vehicles: now.collect(), ..world.frame().cloned().unwrap_or_default() };
-            let (label, command, report) = (String::new(), Vec::new(), world.report());
-            interplay_presentation::animation::last_picture(&RecordedRun {
-                label,
-                command,
-                scenario,
-                frames: vec![frame],
-                report,
-            })
+            let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
+            interplay_presentation::animation::last_picture(&now)
         });
         picture.map(|([width, height], pixels)| shaped(py, pixels, &[height as usize, width as usize, 3])).transpose()
     }
@@ -212,11 +206,7 @@ impl PyPlanner {
         agent: usize,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         environment.check(agent)?;
-        let environment = &environment.environment;
-        let driver = &self.driver;
-        let planner = self.planners.entry(agent).or_insert_with(|| environment.planner(agent, &**driver));
-        let action = py.detach(|| environment.action_of(agent, planner)).map_err(of_environment)?;
-        Ok(action.into_pyarray(py))
+        self.planned(py, agent, (&environment.environment, agent))
     }
 
     /// The same for a world of a batch.
@@ -229,10 +219,7 @@ impl PyPlanner {
         let Some(environment) = batch.batch.environments().get(world) else {
             return Err(PyValueError::new_err(format!("there is no world {world}")));
         };
-        let driver = &self.driver;
-        let planner = self.planners.entry(world).or_insert_with(|| environment.planner(0, &**driver));
-        let action = py.detach(|| environment.action_of(0, planner)).map_err(of_environment)?;
-        Ok(action.into_pyarray(py))
+        self.planned(py, world, (environment, 0))
     }
 
     /// Forgets all that it remembers of an agent or a world, or of all.
@@ -242,5 +229,20 @@ impl PyPlanner {
             Some(which) => drop(self.planners.remove(&which)),
             None => self.planners.clear(),
         }
+    }
+}
+
+impl PyPlanner {
+    /// The action for an agent of an environment; what is remembered is kept under a number.
+    fn planned<'py>(
+        &mut self,
+        py: Python<'py>,
+        number: usize,
+        (environment, agent): (&Environment, usize),
+    ) -> PyResult<Bound<'py, PyArray1<f32>>> {
+        let driver = &self.driver;
+        let planner = self.planners.entry(number).or_insert_with(|| environment.planner(agent, &**driver));
+        let action = py.detach(|| environment.action_of(agent, planner)).map_err(of_environment)?;
+        Ok(action.into_pyarray(py))
     }
 }

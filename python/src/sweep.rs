@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use interplay_presentation::record::{OpenRecording, Recorder, Sink};
+use interplay_presentation::record::record_again;
+use interplay_scenarios::Scenario;
 use interplay_sweep::{Shard, SweepOptions, SweepRow};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -34,19 +35,7 @@ pub fn sweep(
         }
     };
     let jobs = jobs.unwrap_or(0);
-    let record = |row: &SweepRow, scenario: &interplay_scenarios::Scenario| -> Result<(), String> {
-        if row.error.is_some() {
-            return Ok(());
-        }
-        let path = folder.join("recordings").join(format!("{}.rrd", row.key));
-        let recorder =
-            Recorder::begin(scenario, &row.scenario, &Sink::File(path)).map_err(|error| error.to_string())?;
-        let recording = OpenRecording::new(recorder);
-        let watchers: Vec<Box<dyn interplay_simulation::watch::Watcher>> = vec![Box::new(recording.clone())];
-        let report =
-            interplay_simulation::run::run(&row.scenario, scenario, watchers).map_err(|error| error.to_string())?;
-        recording.close(&report).map_err(|error| error.to_string())
-    };
+    let record = |row: &SweepRow, scenario: &Scenario| record_again(&folder, row, scenario);
     let options = SweepOptions {
         folder: &folder,
         shard: Shard::WHOLE,

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use clap::{Args, Subcommand, ValueEnum};
-use interplay_presentation::record::{OpenRecording, Recorder, Sink};
+use interplay_presentation::record::record_again;
 use interplay_scenarios::{LoadError, Registry, Scenario, SweepPlan, embedded_plans};
-use interplay_simulation::run::run;
 use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
 use rayon::ThreadPool;
 
@@ -180,7 +179,7 @@ impl Sweep {
         let pool = self.pool(plan)?;
         let checks = CheckProgress::start(plan.run_count());
         let progress: OnceLock<Progress> = OnceLock::new();
-        let keep = |row: &SweepRow, scenario: &Scenario| record(folder, row, scenario);
+        let keep = |row: &SweepRow, scenario: &Scenario| record_again(folder, row, scenario);
         let options = SweepOptions {
             folder,
             shard,
@@ -232,18 +231,6 @@ fn counted(plan: &SweepPlan) -> String {
         listed("style", &styles),
         listed("planner", &planners)
     )
-}
-
-/// Makes a run again, which gives the same, and records it. A run without a result has no recording.
-fn record(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), String> {
-    if row.error.is_some() {
-        return Ok(());
-    }
-    let path = folder.join("recordings").join(format!("{}.rrd", row.key));
-    let recorder = Recorder::begin(scenario, &row.scenario, &Sink::File(path)).map_err(|error| error.to_string())?;
-    let recording = OpenRecording::new(recorder);
-    let report = run(&row.scenario, scenario, vec![Box::new(recording.clone())]).map_err(|error| error.to_string())?;
-    recording.close(&report).map_err(|error| error.to_string())
 }
 
 /// Says where the rows are; of a whole plan, also what they tell.

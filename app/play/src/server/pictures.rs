@@ -40,8 +40,8 @@ fn drawn(name: &str) -> Option<Vec<u8>> {
     let mut world = Simulation::new(&scenario).ok()?;
     while world.time_s() < SHARE * scenario.duration_s && world.step().ok()?.is_some() {}
     let frame = world.frame()?.clone();
-    let (label, command, report) = (String::new(), Vec::new(), world.report());
-    encoded(&RecordedRun { label, command, scenario, frames: vec![frame], report }, AnimationFormat::Filmstrip).ok()
+    let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
+    encoded(&now, AnimationFormat::Filmstrip).ok()
 }
 
 /// The moving picture of a run.

@@ -302,12 +302,6 @@ impl Playing {
     pub fn recorded(&self) -> Option<RecordedRun> {
         let (frames, report) = (self.session.frames().to_vec(), self.session.report());
         let scenario = self.session.written().clone();
-        (!frames.is_empty()).then_some(RecordedRun {
-            label: String::new(),
-            command: Vec::new(),
-            scenario,
-            frames,
-            report,
-        })
+        (!frames.is_empty()).then(|| RecordedRun::to_draw(scenario, frames, report))
     }
 }

@@ -60,6 +60,11 @@ impl RunSpec {
 }
 
 impl RecordedRun {
+    /// A run that is only to be drawn: without label and command.
+    pub fn to_draw(scenario: Scenario, frames: Vec<Frame>, report: Report) -> RecordedRun {
+        RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report }
+    }
+
     /// Runs a scenario, called `name` in the report, and keeps what is seen.
     ///
     /// # Errors

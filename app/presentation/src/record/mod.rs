@@ -18,6 +18,7 @@
 //! ```
 
 mod about;
+mod again;
 mod blueprint;
 mod building;
 mod cameras;
@@ -54,6 +55,7 @@ use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
+pub use again::record_again;
 pub use error::{RecordError, ViewerAddressError};
 use lights::LightLayer;
 pub use live::Viewer;
