@@ -64,12 +64,12 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Those who go first, and whoever
     /// decides from outside, drive as they do.
     fn may_be_refused(&self) -> bool {
-        !self.goes_first()
+        !self.goes_first() && !self.is_driven_from_outside()
     }
 
     /// Whether its inputs are handed in from outside, by whoever runs the simulation.
     fn is_driven_from_outside(&self) -> bool {
-        false
+        self.inputs().is_some()
     }
 
     /// The inputs that were handed in once and are to be handed in again.

@@ -28,10 +28,6 @@ impl DriverKind for Settings {
         None
     }
 
-    fn may_be_refused(&self) -> bool {
-        false
-    }
-
     fn is_driven_from_outside(&self) -> bool {
         true
     }

@@ -24,14 +24,6 @@ impl DriverKind for InputRecord {
         None
     }
 
-    fn may_be_refused(&self) -> bool {
-        false
-    }
-
-    fn is_driven_from_outside(&self) -> bool {
-        true
-    }
-
     fn inputs(&self) -> Option<&InputRecord> {
         Some(self)
     }

@@ -220,15 +220,8 @@ impl Simulation {
     /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
     pub fn drive_with(&mut self, vehicle: &str, driver: impl Drive + 'static) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
-        for (identity, mut driving, mut handed_in) in vehicles.iter_mut(&mut self.world) {
-            if identity.index == index {
-                driving.planner.replace_driver(Box::new(driver));
-                *handed_in = HandedIn::NotExternal;
-                self.replaced.push(vehicle.to_owned());
-                break;
-            }
-        }
+        self.replaced.push(vehicle.to_owned());
+        self.give_wheel(index, Some(Box::new(driver)));
         Ok(())
     }
 
@@ -293,8 +286,13 @@ impl Simulation {
     /// What was measured until now, judged as if the run ended here.
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
-        let measures = (self.world.resource::<Measures>(), self.world.get_resource::<BuildingMeasures>());
+        let measures = (self.measures(), self.world.get_resource::<BuildingMeasures>());
         Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s))
+    }
+
+    /// What is measured.
+    pub fn measures(&self) -> &Measures {
+        self.world.resource::<Measures>()
     }
 
     /// The state of every vehicle now, in the scenario's order.

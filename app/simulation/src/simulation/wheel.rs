@@ -1,6 +1,6 @@
 //! Who has the wheel of a vehicle that is driven from outside: whoever hands in inputs, a record of them, or a planner for a while.
 
-use interplay_planners::{Driver, Input};
+use interplay_planners::{Drive, Driver, Input};
 
 use super::Simulation;
 use crate::components::{Clock, Driving, HandedIn, Identity};
@@ -22,16 +22,21 @@ impl Simulation {
         if stated.inputs().is_none() && !self.replaced.iter().any(|replaced| replaced == vehicle) {
             self.replaced.push(vehicle.to_owned());
         }
-        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
-        for (identity, mut driving, mut handed_in) in vehicles.iter_mut(&mut self.world) {
-            if identity.index == index {
-                *handed_in = HandedIn::awaited_if(to.is_none());
-                if let Some(driver) = to {
-                    driving.planner.replace_driver(driver.driver());
-                }
-            }
-        }
+        self.give_wheel(index, to.map(|driver| driver.driver()));
         Ok(())
+    }
+
+    /// A driver takes the wheel of a vehicle, or, without one, whoever hands in inputs.
+    pub(super) fn give_wheel(&mut self, index: usize, to: Option<Box<dyn Drive>>) {
+        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
+        let mut found = vehicles.iter_mut(&mut self.world);
+        let Some((_, mut driving, mut handed_in)) = found.find(|(identity, ..)| identity.index == index) else {
+            return;
+        };
+        *handed_in = HandedIn::awaited_if(to.is_none());
+        if let Some(driver) = to {
+            driving.planner.replace_driver(driver);
+        }
     }
 
     /// Hands in what was handed in once for the next plan.
