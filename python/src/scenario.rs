@@ -54,8 +54,7 @@ impl PyScenario {
         let registry = registry()?;
         let mut scenario = py.detach(|| registry.load(source, &overrides)).map_err(refused)?;
         if overrides.iter().any(|change| matches!(change, Override::Planner(_))) {
-            // They are claims about the file's own planner.
-            (scenario.counterfactuals, scenario.left_out) = (Vec::new(), Vec::new());
+            scenario = scenario.without_counterfactuals();
         }
         let name = std::path::Path::new(source).file_stem().filter(|_| source.ends_with(".toml"));
         let name = name.map_or_else(|| source.to_owned(), |stem| stem.to_string_lossy().into_owned());

@@ -19,4 +19,4 @@ pub use kept::{keep, write};
 pub use protocol::{PageMessage, ServerMessage};
 pub use script::{ScriptError, ScriptLine, play_script, read_script};
 pub use server::{PlayServer, ServeError, ServeOptions, StopPlay};
-pub use session::{Score, ScoreRow, Session, SessionError, Wish};
+pub use session::{Score, ScoreRow, Session, SessionError, Wish, check_seats};

@@ -41,6 +41,11 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// The strongest acceleration in the direction of another one, or of a share of it: the strongest braking of a negative one \[m/s²\].
+    pub fn strongest_mps2(&self, direction: f64) -> f64 {
+        if direction < 0.0 { -self.acceleration_min_mps2 } else { self.acceleration_max_mps2 }
+    }
+
     /// Largest steering angle of a body at a speed \[rad\].
     ///
     /// The bicycle turns at `θ′ = v sin β/L_r` (eq. 6.3), so the lateral acceleration `v² sin β/L_r` bounds the slip angle `β`, and

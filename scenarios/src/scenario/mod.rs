@@ -126,6 +126,11 @@ impl Scenario {
         self.index_of(EGO).unwrap_or(0)
     }
 
+    /// The scenario without its counterfactuals: they are claims about its own planner, and nothing to somebody else at the wheel.
+    pub fn without_counterfactuals(self) -> Scenario {
+        Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..self }
+    }
+
     /// Index in [`Scenario::vehicles`] of the vehicle of that name.
     pub fn index_of(&self, name: &str) -> Option<usize> {
         self.vehicles.iter().position(|vehicle| vehicle.name == name)

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
-use interplay_play::{PlayServer, Score, ScoreRow, ServeOptions, Session, keep, play_script, read_script, write};
+use interplay_play::{
+    PlayServer, Score, ScoreRow, ServeOptions, Session, check_seats, keep, play_script, read_script, write,
+};
 use interplay_scenarios::{Registry, Scenario, read_regular};
 use serde_json::json;
 
@@ -92,7 +94,7 @@ impl Play {
         if self.join.as_ref() == Some(&seat) {
             return refused(format!("`--join {seat}` is the seat of the first page already"));
         }
-        match Session::new(name, &scenario, &seats) {
+        match check_seats(name, &scenario, &seats) {
             Ok(_) => Ok(Some((name.clone(), scenario, seat))),
             Err(error) => refused(error.to_string()),
         }

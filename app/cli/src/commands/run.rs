@@ -205,7 +205,7 @@ impl Run {
         print_error(
             "counterfactuals are left out: they are claims about the scenario's own planner, not that of --planner",
         );
-        Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario }
+        scenario.without_counterfactuals()
     }
 
     /// What is run, as it was asked for.

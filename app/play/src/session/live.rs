@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use interplay_planners::{Driver, State, external, inputs};
+use interplay_planners::{Driver, State, external};
 use interplay_presentation::stage::{Stage, StageMoment, StageWitness};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
@@ -49,28 +49,38 @@ pub(crate) fn seats_of(scenario: &Scenario) -> Vec<String> {
     scenario.vehicles.iter().filter(is_seat).map(|vehicle| vehicle.name.clone()).collect()
 }
 
+/// The vehicles of seats of a scenario, called `name`, by index.
+///
+/// # Errors
+/// [`SessionError::NoVehicles`]; [`SessionError::NoSeat`] if a seat is none.
+pub fn check_seats(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Vec<usize>, SessionError> {
+    let possible = seats_of(scenario);
+    if possible.is_empty() {
+        return Err(SessionError::NoVehicles(name.to_owned()));
+    }
+    let index = |seat: &&str| {
+        let found = possible.iter().any(|name| name == seat).then(|| scenario.index_of(seat)).flatten();
+        found.ok_or_else(|| SessionError::NoSeat { seat: (*seat).to_owned(), seats: possible.join(", ") })
+    };
+    seats.iter().map(index).collect()
+}
+
 impl Session {
     /// A session of a scenario, called `name`, before its first tick, with people in these seats.
     ///
     /// # Errors
     /// [`SessionError`] if a seat is none, or the world cannot be built.
     pub fn new(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Session, SessionError> {
-        let written = Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario.clone() };
-        let possible = seats_of(&written);
-        if possible.is_empty() {
-            return Err(SessionError::NoVehicles(name.to_owned()));
-        }
+        let written = scenario.clone().without_counterfactuals();
+        let indices = check_seats(name, &written, seats)?;
         let mut played = written.clone();
-        for seat in seats {
-            let index = possible.iter().position(|name| name == seat).and_then(|_| written.index_of(seat));
-            let missing = || SessionError::NoSeat { seat: (*seat).to_owned(), seats: possible.join(", ") };
-            played.vehicles[index.ok_or_else(missing)?].driver = Driver::External(external::Settings::default());
+        for index in &indices {
+            played.vehicles[*index].driver = Driver::External(external::Settings::default());
         }
         let world = Simulation::watched(name, &played, Vec::new())?;
-        let seat = |name: &&str| played.index_of(name).map(|index| Seat::new(index, name));
         let mut session = Session {
             name: name.to_owned(),
-            seats: seats.iter().filter_map(seat).collect(),
+            seats: indices.iter().zip(seats).map(|(index, name)| Seat::new(*index, name)).collect(),
             written: Arc::new(written),
             scenario: Arc::new(played),
             world,
@@ -125,11 +135,10 @@ impl Session {
 
     /// Whether everybody in a seat has reached the goal or touched somebody.
     pub fn is_decided(&self) -> bool {
-        let report = self.world.report();
+        let measures = self.world.measures();
         let is_done = |seat: &Seat| {
-            let vehicle = &report.vehicles[seat.vehicle];
-            let has_contact = report.collisions.iter().any(|contact| contact.between.contains(&seat.name));
-            vehicle.completed_s.is_some() || has_contact
+            let has_contact = measures.collisions.iter().any(|contact| contact.between.contains(&seat.name));
+            measures.vehicles[seat.vehicle].completion.completed_s.is_some() || has_contact
         };
         !self.seats.is_empty() && self.seats.iter().all(is_done)
     }
@@ -247,7 +256,7 @@ impl Session {
     pub fn played(&self) -> Scenario {
         let mut played = (*self.scenario).clone();
         for seat in &self.seats {
-            played.vehicles[seat.vehicle].driver = Driver::Inputs(inputs::Settings { ..seat.record.clone() });
+            played.vehicles[seat.vehicle].driver = Driver::Inputs(seat.record.clone());
         }
         let seats = self.seats().collect::<Vec<_>>().join(", ");
         played.title = format!("{} (played as {seats})", self.written.title);

@@ -10,8 +10,8 @@ mod tests;
 
 pub use error::SessionError;
 pub use goal::PlayGoal;
-pub use live::Session;
 pub(crate) use live::seats_of;
+pub use live::{Session, check_seats};
 pub(crate) use score::others;
 pub use score::{Score, ScoreRow};
 pub use seat::Wish;

@@ -2,10 +2,9 @@
 
 use interplay_planners::Driver;
 use interplay_scenarios::Scenario;
-use interplay_simulation::Simulation;
 use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
 use serde::Serialize;
-use serde_json::Value as Json;
 
 use super::error::SessionError;
 use super::live::Session;
@@ -48,18 +47,17 @@ pub struct ScoreRow {
 impl ScoreRow {
     /// The run of a vehicle by its report.
     fn of(name: &str, vehicle: &str, report: &Report) -> ScoreRow {
-        let json = serde_json::to_value(report).unwrap_or_default();
-        let vehicles = json["vehicles"].as_array().cloned().unwrap_or_default();
-        let found = vehicles.into_iter().find(|entry| entry["name"] == vehicle).unwrap_or(Json::Null);
+        let found = report.vehicle(vehicle);
+        let number = |metric: &str| found.and_then(|vehicle| vehicle.metrics.number(metric));
         ScoreRow {
             name: name.to_owned(),
-            reached_s: found["completed_s"].as_f64(),
-            smallest_gap_m: json["smallest_gap"]["m"].as_f64(),
-            hardest_braking_mps2: found["peak_braking_mps2"].as_f64(),
-            largest_jerk_mps3: found["peak_jerk_mps3"].as_f64(),
-            rules_broken: found["rules_broken"].as_u64().unwrap_or_default(),
+            reached_s: found.and_then(|vehicle| vehicle.completed_s),
+            smallest_gap_m: report.metrics.number("smallest_gap_m"),
+            hardest_braking_mps2: number("peak_braking_mps2"),
+            largest_jerk_mps3: number("peak_jerk_mps3"),
+            rules_broken: number("rules_broken").unwrap_or_default() as u64,
             contact: report.collisions.iter().any(|contact| contact.between.iter().any(|name| name == vehicle)),
-            off_road: found["leaves_road"].as_bool().unwrap_or_default(),
+            off_road: number("leaves_road").is_some_and(|count| count > 0.0),
         }
     }
 }
@@ -99,9 +97,7 @@ pub(crate) fn others(written: &Scenario, seat: &str, duration_s: f64) -> Result<
     let row = |(name, driver): (String, Driver)| {
         let mut scenario = Scenario { duration_s: duration_s.max(written.step_s), ..written.clone() };
         scenario.vehicles[index].driver = driver;
-        let mut world = Simulation::new(&scenario)?;
-        while world.step()?.is_some() {}
-        Ok(ScoreRow::of(&name, seat, &world.finish()?))
+        Ok(ScoreRow::of(&name, seat, &run(&name, &scenario, Vec::new())?))
     };
     drivers.into_iter().map(row).collect()
 }

@@ -83,8 +83,7 @@ impl Seat {
         let (ego, limits) = (&scene.ego, &scene.ego.limits);
         let share = |wish: f64| if wish.is_finite() { wish.clamp(-1.0, 1.0) } else { 0.0 };
         let [acceleration, steering] = [self.wish.acceleration, self.wish.steering].map(share);
-        let strongest = if acceleration < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-        let acceleration_mps2 = acceleration * strongest;
+        let acceleration_mps2 = acceleration * limits.strongest_mps2(acceleration);
         if !self.wish.assist {
             self.place_m = None;
             let most_rad = limits.steering_max_at_rad(&ego.body, ego.state.speed_mps);

@@ -178,16 +178,15 @@ impl MetaTarget {
 pub(super) fn input_of(row: &[f32], agent: &Agent) -> Input {
     let [acceleration, steering] = [row[0], row[1]].map(|number| f64::from(number).clamp(-1.0, 1.0));
     let limits = &agent.limits;
-    let strongest = if acceleration < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-    Input { acceleration_mps2: acceleration * strongest, steering_rad: steering * limits.steering_max_rad }
+    let strongest_mps2 = limits.strongest_mps2(acceleration);
+    Input { acceleration_mps2: acceleration * strongest_mps2, steering_rad: steering * limits.steering_max_rad }
 }
 
 /// The row of numbers that means an input.
 pub(super) fn row_of(input: &Input, agent: &Agent) -> [f32; 2] {
     let limits = &agent.limits;
     let acceleration = input.acceleration_mps2;
-    let strongest = if acceleration < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-    [(acceleration / strongest) as f32, (input.steering_rad / limits.steering_max_rad) as f32]
+    [(acceleration / limits.strongest_mps2(acceleration)) as f32, (input.steering_rad / limits.steering_max_rad) as f32]
 }
 
 /// What a row or rows of numbers hand in.

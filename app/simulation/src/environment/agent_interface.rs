@@ -14,7 +14,8 @@ use crate::components::HandedIn;
 /// speed meta-actions have led.
 #[derive(Clone, Debug)]
 pub struct AgentInterface {
-    observations: Vec<AgentView>,
+    /// Each view, and how many numbers it has.
+    views: Vec<(AgentView, usize)>,
     action: Action,
     horizon: usize,
     beliefs: Option<Box<DriverBeliefs>>,
@@ -30,7 +31,7 @@ impl AgentInterface {
         let is_belief = |observation: &AgentView| matches!(observation, AgentView::Belief(_));
         let infers = observations.iter().any(is_belief);
         AgentInterface {
-            observations: observations.to_vec(),
+            views: observations.iter().map(|view| (view.clone(), view.space(horizon).len())).collect(),
             action,
             horizon,
             beliefs: infers.then(|| Box::new(DriverBeliefs::new(belief::Settings::default()))),
@@ -42,12 +43,12 @@ impl AgentInterface {
 
     /// What the agent sees, one space after the other.
     pub fn observation_spaces(&self) -> Vec<ObservationSpace> {
-        self.observations.iter().map(|observation| observation.space(self.horizon)).collect()
+        self.views.iter().map(|(view, _)| view.space(self.horizon)).collect()
     }
 
     /// How many numbers it sees.
     pub fn observation_len(&self) -> usize {
-        self.observation_spaces().iter().map(ObservationSpace::len).sum()
+        self.views.iter().map(|(_, length)| length).sum()
     }
 
     /// What the agent decides.
@@ -66,9 +67,9 @@ impl AgentInterface {
     pub fn observe(&self, scene: &Scene, out: &mut [f32]) {
         let seen = Seen { scene, beliefs: &self.estimates };
         let mut rest = out;
-        for observation in &self.observations {
-            let (own, others) = rest.split_at_mut(observation.space(self.horizon).len());
-            observation.write(&seen, own);
+        for (view, length) in &self.views {
+            let (own, others) = rest.split_at_mut(*length);
+            view.write(&seen, own);
             rest = others;
         }
     }
@@ -98,7 +99,7 @@ impl AgentInterface {
         }
         let (numbers, passed) = &mut self.followed;
         if numbers.is_empty() {
-            return HandedIn::Input(MetaTarget::of(scene).input(scene));
+            return goes_on(scene);
         }
         let rows = numbers.len() / 2;
         let later = (0..rows).flat_map(|row| {
@@ -134,4 +135,9 @@ impl AgentInterface {
             }
         }
     }
+}
+
+/// Whoever has decided nothing goes on along the lane, at the present speed.
+pub(super) fn goes_on(scene: &Scene) -> HandedIn {
+    HandedIn::Input(MetaTarget::of(scene).input(scene))
 }

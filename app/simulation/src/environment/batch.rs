@@ -109,11 +109,6 @@ impl EnvironmentBatch {
         &self.environments
     }
 
-    /// The worlds, to be changed.
-    pub fn environments_mut(&mut self) -> &mut [Environment] {
-        &mut self.environments
-    }
-
     /// Begins episodes in all worlds for which `which` says so, each with its seed, or with the next of its own sequence.
     ///
     /// # Errors

@@ -5,10 +5,9 @@ use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Driver, DriverKind, Planner, external};
 use interplay_scenarios::Scenario;
 
-use super::agent_interface::AgentInterface;
+use super::agent_interface::{AgentInterface, goes_on};
 use super::{ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
 use crate::Simulation;
-use crate::measure::Measures;
 use crate::report::Report;
 
 /// A scenario in which some vehicles are driven from outside, episode by episode.
@@ -42,7 +41,7 @@ impl Environment {
     /// # Errors
     /// [`EnvironmentError`] names the setting that does not fit, and what would.
     pub fn new(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Environment, EnvironmentError> {
-        let mut scenario = Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario.clone() };
+        let mut scenario = scenario.clone().without_counterfactuals();
         let agents = agents(&scenario, settings)?;
         let plan_s = scenario.step_s * scenario.ticks_per_plan as f64;
         let Some(ego) = scenario.ego() else { return Err(EnvironmentError::NoVehicles) };
@@ -76,11 +75,6 @@ impl Environment {
     /// The scenario, with its agents driven from outside.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
-    }
-
-    /// What was chosen.
-    pub fn settings(&self) -> &EnvironmentSettings {
-        &self.settings
     }
 
     /// The agents' vehicles.
@@ -199,11 +193,9 @@ impl Environment {
         let Some(world) = &mut self.world else { return Err(EnvironmentError::Over) };
         for seat in &mut self.seats {
             let Some(sensed) = &seat.sensed else { continue };
-            if seat.episode.is_over() {
-                let horizon = self.scenario.horizon_steps;
-                seat.interface = AgentInterface::new(&self.settings.observations, self.settings.action, horizon);
-            }
-            world.hand_in(&seat.name, seat.interface.handed_in(&sensed.scene))?;
+            let handed_in =
+                if seat.episode.is_over() { goes_on(&sensed.scene) } else { seat.interface.handed_in(&sensed.scene) };
+            world.hand_in(&seat.name, handed_in)?;
         }
         Ok(())
     }
@@ -214,7 +206,7 @@ impl Environment {
         let mut ticks = 0;
         while ticks < self.scenario.ticks_per_plan && world.vehicles_move_again() {
             world.step()?;
-            let (measures, frame) = (world.world.resource::<Measures>(), world.frame());
+            let (measures, frame) = (world.measures(), world.frame());
             let Some(frame) = frame.filter(|frame| !frame.vehicles.is_empty()) else { continue };
             ticks += 1;
             for seat in self.seats.iter_mut().filter(|seat| !seat.episode.is_over()) {

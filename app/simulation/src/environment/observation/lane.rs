@@ -66,15 +66,14 @@ fn itself(scene: &Scene, lanes: &RoadLanes, now: usize) -> [f32; OWN.len()] {
     };
     let [now_1pm, soon_1pm, later_1pm] = PREVIEW_S.map(curvature);
     let stop_gap_m = ego.rules.stop_line_m.map_or(f64::INFINITY, |line_m| line_m - at.along_m - ego.body.front_m);
-    let braking = ego.previous_input.acceleration_mps2;
-    let strongest = if braking < 0.0 { -ego.limits.acceleration_min_mps2 } else { ego.limits.acceleration_max_mps2 };
+    let acceleration = ego.previous_input.acceleration_mps2;
     [
         share(goal_across_m - at.across_m, scales.across_m),
         share(lanes.centre_m(now) - at.across_m, scales.across_m),
         share(turn_rad, 1.0),
         share(ego.state.speed_mps, scales.speed_mps),
         share(wanted_mps - ego.state.speed_mps, scales.speed_mps),
-        share(braking, strongest),
+        share(acceleration, ego.limits.strongest_mps2(acceleration)),
         share(ego.previous_input.steering_rad, ego.limits.steering_max_rad),
         now_1pm,
         soon_1pm,
