@@ -61,6 +61,14 @@ class Views:
         return numbers.reshape(self.action_space.shape or (2,))
 
 
+def info_of(native: _native.Environment, agent: int, ending: str | None) -> dict[str, Any]:
+    """What an environment says of an agent beside what it sees: the terms of the reward, and how its episode ended, if it did."""
+    info: dict[str, Any] = {"time_s": native.time_s, "reward_terms": native.terms(agent)}
+    if (mask := native.action_mask(agent)) is not None:
+        info["action_mask"] = np.array(mask, dtype=np.int8)
+    return info if ending is None else {**info, "ending": ending, "is_success": ending == "goal"}
+
+
 class InterplayEnv(gymnasium.Env[Any, Any]):
     """A scenario in which one vehicle, by default the ego, is driven by an agent; all others are driven by their planners.
 
@@ -99,12 +107,15 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         agents = None if agent is None else [agent]
         self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
         self._set = set
-        self.scenario = load(scenario, set=set)
-        self._native = _native.Environment(self.scenario, self._settings)
-        self._views = Views(self._native, observation)
+        self._play(load(scenario, set=set))
         self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
-        self._is_seeded = False
         self._window: Any = None
+
+    def _play(self, scenario: _native.Scenario) -> None:
+        """Before the first episode of a scenario."""
+        self.scenario, self._is_seeded = scenario, False
+        self._native = _native.Environment(scenario, self._settings)
+        self._views = Views(self._native, self._observation)
 
     @property
     def agent(self) -> str:
@@ -142,7 +153,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         self._is_seeded = True
         if self.render_mode == "human":
             self.render()
-        return self._views.observed(self._native.observe(0)), self._info(None)
+        return self._views.observed(self._native.observe(0)), info_of(self._native, 0, None)
 
     def _change_scenario(self, scenario: ScenarioLike) -> None:
         changed = load(scenario, set=self._set if not isinstance(scenario, _native.Scenario) else None)
@@ -158,15 +169,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         reward, terminated, truncated, ending = self._native.outcome(0)
         if self.render_mode == "human":
             self.render()
-        return self._views.observed(self._native.observe(0)), reward, terminated, truncated, self._info(ending)
-
-    def _info(self, ending: str | None) -> dict[str, Any]:
-        info: dict[str, Any] = {"time_s": self._native.time_s, "reward_terms": self._native.terms(0)}
-        if (mask := self._native.action_mask(0)) is not None:
-            info["action_mask"] = np.array(mask, dtype=np.int8)
-        if ending is not None:
-            info["ending"], info["is_success"] = ending, ending == "goal"
-        return info
+        return self._views.observed(self._native.observe(0)), reward, terminated, truncated, info_of(self._native, 0, ending)
 
     def action_masks(self) -> NDArray[np.bool_]:
         """Which meta-actions can be done now, by number."""
@@ -231,11 +234,9 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """A copy before its first episode."""
         self.__dict__.update(state)
-        self.scenario = state["scenario"]
-        self._native = _native.Environment(self.scenario, self._settings)
-        self._views = Views(self._native, self._observation)
+        self._play(state["scenario"])
         self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
-        self._is_seeded, self._window = False, None
+        self._window = None
 
 
 def _of_size(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:

@@ -13,7 +13,7 @@ from pettingzoo import ParallelEnv
 from . import _native
 from ._library import Changes, ScenarioLike, load
 from ._spaces import environment_settings, own_seed
-from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size
+from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size, info_of
 
 
 class InterplayParallelEnv(ParallelEnv):
@@ -82,20 +82,13 @@ class InterplayParallelEnv(ParallelEnv):
             self._native.reset(None if seed is None else own_seed(seed))
         self._is_seeded = True
         self.agents = list(self.possible_agents)
-        return self._seen(self.agents), {agent: self._info(agent, None) for agent in self.agents}
+        return self._seen(self.agents), {agent: info_of(self._native, self._place(agent), None) for agent in self.agents}
 
     def _seen(self, agents: Sequence[str]) -> dict[str, Any]:
         return {agent: self._views.observed(self._native.observe(self._place(agent))) for agent in agents}
 
     def _place(self, agent: str) -> int:
         return self.possible_agents.index(agent)
-
-    def _info(self, agent: str, ending: str | None) -> dict[str, Any]:
-        place = self._place(agent)
-        info: dict[str, Any] = {"time_s": self._native.time_s, "reward_terms": self._native.terms(place)}
-        if (mask := self._native.action_mask(place)) is not None:
-            info["action_mask"] = np.array(mask, dtype=np.int8)
-        return info if ending is None else {**info, "ending": ending, "is_success": ending == "goal"}
 
     def step(
         self, actions: Mapping[str, Any]
@@ -114,7 +107,7 @@ class InterplayParallelEnv(ParallelEnv):
         rewards = {agent: outcome[0] for agent, outcome in outcomes.items()}
         terminated = {agent: outcome[1] for agent, outcome in outcomes.items()}
         truncated = {agent: outcome[2] for agent, outcome in outcomes.items()}
-        infos = {agent: self._info(agent, outcome[3]) for agent, outcome in outcomes.items()}
+        infos = {agent: info_of(self._native, self._place(agent), outcome[3]) for agent, outcome in outcomes.items()}
         self.agents = [agent for agent in self.agents if not (terminated[agent] or truncated[agent])]
         return seen, rewards, terminated, truncated, infos
 
