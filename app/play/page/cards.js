@@ -21,17 +21,18 @@ const card = (label, ...children) => element("section", { className: "card", rol
 
 /** Before a drive: the goal, the car, the keys. */
 export function readyView(world, isTouch, act) {
+  const { study } = world;
   const own = world.vehicles.find(({ name }) => name === world.seat);
   const go = button({ words: "Go", key: isTouch ? undefined : "Enter", className: "primary" }, () => act("go"));
   const drive = isTouch
     ? element("p", {}, "Steer with your left thumb, ", element("b", { textContent: "Go" }), " and ", element("b", { textContent: "Brake" }), " with your right one. Without a pedal you keep your speed.")
-    : element("div", {}, keyList(KEYS.slice(0, 5)), element("p", { className: "quiet", textContent: "Without a key you keep your speed, and lane keeping helps you to steer (K switches it off). Game controllers work, too." }));
+    : element("div", {}, keyList(KEYS.slice(0, study ? 3 : 5)), element("p", { className: "quiet", textContent: "Without a key you keep your speed, and lane keeping helps you to steer (K switches it off). Game controllers work, too." }));
   const made = card("Before the start",
-    element("p", { className: "quiet", textContent: world.title ?? "" }),
+    element("p", { className: "quiet", textContent: study ? `Run ${study.done + 1} of ${study.of}` : world.title ?? "" }),
     element("h1", { textContent: world.goal?.text ?? "Drive" }),
-    element("p", { className: "lead" }, "You drive ", swatch(own?.colour ?? ""), ` ${world.seat}. `, world.help ?? ""),
+    element("p", { className: "lead" }, "You drive ", swatch(own?.colour ?? ""), ` ${world.seat}. `, study ? "Drive as you would on a road." : world.help ?? ""),
     element("h2", { textContent: "How to drive" }), drive,
-    element("h2", { textContent: "What you see" }), marks(isTouch),
+    study ? null : element("h2", { textContent: "What you see" }), study ? null : marks(isTouch),
     element("div", { className: "actions" }, go, element("span", { className: "quiet", textContent: isTouch ? "" : "or any driving key" })));
   return { made, first: go };
 }

@@ -48,15 +48,16 @@ export class Hud {
     this.news = null;
     this.notices.clear();
     const own = world.vehicles.find(({ name }) => name === world.seat);
-    setText(by("title"), world.title ?? world.scenario);
+    document.body.classList.toggle("study", Boolean(world.study));
+    setText(by("title"), world.study ? `Run ${world.study.done + 1} of ${world.study.of}` : world.title ?? world.scenario);
     by("seat").replaceChildren("You drive ", swatch(own?.colour ?? ""), ` ${world.seat}`);
     setText(by("goal"), world.goal?.text ?? "");
-    setText(by("help"), world.help ?? "");
+    setText(by("help"), world.study ? "" : world.help ?? "");
     const drivers = world.vehicles.filter(({ is_obstacle }) => !is_obstacle);
     this.rows = drivers.map((vehicle) => {
       const speed = element("span", { className: "speed" });
       const belief = element("span", { className: "belief" });
-      const words = vehicle.name === world.seat ? "you" : vehicle.driver;
+      const words = vehicle.name === world.seat ? "you" : world.study ? "" : vehicle.driver;
       const row = element("li", {}, swatch(vehicle.colour), element("b", { textContent: vehicle.name }), speed, element("span", { className: "driver", textContent: words }), belief);
       return { index: world.vehicles.indexOf(vehicle), name: vehicle.name, row, speed, belief };
     });
@@ -87,10 +88,11 @@ export class Hud {
     const { seat, duration_s } = this.world;
     const rate = frame.real === 1 || !frame.real ? "" : frame.real < 1 ? `  slow motion ×${frame.real}` : `  time-lapse ×${frame.real}`;
     setText(by("clock"), `${frame.time_s.toFixed(1)} / ${duration_s.toFixed(0)} s${rate}`);
-    setText(by("asked"), this.request(frame));
+    const { study } = this.world;
+    setText(by("asked"), study ? "" : this.request(frame));
     by("asked").classList.toggle("mine", (frame.proposals ?? []).some(({ to }) => to === seat));
     const ranks = ["note", "warning", "alarm"];
-    for (const event of frame.events ?? []) {
+    for (const event of (study ? [] : frame.events) ?? []) {
       const rank = ranks.indexOf(event.level);
       const isKept = this.news && now < this.news.until && this.news.rank > rank;
       if (isKept) continue;
@@ -100,7 +102,7 @@ export class Hud {
     }
     for (const { index, name, speed, belief } of this.rows) {
       setText(speed, frame.absent?.[index] ? "not here" : `${Math.abs(frame.states[index][3]).toFixed(1)} m/s`);
-      const thoughts = (frame.beliefs ?? []).filter(({ of }) => of === name);
+      const thoughts = ((study ? [] : frame.beliefs) ?? []).filter(({ of }) => of === name);
       const words = thoughts.map(({ about, nice, text }) => `${asYou(text ?? `takes ${about} for nice`, seat)}${Number.isFinite(nice) ? ` (${Math.round(100 * nice)} %)` : ""}`);
       setText(belief, words.join(", "));
     }

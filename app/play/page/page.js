@@ -1,7 +1,8 @@
 // The page: its phases, the messages to and from the server, and the loop that draws at the screen's rate.
 //
 // Phases: connecting, menu (with a list of families or one of them), ready (a card tells what to do; the run stands still),
-// held (the same without a card, after a restart or a step back), driving, paused, score, gone.
+// held (the same without a card, after a restart or a step back), driving, paused, score, gone; in a study also trial, between
+// two runs.
 
 import { steadySteering } from "./bicycle.js";
 import { goneView, helpView, pauseView, readyView } from "./cards.js";
@@ -11,6 +12,7 @@ import { familyView, menuView } from "./menu.js";
 import { Motion } from "./motion.js";
 import { PadDriver } from "./pad.js";
 import { scoreView } from "./score.js";
+import { BARRED, studyView } from "./study.js";
 import { TouchDriver } from "./touch.js";
 import { WorldView } from "./world.js";
 
@@ -92,6 +94,7 @@ function go() {
 
 /** What keys, buttons, fingers and controllers ask for; returns whether it made sense now. */
 function act(name, number) {
+  if (world?.study && phase !== "trial" && BARRED.includes(name)) return false;
   if (isHelping) {
     if (["help", "pause", "go"].includes(name)) cover(phase === "paused" ? pauseView(touch.isShown, act) : phase === "ready" ? readyView(world, touch.isShown, act) : null);
     else return false;
@@ -182,6 +185,10 @@ const receive = {
     families = message.families ?? [];
     if (!message.chosen) showMenu();
   },
+  study(place) {
+    world = motion = null;
+    enter("trial", studyView(place, (type) => send({ type })));
+  },
   world(message) {
     const isSame = isAgain && world?.scenario === message.scenario && world?.seat === message.seat;
     isAgain = false;
@@ -190,6 +197,7 @@ const receive = {
     score = null;
     view.begin(world);
     hud.begin(world);
+    if (world.study) view.showsPlans = false;
     hold(isSame ? "held" : "ready");
   },
   frame(message) {

@@ -6,7 +6,7 @@ const number = (value, digits) => (Number.isFinite(value) ? value.toFixed(digits
 
 /** The rows of the comparison; a star marks the best of those that have `best`. */
 const METRICS = [
-  { words: "Goal reached after [s]", of: ({ reached_s }) => (Number.isFinite(reached_s) ? reached_s.toFixed(1) : "never"), value: ({ reached_s }) => reached_s ?? Infinity, best: Math.min },
+  { words: "Goal reached after [s]", of: ({ has_task, reached_s }) => (Number.isFinite(reached_s) && has_task ? reached_s.toFixed(1) : has_task ? "never" : "–"), value: ({ has_task, reached_s }) => (has_task && reached_s) || Infinity, best: Math.min },
   { words: "Smallest gap [m]", of: ({ smallest_gap_m }) => number(smallest_gap_m, 2), value: ({ smallest_gap_m }) => smallest_gap_m ?? -Infinity, best: Math.max },
   { words: "Hardest braking [m/s²]", of: ({ hardest_braking_mps2 }) => number(hardest_braking_mps2, 1), value: ({ hardest_braking_mps2 }) => hardest_braking_mps2 ?? Infinity, best: Math.min },
   { words: "Largest jerk [m/s³]", of: ({ largest_jerk_mps3 }) => number(largest_jerk_mps3, 1), value: ({ largest_jerk_mps3 }) => largest_jerk_mps3 ?? Infinity, best: Math.min },
@@ -16,9 +16,10 @@ const METRICS = [
 ];
 
 /** The headline in one line. */
-function verdict({ contact, off_road, reached_s, rules_broken }) {
+function verdict({ contact, off_road, has_task, reached_s, rules_broken }) {
   if (contact) return "You touched somebody";
   if (off_road) return "You left the road";
+  if (!has_task) return rules_broken ? `You came through, with ${rules_broken} ${rules_broken === 1 ? "rule" : "rules"} broken` : "You came through without contact";
   if (!Number.isFinite(reached_s)) return "You did not reach the goal";
   const broken = rules_broken ? `, with ${rules_broken} ${rules_broken === 1 ? "rule" : "rules"} broken` : "";
   return `You reached the goal after ${reached_s.toFixed(1)}\u00a0s${broken}`;

@@ -14,9 +14,11 @@ mod protocol;
 mod script;
 mod server;
 mod session;
+mod study;
 
 pub use kept::{keep, write};
 pub use protocol::{PageMessage, ServerMessage};
 pub use script::{ScriptError, ScriptLine, play_script, read_script};
 pub use server::{PlayServer, ServeError, ServeOptions, StopPlay};
 pub use session::{Score, ScoreRow, Session, SessionError, Wish, check_seats};
+pub use study::{Study, StudyError, StudyPlace};

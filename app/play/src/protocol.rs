@@ -4,6 +4,7 @@ use interplay_presentation::stage::{Stage, StageMoment};
 use serde::{Deserialize, Serialize};
 
 use crate::session::{PlayGoal, Score};
+use crate::study::StudyPlace;
 
 /// What a page says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +63,10 @@ pub enum PageMessage {
     Menu,
     /// The run ends here.
     End,
+    /// A person agrees to take part in the study.
+    Agree,
+    /// A person takes part no longer.
+    Leave,
     /// Asks for an answer, to measure how long that takes.
     Echo {
         /// The page's clock \[ms\].
@@ -130,6 +135,8 @@ pub enum ServerMessage {
         help: String,
         /// Where the vehicles start: x, y, heading and speed.
         states: Vec<[f64; 4]>,
+        /// In a study, where in it the person is: nothing is told of who drives how.
+        study: Option<StudyPlace>,
     },
     /// A tick.
     Frame {
@@ -162,6 +169,12 @@ pub enum ServerMessage {
         saved: Option<String>,
         /// The moving picture of the run.
         animation: Option<String>,
+    },
+    /// In a study: before the first run, between two of them and after the last.
+    Study {
+        /// Where in it the person is.
+        #[serde(flatten)]
+        place: StudyPlace,
     },
     /// A request that is not possible.
     Refused {

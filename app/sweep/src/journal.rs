@@ -107,6 +107,21 @@ fn length_of_whole_lines(file: &mut File) -> io::Result<u64> {
     Ok(0)
 }
 
+/// All rows of a journal; a torn last line is ignored.
+pub(crate) fn read_rows(path: &Path) -> Result<Vec<SweepRow>, SweepError> {
+    let text = fs::read_to_string(path).map_err(SweepError::file("read", path))?;
+    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let lines = whole.lines().enumerate().filter(|(_, line)| !line.is_empty());
+    let row = |(index, line): (usize, &str)| {
+        serde_json::from_str(line).map_err(|reason| SweepError::Journal {
+            path: path.to_owned(),
+            line: index + 1,
+            reason,
+        })
+    };
+    lines.map(row).collect()
+}
+
 /// Where the line of a run is.
 #[derive(Clone, Copy, Debug)]
 struct LinePlace {

@@ -22,7 +22,7 @@ impl RunKey {
     }
 
     /// The key of some texts.
-    pub(crate) fn of_parts(parts: &[&str]) -> RunKey {
+    pub fn of_parts(parts: &[&str]) -> RunKey {
         let mut digest = Sha256::new();
         for part in parts {
             // With lengths, no two lists of parts are one text.

@@ -13,6 +13,7 @@ use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
+use crate::people;
 use crate::row::SweepRow;
 use crate::shard::Shard;
 use crate::table::write_rows;
@@ -237,7 +238,14 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
     interplay_files::write(&path, plan.text().as_bytes()).map_err(SweepError::file("write", &path))
 }
 
-/// Writes the rows of some keys, sorted, from the journals. Returns how many there are, and how many have no result.
+/// Writes the table of a whole plan again: of its runs those that are in journals, and those of people.
+pub(crate) fn write_again(plan: &SweepPlan, folder: &Path) -> Result<(), SweepError> {
+    let known = JournalIndex::read(folder)?;
+    let part = Part::of(plan, Shard::WHOLE, &known, &|| ())?;
+    write_table(plan, Shard::WHOLE, folder, &table_path(folder, Shard::WHOLE), &part.runs).map(|_| ())
+}
+
+/// Writes the rows of some keys, sorted, from the journals, and with those of a whole plan the rows of people. Returns how many there are, and how many have no result.
 fn write_table(
     plan: &SweepPlan,
     shard: Shard,
@@ -246,11 +254,15 @@ fn write_table(
     runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
     let index = JournalIndex::read(folder)?;
-    let inputs = inputs(plan);
+    let people = if shard == Shard::WHOLE { people::rows(folder)? } else { Vec::new() };
+    let mut inputs = inputs(plan);
+    if !people.is_empty() {
+        inputs.extend(people::COLUMNS.map(|name| (name.to_owned(), ColumnKind::Number)));
+    }
     let about = [(PLAN_NOTE, plan_digest(plan)), (SHARD_NOTE, shard.to_string())];
     let mut unfinished = 0;
     let rows = index.rows(runs).map(|row| row.map(|(row, number)| row.labelled(plan.point(number))));
-    let rows = rows.inspect(|row| {
+    let rows = rows.chain(people.into_iter().map(Ok)).inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
     let count = write_rows(table, (&inputs, plan.metrics()), &about, rows)?;

@@ -131,6 +131,23 @@ impl Scenario {
         Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..self }
     }
 
+    /// The scenario's traffic alone, without its building and what is stated for that.
+    pub fn without_building(self) -> Scenario {
+        Scenario {
+            building: None,
+            weather: WeatherSource::default(),
+            occupancy: None,
+            setpoints: None,
+            schedules: Vec::new(),
+            calendar: None,
+            tariff: None,
+            heat_pump: None,
+            controller: None,
+            iterations: None,
+            ..self
+        }
+    }
+
     /// Index in [`Scenario::vehicles`] of the vehicle of that name.
     pub fn index_of(&self, name: &str) -> Option<usize> {
         self.vehicles.iter().position(|vehicle| vehicle.name == name)

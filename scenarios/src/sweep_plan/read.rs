@@ -28,7 +28,7 @@ use crate::sweep_plan::plan_file::PlanFile;
 static SCHEMA: LazyLock<Json> = LazyLock::new(json_schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 10] = [
+const EMBEDDED: [(&str, &str); 11] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
@@ -38,6 +38,7 @@ const EMBEDDED: [(&str, &str); 10] = [
     ("people", include_str!("../../plans/people.toml")),
     ("streets", include_str!("../../plans/streets.toml")),
     ("partners", include_str!("../../plans/partners.toml")),
+    ("study", include_str!("../../plans/study.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
 

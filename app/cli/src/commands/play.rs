@@ -6,13 +6,16 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 use interplay_play::{
-    PlayServer, Score, ScoreRow, ServeOptions, Session, check_seats, keep, play_script, read_script, write,
+    PlayServer, Score, ScoreRow, ServeOptions, Session, Study, StudyError, check_seats, keep, play_script, read_script,
+    write,
 };
 use interplay_scenarios::{Registry, Scenario, read_regular};
 use serde_json::json;
 
+use crate::commands::sweep::make_missing_rows;
 use crate::flag_values::files::{destroyed, is_same_file};
 use crate::output::exit_status::ExitStatus;
+use crate::output::refusal::gave_up;
 use crate::output::{ending, json, print, print_error, print_load_error};
 
 /// Drive a vehicle of a scenario yourself, in the browser; what you played is kept as a scenario that repeats it.
@@ -21,16 +24,21 @@ use crate::output::{ending, json, print, print_error, print_load_error};
     interplay play                                        (a menu of all scenarios)\n  \
     interplay play lane-change/front-nice --as front      (be the driver whom the negotiator asks)\n  \
     interplay play intersection/nice --join crossing      (a second page, for somebody else)\n  \
-    interplay play lane-change/front-nice --input drive.jsonl --out played.toml\n\n\
+    interplay play lane-change/front-nice --input drive.jsonl --out played.toml\n  \
+    interplay play --study people.toml --as front         (walk people through a plan, a row a run)\n\n\
     On another machine: `interplay play --no-browser --port 7777` there, `ssh -L 7777:localhost:7777 THERE` here, and the\n\
     address that it prints in the browser here.")]
 pub(crate) struct Play {
     /// Name of an embedded scenario or path of a scenario file [default: a menu]
-    #[arg(value_name = "NAME|FILE")]
+    #[arg(value_name = "NAME|FILE", group = "played")]
     scenario: Option<String>,
 
-    /// The vehicle that you drive [default: the ego]
-    #[arg(long = "as", value_name = "VEHICLE", requires = "scenario")]
+    /// Walk people through the runs of a plan in random order, a row a run beside those of the planners: a file, or one in the binary
+    #[arg(long, value_name = "PLAN", group = "played", conflicts_with_all = ["join", "input"])]
+    study: Option<String>,
+
+    /// The vehicle that you drive; in a study several, after commas [default: the ego]
+    #[arg(long = "as", value_name = "VEHICLE", requires = "played")]
     seat: Option<String>,
 
     /// A second vehicle that somebody drives from a second page, whose address is printed, too
@@ -53,7 +61,7 @@ pub(crate) struct Play {
     #[arg(long, value_name = "FILE", requires = "scenario")]
     input: Option<PathBuf>,
 
-    /// Where what was played goes: a folder, or with --input a file [default: played/]
+    /// Where what was played goes: a folder, or with --input a file [default: played/, of a study studies/PLAN]
     #[arg(long, value_name = "PATH")]
     out: Option<PathBuf>,
 
@@ -67,14 +75,40 @@ const MAX_INPUT_BYTES: u64 = 1 << 28;
 
 impl Play {
     pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        if let Some(plan) = &self.study {
+            return match self.study(registry, plan) {
+                Ok((study, folder)) => self.serve(registry, None, Some((study, folder))),
+                Err(status) => status,
+            };
+        }
         let chosen = match self.chosen(registry) {
             Ok(chosen) => chosen,
             Err(status) => return status,
         };
         match (&self.input, chosen) {
             (Some(input), Some((name, scenario, seat))) => self.play_file(registry, input, (&name, &scenario, &seat)),
-            (_, chosen) => self.serve(registry, chosen.map(|(name, _, seat)| (name, seat))),
+            (_, chosen) => self.serve(registry, chosen.map(|(name, _, seat)| (name, seat)), None),
         }
+    }
+
+    /// The study of a plan and its folder, in which the rows of planners are made first.
+    fn study(&self, registry: &Registry, name: &str) -> Result<(Study, PathBuf), ExitStatus> {
+        let plan = registry.sweep_plan(name, None).map_err(|error| {
+            print_load_error(error);
+            ExitStatus::BadInput
+        })?;
+        let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("studies").join(&*stem));
+        let seats: Vec<&str> = self.seat.iter().flat_map(|seats| seats.split(',')).map(str::trim).collect();
+        Study::check(&plan, &seats).map_err(refused_study)?;
+        make_missing_rows(&plan, &folder).map_err(gave_up)?;
+        let study = Study::new(plan, &folder, &seats).map_err(refused_study)?;
+        print_error(&format!(
+            "rows are in {}; `interplay compare {} --by scenario` reads them",
+            folder.display(),
+            folder.display()
+        ));
+        Ok((study, folder))
     }
 
     /// The scenario and the seat, if a scenario is named; both are checked before anything is served.
@@ -100,20 +134,29 @@ impl Play {
         }
     }
 
-    fn serve(&self, registry: &Registry, chosen: Option<(String, String)>) -> ExitStatus {
+    fn serve(
+        &self,
+        registry: &Registry,
+        chosen: Option<(String, String)>,
+        study: Option<(Study, PathBuf)>,
+    ) -> ExitStatus {
+        let in_study = study.as_ref().map(|(_, folder)| folder.join("played"));
         let options = ServeOptions {
             address: self.listen.unwrap_or(Ipv4Addr::LOCALHOST.into()),
             port: self.port,
             chosen,
             joined: self.join.clone(),
-            folder: self.out.clone().unwrap_or_else(|| PathBuf::from("played")),
+            folder: in_study.or_else(|| self.out.clone()).unwrap_or_else(|| PathBuf::from("played")),
             ..ServeOptions::new(registry)
         };
         if self.listen.is_some_and(|address| !address.is_loopback()) {
             print_error("anybody who reaches this machine and knows the address below can play: nothing is encrypted");
         }
         let server = match PlayServer::bind(options) {
-            Ok(server) => server,
+            Ok(server) => match study {
+                Some((study, _)) => server.with_study(study),
+                None => server,
+            },
             Err(error) => {
                 print_error(&error.to_string());
                 return ExitStatus::Unfinished;
@@ -195,6 +238,21 @@ impl Play {
             format!("{}digest {digest}\n", words(&score))
         };
         print(&text)
+    }
+}
+
+/// Says why there is no study.
+fn refused_study(error: StudyError) -> ExitStatus {
+    match error {
+        StudyError::Plan(error) => {
+            print_load_error(*error);
+            ExitStatus::BadInput
+        }
+        StudyError::Rows(error) => gave_up(error),
+        other => {
+            print_error(&other.to_string());
+            ExitStatus::BadInput
+        }
     }
 }
 

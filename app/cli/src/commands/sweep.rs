@@ -176,34 +176,49 @@ impl Sweep {
     }
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        let pool = self.pool(plan)?;
-        let checks = CheckProgress::start(plan.run_count());
-        let progress: OnceLock<Progress> = OnceLock::new();
-        let keep = |row: &SweepRow, scenario: &Scenario| record_again(folder, row, scenario);
-        let options = SweepOptions {
-            folder,
-            shard,
-            keep: self.keep.contains(&Keep::Failures).then_some(&keep),
-            trajectories: self.keep.contains(&Keep::Trajectories),
-            checked: &|| checks.advance(),
-            begin: &|to_make, there| {
-                checks.clear();
-                print_error(&format!("{} to make, {there} made before", runs(to_make)));
-                progress.get_or_init(|| Progress::with_time_left(to_make as usize));
-            },
-            advance: &|| {
-                if let Some(progress) = progress.get() {
-                    progress.advance();
-                }
-            },
-        };
-        let outcome = pool.install(|| sweep(plan, &options));
-        checks.clear();
-        if let Some(progress) = progress.into_inner() {
-            progress.clear();
-        }
-        outcome
+        make_rows(&self.pool(plan)?, plan, (shard, folder), &self.keep)
     }
+}
+
+/// Makes the runs of a whole plan that are not in a folder yet, and tells how far it is.
+pub(crate) fn make_missing_rows(plan: &SweepPlan, folder: &Path) -> Result<SweepOutcome, SweepError> {
+    let pool = pool(None, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
+    let pool = pool.map_err(|error| SweepError::Input(error.to_string()))?;
+    make_rows(&pool, plan, (Shard::WHOLE, folder), &[])
+}
+
+fn make_rows(
+    pool: &ThreadPool,
+    plan: &SweepPlan,
+    (shard, folder): (Shard, &Path),
+    kept: &[Keep],
+) -> Result<SweepOutcome, SweepError> {
+    let checks = CheckProgress::start(plan.run_count());
+    let progress: OnceLock<Progress> = OnceLock::new();
+    let keep = |row: &SweepRow, scenario: &Scenario| record_again(folder, row, scenario);
+    let options = SweepOptions {
+        folder,
+        shard,
+        keep: kept.contains(&Keep::Failures).then_some(&keep),
+        trajectories: kept.contains(&Keep::Trajectories),
+        checked: &|| checks.advance(),
+        begin: &|to_make, there| {
+            checks.clear();
+            print_error(&format!("{} to make, {there} made before", runs(to_make)));
+            progress.get_or_init(|| Progress::with_time_left(to_make as usize));
+        },
+        advance: &|| {
+            if let Some(progress) = progress.get() {
+                progress.advance();
+            }
+        },
+    };
+    let outcome = pool.install(|| sweep(plan, &options));
+    checks.clear();
+    if let Some(progress) = progress.into_inner() {
+        progress.clear();
+    }
+    outcome
 }
 
 fn runs(count: u64) -> String {

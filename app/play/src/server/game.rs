@@ -3,6 +3,7 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
+use interplay_scenarios::Scenario;
 use serde_json::Error as JsonError;
 use tokio::sync::{mpsc, oneshot};
 
@@ -12,6 +13,7 @@ use super::request::{PageAtGame, Request};
 use crate::menu::Menu;
 use crate::protocol::{Chosen, PageMessage, ServerMessage};
 use crate::session::SessionError;
+use crate::study::Study;
 
 /// How long the game sleeps while nothing is played.
 const IDLE: Duration = Duration::from_millis(250);
@@ -25,16 +27,18 @@ pub(super) struct Game {
     animation: String,
     received: Receiver<Request>,
     requests: Sender<Request>,
-    pages: Vec<PageAtGame>,
+    pub(super) pages: Vec<PageAtGame>,
     next_number: u64,
     next_run: u64,
     menu: Menu,
-    playing: Option<Playing>,
+    pub(super) playing: Option<Playing>,
+    pub(super) study: Option<Study>,
 }
 
 impl Game {
     pub fn new(
         options: ServeOptions,
+        study: Option<Study>,
         animation: String,
         (received, requests): (Receiver<Request>, Sender<Request>),
     ) -> Game {
@@ -49,6 +53,7 @@ impl Game {
             next_run: 1,
             menu,
             playing: None,
+            study,
         }
     }
 
@@ -67,9 +72,7 @@ impl Game {
             }
             self.tick();
         }
-        if let Some(playing) = &mut self.playing {
-            playing.save();
-        }
+        self.save();
         self.tell(&ServerMessage::Bye { text: "the server has ended".to_owned() });
     }
 
@@ -108,7 +111,10 @@ impl Game {
             scenario: playing.session.name().to_owned(),
             seat: playing.seat_of(&page).to_owned(),
         });
-        page.send(&ServerMessage::Menu { families: self.menu.families.clone(), chosen });
+        match &self.study {
+            Some(study) => page.send(&ServerMessage::Study { place: study.place() }),
+            None => page.send(&ServerMessage::Menu { families: self.menu.families.clone(), chosen }),
+        };
         if let Some(playing) = &mut self.playing {
             playing.come(&page);
         }
@@ -123,12 +129,22 @@ impl Game {
             playing.go(&page);
             if self.pages.is_empty() {
                 playing.pause(true);
-                playing.save();
+                self.save();
             }
+        }
+        if self.pages.is_empty() {
+            self.drop_trial();
         }
     }
 
-    fn tell(&mut self, message: &ServerMessage) {
+    /// Keeps what is being played. A run of a study is kept when it is over.
+    fn save(&mut self) {
+        if let Some(playing) = self.playing.as_mut().filter(|playing| playing.study.is_none()) {
+            playing.save();
+        }
+    }
+
+    pub(super) fn tell(&mut self, message: &ServerMessage) {
         let gone: Vec<u64> = self.pages.iter().filter(|page| !page.send(message)).map(|page| page.number).collect();
         gone.into_iter().for_each(|page| self.leave(page));
     }
@@ -142,6 +158,7 @@ impl Game {
     fn hear(&mut self, number: u64, text: &str) {
         let message: Result<PageMessage, JsonError> = serde_json::from_str(text);
         let heard = match message {
+            Ok(message) if self.study.is_some() => self.follow_study(number, message),
             Ok(message) => self.follow(number, message),
             Err(error) => {
                 let reason = error.to_string();
@@ -154,13 +171,12 @@ impl Game {
     }
 
     /// Does what a page asks for, or says why not.
-    fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
+    pub(super) fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
         match message {
             PageMessage::Start { scenario, seat } => self.start_as(&scenario, &seat),
             PageMessage::Menu => {
-                if let Some(mut playing) = self.playing.take() {
-                    playing.save();
-                }
+                self.save();
+                self.playing = None;
                 let families = self.menu.families.clone();
                 self.tell(&ServerMessage::Menu { families, chosen: None });
                 Ok(())
@@ -197,13 +213,24 @@ impl Game {
     }
 
     fn start_as(&mut self, scenario: &str, seat: &str) -> Result<(), String> {
-        if let Some(mut before) = self.playing.take() {
-            before.save();
-        }
+        let name = scenario;
+        let scenario = self.options.registry.load(name, &[]).map_err(|error| {
+            let faults: Vec<&str> = error.faults().iter().map(interplay_scenarios::Fault::message).collect();
+            format!("{error}: {}", faults.join("; "))
+        })?;
+        self.play(name, &scenario, seat)
+    }
+
+    pub(super) fn play(&mut self, name: &str, scenario: &Scenario, seat: &str) -> Result<(), String> {
+        self.save();
+        self.playing = None;
         let run = self.next_run;
         self.next_run += 1;
-        let playing = Playing::start(&self.options, (scenario, seat), run, (self.requests.clone(), &self.animation))?;
+        let sender = (self.requests.clone(), self.animation.as_str());
+        let playing = Playing::start(&self.options, (name, scenario, seat), run, sender)?;
+        let study = self.study.as_ref().map(Study::place);
         let playing = self.playing.insert(playing);
+        playing.study = study;
         self.pages.iter().for_each(|page| playing.come(page));
         Ok(())
     }
@@ -219,8 +246,9 @@ impl Game {
         let Some(playing) = &mut self.playing else { return };
         if let Err(error) = playing.tick_if_due(Instant::now(), &self.pages) {
             playing.pause(true);
-            playing.save();
+            self.save();
             self.tell(&ServerMessage::Refused { text: error.to_string() });
         }
+        self.end_trial();
     }
 }

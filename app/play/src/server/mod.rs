@@ -7,6 +7,7 @@ mod pages;
 mod pictures;
 mod playing;
 mod request;
+mod trials;
 
 pub use options::ServeOptions;
 
@@ -28,6 +29,7 @@ use tokio::sync::mpsc;
 use self::game::Game;
 use self::guard::Guard;
 use self::request::Request;
+use crate::study::Study;
 
 /// Messages of pages are longer than this only by mistake or malice \[bytes\].
 const MOST_BYTES: usize = 4096;
@@ -68,6 +70,7 @@ pub struct PlayServer {
     listener: TcpListener,
     guard: Guard,
     options: ServeOptions,
+    study: Option<Study>,
 }
 
 /// What every request is served with.
@@ -90,7 +93,13 @@ impl PlayServer {
         let listener = runtime.block_on(TcpListener::bind(address));
         let listener = listener.map_err(|reason| ServeError::Listen { address, reason })?;
         let guard = Guard::new(options.address).map_err(|error| start(&error))?;
-        Ok(PlayServer { stop: StopPlay::default(), runtime, listener, guard, options })
+        Ok(PlayServer { stop: StopPlay::default(), runtime, listener, guard, options, study: None })
+    }
+
+    /// The same server, which walks people through a study instead of showing them a menu.
+    #[must_use]
+    pub fn with_study(self, study: Study) -> PlayServer {
+        PlayServer { study: Some(study), ..self }
     }
 
     /// The address of the page.
@@ -109,10 +118,10 @@ impl PlayServer {
     /// # Errors
     /// [`ServeError::Start`] if the server breaks down.
     pub fn run(self) -> Result<(), ServeError> {
-        let PlayServer { stop, runtime, listener, guard, options } = self;
+        let PlayServer { stop, runtime, listener, guard, options, study } = self;
         let (requests, received) = std::sync::mpsc::channel();
         let animation = format!("/{}/animation.webp", guard.token());
-        let game = Game::new(options, animation, (received, requests.clone()));
+        let game = Game::new(options, study, animation, (received, requests.clone()));
         let thread = std::thread::Builder::new().name("play".to_owned()).spawn(move || game.run());
         let thread = thread.map_err(|error| ServeError::Start(error.to_string()))?;
         let served = Served { guard: Arc::new(guard), requests: requests.clone() };

@@ -29,6 +29,7 @@ files![
     "page.js",
     "roads.js",
     "score.js",
+    "study.js",
     "touch.js",
     "vehicles.js",
     "world.js",

@@ -12,6 +12,7 @@ use super::options::ServeOptions;
 use super::request::{PageAtGame, Request};
 use crate::protocol::{PageMessage, ServerMessage};
 use crate::session::{ScoreRow, Session, SessionError, Wish, others};
+use crate::study::StudyPlace;
 
 /// Whoever is not heard for so long is braked.
 const LATE: Duration = Duration::from_millis(1000);
@@ -45,6 +46,8 @@ pub(super) struct Playing {
     saved: Option<(usize, PathBuf)>,
     /// The path of the moving picture.
     animation: String,
+    /// Where in a study this is.
+    pub study: Option<StudyPlace>,
 }
 
 /// A seat and when its person was heard last.
@@ -58,17 +61,13 @@ impl Playing {
     /// A scenario before its first tick, with people in a seat and in the one that others join.
     pub fn start(
         options: &ServeOptions,
-        (name, seat): (&str, &str),
+        (name, scenario, seat): (&str, &Scenario, &str),
         run: u64,
         (requests, animation): (Sender<Request>, &str),
     ) -> Result<Playing, String> {
-        let scenario = options.registry.load(name, &[]).map_err(|error| {
-            let faults: Vec<&str> = error.faults().iter().map(interplay_scenarios::Fault::message).collect();
-            format!("{error}: {}", faults.join("; "))
-        })?;
         let joined = options.joined.as_deref().filter(|joined| *joined != seat && scenario.index_of(joined).is_some());
         let seats: Vec<&str> = [seat].into_iter().chain(joined).collect();
-        let session = Session::new(name, &scenario, &seats).map_err(|error| error.to_string())?;
+        let session = Session::new(name, scenario, &seats).map_err(|error| error.to_string())?;
         let moment = StageWitness::standing(&session.states());
         let now = Instant::now();
         let heard = |seat: &&str| Heard { seat: (*seat).to_owned(), last: now, is_braked: false };
@@ -88,6 +87,7 @@ impl Playing {
             has_ended: false,
             saved: None,
             animation: animation.to_owned(),
+            study: None,
         })
     }
 
@@ -113,6 +113,7 @@ impl Playing {
             help: self.session.written().shows.clone(),
             goal,
             states: self.session.states().into_iter().map(interplay_planners::State::to_array).collect(),
+            study: self.study,
             seat,
         });
         page.send(&self.frame(page));
@@ -131,6 +132,11 @@ impl Playing {
             self.seats.iter_mut().for_each(|heard| heard.last = self.next);
         }
         self.is_paused = is_paused;
+    }
+
+    /// Whether the run is over.
+    pub fn has_ended(&self) -> bool {
+        self.has_ended
     }
 
     /// How long until the next tick; none while time stands still.
@@ -206,7 +212,8 @@ impl Playing {
         // No tick is left out: where the machine is too slow, time passes more slowly.
         self.next = (self.next + step).max(Instant::now());
         self.show(pages);
-        if self.ends_s.is_none() && self.session.is_decided() {
+        // In a study every run is as long as that of a planner.
+        if self.ends_s.is_none() && self.study.is_none() && self.session.is_decided() {
             let real = self.session.written().ego().map_or(1.0, |ego| ego.body.real_ratio().sqrt());
             self.ends_s = Some(self.session.time_s() + AFTER_S * real);
         }
@@ -265,6 +272,9 @@ impl Playing {
         }
         self.has_ended = true;
         self.save();
+        if self.study.is_some() {
+            return;
+        }
         self.tell_score(pages);
         let (requests, run) = (self.requests.clone(), self.run);
         let (written, seat): (Scenario, String) = (self.session.written().clone(), self.main_seat().to_owned());

@@ -71,7 +71,8 @@ impl Session {
     /// # Errors
     /// [`SessionError`] if a seat is none, or the world cannot be built.
     pub fn new(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Session, SessionError> {
-        let written = scenario.clone().without_counterfactuals();
+        // Nobody sits in a building, and its days come after the drive.
+        let written = scenario.clone().without_counterfactuals().without_building();
         let indices = check_seats(name, &written, seats)?;
         let mut played = written.clone();
         for index in &indices {

@@ -28,6 +28,8 @@ pub struct Score {
 pub struct ScoreRow {
     /// Who drove.
     pub name: String,
+    /// Whether there was anything to reach.
+    pub has_task: bool,
     /// When the goal was reached \[s\].
     pub reached_s: Option<f64>,
     /// The smallest distance to anybody \[m\].
@@ -51,6 +53,7 @@ impl ScoreRow {
         let number = |metric: &str| found.and_then(|vehicle| vehicle.metrics.number(metric));
         ScoreRow {
             name: name.to_owned(),
+            has_task: found.is_some_and(|vehicle| vehicle.has_task),
             reached_s: found.and_then(|vehicle| vehicle.completed_s),
             smallest_gap_m: report.metrics.number("smallest_gap_m"),
             hardest_braking_mps2: number("peak_braking_mps2"),

@@ -48,7 +48,7 @@ fn play(scenario: &Scenario, seat: &str, ticks: u64, dice: &mut Dice) -> Session
 #[test]
 fn what_was_played_is_repeated_bit_for_bit() {
     let mut dice = Dice(7);
-    for name in ["lane-change/front-nice", "intersection/nice", "ramp-merge/nice"] {
+    for name in ["lane-change/front-nice", "intersection/nice", "ramp-merge/nice", "mixed/garage"] {
         let scenario = load(name, &[]).expect("authored");
         let seats = seats_of(&scenario);
         for play_number in 0..4 {

@@ -1,0 +1,105 @@
+//! Rows of runs in which a person drove, beside those of a plan.
+//!
+//! They are a journal of their own in the folder of a sweep, and are in its table wherever that is written. Of a person there is
+//! a number and nothing else.
+
+use std::path::{Path, PathBuf};
+
+use interplay_scenarios::{Scenario, SweepPlan, SweepPoint};
+use serde_json::{Value as Json, json};
+
+use crate::error::SweepError;
+use crate::journal::{Journal, read_rows};
+use crate::key::RunKey;
+use crate::measure::measured_run;
+use crate::row::SweepRow;
+use crate::sweep::write_again;
+use crate::version::program_version;
+
+/// What a row calls a person.
+const PERSON: &str = "person";
+/// The columns of what is known of a run with a person.
+pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];
+const PARTICIPANT: &str = "participant";
+const RESTARTS: &str = "restarts";
+
+/// A run in which a person drove.
+#[derive(Debug)]
+pub struct PersonRun<'a> {
+    /// The run of the plan that it began as.
+    pub point: SweepPoint,
+    /// The vehicle that the person drove.
+    pub seat: &'a str,
+    /// The number of the person.
+    pub participant: u32,
+    /// How often the run was begun anew.
+    pub restarts: u32,
+    /// What was played, as a scenario that repeats it.
+    pub played: &'a Scenario,
+}
+
+/// The people of a folder of rows. Only one process can have it.
+pub struct PeopleRows {
+    folder: PathBuf,
+    journal: Journal,
+    participants: u32,
+}
+
+impl PeopleRows {
+    /// Opens the rows of people in the folder of a sweep.
+    ///
+    /// # Errors
+    /// [`SweepError::InUse`] if another process has them; files that cannot be read.
+    pub fn open(folder: &Path) -> Result<PeopleRows, SweepError> {
+        let journal = Journal::open(&path_in(folder))?;
+        let number = |row: &SweepRow| row.inputs.get(PARTICIPANT).and_then(Json::as_u64);
+        let participants = rows(folder)?.iter().filter_map(number).max().unwrap_or_default();
+        Ok(PeopleRows { folder: folder.to_owned(), journal, participants: participants as u32 })
+    }
+
+    /// The number of the next person, from 1.
+    pub fn begin_participant(&mut self) -> u32 {
+        self.participants += 1;
+        self.participants
+    }
+
+    /// Makes the row of a run by running what was played, and writes the table of the folder again.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn add(&mut self, plan: &SweepPlan, run: &PersonRun<'_>) -> Result<(), SweepError> {
+        let row = measured(plan, run)?;
+        self.journal.append(&row)?;
+        self.journal.sync()?;
+        write_again(plan, &self.folder)
+    }
+}
+
+/// The row of a run. A person stands in the place of the planner or, as another vehicle than the ego, of the style.
+fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepError> {
+    let (participant, number) = (run.participant.to_string(), u64::from(run.participant));
+    let written = run.played.to_file().to_toml();
+    let key = RunKey::of_parts(&[&program_version(), PERSON, &participant, &run.point.index.to_string(), &written]);
+    let mut point = run.point.clone();
+    point.inputs.extend([(PARTICIPANT.to_owned(), json!(number)), (RESTARTS.to_owned(), json!(run.restarts))]);
+    let is_ego = run.played.ego().is_some_and(|ego| ego.name == run.seat);
+    if is_ego {
+        point.planner = PERSON.to_owned();
+    } else {
+        point.style = PERSON.to_owned();
+        // Pairs of two planners are of one person.
+        point.sample += number * plan.run_count();
+    }
+    let row = measured_run(key, &point, run.played, None)?;
+    Ok(if is_ego { SweepRow { plan_median_ms: None, plan_p99_ms: None, ..row } } else { row })
+}
+
+fn path_in(folder: &Path) -> PathBuf {
+    folder.join("people.jsonl")
+}
+
+/// The rows of people in a folder, in the order in which they drove.
+pub(crate) fn rows(folder: &Path) -> Result<Vec<SweepRow>, SweepError> {
+    let path = path_in(folder);
+    if path.is_file() { read_rows(&path) } else { Ok(Vec::new()) }
+}
