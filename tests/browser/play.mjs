@@ -4,10 +4,10 @@
 //
 // `chromium.mjs` says what it needs. Exit code 0 if all is well, 1 if not, 2 (and "skipped") without a browser.
 
-import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
+import { serve } from "./serve.mjs";
 
 process.on("exit", (code) => code === 2 && console.log("skipped: the page of `interplay play` was not tested"));
 const { begin, command, end, evaluate, open, troubles } = await import("./chromium.mjs");
@@ -30,22 +30,6 @@ const check = (isWell, words) => {
   if (!isWell) wrong.push(words);
 };
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
-
-/** Starts the server in a folder of its own; returns it with its address. */
-async function serve(place, ...words) {
-  const server = spawn(resolve(binary), ["play", ...words, "--no-browser", "--port", "0"], { cwd: place, stdio: ["ignore", "pipe", "inherit"] });
-  const address = await new Promise((found, refuse) => {
-    let said = "";
-    server.stdout.on("data", (piece) => {
-      said += piece;
-      const line = /http:\/\/127\.0\.0\.1:\d+\/[^\s/]+\//.exec(said);
-      if (line) found(line[0]);
-    });
-    server.once("exit", (code) => refuse(new Error(`the server ended with exit code ${code}: ${said}`)));
-    setTimeout(() => refuse(new Error(`no address after 20 s: ${said}`)), 20_000).unref();
-  });
-  return { server, address };
-}
 
 const KEYS = { Enter: "\r", Space: " ", KeyM: "m", KeyR: "r" };
 const key = (type, code) => command("Input.dispatchKeyEvent", { type, code, key: KEYS[code] ?? code.replace(/^Digit/, ""), ...(type === "keyDown" && KEYS[code] ? { text: KEYS[code] } : {}) });
@@ -235,18 +219,53 @@ async function playPhone(address) {
   well().forEach((words) => check(false, words));
 }
 
+/** A person agrees, drives the runs of a plan, and sees nothing of who drives how. */
+async function playStudy(address) {
+  await show("wide");
+  await open(address);
+  await reach("trial");
+  await pause(400);
+  await shoot("consent", "wide");
+  for (const done of [1, 2]) {
+    await evaluate(() => document.querySelector("#overlay .primary").click());
+    await reach("ready");
+    await pause(400);
+    if (done === 1) await shoot("trial", "wide");
+    await press("Enter");
+    await reach("driving");
+    await press("KeyP");
+    await press("ArrowUp", 300);
+    check((await evaluate(() => document.getElementById("asked").textContent + document.getElementById("legend").textContent)).match(/negotiat|human|asks/i) === null, "nobody says who drives how");
+    await reach("trial");
+    check((await evaluate(() => interplayPlay.frame())) === null, "the run is over");
+  }
+  check((await evaluate(() => document.querySelector("#overlay h1").textContent)) === "Thank you", "all runs of the study are done");
+  await shoot("thanks", "wide");
+  well().forEach((words) => check(false, words));
+}
+
+const PLAN = 'scenario = ["lane-change/front-nice"]\nplanner = ["negotiation", "conservative"]\nset = { duration_s = 3.0, expect = {} }\n';
 const place = mkdtempSync(join(tmpdir(), "interplay-play-"));
-const { server, address } = await serve(place, "lane-change/front-nice", "--as", "front");
+writeFileSync(join(place, "people.toml"), PLAN);
+const tests = [
+  [["lane-change/front-nice", "--as", "front"], [playWide, playPhone]],
+  [["--study", "people.toml", "--as", "front"], [playStudy]],
+];
 try {
-  await begin(new URL(address).origin);
-  await playWide(address);
-  await playPhone(address);
+  for (const [words, plays] of tests) {
+    const { server, address } = await serve(binary, place, ...words);
+    try {
+      await begin(new URL(address).origin);
+      for (const play of plays) await play(address);
+    } finally {
+      server.kill();
+    }
+  }
 } catch (error) {
   check(false, error.message);
   well().forEach((words) => check(false, words));
 } finally {
   await end();
-  server.kill();
   rmSync(place, { recursive: true, force: true, maxRetries: 5 });
 }
 console.log(wrong.length ? `${wrong.length} ${wrong.length === 1 ? "trouble" : "troubles"}` : "all is well");

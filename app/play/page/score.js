@@ -32,7 +32,8 @@ function table(rows) {
     const values = best ? rows.map(value) : [];
     const top = best ? best(...values) : NaN;
     const cells = rows.map((row, index) => {
-      const isBest = isComparable && best && Number.isFinite(top) && values[index] === top && values.some((other) => other !== top);
+      // What is shown alike is equally good.
+      const isBest = isComparable && best && Number.isFinite(top) && of(row) === of(rows[values.indexOf(top)]) && rows.some((other) => of(other) !== of(row));
       const text = `${of(row)}${isBest ? " ★" : ""}`;
       return element("td", { textContent: text, className: [isBad?.(row) ? "bad" : "", row.name === "you" ? "you" : ""].join(" ").trim(), title: isBest ? "the best" : "" });
     });
