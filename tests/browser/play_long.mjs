@@ -74,6 +74,7 @@ try {
   const sorted = gaps.toSorted((one, other) => one - other);
   const early = memory[Math.max(1, Math.floor(memory.length / 10))];
   const growth = memory.at(-1) / early;
+  console.log(`memory by tenths of the time [MiB]: ${Array.from({ length: 11 }, (_, at) => memory[Math.min(memory.length - 1, Math.floor((at * memory.length) / 10))].toFixed(0)).join(" ")}`);
   console.log(`${came.length} ticks: ${(100 * late).toFixed(3)} % late by more than ${LATE_MS} ms, at most ${sorted.at(-1).toFixed(1)} ms; memory ${early.toFixed(0)} -> ${memory.at(-1).toFixed(0)} MiB`);
   troubles().forEach((words) => console.log(`WRONG ${words}`));
   isWell = came.length > Number(duration) * 9.9 && late < MOST_LATE && growth <= MOST_GROWTH && !troubles().length;

@@ -12,7 +12,7 @@ const KEYS = [
 const keyList = (rows) => element("dl", { className: "keylist" }, rows.map(([caps, words]) => element("div", {}, element("dt", {}, caps.map((cap) => (cap === "…" ? " … " : keycap(cap)))), element("dd", { textContent: words }))));
 
 const marks = (isTouch) => element("ul", { className: "marklist" },
-  element("li", {}, element("span", { className: "mark you" }), "white outline: your car"),
+  element("li", {}, element("span", { className: "mark you" }), "white outline, named “you”: your car"),
   element("li", {}, element("span", { className: "mark band" }), "band: where another driver plans to go"),
   element("li", {}, element("span", { className: "mark dots" }), "dots and dashed cars: where a driver asks you to be. You may do so or not"),
   isTouch ? null : element("li", {}, element("span", { className: "mark arrows" }), "arrows or a chequered line: your goal"));
@@ -23,7 +23,7 @@ const card = (label, ...children) => element("section", { className: "card", rol
 export function readyView(world, isTouch, act) {
   const { study } = world;
   const own = world.vehicles.find(({ name }) => name === world.seat);
-  const go = button({ words: "Go", key: isTouch ? undefined : "Enter", className: "primary" }, () => act("go"));
+  const go = button({ words: "Start", key: isTouch ? undefined : "Enter", className: "primary" }, () => act("go"));
   const drive = isTouch
     ? element("p", {}, "Steer with your left thumb, ", element("b", { textContent: "Go" }), " and ", element("b", { textContent: "Brake" }), " with your right one. Without a pedal you keep your speed.")
     : element("div", {}, keyList(KEYS.slice(0, study ? 3 : 5)), element("p", { className: "quiet", textContent: "Without a key you keep your speed, and lane keeping helps you to steer (K switches it off). Game controllers work, too." }));

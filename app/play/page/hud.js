@@ -126,7 +126,7 @@ export class Hud {
       return `${one.from === seat ? "you ask" : `${one.from} asks`} ${one.to} to follow the dots${answer}`;
     }
     const own = this.world.vehicles.findIndex(({ name }) => name === seat);
-    return `${one.from} asks you to ${this.wish(one.points ?? [], frame.states[own])}: follow the dots${followed ? ` (you do: ${followed})` : ""}`;
+    return `${one.from} asks you to ${this.wish(one.points ?? [], frame.states[own])}: follow the dots, or do not: you decide${followed ? ` (you follow: ${followed})` : ""}`;
   }
 
   /** What a proposal means for the pedals. */
@@ -137,7 +137,7 @@ export class Hud {
     const wanted = length / (points.length * this.world.step_s);
     const least = SPEED_SHARE * Math.max(speed, 0.3);
     if (wanted < speed - least) return `slow down to ${wanted.toFixed(1)}\u00a0m/s`;
-    return wanted > speed + least ? `speed up to ${wanted.toFixed(1)}\u00a0m/s` : "keep this speed";
+    return wanted > speed + least ? `speed up to ${wanted.toFixed(1)}\u00a0m/s` : `stay at ${speed.toFixed(1)}\u00a0m/s`;
   }
 
   /** Draws what changes with every picture: speed, pedals, wheel; lets news end. */

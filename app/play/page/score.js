@@ -50,7 +50,7 @@ export function scoreView(world, score, act) {
     element("p", { className: "quiet", textContent: world ? `${world.title} – as ${world.seat}` : "" }),
     element("h1", { textContent: verdict(you) }),
     element("div", { className: "scroll", tabIndex: 0, role: "region", aria: { label: "Comparison" } }, table(rows)),
-    element("p", { className: "quiet", textContent: others.length ? "The planners drove from the same start. ★ marks the best." : "The planners drive from the same start now …" }),
+    element("p", { className: "quiet", textContent: others.length ? `${others.length > 1 ? "Planners" : "A planner"} drove your car from the same start. ★ marks the best.` : "The planners drive from the same start now …" }),
   ];
   const below = [];
   if (story.length) below.push(element("div", {}, element("h2", { textContent: "What happened" }), element("ol", { className: "story" }, story.map((line) => element("li", { textContent: line })))));

@@ -82,7 +82,7 @@ impl Game {
             Request::Said { page, text } => self.hear(page, &text),
             Request::Leave { page } => self.leave(page),
             Request::Animation { answer } => {
-                let _ = answer.send(self.playing.as_ref().and_then(Playing::recorded));
+                let _ = answer.send(self.playing.as_ref().and_then(Playing::played));
             }
             Request::Others { run, rows } => {
                 if let Some(playing) = self.playing.as_mut().filter(|playing| playing.run == run) {

@@ -201,8 +201,8 @@ async fn animation(State(served): State<Served>) -> Response {
     let (answer, answered) = tokio::sync::oneshot::channel();
     let _ = served.requests.send(Request::Animation { answer });
     match answered.await {
-        Ok(Some(recorded)) => {
-            let drawn = tokio::task::spawn_blocking(move || pictures::animation(&recorded)).await;
+        Ok(Some(scenarios)) => {
+            let drawn = tokio::task::spawn_blocking(move || pictures::animation(scenarios)).await;
             drawn.ok().flatten().map_or_else(|| StatusCode::NOT_FOUND.into_response(), pages::image)
         }
         _ => StatusCode::NOT_FOUND.into_response(),

@@ -8,7 +8,7 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use interplay_presentation::animation::{AnimationFormat, encoded};
 use interplay_presentation::figures::RecordedRun;
-use interplay_scenarios::{embedded, load};
+use interplay_scenarios::{Scenario, embedded, load};
 use interplay_simulation::Simulation;
 
 use super::pages::image;
@@ -44,7 +44,8 @@ fn drawn(name: &str) -> Option<Vec<u8>> {
     encoded(&now, AnimationFormat::Filmstrip).ok()
 }
 
-/// The moving picture of a run.
-pub(super) fn animation(recorded: &RecordedRun) -> Option<Vec<u8>> {
-    encoded(recorded, AnimationFormat::WebP).ok()
+/// The moving picture of a run, which is repeated for it: of a scenario as it is written, and as it was played.
+pub(super) fn animation([written, played]: [Scenario; 2]) -> Option<Vec<u8>> {
+    let again = RecordedRun::record("played", played, Vec::new(), "").ok()?;
+    encoded(&RecordedRun::to_draw(written, again.frames, again.report), AnimationFormat::WebP).ok()
 }

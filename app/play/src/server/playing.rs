@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
-use interplay_presentation::figures::RecordedRun;
 use interplay_presentation::stage::{StageMoment, StageWitness};
 use interplay_scenarios::Scenario;
 
@@ -308,10 +307,8 @@ impl Playing {
         }
     }
 
-    /// The run with its ticks, for a moving picture; none before the first tick.
-    pub fn recorded(&self) -> Option<RecordedRun> {
-        let (frames, report) = (self.session.frames().to_vec(), self.session.report());
-        let scenario = self.session.written().clone();
-        (!frames.is_empty()).then(|| RecordedRun::to_draw(scenario, frames, report))
+    /// The scenario as it is written and as it was played, for a moving picture; none before the first tick.
+    pub fn played(&self) -> Option<[Scenario; 2]> {
+        (self.session.ticks() > 0).then(|| [self.session.written().clone(), self.session.played()])
     }
 }

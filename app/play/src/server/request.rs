@@ -1,6 +1,6 @@
 //! What the game is asked for, and the pages that ask.
 
-use interplay_presentation::figures::RecordedRun;
+use interplay_scenarios::Scenario;
 use tokio::sync::{mpsc, oneshot};
 
 use crate::protocol::ServerMessage;
@@ -14,8 +14,8 @@ pub(super) enum Request {
     Said { page: u64, text: String },
     /// A page is gone.
     Leave { page: u64 },
-    /// Somebody wants the moving picture of the run.
-    Animation { answer: oneshot::Sender<Option<RecordedRun>> },
+    /// Somebody wants the moving picture of the run: the scenario as it is written, and as it was played.
+    Animation { answer: oneshot::Sender<Option<[Scenario; 2]>> },
     /// Planners have driven from the same start.
     Others { run: u64, rows: Vec<ScoreRow> },
     /// The server ends.

@@ -40,7 +40,7 @@ pub(super) fn of(scenario: &Scenario, index: usize) -> PlayGoal {
     let across_m = route.across(vehicle.target(&scenario.road).position());
     let is_elsewhere = (across_m - start_m[1]).abs() > 0.5 * vehicle.body.width_m;
     let text = match (is_elsewhere, across_m > start_m[1]) {
-        (false, _) => "Keep your lane and come on".to_owned(),
+        (false, _) => "Stay in your lane and drive on. Others may want in: let them, or do not".to_owned(),
         (true, true) => "Get into the lane on your left".to_owned(),
         (true, false) => "Get into the lane on your right".to_owned(),
     };

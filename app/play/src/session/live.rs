@@ -15,9 +15,9 @@ use super::goal::{self, PlayGoal};
 use super::seat::{Seat, Wish};
 
 /// A moment to come back to is kept this often \[s\],
-const KEEP_EVERY_S: f64 = 0.5;
+const KEEP_EVERY_S: f64 = 1.0;
 /// and so many of them.
-const MOST_KEPT: usize = 240;
+const MOST_KEPT: usize = 20;
 
 /// A run in which people have some seats, with all that they did.
 pub struct Session {
@@ -28,7 +28,8 @@ pub struct Session {
     seats: Vec<Seat>,
     world: Simulation,
     witness: StageWitness,
-    frames: Vec<Frame>,
+    /// The last tick.
+    frame: Option<Frame>,
     kept: VecDeque<KeptMoment>,
     ticks: usize,
 }
@@ -86,7 +87,7 @@ impl Session {
             scenario: Arc::new(played),
             world,
             witness: StageWitness::default(),
-            frames: Vec::new(),
+            frame: None,
             kept: VecDeque::new(),
             ticks: 0,
         };
@@ -149,9 +150,9 @@ impl Session {
         self.world.states()
     }
 
-    /// The ticks so far.
-    pub fn frames(&self) -> &[Frame] {
-        &self.frames
+    /// The last tick; none before the first, and after a step back. Others are not kept: the run is repeated where they are needed.
+    pub fn frame(&self) -> Option<&Frame> {
+        self.frame.as_ref()
     }
 
     /// What was measured so far.
@@ -212,7 +213,7 @@ impl Session {
         let Some(frame) = self.world.frame().cloned() else { return Ok(None) };
         let people = self.seats.iter().filter(|seat| seat.planner.is_none()).map(|seat| seat.vehicle);
         let moment = self.witness.tick(&self.scenario, &frame, &self.world.states(), &people.collect::<Vec<_>>());
-        self.frames.push(frame);
+        self.frame = Some(frame);
         let every = (KEEP_EVERY_S / self.scenario.step_s).round().max(1.0) as usize * self.scenario.ticks_per_plan;
         if self.ticks.is_multiple_of(every) {
             self.keep()?;
@@ -249,7 +250,7 @@ impl Session {
         }
         self.witness = kept.witness.clone();
         self.ticks = kept.ticks;
-        self.frames.truncate(self.ticks);
+        self.frame = None;
         Ok(())
     }
 

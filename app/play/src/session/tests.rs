@@ -98,12 +98,13 @@ fn plans_are_equal_as_long_as_inputs_are() {
     let scenario = load("lane-change/front-nice", &[]).expect("authored");
     let plays = [-1.0, 1.0].map(|later| {
         let mut session = Session::new("played", &scenario, &["front"]).expect("a session");
-        for tick in 0..SAME + 10 {
+        let frames = (0..SAME + 10).filter_map(|tick| {
             let acceleration = if tick < SAME { 0.1 } else { later };
             session.wish("front", Wish { acceleration, assist: true, ..Wish::default() }).expect("a seat");
             session.tick().expect("a tick");
-        }
-        session.frames().to_vec()
+            session.frame().cloned()
+        });
+        frames.collect::<Vec<_>>()
     });
     let plans = |frames: &[Frame], tick: usize| -> Vec<_> {
         frames[tick].vehicles.iter().map(|vehicle| vehicle.plan.trajectory.clone()).collect()
