@@ -74,14 +74,16 @@ impl Planner {
         })
     }
 
-    /// Plans the next move in a scene in which everybody is seen as it is.
+    /// Plans the next move in a scene in which everybody is seen as it is. Whoever can neither reach the vehicle nor be reached by it
+    /// within the horizon has no part in the plan.
     ///
     /// # Errors
     /// [`PlanError`] if there is no plan; the caller falls back.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let near = scene.within_reach();
         match self.beliefs {
-            Some(_) => self.plan_sensed(&SensedScene::perfect(scene)),
-            None => self.plan_as_told(scene, &Outlook::default()),
+            Some(_) => self.plan_sensed(&SensedScene::perfect(&near)),
+            None => self.plan_as_told(&near, &Outlook::default()),
         }
     }
 

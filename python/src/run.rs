@@ -8,7 +8,7 @@ use interplay_presentation::figures::{FrameLog, RecordedRun};
 use interplay_presentation::record::{OpenRecording, Recorder, Sink};
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
-use interplay_sweep::{TrajectoryFile, TrajectoryWriter};
+use interplay_sweep::{TableFile, TrajectoryWriter};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -42,7 +42,7 @@ pub fn run(
     }
     let animate: Option<interplay_presentation::animation::AnimationFile> =
         animate.map(|path| path.parse().map_err(bad)).transpose()?;
-    let trajectories: Option<TrajectoryFile> = trajectories.map(|path| path.parse().map_err(bad)).transpose()?;
+    let trajectories: Option<TableFile> = trajectories.map(|path| path.parse().map_err(bad)).transpose()?;
     if let Some(animate) = &animate {
         animate.check().map_err(unwritten)?;
     }

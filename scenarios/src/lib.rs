@@ -60,6 +60,7 @@ mod defaults;
 mod error;
 mod file_format;
 mod files;
+mod flows;
 mod json_schema;
 mod load;
 mod metric;
@@ -86,10 +87,12 @@ pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use file_format::building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
 pub use file_format::counterfactual::CounterfactualConfig;
+pub use file_format::detector::DetectorConfig;
 pub use file_format::expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedMetric,
     ExpectedSpeed, ExpectedYield, ExpectedZone,
 };
+pub use file_format::flow::{FlowConfig, FlowGoal, FlowShare, Headways};
 pub use file_format::goal::GoalConfig;
 pub use file_format::lane_reference::LaneReference;
 pub use file_format::light::LightConfig;
@@ -120,6 +123,7 @@ pub use recorded_traffic::{
 pub use registry::{Registry, RegistryError, schema};
 pub use road::*;
 pub use scenario::conflict_zones::ConflictZone;
+pub use scenario::detector_line::DetectorLine;
 pub use scenario::obstacle::{ObstacleForm, ObstacleKind, Outline};
 pub use scenario::remark::{ScenarioRemark, ScenarioRemarks};
 pub use scenario::timetable::TimetableError;

@@ -124,5 +124,5 @@ fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule
         });
     let road_users = road_users.collect();
     let step_s = clock.planning_period_s();
-    Traffic { tick: clock.plans(), step_s, horizon: clock.horizon, road_users, rule_book }
+    Traffic { tick: clock.plans(), step_s, horizon: clock.horizon, road_users, rule_book, ..Traffic::default() }
 }

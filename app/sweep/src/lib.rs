@@ -38,6 +38,7 @@
 
 mod column;
 pub mod compare;
+mod detectors;
 mod error;
 mod journal;
 mod key;
@@ -45,6 +46,7 @@ mod measure;
 mod merge;
 mod people;
 mod row;
+mod row_file;
 mod shard;
 mod statistics;
 mod sweep;
@@ -52,13 +54,15 @@ mod table;
 mod trajectories;
 mod version;
 
+pub use detectors::DetectorWriter;
 pub use error::SweepError;
 pub use key::RunKey;
 pub use merge::{MergedSweep, merge};
 pub use people::{PeopleRows, PersonRun};
 pub use row::SweepRow;
+pub use row_file::{TableFile, TableFormat, TableFormatError};
 pub use shard::{Shard, ShardError};
 pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
 pub use table::{RowTable, TableColumn};
-pub use trajectories::{TrajectoryFile, TrajectoryFormat, TrajectoryFormatError, TrajectoryWriter};
+pub use trajectories::TrajectoryWriter;
 pub use version::program_version;

@@ -15,9 +15,9 @@ use crate::key::RunKey;
 use crate::measure::measured_run;
 use crate::people;
 use crate::row::SweepRow;
+use crate::row_file::TableFile;
 use crate::shard::Shard;
 use crate::table::write_rows;
-use crate::trajectories::TrajectoryFile;
 
 /// The file with the rows of a whole plan.
 pub const RUNS_FILE: &str = "runs.parquet";
@@ -94,7 +94,7 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     part.to_make.par_iter().with_max_len(1).try_for_each(|(key, index)| {
         let point = plan.point(*index);
         let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(Box::new(error)))?;
-        let trajectories = options.trajectories.then(|| TrajectoryFile::of_run(folder, key));
+        let trajectories = options.trajectories.then(|| TableFile::of_run(folder, key));
         let row = measured_run(*key, &point, &scenario, trajectories.as_ref())?;
         if let Some(keep) = options.keep.filter(|_| row.is_failure()) {
             keep(&row, &scenario).map_err(SweepError::Recording)?;

@@ -3,18 +3,13 @@
 //! Rows are written while the run goes on, and the file appears when the run is over.
 
 use std::collections::BTreeMap;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use interplay_files::{NewFolders, WholeFile};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use interplay_simulation::watch::{WatchError, Watcher};
-use thiserror::Error;
 
-use crate::column::{Cell, ColumnKind, TableSchema};
+use crate::column::{Cell, ColumnKind};
 use crate::error::SweepError;
-use crate::table::TableWriter;
+use crate::row_file::{RowFile, TableFile};
 
 /// The columns of a table of trajectories.
 const COLUMNS: [(&str, ColumnKind); 12] = [
@@ -32,67 +27,11 @@ const COLUMNS: [(&str, ColumnKind); 12] = [
     ("partner", ColumnKind::Text),
 ];
 
-/// The formats of tables of trajectories.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TrajectoryFormat {
-    /// Comma-separated values.
-    Csv,
-    /// Parquet.
-    Parquet,
-}
-
-/// A file that trajectories are written to; its ending is its format.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TrajectoryFile {
-    path: PathBuf,
-    format: TrajectoryFormat,
-}
-
-/// A file whose ending is no format of trajectories.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("`{0}` has no ending of a table; use .csv or .parquet")]
-pub struct TrajectoryFormatError(String);
-
-impl TrajectoryFile {
-    /// Path of the file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The file of a run in the folder of a sweep, by the key of the run.
-    pub(crate) fn of_run(folder: &Path, key: impl std::fmt::Display) -> TrajectoryFile {
-        let path = folder.join("trajectories").join(format!("{key}.parquet"));
-        TrajectoryFile { path, format: TrajectoryFormat::Parquet }
-    }
-}
-
-impl FromStr for TrajectoryFile {
-    type Err = TrajectoryFormatError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let path = PathBuf::from(text);
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let format = match ending.as_deref() {
-            Some("csv") => TrajectoryFormat::Csv,
-            Some("parquet") => TrajectoryFormat::Parquet,
-            _ => return Err(TrajectoryFormatError(text.to_owned())),
-        };
-        Ok(TrajectoryFile { path, format })
-    }
-}
-
 /// Writes a row for every vehicle on the road and tick. The file appears when the run is over; nothing of a run that is given up stays.
 pub struct TrajectoryWriter {
-    rows: Rows,
-    folders: NewFolders,
+    rows: RowFile,
     /// With whom each vehicle deals, by its name.
     partners: BTreeMap<String, String>,
-}
-
-/// Where rows go.
-enum Rows {
-    Csv(BufWriter<WholeFile>),
-    Parquet(Box<TableWriter>),
 }
 
 impl TrajectoryWriter {
@@ -100,23 +39,8 @@ impl TrajectoryWriter {
     ///
     /// # Errors
     /// For a file that cannot be written.
-    pub fn begin(target: &TrajectoryFile) -> Result<TrajectoryWriter, SweepError> {
-        let path = target.path();
-        interplay_files::check(path).map_err(SweepError::file("write", path))?;
-        let folders = NewFolders::make_above(path).map_err(SweepError::file("write", path))?;
-        let rows = match target.format {
-            TrajectoryFormat::Csv => {
-                let mut file = BufWriter::new(WholeFile::begin(path).map_err(SweepError::file("write", path))?);
-                let header = COLUMNS.map(|(name, _)| name).join(",");
-                writeln!(file, "{header}").map_err(SweepError::file("write", path))?;
-                Rows::Csv(file)
-            }
-            TrajectoryFormat::Parquet => {
-                let schema: TableSchema = COLUMNS.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
-                Rows::Parquet(Box::new(TableWriter::new(path, schema, &[])?))
-            }
-        };
-        Ok(TrajectoryWriter { rows, folders, partners: BTreeMap::new() })
+    pub fn begin(target: &TableFile) -> Result<TrajectoryWriter, SweepError> {
+        Ok(TrajectoryWriter { rows: RowFile::begin(target, &COLUMNS)?, partners: BTreeMap::new() })
     }
 }
 
@@ -130,21 +54,13 @@ impl Watcher for TrajectoryWriter {
                 };
             }
             let cells = cells(frame, vehicle, self.partners.get(&vehicle.name));
-            match &mut self.rows {
-                Rows::Csv(file) => writeln!(file, "{}", cells.map(|cell| in_csv(&cell)).join(","))?,
-                Rows::Parquet(table) => table.push(cells)?,
-            }
+            self.rows.push(cells)?;
         }
         Ok(())
     }
 
     fn finish(self: Box<Self>) -> Result<(), WatchError> {
-        match self.rows {
-            Rows::Csv(file) => file.into_inner().map_err(std::io::IntoInnerError::into_error)?.replace()?,
-            Rows::Parquet(table) => table.finish()?,
-        }
-        self.folders.keep();
-        Ok(())
+        self.rows.finish()
     }
 }
 
@@ -179,27 +95,10 @@ fn word(origin: Origin) -> &'static str {
     }
 }
 
-/// A value as comma-separated values have it. Numbers have as many digits as it takes to read the same number again.
-fn in_csv(cell: &Cell) -> String {
-    match cell {
-        Cell::Flag(value) => value.map(|value| value.to_string()),
-        Cell::Count(value) => value.map(|value| value.to_string()),
-        Cell::Number(value) => value.map(|value| value.to_string()),
-        Cell::Text(value) => value.as_deref().map(quoted),
-    }
-    .unwrap_or_default()
-}
-
-/// A text in quotes, where it would be read as something else without them.
-fn quoted(text: &str) -> String {
-    if text.contains(['"', ',', '\n', '\r']) {
-        return format!("\"{}\"", text.replace('"', "\"\""));
-    }
-    text.to_owned()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
     use crate::table::{TableColumn, TableReader};
 
@@ -211,7 +110,7 @@ mod tests {
     fn written(file: &str, frames: &[Frame], finishes: bool) -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("new").join(file);
-        let target: TrajectoryFile = path.to_string_lossy().parse().expect("an ending of a table");
+        let target: TableFile = path.to_string_lossy().parse().expect("an ending of a table");
         let mut writer = Box::new(TrajectoryWriter::begin(&target).expect("writable"));
         frames.iter().for_each(|frame| writer.tick(frame).expect("written"));
         if finishes {

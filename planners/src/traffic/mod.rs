@@ -24,6 +24,7 @@
 
 mod committed;
 mod limits;
+mod neighbours;
 mod planning_order;
 mod road_user;
 mod room;
@@ -32,6 +33,7 @@ mod tests;
 
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
+pub use neighbours::Neighbours;
 pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
@@ -52,6 +54,8 @@ pub struct Traffic {
     pub road_users: Vec<RoadUser>,
     /// What has to be remembered in order to judge by the rules of the road; carried on from tick to tick.
     pub rule_book: RuleBook,
+    /// Who is near whom; before they are found, everybody counts as near.
+    pub near: Neighbours,
 }
 
 /// What one vehicle decided in a tick.
@@ -68,9 +72,19 @@ pub struct Decision {
 }
 
 impl Traffic {
+    /// Finds out who can matter to whom, from where everybody is now.
+    pub fn find_neighbours(&mut self) {
+        self.near = Neighbours::find(&self.road_users, self.horizon_s());
+    }
+
+    fn horizon_s(&self) -> f64 {
+        self.horizon as f64 * self.step_s
+    }
+
     /// Writes into every agent what the others expect of it before it has planned in this tick, and what the rules of the road ask
     /// of it, and says how urgent it is for it to brake. To be called once a tick.
     pub fn predict(&mut self) {
+        self.find_neighbours();
         let Traffic { tick, horizon, step_s, .. } = *self;
         let present = || self.road_users.iter().filter(|user| !user.is_absent);
         let obliged = present().map(|user| Obliged {
@@ -106,16 +120,16 @@ impl Traffic {
         if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
     }
 
-    /// The moment as it is around one vehicle, with everybody's prediction as it stands.
+    /// The moment as it is around one vehicle, with the predictions as they stand of all who can matter to it within the horizon.
     pub fn moment(&self, vehicle: usize) -> Scene {
-        let others = self.road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
+        let others = self.near.of(vehicle, &self.road_users, self.horizon_s());
         Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
             ego: self.road_users[vehicle].agent.clone(),
             goal: self.road_users[vehicle].goal,
-            others: others.map(|(_, other)| other.agent.clone()).collect(),
+            others: others.into_iter().map(|other| self.road_users[other].agent.clone()).collect(),
         }
     }
 

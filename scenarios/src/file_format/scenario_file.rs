@@ -15,7 +15,9 @@ use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
 use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
+use crate::file_format::flow::FlowConfig;
 use crate::file_format::light::LightConfig;
 use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::plant::Plant;
@@ -82,12 +84,20 @@ pub struct ScenarioFile {
     pub start_jitter: Option<Stated<StartJitter>>,
     /// The vehicles, one `[[vehicle]]` each.
     #[serde(rename = "vehicle", default)]
-    #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    #[schemars(length(max = 10_000), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub vehicles: Vec<VehicleConfig>,
+    /// Vehicles that come one after another, one `[[flow]]` each.
+    #[serde(rename = "flow", default)]
+    #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    pub flows: Vec<FlowConfig>,
     /// What stands on the road or beside it and nobody drives, one `[[obstacle]]` each.
     #[serde(rename = "obstacle", default)]
     #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub obstacles: Vec<ObstacleConfig>,
+    /// Where traffic is counted, one `[[detector]]` each.
+    #[serde(rename = "detector", default)]
+    #[schemars(length(max = 1000), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
+    pub detectors: Vec<DetectorConfig>,
     /// Traffic lights at the ends of lanes with names, one `[[light]]` each.
     #[serde(rename = "light", default)]
     #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]

@@ -15,6 +15,7 @@ use crate::defaults::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::scenario_file::ScenarioFile;
+use crate::flows::with_flows;
 use crate::json_schema::SchemaNode;
 use crate::read::degrees;
 use crate::read::merge::merge_tables;
@@ -206,7 +207,7 @@ pub(crate) fn assemble_on(
     known_roads: &KnownRoads,
 ) -> Result<Scenario, Vec<Fault>> {
     let schema = registry.complete();
-    let tree = &with_defaults(tree.clone(), schema)?;
+    let tree = &with_defaults(with_flows(tree.clone(), schema)?, schema)?;
     let faults = shape::check(tree, schema);
     if !faults.is_empty() {
         return Err(faults);

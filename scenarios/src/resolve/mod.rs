@@ -79,6 +79,7 @@ fn read(
         real_time: reader.optional("real_time", file.real_time)?,
         plant: reader.or_default("plant", file.plant)?,
         lights: file.lights,
+        detectors: file.detectors,
         start_jitter: reader.or_default("start_jitter", file.start_jitter)?,
         building: reader.optional("building", file.building)?,
         weather: WeatherSource::default(),

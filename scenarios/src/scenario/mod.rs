@@ -4,6 +4,7 @@
 //! [`ScenarioFile::resolve`](crate::ScenarioFile::resolve) has been checked: it keeps every promise of the format.
 
 pub(crate) mod conflict_zones;
+pub(crate) mod detector_line;
 pub(crate) mod narrowest_lane;
 pub(crate) mod obstacle;
 pub(crate) mod plan_deadlines;
@@ -32,6 +33,7 @@ use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
 use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::goal::GoalConfig;
 use crate::file_format::light::LightConfig;
@@ -79,6 +81,8 @@ pub struct Scenario {
     pub network: Option<Arc<RoadNetwork>>,
     /// Its traffic lights; the lanes of the network hold them.
     pub lights: Vec<LightConfig>,
+    /// Where traffic is counted.
+    pub detectors: Vec<DetectorConfig>,
     /// Random change of every start, drawn from the seed.
     pub start_jitter: StartJitter,
     /// The vehicles, in the order of the file, and after them the obstacles.

@@ -45,6 +45,9 @@ impl Scenario {
                 .filter(|vehicle| vehicle.obstacle.is_none())
                 .map(Vehicle::to_config)
                 .collect(),
+            // Their vehicles are among the others.
+            flows: Vec::new(),
+            detectors: self.detectors.clone(),
             lights: self.lights.clone(),
             obstacles: self.vehicles.iter().filter_map(Vehicle::to_obstacle).collect(),
             defaults: None,

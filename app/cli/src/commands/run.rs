@@ -12,7 +12,7 @@ use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
-use interplay_sweep::{TrajectoryFile, TrajectoryWriter};
+use interplay_sweep::{DetectorWriter, SweepError, TableFile, TrajectoryWriter};
 use thiserror::Error;
 
 use crate::flag_values::export_file::ExportFile;
@@ -21,6 +21,7 @@ use crate::flag_values::run_outputs::RunOutputs;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::program::this_program;
+use crate::output::refusal::gave_up;
 use crate::output::{json, print, print_error, print_load_error, without_input};
 use crate::process::watch::WatchedFiles;
 
@@ -79,7 +80,11 @@ pub(crate) struct Run {
 
     /// Write what every vehicle did at every tick as a table: .csv or .parquet
     #[arg(long, value_name = "FILE")]
-    trajectories: Option<TrajectoryFile>,
+    trajectories: Option<TableFile>,
+
+    /// Write what the scenario's detectors count as a table: .csv or .parquet
+    #[arg(long, value_name = "FILE")]
+    detectors: Option<TableFile>,
 
     /// Write the run as a scenario of CommonRoad, all but the ego as obstacles, and beside it NAME.solution.xml: the ego's
     /// motion as a solution of its planning problem
@@ -143,14 +148,11 @@ impl Run {
             Ok(export) => export,
             Err(refusal) => return refusal,
         };
-        let trajectories = match self.trajectories.as_ref().map(TrajectoryWriter::begin).transpose() {
-            Ok(trajectories) => trajectories,
-            Err(error) => {
-                print_error(&error.to_string());
-                return ExitStatus::Unfinished;
-            }
+        let tables = match self.begin_tables(&scenario) {
+            Ok(tables) => tables,
+            Err(error) => return gave_up(error),
         };
-        let passed = self.simulate(&name, scenario, (recording, trajectories)).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, (recording, tables)).and_then(|recorded| {
             self.page(&name, &recorded)?;
             self.write_animation(&recorded)?;
             if let (Some(file), Some(export)) = (&self.export, &export) {
@@ -173,15 +175,28 @@ impl Run {
         }
     }
 
+    /// The tables that are written while the run goes on.
+    fn begin_tables(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Watcher>>, SweepError> {
+        let mut tables: Vec<Box<dyn Watcher>> = Vec::new();
+        if let Some(file) = &self.detectors {
+            tables.push(Box::new(DetectorWriter::begin(file, scenario)?));
+        }
+        if let Some(file) = &self.trajectories {
+            tables.push(Box::new(TrajectoryWriter::begin(file)?));
+        }
+        Ok(tables)
+    }
+
     /// Why an output must not be written.
     fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
         let recording = self.recording(name);
         let animation = self.animate.as_ref().map(AnimationFile::path);
-        let trajectories = self.trajectories.as_ref().map(TrajectoryFile::path);
+        let trajectories = self.trajectories.as_ref().map(TableFile::path);
         let files = [
             ("recording", recording.as_deref()),
             ("animation", animation),
             ("table of trajectories", trajectories),
+            ("table of detectors", self.detectors.as_ref().map(TableFile::path)),
             ("scenario of CommonRoad", self.export.as_ref().map(ExportFile::scenario)),
             ("solution", self.export.as_ref().map(ExportFile::solution)),
         ];
@@ -193,6 +208,9 @@ impl Run {
     /// Why there is nothing to write of what vehicles did.
     fn without_vehicles(&self, scenario: &Scenario) -> Option<String> {
         let asked = [("--trajectories", self.trajectories.is_some()), ("--export", self.export.is_some())];
+        if self.detectors.is_some() && scenario.detectors.is_empty() {
+            return Some(format!("--detectors needs a `[[detector]]`, and `{}` has none", self.scenario()));
+        }
         let (flag, _) = asked.into_iter().find(|(_, asked)| *asked && scenario.vehicles.is_empty())?;
         Some(format!("{flag} needs vehicles, and `{}` has none", self.scenario()))
     }
@@ -218,23 +236,23 @@ impl Run {
         &self,
         name: &str,
         scenario: Scenario,
-        (recording, trajectories): (Option<OpenRecording>, Option<TrajectoryWriter>),
+        (recording, tables): (Option<OpenRecording>, Vec<Box<dyn Watcher>>),
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
         if let Some(recording) = &recording {
             watchers.push(Box::new(recording.clone()));
         }
-        if let Some(trajectories) = trajectories {
-            watchers.push(Box::new(trajectories));
-        }
+        watchers.extend(tables);
         if self.report.is_some() || self.animate.is_some() || self.export.is_some() {
             watchers.push(Box::new(frame_log.clone()));
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
-        if let Some(file) = &self.trajectories {
-            print_error(&format!("trajectories in {}", file.path().display()));
+        for (what, file) in [("trajectories", &self.trajectories), ("what detectors counted", &self.detectors)] {
+            if let Some(file) = file {
+                print_error(&format!("{what} in {}", file.path().display()));
+            }
         }
         Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
     }

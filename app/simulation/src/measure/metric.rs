@@ -1,6 +1,8 @@
 //! What a metric is: what is said of it, and how it follows from the ticks of a run.
 
+use std::cell::RefCell;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use interplay_planners::{Input, State};
 use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
@@ -51,6 +53,13 @@ pub struct ObservedMoment<'a> {
     pub along_m: &'a [f64],
 }
 
+/// Where everybody is at some times within a tick: computed once for all who ask.
+#[derive(Debug, Default)]
+pub struct SharedStates(RefCell<Vec<(usize, Arc<[MomentStates]>)>>);
+
+/// The states of everybody at a moment, in the scenario's order; none of whoever is not on the road.
+pub type MomentStates = Arc<[Option<State>]>;
+
 /// One tick.
 #[derive(Clone, Copy, Debug)]
 pub struct ObservedTick<'a> {
@@ -58,6 +67,8 @@ pub struct ObservedTick<'a> {
     pub frame: &'a Frame,
     /// Its length \[s\].
     pub step_s: f64,
+    /// What metrics of several vehicles have in common in it.
+    pub shared: &'a SharedStates,
     /// The inputs of the tick before, in the scenario's order; zero in the first.
     pub previous_inputs: &'a [Input],
     /// How it ended.
@@ -118,4 +129,27 @@ impl Clone for Box<dyn Measurement> {
     fn clone(&self) -> Self {
         self.fork()
     }
+}
+
+impl ObservedTick<'_> {
+    /// Where everybody is at the ends of so many equal parts of the tick, in order.
+    pub(crate) fn states_within(&self, parts: usize) -> Arc<[MomentStates]> {
+        let mut known = self.shared.0.borrow_mut();
+        if let Some((_, states)) = known.iter().find(|(known, _)| *known == parts) {
+            return Arc::clone(states);
+        }
+        let at = |share: f64| -> MomentStates {
+            let moved = self.frame.vehicles.iter().zip(self.end.states);
+            moved.map(|(from, to)| (!from.is_absent).then(|| between(&from.state, to, share))).collect()
+        };
+        let states: Arc<[MomentStates]> = (1..=parts).map(|part| at(part as f64 / parts as f64)).collect();
+        known.push((parts, Arc::clone(&states)));
+        states
+    }
+}
+
+/// The state at a share of the way from one to another.
+fn between(from: &State, to: &State, share: f64) -> State {
+    let [from, to] = [from.to_array(), to.to_array()];
+    State::from_array(std::array::from_fn(|index| from[index] + share * (to[index] - from[index])))
 }

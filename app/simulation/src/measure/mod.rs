@@ -30,7 +30,9 @@ pub use beliefs::{Beliefs, HeldBelief};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
-pub use metric::{Measurement, Metric, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
+pub use metric::{
+    Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
+};
 pub use metric_table::metric_table;
 pub use milestones::Milestones;
 pub use planning::Planning;
@@ -196,7 +198,8 @@ pub fn measure(
         along_m: &measures.along_m,
     };
     let (step_s, previous_inputs) = (clock.step_s, measures.previous_inputs.as_slice());
-    let tick = ObservedTick { frame, step_s, previous_inputs, end };
+    let shared = SharedStates::default();
+    let tick = ObservedTick { frame, step_s, shared: &shared, previous_inputs, end };
     measures.metrics.observe(&tick);
     for (measured, vehicle) in measures.vehicles.iter_mut().zip(&frame.vehicles) {
         if !vehicle.is_absent {

@@ -60,7 +60,7 @@ pub(super) fn length_m(body: &Body) -> f64 {
 }
 
 /// Distance from the mass centre to the farthest corner \[m\].
-pub(super) fn radius_m(body: &Body) -> f64 {
+pub(crate) fn radius_m(body: &Body) -> f64 {
     let (ahead, aside) = (body.front_m.max(body.rear_m), 0.5 * body.width_m);
     (ahead * ahead + aside * aside).sqrt()
 }

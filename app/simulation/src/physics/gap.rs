@@ -4,6 +4,7 @@ use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
 use super::footprint::{Footprint, distance_m};
+use super::near_pairs::{near_pairs, some_distance_m};
 
 /// The smallest distances so far in a tick.
 #[derive(Clone, Debug)]
@@ -52,21 +53,29 @@ impl FootprintGaps {
     /// Looks at the time when a share of the tick has passed.
     pub fn observe(&mut self, states: &[State], share: f64) {
         let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
-        let present = |from: usize| {
-            let all = self.footprints.iter().zip(states).enumerate().skip(from);
+        let present = || {
+            let all = self.footprints.iter().zip(states).enumerate();
             all.filter(|(index, _)| !self.absent[*index])
         };
-        let others = present(0).filter(|(index, _)| *index != self.ego && !self.absent[self.ego]);
-        let now_m = others.map(|(_, other)| distance_m((footprint, state), other));
-        self.smallest_m = self.smallest_m.into_iter().chain(now_m).min_by(f64::total_cmp);
-        for (index, a) in present(0) {
-            for (other, b) in present(index + 1) {
-                let smallest_m = self.closest.map_or(f64::INFINITY, |closest| closest.m);
-                if smallest_m > 0.0 && least_gap_m(a, b) < smallest_m {
-                    let m = distance_m(a, b);
-                    if m < smallest_m {
-                        self.closest = Some(Closest { m, pair: [index, other], share });
-                    }
+        let others = present().filter(|(index, _)| *index != self.ego && !self.absent[self.ego]);
+        for (_, other) in others {
+            let so_far_m = self.smallest_m.unwrap_or(f64::INFINITY);
+            if least_gap_m((footprint, state), other) < so_far_m {
+                let m = distance_m((footprint, state), other);
+                self.smallest_m = Some(m.min(so_far_m));
+            }
+        }
+        let circles: Vec<_> = (0..states.len())
+            .map(|index| (!self.absent[index]).then(|| (states[index].position(), self.footprints[index].radius_m)))
+            .collect();
+        let closest_m = self.closest.map_or(f64::INFINITY, |closest| closest.m);
+        for [index, other] in near_pairs(&circles, closest_m.min(some_distance_m(&circles))) {
+            let [a, b] = [index, other].map(|index| (&self.footprints[index], &states[index]));
+            let smallest_m = self.closest.map_or(f64::INFINITY, |closest| closest.m);
+            if smallest_m > 0.0 && least_gap_m(a, b) < smallest_m {
+                let m = distance_m(a, b);
+                if m < smallest_m {
+                    self.closest = Some(Closest { m, pair: [index, other], share });
                 }
             }
         }
@@ -94,7 +103,7 @@ impl FootprintGaps {
 }
 
 /// A lower bound of the distance between two footprints, from the circles around them \[m\].
-fn least_gap_m((footprint, state): (&Footprint, &State), (around, other): (&Footprint, &State)) -> f64 {
+pub(super) fn least_gap_m((footprint, state): (&Footprint, &State), (around, other): (&Footprint, &State)) -> f64 {
     let apart_m = libm::hypot(state.x_m - other.x_m, state.y_m - other.y_m);
     apart_m - footprint.radius_m - around.radius_m
 }

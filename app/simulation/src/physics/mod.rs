@@ -15,6 +15,7 @@ mod footprint;
 mod gap;
 mod kinematic;
 mod moving;
+mod near_pairs;
 mod path;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,8 @@ use interplay_scenarios::{Outline, Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
+pub(crate) use footprint::radius_m;
+pub(crate) use near_pairs::near_pairs;
 pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};

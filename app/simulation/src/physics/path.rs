@@ -9,6 +9,8 @@
 use interplay_planners::State;
 
 use super::footprint::{Footprint, distance_m};
+use super::gap::least_gap_m;
+use super::near_pairs::near_pairs;
 
 /// The shortest step between two looks, in ticks: how finely a contact is timed.
 pub(super) const MIN_STEP_TICKS: f64 = 1e-3;
@@ -34,6 +36,17 @@ impl Path {
         State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
     }
 
+    /// The circle around it in a state; none if it is not on the road.
+    fn circle(&self, state: &State) -> Option<([f64; 2], f64)> {
+        (!self.is_absent).then(|| (state.position(), self.footprint.radius_m))
+    }
+
+    /// How far no point of it moves further during the tick \[m\].
+    fn moved_m(&self) -> f64 {
+        let moved_m = libm::hypot(self.to.x_m - self.from.x_m, self.to.y_m - self.from.y_m);
+        moved_m + (self.to.heading_rad - self.from.heading_rad).abs() * self.footprint.radius_m
+    }
+
     /// By how much the gap to another vehicle may shrink at most during the tick \[m\].
     fn approach_m(&self, other: &Path) -> f64 {
         let moved = |path: &Path| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
@@ -47,16 +60,20 @@ impl Path {
 pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
     let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
     let mut step = MAX_STEP_TICKS;
-    for (index, (a, a_state)) in paths.iter().zip(&states).enumerate() {
-        for (b, b_state) in paths.iter().zip(&states).skip(index + 1) {
-            if a.is_absent || b.is_absent {
-                continue;
-            }
-            let (approach, gap) = (a.approach_m(b), distance_m((&a.footprint, a_state), (&b.footprint, b_state)));
-            // Who touches already cannot begin to.
-            if approach > 0.0 && gap > 0.0 {
-                step = step.min(gap / approach);
-            }
+    let circles: Vec<_> = paths.iter().zip(&states).map(|(path, state)| path.circle(state)).collect();
+    // Who is further away than two can come in the longest step does not make it shorter.
+    let fastest_m = paths.iter().map(Path::moved_m).fold(0.0, f64::max);
+    for [one, other] in near_pairs(&circles, 2.0 * MAX_STEP_TICKS * fastest_m) {
+        let (a, b) = (&paths[one], &paths[other]);
+        let (a_now, b_now) = ((&a.footprint, &states[one]), (&b.footprint, &states[other]));
+        let approach = a.approach_m(b);
+        if least_gap_m(a_now, b_now) >= step * approach {
+            continue;
+        }
+        let gap = distance_m(a_now, b_now);
+        // Who touches already cannot begin to.
+        if approach > 0.0 && gap > 0.0 {
+            step = step.min(gap / approach);
         }
     }
     (share + step.max(MIN_STEP_TICKS)).min(1.0)

@@ -12,7 +12,8 @@ use crate::column::{EgoRun, building_values};
 use crate::error::SweepError;
 use crate::key::RunKey;
 use crate::row::{RunResult, SweepRow};
-use crate::trajectories::{TrajectoryFile, TrajectoryWriter};
+use crate::row_file::TableFile;
+use crate::trajectories::TrajectoryWriter;
 use crate::version::program_version;
 
 /// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.
@@ -23,7 +24,7 @@ pub(crate) fn measured_run(
     key: RunKey,
     point: &SweepPoint,
     scenario: &Scenario,
-    trajectories: Option<&TrajectoryFile>,
+    trajectories: Option<&TableFile>,
 ) -> Result<SweepRow, SweepError> {
     let writer = trajectories.filter(|_| !scenario.vehicles.is_empty()).map(TrajectoryWriter::begin).transpose()?;
     let watchers = writer.into_iter().map(|writer| Box::new(writer) as Box<dyn Watcher>).collect();

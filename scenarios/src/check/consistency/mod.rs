@@ -6,6 +6,7 @@ mod building;
 mod checker;
 mod conduct;
 pub(crate) mod counterfactual;
+mod detectors;
 mod expectations;
 mod road;
 mod zones;
@@ -57,6 +58,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
         checker.turns(index, vehicle);
     }
     checker.starts();
+    checker.detectors();
     checker.expectations();
     checker.faults.extend(building::check(scenario, tree, schema));
     if checker.faults.is_empty() {

@@ -239,6 +239,7 @@ fn braking_mps2(tick: &ObservedTick<'_>, vehicle: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use crate::measure::metric::SharedStates;
     use super::*;
     use crate::frame::{Frame, VehicleFrame};
     use interplay_scenarios::load;
@@ -257,7 +258,7 @@ mod tests {
             let before = pair[0].map(|state| VehicleFrame { state, ..VehicleFrame::default() });
             let frame = Frame { vehicles: before.to_vec(), ..Frame::default() };
             let end = moment(&pair[1], tick as f64 + 1.0);
-            measurement.observe(&ObservedTick { frame: &frame, step_s: 1.0, previous_inputs: &[], end });
+            measurement.observe(&ObservedTick { frame: &frame, step_s: 1.0, shared: &SharedStates::default(), previous_inputs: &[], end });
         }
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }

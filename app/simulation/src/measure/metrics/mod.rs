@@ -33,6 +33,7 @@ metrics! {
 mod tests {
     //! Measures what tests make up.
 
+    use crate::measure::metric::SharedStates;
     use interplay_planners::{Input, State};
     use interplay_scenarios::{Vehicle, load};
 
@@ -53,7 +54,13 @@ mod tests {
         let mut measurement = None;
         for (time_s, state, along_m) in seen {
             let end = ObservedMoment { time_s: *time_s, vehicles, states: &[*state], along_m: &[*along_m] };
-            let tick = ObservedTick { frame: &frame, step_s: 0.1, previous_inputs: &[Input::default()], end };
+            let tick = ObservedTick {
+                frame: &frame,
+                step_s: 0.1,
+                shared: &SharedStates::default(),
+                previous_inputs: &[Input::default()],
+                end,
+            };
             measurement.get_or_insert_with(|| metric.begin(&scenario, &end, 0)).observe(&tick);
         }
         measurement.expect("it is seen").measured()
@@ -72,7 +79,13 @@ mod tests {
             let frame = Frame { time_s, vehicles: vec![vehicle], ..Frame::default() };
             let states = std::slice::from_ref(after);
             let end = ObservedMoment { time_s: time_s + 0.1, vehicles, states, along_m: &[0.0] };
-            measurement.observe(&ObservedTick { frame: &frame, step_s: 0.1, previous_inputs: &[previous], end });
+            measurement.observe(&ObservedTick {
+                frame: &frame,
+                step_s: 0.1,
+                shared: &SharedStates::default(),
+                previous_inputs: &[previous],
+                end,
+            });
             previous = *input;
         }
         measurement.measured()
@@ -84,7 +97,13 @@ mod tests {
         let end = ObservedMoment { time_s: 0.0, vehicles: &[], states: &[], along_m: &[] };
         let mut measurement = metric.begin(&scenario, &end, 0);
         for frame in frames {
-            measurement.observe(&ObservedTick { frame, step_s: 0.1, previous_inputs: &[], end });
+            measurement.observe(&ObservedTick {
+                frame,
+                step_s: 0.1,
+                shared: &SharedStates::default(),
+                previous_inputs: &[],
+                end,
+            });
         }
         measurement.measured()
     }

@@ -10,8 +10,7 @@ use interplay_planners::{Body, State};
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
 
-use crate::frame::VehicleFrame;
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::metric::{Measurement, Metric, MomentStates, ObservedMoment, ObservedTick};
 use crate::measure::rectangle::{half_diagonal_m, overlap};
 use crate::measure::values::Measured;
 
@@ -46,8 +45,7 @@ impl Metric for PostEncroachment {
 #[derive(Clone, Debug)]
 struct PastMoment {
     time_s: f64,
-    /// In the scenario's order; none of whoever is not on the road.
-    states: Vec<Option<State>>,
+    states: MomentStates,
 }
 
 /// The encounters of one vehicle so far.
@@ -71,13 +69,10 @@ impl Measurement for Encounters {
         }
         let times = bodies[self.vehicle].real_ratio().sqrt();
         let steps = (tick.step_s / (STEP_S * times)).ceil().max(1.0) as usize;
-        for step in 1..=steps {
+        for (step, states) in (1..=steps).zip(tick.states_within(steps).iter().cloned()) {
             let share = step as f64 / steps as f64;
             let time_s = tick.end.time_s - (1.0 - share) * tick.step_s;
-            let moved = tick.frame.vehicles.iter().zip(tick.end.states);
-            let at = |(from, to): (&VehicleFrame, &State)| (!from.is_absent).then(|| between(&from.state, to, share));
-            let states: Vec<Option<State>> = moved.map(at).collect();
-            for ([low, high], state) in self.headings_rad.iter_mut().zip(&states) {
+            for ([low, high], state) in self.headings_rad.iter_mut().zip(&*states) {
                 let heading_rad = state.as_ref().map(|state| state.heading_rad);
                 (*low, *high) = heading_rad.map_or((*low, *high), |rad| (low.min(rad), high.max(rad)));
             }
@@ -146,14 +141,10 @@ fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
     x_m * x_m + y_m * y_m <= reach_m * reach_m
 }
 
-/// The state at a share of the way from one to another.
-fn between(from: &State, to: &State, share: f64) -> State {
-    let [from, to] = [from.to_array(), to.to_array()];
-    State::from_array(std::array::from_fn(|index| from[index] + share * (to[index] - from[index])))
-}
-
 #[cfg(test)]
 mod tests {
+    use crate::frame::VehicleFrame;
+    use crate::measure::metric::SharedStates;
     use super::*;
     use crate::frame::Frame;
     use interplay_scenarios::load;
@@ -179,7 +170,7 @@ mod tests {
             let vehicles = pair[0].map(|state| VehicleFrame { state, ..VehicleFrame::default() }).to_vec();
             let frame = Frame { time_s: before_s, vehicles, ..Frame::default() };
             let end = moment(&pair[1], before_s + 0.1);
-            measurement.observe(&ObservedTick { frame: &frame, step_s: 0.1, previous_inputs: &[], end });
+            measurement.observe(&ObservedTick { frame: &frame, step_s: 0.1, shared: &SharedStates::default(), previous_inputs: &[], end });
         }
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }

@@ -1,6 +1,6 @@
 //! How much time a vehicle keeps to the one ahead: the gap between bumpers, along its route, over its speed.
 
-use interplay_planners::{Route, State};
+use interplay_planners::{Body, Route, State};
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
@@ -92,6 +92,13 @@ fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64
     let own_across_m = stated.route.across(own.position());
     let others = tick.end.vehicles.iter().zip(states).enumerate();
     let others = others.filter(|(index, _)| *index != vehicle && !tick.frame.vehicles[*index].is_absent);
+    // Along a road it is hardly nearer than straight on.
+    let is_near = |body: &Body, state: &State| {
+        let [x_m, y_m] = [state.x_m - own.x_m, state.y_m - own.y_m];
+        let most_m = 1.5 * FOLLOWED_M * scale + stated.body.front_m + body.rear_m;
+        x_m * x_m + y_m * y_m <= most_m * most_m
+    };
+    let others = others.filter(|(_, (other, state))| is_near(&other.body, state));
     let gaps = others.filter_map(|(_, (other, state))| {
         let (ahead_m, across_m) = ahead(&stated.route, own_m, state)?;
         let reach_m = 0.5 * (stated.body.width_m + other.body.width_m);

@@ -6,7 +6,7 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration};
 use crate::measure::metric::{Metric, ObservedTick};
 use crate::measure::run_metric::LeastOfRun;
 use crate::measure::values::Measured;
-use crate::physics::{MovingFootprint, time_to_collision_s};
+use crate::physics::{MovingFootprint, near_pairs, radius_m, time_to_collision_s};
 
 /// Who touches only after a longer time than this is not on a collision course \[s\].
 const MAX_TIME_TO_COLLISION_S: f64 = 100.0;
@@ -37,22 +37,33 @@ fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
         });
     let moving: Vec<(usize, MovingFootprint<'_>)> = moving.collect();
     let (mut within_s, mut found) = (below_s.min(MAX_TIME_TO_COLLISION_S), None);
-    for (place, (index, one)) in moving.iter().enumerate() {
-        for (other_index, other) in &moving[place + 1..] {
-            if within_s <= 0.0 {
-                return found;
-            }
-            if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
-                let between = [index, other_index].map(|index| tick.frame.vehicles[*index].name.clone());
-                (within_s, found) = (s, Some(Measured::between(s, between, tick.frame.time_s)));
-            }
+    let circles: Vec<_> = moving.iter().map(|(_, one)| Some((one.state.position(), radius_m(one.body)))).collect();
+    for [one, other] in near_pairs(&circles, within_s * fastest_approach_mps(&moving)) {
+        if within_s <= 0.0 {
+            return found;
+        }
+        let ((index, one), (other_index, other)) = (&moving[one], &moving[other]);
+        if let Some(s) = time_to_collision_s(one, other, within_s).filter(|s| *s < within_s) {
+            let between = [index, other_index].map(|index| tick.frame.vehicles[*index].name.clone());
+            (within_s, found) = (s, Some(Measured::between(s, between, tick.frame.time_s)));
         }
     }
     found
 }
 
+/// No two vehicles come nearer to each other along an axis than with this \[m/s\].
+fn fastest_approach_mps(moving: &[(usize, MovingFootprint<'_>)]) -> f64 {
+    let spread = |axis: usize| {
+        let along = || moving.iter().map(|(_, one)| one.velocity_mps[axis]);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    };
+    let most = spread(0).max(spread(1));
+    if most.is_nan() { f64::INFINITY } else { most.max(0.0) }
+}
+
 #[cfg(test)]
 mod tests {
+    use crate::measure::metric::SharedStates;
     use interplay_planners::{Input, State};
     use interplay_scenarios::load;
 
@@ -82,6 +93,7 @@ mod tests {
             measure.observe(&ObservedTick {
                 frame: &frame,
                 step_s: scenario.step_s,
+                shared: &SharedStates::default(),
                 previous_inputs: &[Input::default(); 3],
                 end: ObservedMoment { time_s, vehicles: &scenario.vehicles, states: &after, along_m: &[0.0; 3] },
             });

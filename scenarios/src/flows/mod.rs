@@ -1,0 +1,156 @@
+//! Flows: each `[[flow]]` becomes the vehicles that it stands for, before anything else is made of a file.
+//!
+//! - `arrival`: which vehicle comes when, where and how fast, drawn from the seed.
+//!
+//! So a vehicle of a flow is a vehicle like any other: it has defaults, checks, a budget, a recording. Nothing behind this folder
+//! knows of flows.
+
+mod arrival;
+
+use serde_json::{Map, Value as Json, json};
+
+use self::arrival::Arrival;
+use crate::check::shape;
+use crate::error::{Fault, quoted};
+use crate::file_format::flow::FlowConfig;
+use crate::json_schema::SchemaNode;
+use crate::read::merge::merge_tables;
+use crate::read::tree::{self, Table, TomlEntry, TomlNode, TomlValue};
+
+/// Most vehicles of all flows of a file.
+const MOST_VEHICLES: f64 = 10_000.0;
+
+/// The tree with the vehicles of its flows among its vehicles; the flows stay.
+///
+/// # Errors
+/// What is wrong with the flows, once instead of once for every vehicle.
+pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
+    let TomlValue::Table(root) = &mut tree.value else { return Ok(tree) };
+    let Some(stated) = root.get("flow").map(|entry| entry.node.clone()) else { return Ok(tree) };
+    let faults = shape::check_table(&stated, "flow", schema);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let number = |key: &str| root.get(key).and_then(|entry| entry.node.to_json().as_f64());
+    let (seed, duration_s) = (number("seed").unwrap_or(1.0), number("duration_s"));
+    let TomlValue::Array(nodes) = &stated.value else { return Ok(tree) };
+    let read = |node: &TomlNode| serde_json::from_value::<FlowConfig>(node.to_json());
+    let flows: Result<Vec<FlowConfig>, _> = nodes.iter().map(read).collect();
+    let flows = flows.map_err(|error| vec![Fault::at(&stated.place, "in this list", error.to_string())])?;
+    let Some(duration_s) = duration_s else {
+        let fault = Fault::at(
+            &stated.place,
+            "comes until the run ends",
+            "a flow needs `duration_s`, and the file states none".to_owned(),
+        );
+        return Err(vec![fault.help("state how long the run is".to_owned())]);
+    };
+    let faults = faults_of(&flows, nodes, duration_s);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
+    let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
+    for (index, flow) in flows.iter().enumerate() {
+        arrivals.extend(arrival::draw(flow, seed as u64, duration_s).into_iter().map(|arrival| (index, arrival)));
+    }
+    // Without another vehicle the first that comes is the ego, which is there when the run begins.
+    if !root.contains_key("vehicle")
+        && let Some(first) =
+            (0..arrivals.len()).min_by(|one, other| arrivals[*one].1.enters_s.total_cmp(&arrivals[*other].1.enters_s))
+    {
+        arrivals[..=first].rotate_right(1);
+        arrivals[0].1.enters_s = 0.0;
+    }
+    let arrivals: Vec<TomlNode> = arrivals
+        .iter()
+        .map(|(index, arrival)| vehicle(vehicle_schema, &flows[*index], &nodes[*index], arrival))
+        .collect();
+    let place = stated.place.clone();
+    let empty = || TomlEntry {
+        key: place.clone(),
+        node: TomlNode { place: place.clone(), value: TomlValue::Array(Vec::new()) },
+    };
+    if let TomlValue::Array(vehicles) = &mut root.entry("vehicle".to_owned()).or_insert_with(empty).node.value {
+        vehicles.extend(arrivals);
+    }
+    Ok(tree)
+}
+
+/// What makes no sense, though each key by itself does.
+fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let mut expected = 0.0;
+    for (index, (flow, node)) in flows.iter().zip(nodes).enumerate() {
+        let mut wrong = |key: &str, message: String, help: &str| {
+            faults.push(Fault::at(node.place_of(key), "in this flow", message).help(help.to_owned()));
+        };
+        let name = quoted(&flow.name);
+        if flows[..index].iter().any(|other| other.name == flow.name) {
+            wrong(
+                "name",
+                format!("there are two flows {name}"),
+                "name each flow otherwise: its vehicles are called after it",
+            );
+        }
+        if flow.vehicles_per_h.is_none() && flow.rates.is_empty() {
+            wrong(
+                "name",
+                format!("nothing says how many vehicles of {name} come"),
+                "state `vehicles_per_h`, or `rates` by time",
+            );
+        }
+        if flow.rates.iter().flatten().any(|number| !(0.0..=1e5).contains(number))
+            || !flow.rates.is_sorted_by(|one, other| one[0] < other[0])
+        {
+            wrong(
+                "rates",
+                "pairs are a time and a number of vehicles an hour, in order of time".to_owned(),
+                "for example `[[0.0, 600.0], [300.0, 1500.0]]`",
+            );
+        }
+        if flow.ends_s.is_some_and(|ends_s| ends_s <= flow.begins_s) {
+            wrong("ends_s", "the flow ends before it begins".to_owned(), "lower `begins_s` or raise `ends_s`");
+        }
+        let shares = |shares: Vec<f64>| shares.is_empty() || shares.iter().any(|share| *share > 0.0);
+        if !shares(flow.mix.iter().map(|sort| sort.share).collect()) {
+            wrong("mix", "no sort has a share".to_owned(), "state a `share` above 0");
+        }
+        if !shares(flow.to.iter().map(|goal| goal.share).collect()) {
+            wrong("to", "no lane has a share".to_owned(), "state a `share` above 0");
+        }
+        expected += arrival::expected(flow, duration_s);
+        if expected > MOST_VEHICLES {
+            wrong(
+                "name",
+                format!("the flows stand for about {expected:.0} vehicles, more than {MOST_VEHICLES}"),
+                "lower the rates or `duration_s`",
+            );
+            break;
+        }
+    }
+    faults
+}
+
+/// A vehicle of a flow: what it has in common with the others, then what its sort states, then what was drawn.
+fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arrival: &Arrival) -> TomlNode {
+    let at = |path: &str| node.at(path).and_then(TomlNode::table).cloned();
+    let drawn = |json: Json| -> Table {
+        let mut made = tree::of_value(&json);
+        made.set_place(&node.place);
+        if let TomlValue::Table(table) = made.value { table } else { Table::new() }
+    };
+    let mut goal = Map::from_iter([("speed_mps".to_owned(), json!(arrival.speed_mps))]);
+    goal.extend(arrival.to.map(|lane| ("lane".to_owned(), json!(lane))));
+    let own = json!({
+        "name": format!("{}-{}", flow.name, arrival.number),
+        "start": { "lane": flow.from[arrival.lane], "along_m": flow.along_m, "speed_mps": arrival.speed_mps },
+        "goal": goal,
+        "enters_s": arrival.enters_s,
+    });
+    let sort = arrival.sort.and_then(|sort| at(&format!("mix.{sort}.vehicle")));
+    let layers = [at("vehicle"), sort, Some(drawn(own))];
+    let common = drawn(json!({ "leaves_at_end": true }));
+    let table = layers.into_iter().flatten().fold(common, |under, over| merge_tables(schema, under, over));
+    TomlNode { place: node.place.clone(), value: TomlValue::Table(table) }
+}
