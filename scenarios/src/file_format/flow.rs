@@ -18,9 +18,9 @@ pub struct FlowConfig {
     /// Its name, unique among flows; its vehicles are called after it.
     #[schemars(extend("pattern" = name::pattern()), example = &"west")]
     pub name: String,
-    /// How many vehicles come in an hour.
+    /// How many vehicles come in an hour \[1/h\].
     #[serde(default)]
-    #[schemars(range(min = 0.0, max = 100_000.0), example = 1200.0, extend("x-excludes" = ["rates"]))]
+    #[schemars(range(min = 0.0, max = 100_000.0), example = 1200.0, extend("x-excludes" = ["rates"]), extend("x-unit" = "1/h"))]
     pub vehicles_per_h: Option<f64>,
     /// How many vehicles come in an hour by time: pairs of a time \[s\] and the number from then on, in order of time. Before the first
     /// pair nobody comes.
@@ -77,8 +77,8 @@ pub struct FlowGoal {
     /// The lane, by name or number.
     #[schemars(example = &"exit")]
     pub lane: LaneReference,
-    /// How many of the vehicles drive there, beside the shares of the others.
-    #[schemars(range(min = 0.0, max = 1_000_000.0), example = 0.2)]
+    /// How many of the vehicles drive there, beside the shares of the others \[dimensionless\].
+    #[schemars(range(min = 0.0, max = 1_000_000.0), example = 0.2, extend("x-unit" = "dimensionless"))]
     pub share: f64,
 }
 
@@ -86,8 +86,8 @@ pub struct FlowGoal {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlowShare {
-    /// How many of the vehicles are of this sort, beside the shares of the others.
-    #[schemars(range(min = 0.0, max = 1_000_000.0), example = 0.2)]
+    /// How many of the vehicles are of this sort, beside the shares of the others \[dimensionless\].
+    #[schemars(range(min = 0.0, max = 1_000_000.0), example = 0.2, extend("x-unit" = "dimensionless"))]
     pub share: f64,
     /// What is different of them.
     #[serde(default)]

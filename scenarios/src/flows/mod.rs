@@ -26,7 +26,9 @@ const MOST_VEHICLES: f64 = 10_000.0;
 /// What is wrong with the flows, once instead of once for every vehicle.
 pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &mut tree.value else { return Ok(tree) };
-    let Some(stated) = root.get("flow").map(|entry| entry.node.clone()) else { return Ok(tree) };
+    let Some(stated) = root.get("flow").map(|entry| entry.node.clone()).filter(|flows| !flows.is_empty_list()) else {
+        return Ok(tree);
+    };
     let faults = shape::check_table(&stated, "flow", schema);
     if !faults.is_empty() {
         return Err(faults);
@@ -55,7 +57,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
         arrivals.extend(arrival::draw(flow, seed as u64, duration_s).into_iter().map(|arrival| (index, arrival)));
     }
     // Without another vehicle the first that comes is the ego, which is there when the run begins.
-    if !root.contains_key("vehicle")
+    if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list())
         && let Some(first) =
             (0..arrivals.len()).min_by(|one, other| arrivals[*one].1.enters_s.total_cmp(&arrivals[*other].1.enters_s))
     {
