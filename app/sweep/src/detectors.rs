@@ -10,7 +10,7 @@ use crate::row_file::{RowFile, TableFile};
 
 /// The columns. Speeds at a place are averaged over vehicles (`mean_speed_mps`) and harmonically (`space_mean_speed_mps`): the latter is the
 /// speed of the vehicles on the road beside it, and flow over it is their density (Wardrop, 1952).
-const COLUMNS: [(&str, ColumnKind); 10] = [
+const COLUMNS: [(&str, ColumnKind); 11] = [
     ("detector", ColumnKind::Text),
     ("lane", ColumnKind::Text),
     ("from_s", ColumnKind::Number),
@@ -21,6 +21,7 @@ const COLUMNS: [(&str, ColumnKind); 10] = [
     ("space_mean_speed_mps", ColumnKind::Number),
     ("density_per_km", ColumnKind::Number),
     ("travel_time_s", ColumnKind::Number),
+    ("waiting_outside", ColumnKind::Count),
 ];
 
 /// What all lanes together are called.
@@ -35,6 +36,8 @@ pub struct DetectorWriter {
     before: Vec<Option<([f64; 2], f64)>>,
     time_s: f64,
     detectors: Vec<Counting>,
+    /// When each vehicle that has not come yet wants to come \[s\].
+    awaited_s: Vec<Option<f64>>,
 }
 
 /// A detector that counts.
@@ -85,7 +88,13 @@ impl DetectorWriter {
             before: Vec::new(),
             time_s: 0.0,
             detectors: scenario.detectors.iter().map(counting).collect(),
+            awaited_s: scenario.vehicles.iter().map(|vehicle| vehicle.stay.enters_s).collect(),
         })
+    }
+
+    /// How many wait outside for room.
+    fn outside(&self, time_s: f64) -> u64 {
+        self.awaited_s.iter().flatten().filter(|awaited_s| **awaited_s < time_s).count() as u64
     }
 
     fn count(&mut self, frame: &Frame) {
@@ -116,9 +125,13 @@ impl Watcher for DetectorWriter {
         if frame.vehicles.is_empty() {
             return Ok(());
         }
+        for (awaited_s, vehicle) in self.awaited_s.iter_mut().zip(&frame.vehicles) {
+            *awaited_s = awaited_s.filter(|_| vehicle.is_absent);
+        }
+        let outside = self.outside(frame.time_s);
         for counting in &mut self.detectors {
             while frame.time_s >= counting.from_s + counting.stated.interval_s {
-                counting.write(counting.from_s + counting.stated.interval_s, &mut self.rows)?;
+                counting.write(counting.from_s + counting.stated.interval_s, outside, &mut self.rows)?;
             }
         }
         self.count(frame);
@@ -132,9 +145,10 @@ impl Watcher for DetectorWriter {
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), WatchError> {
+        let outside = self.outside(self.time_s);
         for counting in &mut self.detectors {
             if self.time_s > counting.from_s {
-                counting.write(self.time_s, &mut self.rows)?;
+                counting.write(self.time_s, outside, &mut self.rows)?;
             }
         }
         self.rows.finish()
@@ -143,20 +157,20 @@ impl Watcher for DetectorWriter {
 
 impl Counting {
     /// Writes the rows of the interval that ends, and begins the next.
-    fn write(&mut self, to_s: f64, rows: &mut RowFile) -> Result<(), WatchError> {
+    fn write(&mut self, to_s: f64, outside: u64, rows: &mut RowFile) -> Result<(), WatchError> {
         let passings = std::mem::take(&mut self.passings);
         for (index, (name, _)) in self.lanes.iter().enumerate() {
             let here: Vec<Passing> = passings.iter().filter(|passing| passing.lane == index).copied().collect();
-            rows.push(self.row(name, to_s, &here))?;
+            rows.push(self.row(name, (to_s, outside), &here))?;
         }
         if self.lanes.len() > 1 {
-            rows.push(self.row(ALL, to_s, &passings))?;
+            rows.push(self.row(ALL, (to_s, outside), &passings))?;
         }
         self.from_s = to_s;
         Ok(())
     }
 
-    fn row(&self, lane: &str, to_s: f64, passings: &[Passing]) -> [Cell; COLUMNS.len()] {
+    fn row(&self, lane: &str, (to_s, outside): (f64, u64), passings: &[Passing]) -> [Cell; COLUMNS.len()] {
         let count = passings.len() as f64;
         let mean = |sum: f64| (count > 0.0).then(|| sum / count);
         let mean_mps = mean(passings.iter().map(|passing| passing.speed_mps).sum());
@@ -175,6 +189,7 @@ impl Counting {
             Cell::Number(slowness_spm.map(|spm| 1.0 / spm)),
             Cell::Number(Some(slowness_spm.map_or(0.0, |spm| flow_per_h * spm / 3.6))),
             Cell::Number(travel_time_s),
+            Cell::Count(Some(outside)),
         ]
     }
 }

@@ -7,6 +7,7 @@ use interplay_planners::{Body, Driver, SafetyEllipse};
 
 use crate::classes::VehicleClass;
 use crate::error::{Fault, quoted};
+use crate::flows;
 use crate::json_schema::SchemaNode;
 use crate::read::degrees;
 use crate::read::tree::TomlNode;
@@ -27,7 +28,15 @@ const MAX_START_ANGLE_DEG: f64 = 20.0;
 /// Everything to remark on.
 pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
+    faults.extend(flows::remarks(tree));
+    let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
+        // Of the vehicles of a flow, which are written in one place, the first stands for all.
+        let place = tree.at(&format!("vehicle.{index}")).map(|node| &node.place);
+        let before = std::mem::replace(&mut last, place);
+        if place.zip(before).is_some_and(|(place, before)| place.holds(before) && before.holds(place)) {
+            continue;
+        }
         let remark = |key: &str, label: &str, (message, help): (String, String)| {
             let place = tree.place_of(&format!("vehicle.{index}.{key}"));
             Fault::at(place, label, message).help(help)

@@ -89,6 +89,10 @@ pub struct FlowShare {
     /// How many of the vehicles are of this sort, beside the shares of the others \[dimensionless\].
     #[schemars(range(min = 0.0, max = 1_000_000.0), example = 0.2, extend("x-unit" = "dimensionless"))]
     pub share: f64,
+    /// The mean of their speeds; by default that of the flow \[m/s\].
+    #[serde(default)]
+    #[schemars(range(min = 0.01, max = 200.0), example = 22.0)]
+    pub speed_mps: Option<f64>,
     /// What is different of them.
     #[serde(default)]
     #[schemars(example = json!({ "class": "lorry" }))]

@@ -70,6 +70,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
         let to = share_at(random.uniform(0.0, 1.0), flow.to.iter().map(|goal| goal.share));
         let sort = share_at(random.uniform(0.0, 1.0), flow.mix.iter().map(|sort| sort.share));
         let deviations = random.normal(0.0, 1.0).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);
+        let mean_mps = sort.and_then(|sort| flow.mix[sort].speed_mps).unwrap_or(flow.speed_mps);
         arrivals.push(Arrival {
             number,
             // Nobody of a flow is there before the run begins.
@@ -77,7 +78,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
             lane,
             to: to.map(|index| &flow.to[index].lane),
             sort,
-            speed_mps: (flow.speed_mps + deviations * flow.speed_sd_mps).max(0.1 * flow.speed_mps),
+            speed_mps: (mean_mps + deviations * flow.speed_sd_mps).max(0.1 * mean_mps),
         });
     }
 }

@@ -27,6 +27,7 @@ mod save;
 mod section;
 mod sentences;
 mod show;
+mod space_time;
 #[cfg(test)]
 mod tests;
 mod theory;

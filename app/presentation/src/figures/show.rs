@@ -2,7 +2,11 @@
 
 use super::entry::FigureContent;
 use super::recorded_run::RecordedRun;
+use super::space_time::space_time;
 use super::{climate, driving, measures};
+
+/// Of so many vehicles, what each believes and intends is drawn; of more, of the ego alone.
+const MOST_EXPLAINED: usize = 16;
 
 /// Everything there is to see of a run: footprints, speeds and gaps, each planner's own numbers; for a building
 /// temperatures, inputs, costs and weather; and what was measured and expected.
@@ -11,7 +15,10 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
     if !recorded.scenario.vehicles.is_empty() {
         content.pictures.push(driving::footprints("Footprints at equal steps of time", recorded).drawing());
         content.pictures.push(driving::motion("Speeds, gap and accelerations", recorded).drawing());
-        for (index, vehicle) in recorded.scenario.vehicles.iter().enumerate() {
+        content.pictures.extend(space_time("Where everybody is over time", recorded).map(|panels| panels.drawing()));
+        let (ego, vehicles) = (recorded.scenario.ego_index(), &recorded.scenario.vehicles);
+        let explained = vehicles.iter().enumerate();
+        for (index, vehicle) in explained.filter(|(index, _)| vehicles.len() <= MOST_EXPLAINED || *index == ego) {
             let title =
                 format!("What the planner of {} ({}) believes and intends", vehicle.name, vehicle.driver.kind());
             content.pictures.extend(driving::reasons(&title, recorded, index).map(|panels| panels.drawing()));

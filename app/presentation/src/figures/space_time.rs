@@ -1,0 +1,136 @@
+//! Where everybody is on a road over time: the picture in which queues and waves are seen.
+
+use interplay_planners::{Route, State};
+use interplay_scenarios::Scenario;
+
+use super::recorded_run::RecordedRun;
+use crate::palette::{BLUE, GREEN, ORANGE, VERMILLION};
+use crate::plot::style::{Dash, LineStyle};
+use crate::plot::{Curve, Panel, Panels};
+
+/// A run with fewer vehicles is no traffic.
+const LEAST_VEHICLES: usize = 8;
+/// Speeds as shares of the highest in the run, from below, each with its line.
+const CLASSES: [(f64, LineStyle); 4] = [
+    (0.1, LineStyle { width: 3, colour: VERMILLION.rgb, dash: Dash::Solid }),
+    (0.4, LineStyle { width: 2, colour: ORANGE.rgb, dash: Dash::Solid }),
+    (0.7, LineStyle { width: 2, colour: GREEN.rgb, dash: Dash::Solid }),
+    (f64::INFINITY, LineStyle { width: 1, colour: BLUE.rgb, dash: Dash::Solid }),
+];
+
+/// Positions along the road over time, coloured by speed: a plot for each of some parallel lanes, and on a network one along the longest
+/// route. None of a run with few vehicles.
+pub(super) fn space_time(title: &str, recorded: &RecordedRun) -> Option<Panels> {
+    let scenario = &recorded.scenario;
+    if scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).count() < LEAST_VEHICLES {
+        return None;
+    }
+    let longest = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
+    let axis = longest.max_by(|one, other| one.route.end_m().total_cmp(&other.route.end_m()))?;
+    let vehicles = || recorded.frames.iter().flat_map(|frame| &frame.vehicles);
+    let fastest_mps = vehicles().map(|vehicle| vehicle.state.speed_mps).fold(0.0, f64::max);
+    let places = places(scenario, &axis.route);
+    let panels = places.iter().map(|place| Panel {
+        name: place.name.clone(),
+        curves: curves(recorded, &axis.route, place, fastest_mps),
+        ..Panel::default()
+    });
+    Some(Panels {
+        title: title.to_owned(),
+        across: "time [s]".to_owned(),
+        columns: 1,
+        panels: panels.collect(),
+        ..Panels::default()
+    })
+}
+
+/// A strip beside a route.
+struct Place {
+    name: String,
+    across_m: [f64; 2],
+}
+
+/// The lanes of the road, or the lane of the route.
+fn places(scenario: &Scenario, route: &Route) -> Vec<Place> {
+    match scenario.road.parallel_lanes() {
+        Some(lanes) => (0..lanes.count)
+            .rev()
+            .map(|lane| {
+                let middle_m = scenario.road.lane_centre_m(Default::default(), lane).unwrap_or_default();
+                let half_m = 0.5 * scenario.road.lane_width_m();
+                Place { name: format!("lane {lane}: position [m]"), across_m: [middle_m - half_m, middle_m + half_m] }
+            })
+            .collect(),
+        None => {
+            let half_m = route.half_width.value(0.5 * route.end_m().min(1e6));
+            vec![Place { name: "position along the way [m]".to_owned(), across_m: [-half_m, half_m] }]
+        }
+    }
+}
+
+/// A line for each class of speeds: all vehicles one after another, broken where a vehicle is of another class or not there.
+fn curves(recorded: &RecordedRun, route: &Route, place: &Place, fastest_mps: f64) -> Vec<Curve> {
+    let class = |state: &State| {
+        let share = state.speed_mps / fastest_mps.max(f64::MIN_POSITIVE);
+        CLASSES.iter().position(|(most, _)| share < *most).unwrap_or(CLASSES.len() - 1)
+    };
+    let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new(); CLASSES.len()];
+    for index in 0..recorded.scenario.vehicles.len() {
+        let mut last: Option<(usize, [f64; 2])> = None;
+        for frame in &recorded.frames {
+            let Some(vehicle) = frame.vehicles.get(index) else { continue };
+            let at = route.locate(vehicle.state.position(), None);
+            let is_there = !vehicle.is_absent
+                && (place.across_m[0]..=place.across_m[1]).contains(&at.across_m)
+                && libm::cos(vehicle.state.heading_rad - at.heading_rad) > 0.0;
+            let now = is_there.then(|| (class(&vehicle.state), [frame.time_s, at.along_m]));
+            if let Some((class, point)) = now {
+                match last {
+                    // A piece begins where the one before ends.
+                    Some((before, from)) if before != class => lines[class].extend([[f64::NAN; 2], from]),
+                    None => lines[class].push([f64::NAN; 2]),
+                    Some(_) => {}
+                }
+                lines[class].push(point);
+            }
+            last = now;
+        }
+    }
+    let mut least = 0.0;
+    let named = CLASSES.into_iter().zip(lines).map(|((most, style), points)| {
+        let [from_mps, to_mps] = [least, most.min(1.0)].map(|share| share * fastest_mps);
+        least = most;
+        Curve::new(format!("{from_mps:.1} to {to_mps:.1} m/s"), style, points)
+    });
+    named.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::from_text;
+
+    use super::*;
+
+    #[test]
+    fn a_queue_is_seen_and_few_vehicles_are_no_traffic() {
+        let text = |flow: &str| {
+            format!(
+                "title = 'queue'\nshows = 'cars behind a slow one'\nscale = 'full'\nduration_s = 20.0\nstep_s = 0.2\n\
+                 road = {{ kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }}\ndefaults = {{ driver = {{ kind = 'idm' }} }}\n\
+                 [[vehicle]]\nname = 'ego'\nstart = {{ lane = 0, along_m = 120.0, speed_mps = 3.0 }}\ngoal = {{ lane = 0, speed_mps = 3.0 }}\n{flow}"
+            )
+        };
+        let recorded = |text: &str| {
+            let scenario = from_text("queue.toml", text, &[]).expect("a scenario");
+            RecordedRun::record("queue", scenario, Vec::new(), "").expect("a run")
+        };
+        assert!(space_time("few", &recorded(&text(""))).is_none());
+        let flow = "[[flow]]\nname = 'west'\nvehicles_per_h = 1800\nheadways = 'even'\nfrom = [0, 1]\nspeed_mps = 15.0\n";
+        let panels = space_time("queue", &recorded(&text(flow))).expect("traffic");
+        assert_eq!(panels.panels.len(), 2, "a plot a lane");
+        let points = |curve: &Curve| curve.points.iter().filter(|[time_s, _]| time_s.is_finite()).count();
+        assert!(panels.panels.iter().flat_map(|panel| &panel.curves).map(points).sum::<usize>() > 100);
+        let drawing = panels.drawing();
+        assert!(drawing.illegible().is_empty() && drawing.mark_count() > 20);
+    }
+}
