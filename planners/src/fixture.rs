@@ -17,7 +17,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         body: Body::default(),
         limits: Limits::default(),
         route: Corridor { heading_rad, right_m: -2.0, left_m: 2.0, end: None }.into(),
-        prediction: constant_velocity(&state, 30, 0.1),
+        prediction: constant_velocity(&state, 30, 0.1).into(),
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,

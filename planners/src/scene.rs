@@ -22,7 +22,7 @@ pub struct Agent {
     /// The route that it follows.
     pub route: Arc<Route>,
     /// Predicted motion, beginning at `state`: its current plan where that is known, else constant velocity.
-    pub prediction: Trajectory,
+    pub prediction: Arc<Trajectory>,
     /// Its goal, if it publishes one, as vehicles do that cooperate.
     pub shared_goal: Option<Goal>,
     /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).

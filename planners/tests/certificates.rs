@@ -29,7 +29,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         body,
         limits: Limits::default(),
         route,
-        prediction,
+        prediction: prediction.into(),
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,
@@ -133,7 +133,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
         let first = traffic.drive(|index, scene| match index {
             // The ego plans to drive on; the other does what it did.
             0 => Ok(Plan { trajectory: plan(scene, 0.0), ..Plan::default() }),
-            _ => Ok(Plan { trajectory: scene.ego.prediction.clone(), ..Plan::default() }),
+            _ => Ok(Plan { trajectory: (*scene.ego.prediction).clone(), ..Plan::default() }),
         });
         assert_eq!(first[0].origin, Origin::Planned);
         let mut origins = Vec::new();

@@ -64,7 +64,7 @@ fn intending() -> Vehicle {
     for (t, state) in plan.states.iter_mut().enumerate() {
         *state = State { y_m: LANES[0] + (LANES[1] - LANES[0]) * (t as f64 / 10.0).min(1.0), ..*state };
     }
-    other.agent.prediction = plan;
+    other.agent.prediction = plan.into();
     other
 }
 

@@ -178,7 +178,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             body: Body::default(),
             limits: Limits::default(),
             route: Corridor { heading_rad: road, right_m: -1.0, left_m: 2.0, end: None }.into(),
-            prediction: constant_velocity(&state, HORIZON, STEP_S),
+            prediction: constant_velocity(&state, HORIZON, STEP_S).into(),
             shared_goal: None,
             can_be_asked: true,
             is_obstacle: false,

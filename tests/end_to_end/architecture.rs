@@ -24,7 +24,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "app/presentation",
         &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
     ),
-    ("app/play", &["planners", "scenarios", "app/files", "app/simulation", "app/presentation"]),
+    ("app/play", &["planners", "scenarios", "app/files", "app/simulation", "app/sweep", "app/presentation"]),
     (
         "app/cli",
         &[

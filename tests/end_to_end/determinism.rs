@@ -88,7 +88,7 @@ fn a_changed_mind_is_found_in_its_tick_and_in_plan() {
     assert_eq!(golden(&one), golden(&other));
     let front = &mut other.frames[4].vehicles[1];
     front.plan.trajectory.inputs[3].steering_rad += 1e-15;
-    front.prediction = front.plan.trajectory.clone();
+    front.prediction = front.plan.trajectory.clone().into();
     assert_eq!(difference(&golden(&one), &golden(&other)), "first differs at tick 4, in plan");
     let faster = run(&["vehicle.front.goal.speed_mps=1.3"]);
     assert_eq!(difference(&golden(&one), &golden(&faster)), "first differs at tick 0, in plan");

@@ -76,7 +76,7 @@ fn a_failed_plan_is_continued_then_braked_told_and_counted() {
             assert_eq!(front.plan.trajectory.inputs, full, "tick {tick}");
             assert!(warning.text.ends_with("brakes"), "{}", warning.text);
         }
-        assert!(front.prediction == front.plan.trajectory, "tick {tick}: the others know that it falls back");
+        assert!(*front.prediction == front.plan.trajectory, "tick {tick}: the others know that it falls back");
     }
 }
 

@@ -27,7 +27,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         body: vehicle.body,
         limits: vehicle.limits,
         route: Arc::clone(&vehicle.route),
-        prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now, vehicle),
+        prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now, vehicle).into(),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
         is_obstacle: vehicle.obstacle.is_some(),
@@ -86,7 +86,7 @@ fn fresh_planners_given_the_same_scenes_decide_the_same() {
                 let seen = &frame.vehicles[index];
                 let at = format!("{}: {} at tick {tick}", film.name(), seen.name);
                 if seen.origin == Origin::Crashed {
-                    agents[index].prediction = seen.plan.trajectory.clone();
+                    agents[index].prediction = seen.plan.trajectory.clone().into();
                     continue;
                 }
                 let scene = scene(film, tick, index, &agents);
@@ -99,7 +99,7 @@ fn fresh_planners_given_the_same_scenes_decide_the_same() {
                     Err(error) => assert_ne!(seen.origin, Origin::Planned, "{at}: {error}"),
                 }
                 if film.scenario.vehicles[index].driver.goes_first() {
-                    agents[index].prediction = seen.plan.trajectory.clone();
+                    agents[index].prediction = seen.plan.trajectory.clone().into();
                 }
             }
         }
@@ -114,7 +114,7 @@ fn the_prediction_of_a_human_is_its_plan() {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
                 if vehicle.driver.goes_first() {
                     let at = format!("{}: {} at tick {tick}", film.name(), seen.name);
-                    assert!(seen.prediction == seen.plan.trajectory, "{at}");
+                    assert!(*seen.prediction == seen.plan.trajectory, "{at}");
                 }
             }
         }

@@ -75,7 +75,9 @@ fn settled(scenario: &Scenario) -> Result<[f64; 2], Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| drivers | speed m/s | spacing m | density 1/km | flow 1/h | closed form 1/h |\n|---|---|---|---|---|---|");
+    println!(
+        "| drivers | speed m/s | spacing m | density 1/km | flow 1/h | closed form 1/h |\n|---|---|---|---|---|---|"
+    );
     for (name, driver) in DRIVERS {
         for speed_mps in SPEEDS_MPS {
             let scenario = scenario(driver, speed_mps)?;

@@ -1,5 +1,7 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
+use std::sync::Arc;
+
 use interplay_building::control::Design;
 use interplay_planners::diagnostic;
 use interplay_planners::rules::RoadRules;
@@ -89,7 +91,7 @@ pub struct VehicleFrame {
     pub origin: Origin,
     /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
     /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
-    pub prediction: Trajectory,
+    pub prediction: Arc<Trajectory>,
     /// What the rules of the road ask of it.
     pub rules: RoadRules,
     /// How many times harder than is comfortable it had to brake when it planned; 1 where comfort was enough.

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::Agent;
 use interplay_planners::rules::{RoadRules, RuleBook};
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::traffic::{CommittedPlan, RoadUser, Traffic};
-use interplay_planners::{Agent, Trajectory};
 
 use crate::components::{
     Clock, Committed, CurrentFrame, Driving, FollowedPlans, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
@@ -102,7 +102,7 @@ fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule
                 body: parameters.body,
                 limits: parameters.limits,
                 route: Arc::clone(&parameters.route),
-                prediction: Trajectory::default(),
+                prediction: Arc::default(),
                 shared_goal: objective.shared,
                 can_be_asked: driving.can_be_asked,
                 is_obstacle: parameters.outline.is_some(),

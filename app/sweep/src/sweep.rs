@@ -13,7 +13,7 @@ use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
-use crate::people;
+use crate::people_rows::{COLUMNS, rows};
 use crate::row::SweepRow;
 use crate::row_file::TableFile;
 use crate::shard::Shard;
@@ -254,17 +254,17 @@ fn write_table(
     runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
     let index = JournalIndex::read(folder)?;
-    let people = if shard == Shard::WHOLE { people::rows(folder)? } else { Vec::new() };
+    let people = if shard == Shard::WHOLE { rows(folder)? } else { Vec::new() };
     let mut inputs = inputs(plan);
     if !people.is_empty() {
-        inputs.extend(people::COLUMNS.map(|name| (name.to_owned(), ColumnKind::Number)));
+        inputs.extend(COLUMNS.map(|name| (name.to_owned(), ColumnKind::Number)));
     }
     let about = [(PLAN_NOTE, plan_digest(plan)), (SHARD_NOTE, shard.to_string())];
     let mut unfinished = 0;
-    let rows = index.rows(runs).map(|row| row.map(|(row, number)| row.labelled(plan.point(number))));
-    let rows = rows.chain(people.into_iter().map(Ok)).inspect(|row| {
+    let made = index.rows(runs).map(|row| row.map(|(row, number)| row.labelled(plan.point(number))));
+    let made = made.chain(people.into_iter().map(Ok)).inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
-    let count = write_rows(table, (&inputs, plan.metrics()), &about, rows)?;
+    let count = write_rows(table, (&inputs, plan.metrics()), &about, made)?;
     Ok((count, unfinished))
 }

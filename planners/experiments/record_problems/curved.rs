@@ -129,6 +129,6 @@ fn placed(name: &str, route: &Arc<Route>, along_m: f64, driver: Driver) -> Vehic
     let Vehicle { agent, goal, driver } = on_route(name, route, 0.0, 0.8, driver);
     let [x_m, y_m] = route.position(along_m, 0.0);
     let state = State { x_m, y_m, heading_rad: route.centre.at(along_m).heading_rad, ..agent.state };
-    let prediction = predict::steadily_along(route, &agent.body, &state, HORIZON, STEP_S);
+    let prediction = predict::steadily_along(route, &agent.body, &state, HORIZON, STEP_S).into();
     Vehicle { agent: Agent { state, prediction, ..agent }, goal, driver }
 }

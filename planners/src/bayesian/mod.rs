@@ -134,7 +134,7 @@ impl Bayesian {
             let estimate = outlook.estimate(&partner.name);
             self.belief.observe(partner, before, estimate, &self.settings);
         }
-        self.partner_plan = choice.partner.map(|partner| partner.prediction.clone());
+        self.partner_plan = choice.partner.map(|partner| (*partner.prediction).clone());
     }
 
     fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {

@@ -30,6 +30,8 @@ mod observed_driver;
 mod settings;
 mod wishes;
 
+use std::sync::Arc;
+
 pub use crate::outlook::{Alternative, Outlook};
 pub use settings::{Prior, Settings, StyleOdds};
 
@@ -115,7 +117,7 @@ impl DriverBeliefs {
                 self.observed[places[index]].plan(&mut seen, &sightings[index]);
             }
             if let Some(plan) = self.observed[places[index]].selected_plan() {
-                then[index].prediction = plan.clone();
+                then[index].prediction = Arc::new(plan.clone());
             }
         }
         let now = (0..places.len()).map(|index| self.present(index, places[index], &sightings[index], &then, scene));
@@ -157,7 +159,7 @@ impl DriverBeliefs {
         Agent {
             state: sighting.estimate,
             previous_input: driver.input,
-            prediction: expected.unwrap_or_else(steady),
+            prediction: Arc::new(expected.unwrap_or_else(steady)),
             can_be_asked: driver.model.can_be_asked(),
             ..other.clone()
         }
@@ -181,7 +183,7 @@ impl DriverBeliefs {
             }
             let mut seen = self.seen_by(index, tick, &agents, scene);
             if let Ok(Some(plan)) = driver.plan(&mut seen) {
-                agents[index].prediction = plan;
+                agents[index].prediction = Arc::new(plan);
             }
         }
         agents.swap_remove(index)
@@ -191,7 +193,7 @@ impl DriverBeliefs {
 /// Moves a vehicle by one step of what is expected of it.
 fn move_on(agent: &mut Agent) {
     agent.previous_input = agent.prediction.inputs.first().copied().unwrap_or_default();
-    agent.prediction = agent.prediction.shifted();
+    agent.prediction = Arc::new(agent.prediction.shifted());
     agent.state = agent.prediction.states.first().copied().unwrap_or(agent.state);
 }
 

@@ -1,5 +1,7 @@
 //! What a vehicle can still do when it has no plan, and how harmful that is.
 
+use std::sync::Arc;
+
 use super::violation::{expected, first_contact, first_off_road};
 use crate::predict::steady_inputs;
 use crate::steering::{admissible, roll_out, steer};
@@ -122,7 +124,7 @@ fn after_first_step(scene: &Scene, plan: &Trajectory) -> Scene {
         (later.ego.state, later.ego.previous_input) = (*state, *input);
     }
     for other in &mut later.others {
-        other.prediction = other.prediction.shifted();
+        other.prediction = Arc::new(other.prediction.shifted());
         other.state = other.prediction.states.first().copied().unwrap_or(other.state);
     }
     later

@@ -25,7 +25,7 @@ pub fn futures(scene: &Scene, alternatives: &[Vec<Alternative>], settings: &Sett
     let mut futures = vec![Future { hypotheses: Vec::new(), probability: 1.0, predictions: Vec::new() }];
     for (index, other) in scene.others.iter().enumerate() {
         let known = alternatives.get(index).filter(|known| !known.is_empty() && scene.ego.may_meet(other));
-        let certain = || vec![Alternative { hypothesis: 0, probability: 1.0, prediction: other.prediction.clone() }];
+        let certain = || vec![Alternative { hypothesis: 0, probability: 1.0, prediction: (*other.prediction).clone() }];
         let motions = known.map_or_else(certain, |known| different(known, settings.told_apart_m));
         let product = futures.iter().flat_map(|future| motions.iter().map(|motion| future.and(motion)));
         futures = likeliest(product.collect(), settings);

@@ -263,7 +263,7 @@ impl Game {
 
     fn express(&self, scene: &Scene, meeting: &Meeting, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
         let Intentions { own, seen, .. } = self.intentions;
-        let motion = self.last.as_ref().map_or_else(|| scene.ego.prediction.clone(), Trajectory::shifted);
+        let motion = self.last.as_ref().map_or_else(|| (*scene.ego.prediction).clone(), Trajectory::shifted);
         let measure = self.measure(&scene.ego, &motion, scene.step_s);
         expression::mean_speed(own, self.prior(seen), meeting, ego_behaviour, scene, &self.settings, measure)
     }

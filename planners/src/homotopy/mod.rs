@@ -32,7 +32,7 @@ const RELEVANT_HALF_AXES: f64 = 3.0;
 pub fn homotopy_class(scene: &Scene, plan: &Plan) -> Vec<PlannedPassing> {
     let passing = |other: &Agent| {
         let proposal = plan.proposals.iter().find(|proposal| proposal.to == other.name);
-        let theirs = proposal.map_or(&other.prediction, |proposal| &proposal.trajectory);
+        let theirs = proposal.map_or(&*other.prediction, |proposal| &proposal.trajectory);
         let side = side(scene, other, &plan.trajectory.states, &theirs.states)?;
         Some(PlannedPassing { of: other.name.clone(), side })
     };

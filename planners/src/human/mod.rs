@@ -60,6 +60,8 @@ mod population;
 mod settings;
 mod sighting;
 
+use std::sync::Arc;
+
 pub use crate::clearance::safety_weight_keeping;
 pub use settings::{REACTION_S, Settings, Style};
 
@@ -296,7 +298,7 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
             continue;
         }
         if scene.meets_in_its_lane(other) {
-            let expected = Agent { prediction: predicted, ..(*expected).clone() };
+            let expected = Agent { prediction: Arc::new(predicted), ..(*expected).clone() };
             if !scene.is_parted_by_lane_line(&expected) {
                 keep_outs.push(scene.beside(&expected, Penalty::EXACT));
             }

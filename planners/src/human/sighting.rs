@@ -11,6 +11,8 @@
 //!
 //! Both times are rounded to ticks. At 0 nothing is remembered and the scene is used as it is.
 
+use std::sync::Arc;
+
 use std::borrow::Cow;
 use std::collections::VecDeque;
 
@@ -52,11 +54,11 @@ fn later(then: &Agent, ticks: usize, step_s: f64) -> Agent {
         .last()
         .copied()
         .unwrap_or(then.state);
-    let mut prediction = (0..ticks).fold(then.prediction.clone(), |plan, _| plan.shifted());
+    let mut prediction = (0..ticks).fold((*then.prediction).clone(), |plan, _| plan.shifted());
     if let Some(first) = prediction.states.first_mut() {
         *first = state;
     }
-    Agent { state, prediction, ..then.clone() }
+    Agent { state, prediction: Arc::new(prediction), ..then.clone() }
 }
 
 /// How many ticks a duration lasts.
@@ -148,7 +150,7 @@ mod tests {
     fn of_a_late_plan_the_part_that_is_left_is_known() {
         let mut perception = Perception::default();
         let mut planned = at(0);
-        for (t, state) in planned.others[0].prediction.states.iter_mut().enumerate() {
+        for (t, state) in Arc::make_mut(&mut planned.others[0].prediction).states.iter_mut().enumerate() {
             state.y_m = 0.1 * t as f64;
         }
         perception.perceive(&planned, 0.4);

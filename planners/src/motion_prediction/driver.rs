@@ -164,7 +164,7 @@ impl PredictedDriver {
         let acceleration_mps2 = acceleration_mps2.clamp(limits.acceleration_min_mps2, limits.acceleration_max_mps2);
         Agent {
             name: name.to_owned(),
-            prediction: constant_velocity(&state, HORIZON, STEP_S),
+            prediction: constant_velocity(&state, HORIZON, STEP_S).into(),
             state,
             previous_input: Input { acceleration_mps2, steering_rad: 0.0 },
             body,

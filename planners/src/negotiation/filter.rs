@@ -5,6 +5,8 @@
 //! intervention is recorded, with its reason. A plan that itself violates much is not applied either. Nothing but safety is judged: how
 //! well a plan persuades is no reason to refuse it.
 
+use std::sync::Arc;
+
 use crate::conservative::problem;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
@@ -55,7 +57,7 @@ fn successor(scene: &Scene, optimum: &Optimum) -> Scene {
     next.ego.state = optimum.iterate.states[0][1];
     next.ego.previous_input = optimum.iterate.inputs[0][0];
     for other in &mut next.others {
-        other.prediction = other.prediction.shifted();
+        other.prediction = Arc::new(other.prediction.shifted());
         other.state = other.prediction.states.first().copied().unwrap_or(other.state);
     }
     next

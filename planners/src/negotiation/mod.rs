@@ -275,7 +275,7 @@ impl Negotiation {
                 cooperative: optimum.trajectory(0),
                 conservative: conservative.clone(),
                 proposal: optimum.trajectory(index + 1),
-                prediction: partner.prediction.clone(),
+                prediction: (*partner.prediction).clone(),
             });
         }
     }

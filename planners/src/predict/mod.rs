@@ -1,5 +1,7 @@
 //! Predictions of other vehicles, and simple motions that serve as starting guesses.
 
+use std::sync::Arc;
+
 use std::borrow::Cow;
 
 use schemars::JsonSchema;
@@ -28,7 +30,7 @@ impl Prediction {
     /// The predicted motion of a vehicle. An inferred motion is already in the scene.
     pub fn predict(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
-            Prediction::Plan | Prediction::Inferred => agent.prediction.clone(),
+            Prediction::Plan | Prediction::Inferred => (*agent.prediction).clone(),
             Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.body, &agent.state, horizon, step_s),
         }
     }
@@ -40,7 +42,7 @@ impl Prediction {
             Prediction::ConstantVelocity => {
                 let mut scene = scene.clone();
                 for other in &mut scene.others {
-                    other.prediction = self.predict(other, scene.horizon, scene.step_s);
+                    other.prediction = Arc::new(self.predict(other, scene.horizon, scene.step_s));
                 }
                 Cow::Owned(scene)
             }
@@ -53,7 +55,7 @@ impl Prediction {
 pub fn without_plans(scene: Scene) -> Scene {
     let Scene { horizon, step_s, .. } = scene;
     let others = scene.others.into_iter().map(|other| Agent {
-        prediction: steadily_along(&other.route, &other.body, &other.state, horizon, step_s),
+        prediction: Arc::new(steadily_along(&other.route, &other.body, &other.state, horizon, step_s)),
         previous_input: Input::default(),
         can_be_asked: !other.is_obstacle,
         ..other

@@ -14,6 +14,8 @@ mod noise;
 mod settings;
 mod visibility;
 
+use std::sync::Arc;
+
 pub use settings::Settings;
 
 use std::collections::VecDeque;
@@ -131,7 +133,7 @@ impl Sight {
         for other in &scene.others {
             let Some(seen) = self.0.iter().find(|seen| seen.name == other.name) else { continue };
             let mut agent = Agent { state: seen.state, ..other.clone() };
-            if let Some(first) = agent.prediction.states.first_mut() {
+            if let Some(first) = Arc::make_mut(&mut agent.prediction).states.first_mut() {
                 *first = seen.state;
             }
             agent.previous_input = seen.estimated_input.unwrap_or(agent.previous_input);

@@ -31,6 +31,8 @@ mod room;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 pub use neighbours::Neighbours;
@@ -98,7 +100,7 @@ impl Traffic {
             user.agent.rules = rules;
         }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
-            agent.prediction = committed.prediction(agent, horizon, step_s);
+            agent.prediction = Arc::new(committed.prediction(agent, horizon, step_s));
         }
         for vehicle in 0..self.road_users.len() {
             let RoadUser { agent, keeps_rules, is_absent, .. } = &self.road_users[vehicle];
@@ -155,7 +157,7 @@ impl Traffic {
         let found = plan.as_ref().map(|plan| &plan.trajectory);
         let (trajectory, origin) = user.committed.renew(found, user.is_crashed, &scene);
         if user.goes_first {
-            user.agent.prediction = trajectory.clone();
+            user.agent.prediction = Arc::new(trajectory.clone());
         }
         let plan = plan.unwrap_or_else(|| Plan { trajectory, ..Plan::default() });
         Decision { vehicle, plan, origin, failure }

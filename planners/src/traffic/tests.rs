@@ -102,7 +102,7 @@ fn shown(traffic: &mut Traffic) -> impl Fn(&str, &str) -> Trajectory + use<> {
     let mut shown = Vec::new();
     traffic.drive(|_, scene| {
         for other in &scene.others {
-            shown.push((scene.ego.name.clone(), other.name.clone(), other.prediction.clone()));
+            shown.push((scene.ego.name.clone(), other.name.clone(), (*other.prediction).clone()));
         }
         Ok(numbered_plan(scene))
     });
@@ -164,7 +164,7 @@ fn without_any_plan_a_vehicle_brakes() {
     let limits = traffic.road_users[0].agent.limits;
     assert_eq!((decisions[0].origin, decisions[0].failure.clone()), (Origin::Braking, Some(failure())));
     assert_eq!(traffic.road_users[0].agent.previous_input.acceleration_mps2, limits.acceleration_min_mps2);
-    assert_eq!(traffic.road_users[0].agent.prediction, decisions[0].plan.trajectory, "published like any plan");
+    assert_eq!(*traffic.road_users[0].agent.prediction, decisions[0].plan.trajectory, "published like any plan");
 }
 
 #[test]

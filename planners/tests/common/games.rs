@@ -69,7 +69,8 @@ fn crossing(random: &mut SplitMix64, index: usize) -> Vehicle {
     let (sin, cos) = heading_rad.sin_cos();
     vehicle.agent.route = Route::from(Corridor { heading_rad, right_m: -0.185, left_m: 0.185, end: None }).into();
     vehicle.agent.state = State { x_m: from_m * cos, y_m: from_m * sin, heading_rad, speed_mps };
-    vehicle.agent.prediction = interplay_planners::predict::constant_velocity(&vehicle.agent.state, HORIZON, STEP_S);
+    vehicle.agent.prediction =
+        interplay_planners::predict::constant_velocity(&vehicle.agent.state, HORIZON, STEP_S).into();
     vehicle.goal.target.heading_rad = heading_rad;
     vehicle.goal.safety.across_m = 0.5;
     vehicle

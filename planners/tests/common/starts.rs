@@ -17,7 +17,7 @@ pub fn perturbed(mut vehicles: Vec<Vehicle>, seed: u64) -> Vec<Vehicle> {
         state.x_m += along_m * libm::cos(state.heading_rad);
         state.y_m += along_m * libm::sin(state.heading_rad);
         state.speed_mps += random.uniform(-PERTURBATION, PERTURBATION);
-        vehicle.agent.prediction = constant_velocity(&vehicle.agent.state, HORIZON, STEP_S);
+        vehicle.agent.prediction = constant_velocity(&vehicle.agent.state, HORIZON, STEP_S).into();
     }
     vehicles
 }

@@ -64,7 +64,7 @@ pub fn vehicle(
         body: Body::default(),
         limits: Limits::default(),
         route: ROAD.into(),
-        prediction: constant_velocity(&state, HORIZON, STEP_S),
+        prediction: constant_velocity(&state, HORIZON, STEP_S).into(),
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,
@@ -115,7 +115,7 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [0.0, 4.0, 1.0, 1.0], human(crossing));
     human.agent.route = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None }.into();
     human.agent.state.heading_rad = FRAC_PI_2;
-    human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);
+    human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S).into();
     human.goal.target.heading_rad = FRAC_PI_2;
     vec![ego, human]
 }
@@ -133,7 +133,7 @@ pub fn moved_to(route: &Arc<Route>, mut vehicles: Vec<Vehicle>) -> Vec<Vehicle> 
         agent.state = place(agent.state);
         vehicle.goal.target = place(vehicle.goal.target);
         let steps = agent.prediction.horizon();
-        agent.prediction = steadily_along(route, &agent.body, &agent.state, steps, STEP_S);
+        agent.prediction = steadily_along(route, &agent.body, &agent.state, steps, STEP_S).into();
     }
     vehicles
 }

@@ -7,10 +7,10 @@ use interplay_planners::{Body, Driver, SafetyEllipse};
 
 use crate::classes::VehicleClass;
 use crate::error::{Fault, quoted};
-use crate::flows;
+use crate::file_format::flow::FlowConfig;
 use crate::json_schema::SchemaNode;
 use crate::read::degrees;
-use crate::read::tree::TomlNode;
+use crate::read::tree::{TomlNode, TomlValue};
 use crate::scenario::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::swept_width;
@@ -25,10 +25,13 @@ const ROUNDING_M: f64 = 1e-6;
 /// The largest angle of a start to its road \[deg\].
 const MAX_START_ANGLE_DEG: f64 = 20.0;
 
+/// More vehicles an hour than a lane carries: a queue will stand outside.
+const MOST_PER_LANE_PER_H: f64 = 2000.0;
+
 /// Everything to remark on.
 pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
-    faults.extend(flows::remarks(tree));
+    faults.extend(crowded_flows(tree));
     let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         // Of the vehicles of a flow, which are written in one place, the first stands for all.
@@ -52,6 +55,26 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
         faults.extend(short_horizon(scenario, vehicle).map(|said| remark("goal.speed_mps", "cannot stop", said)));
     }
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
+}
+
+/// Flows of more vehicles than their lanes carry.
+fn crowded_flows(tree: &TomlNode) -> Vec<Fault> {
+    let Some(TomlValue::Array(nodes)) = tree.at("flow").map(|flows| &flows.value) else { return Vec::new() };
+    let remark = |node: &TomlNode| {
+        let flow: FlowConfig = serde_json::from_value(node.to_json()).ok()?;
+        let most_per_h =
+            flow.vehicles_per_h.into_iter().chain(flow.rates.iter().map(|rate| rate[1])).fold(0.0, f64::max);
+        let message = format!(
+            "{most_per_h} vehicles an hour of `{}` come on {} lanes: a lane carries about {MOST_PER_LANE_PER_H}, and a queue will stand outside",
+            flow.name,
+            flow.from.len()
+        );
+        (most_per_h > MOST_PER_LANE_PER_H * flow.from.len() as f64).then(|| {
+            Fault::at(node.place_of("name"), "more than they carry", message)
+                .help("let them come on more lanes, or fewer".to_owned())
+        })
+    };
+    nodes.iter().filter_map(remark).collect()
 }
 
 /// Whether the vehicle may touch another one outside its safety ellipse: two bodies that are parallel.

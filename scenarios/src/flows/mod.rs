@@ -79,26 +79,6 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     Ok(tree)
 }
 
-/// More vehicles an hour than a lane carries: a queue will stand outside.
-const MOST_PER_LANE_PER_H: f64 = 2000.0;
-
-/// Flows of more vehicles than their lanes carry.
-pub(crate) fn remarks(tree: &TomlNode) -> Vec<Fault> {
-    let Some(TomlValue::Array(nodes)) = tree.at("flow").map(|flows| &flows.value) else { return Vec::new() };
-    let remark = |node: &TomlNode| {
-        let flow: FlowConfig = serde_json::from_value(node.to_json()).ok()?;
-        let most_per_h = flow.vehicles_per_h.into_iter().chain(flow.rates.iter().map(|rate| rate[1])).fold(0.0, f64::max);
-        let message = format!(
-            "{most_per_h} vehicles an hour of `{}` come on {} lanes: a lane carries about {MOST_PER_LANE_PER_H}, and a queue will stand outside",
-            flow.name,
-            flow.from.len()
-        );
-        (most_per_h > MOST_PER_LANE_PER_H * flow.from.len() as f64)
-            .then(|| Fault::at(node.place_of("name"), "more than they carry", message).help("let them come on more lanes, or fewer".to_owned()))
-    };
-    nodes.iter().filter_map(remark).collect()
-}
-
 /// What makes no sense, though each key by itself does.
 fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<Fault> {
     let mut faults = Vec::new();

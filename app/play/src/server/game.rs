@@ -27,12 +27,12 @@ pub(super) struct Game {
     animation: String,
     received: Receiver<Request>,
     requests: Sender<Request>,
-    pub(super) pages: Vec<PageAtGame>,
+    pages: Vec<PageAtGame>,
     next_number: u64,
     next_run: u64,
     menu: Menu,
-    pub(super) playing: Option<Playing>,
-    pub(super) study: Option<Study>,
+    playing: Option<Playing>,
+    study: Option<Study>,
 }
 
 impl Game {
@@ -144,7 +144,7 @@ impl Game {
         }
     }
 
-    pub(super) fn tell(&mut self, message: &ServerMessage) {
+    fn tell(&mut self, message: &ServerMessage) {
         let gone: Vec<u64> = self.pages.iter().filter(|page| !page.send(message)).map(|page| page.number).collect();
         gone.into_iter().for_each(|page| self.leave(page));
     }
@@ -171,7 +171,7 @@ impl Game {
     }
 
     /// Does what a page asks for, or says why not.
-    pub(super) fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
+    fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
         match message {
             PageMessage::Start { scenario, seat } => self.start_as(&scenario, &seat),
             PageMessage::Menu => {
@@ -221,7 +221,7 @@ impl Game {
         self.play(name, &scenario, seat)
     }
 
-    pub(super) fn play(&mut self, name: &str, scenario: &Scenario, seat: &str) -> Result<(), String> {
+    fn play(&mut self, name: &str, scenario: &Scenario, seat: &str) -> Result<(), String> {
         self.save();
         self.playing = None;
         let run = self.next_run;
@@ -250,5 +250,71 @@ impl Game {
             self.tell(&ServerMessage::Refused { text: error.to_string() });
         }
         self.end_trial();
+    }
+
+    /// Does what a page asks for in a study: it drives, and goes on when a run is over. Whoever stops time begins the run anew.
+    fn follow_study(&mut self, page: u64, message: PageMessage) -> Result<(), String> {
+        let is_driving = self.playing.is_some();
+        match message {
+            PageMessage::Input { .. } if is_driving => self.follow(page, message),
+            PageMessage::Pause { paused } if is_driving => {
+                if paused && self.playing.as_ref().is_some_and(|playing| playing.session.ticks() > 0) {
+                    self.playing = None;
+                    self.study.as_mut().into_iter().for_each(Study::begin_again);
+                    return self.begin_trial();
+                }
+                self.follow(page, message)
+            }
+            PageMessage::Echo { .. } => self.follow(page, message),
+            PageMessage::Agree | PageMessage::Next if !is_driving => {
+                if let Some(study) = self.study.as_mut().filter(|study| study.place().participant.is_none()) {
+                    study.begin();
+                }
+                self.begin_trial()
+            }
+            PageMessage::Leave => {
+                self.playing = None;
+                self.study.as_mut().into_iter().for_each(Study::leave);
+                self.tell_place();
+                Ok(())
+            }
+            _ => Err("this is a study: drive to the end of the run, or leave".to_owned()),
+        }
+    }
+
+    fn begin_trial(&mut self) -> Result<(), String> {
+        let Some(study) = &self.study else { return Ok(()) };
+        match study.next().map_err(|error| error.to_string())? {
+            Some((name, scenario, seat)) => self.play(&name, &scenario, &seat),
+            None => {
+                self.tell_place();
+                Ok(())
+            }
+        }
+    }
+
+    /// When a run of a study is over, it becomes a row, and the page asks whether to go on.
+    fn end_trial(&mut self) {
+        let Some(study) = &mut self.study else { return };
+        let Some(playing) = self.playing.take_if(|playing| playing.has_ended()) else { return };
+        if let Err(error) = study.add(&playing.session) {
+            self.tell(&ServerMessage::Refused { text: error.to_string() });
+        }
+        self.tell_place();
+    }
+
+    /// The last page has gone: the run that it drove is begun anew by the next.
+    fn drop_trial(&mut self) {
+        if let Some(study) = &mut self.study
+            && self.playing.take().is_some_and(|playing| playing.session.ticks() > 0)
+        {
+            study.begin_again();
+        }
+    }
+
+    fn tell_place(&mut self) {
+        if let Some(place) = self.study.as_ref().map(Study::place) {
+            self.tell(&ServerMessage::Study { place });
+        }
     }
 }

@@ -7,7 +7,6 @@ mod pages;
 mod pictures;
 mod playing;
 mod request;
-mod trials;
 
 pub use options::ServeOptions;
 

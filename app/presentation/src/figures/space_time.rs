@@ -125,7 +125,8 @@ mod tests {
             RecordedRun::record("queue", scenario, Vec::new(), "").expect("a run")
         };
         assert!(space_time("few", &recorded(&text(""))).is_none());
-        let flow = "[[flow]]\nname = 'west'\nvehicles_per_h = 1800\nheadways = 'even'\nfrom = [0, 1]\nspeed_mps = 15.0\n";
+        let flow =
+            "[[flow]]\nname = 'west'\nvehicles_per_h = 1800\nheadways = 'even'\nfrom = [0, 1]\nspeed_mps = 15.0\n";
         let panels = space_time("queue", &recorded(&text(flow))).expect("traffic");
         assert_eq!(panels.panels.len(), 2, "a plot a lane");
         let points = |curve: &Curve| curve.points.iter().filter(|[time_s, _]| time_s.is_finite()).count();

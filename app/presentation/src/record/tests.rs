@@ -67,7 +67,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
             state: place(tick),
             plan,
             origin,
-            prediction: ahead,
+            prediction: ahead.into(),
             ..Default::default()
         }
     });

@@ -62,7 +62,7 @@ impl Digest {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());
             // What is expected of who plans first is its plan: whatever is wrong with that, the phase Plan made it.
-            if vehicle.prediction != vehicle.plan.trajectory {
+            if *vehicle.prediction != vehicle.plan.trajectory {
                 trajectory(&mut self.predict, &vehicle.prediction);
             }
             trajectory(&mut self.plan, &vehicle.plan.trajectory);
@@ -105,7 +105,7 @@ mod tests {
     fn tick(speed_mps: f64) -> (Frame, Vec<State>) {
         let state = State { speed_mps, ..State::default() };
         let trajectory = |speed_mps| Trajectory { states: vec![State { speed_mps, ..state }; 3], inputs: Vec::new() };
-        let mut vehicle = VehicleFrame { state, prediction: trajectory(1.0), ..VehicleFrame::default() };
+        let mut vehicle = VehicleFrame { state, prediction: trajectory(1.0).into(), ..VehicleFrame::default() };
         vehicle.plan.trajectory = trajectory(2.0);
         (Frame { vehicles: vec![vehicle], ..Frame::default() }, vec![State { speed_mps: 3.0, ..state }])
     }
@@ -123,7 +123,7 @@ mod tests {
         assert!(differing(&one, &tick(1.0)).is_empty());
         assert_eq!(differing(&one, &tick(1.5)), ["sense", "physics"]);
         let mut other = one.clone();
-        other.0.vehicles[0].prediction.states[1].x_m = 1.0;
+        std::sync::Arc::make_mut(&mut other.0.vehicles[0].prediction).states[1].x_m = 1.0;
         assert_eq!(differing(&one, &other), ["predict"]);
         let mut other = one.clone();
         other.0.vehicles[0].input.steering_rad = -0.0;
@@ -140,7 +140,7 @@ mod tests {
             let (mut frame, after) = tick(1.0);
             let vehicle = &mut frame.vehicles[0];
             vehicle.plan.trajectory.states[1].x_m = x_m;
-            vehicle.prediction = vehicle.plan.trajectory.clone();
+            vehicle.prediction = vehicle.plan.trajectory.clone().into();
             (frame, after)
         };
         assert_eq!(differing(&told(1.0), &told(2.0)), ["plan"]);

@@ -40,7 +40,7 @@ impl PlanView {
         out.fill(0.0);
         let agents = std::iter::once(&scene.ego).chain(nearest_first(scene));
         for (agent, row) in agents.zip(out.chunks_exact_mut(POINT.len() * (scene.horizon + 1))) {
-            let Trajectory { states, .. } = &agent.prediction;
+            let Trajectory { states, .. } = &*agent.prediction;
             for (t, point) in row.chunks_exact_mut(POINT.len()).enumerate() {
                 let state = states.get(t).or(states.last()).unwrap_or(&agent.state);
                 let [x, y] = [state.x_m - scene.ego.state.x_m, state.y_m - scene.ego.state.y_m];
