@@ -133,7 +133,7 @@ fn crossing_from(driver: Driver, style: Style, x_m: f64, speed_mps: f64) -> (boo
     let mut vehicles = intersection(driver, style, 1.965);
     let ego = &mut vehicles[0].agent;
     (ego.state.x_m, ego.state.speed_mps) = (x_m, speed_mps);
-    ego.prediction = constant_velocity(&ego.state, HORIZON, STEP_S);
+    ego.prediction = constant_velocity(&ego.state, HORIZON, STEP_S).into();
     crossed(vehicles)
 }
 

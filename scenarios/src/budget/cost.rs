@@ -3,12 +3,16 @@
 use std::fmt;
 
 use crate::file_format::plant::Plant;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Vehicle};
 
 /// Size of a recording of nothing: the blueprint, descriptions and the road \[bytes\].
 const EMPTY_RECORDING_BYTES: f64 = 500e3;
 /// What each stage of a plan adds to a recording; 30 stages were measured to take 0.9 kB \[bytes\].
 const BYTES_PER_STAGE: f64 = 30.0;
+/// What each tick of a vehicle adds \[bytes\].
+const BYTES_PER_TICK: f64 = 60.0;
+/// Of more vehicles, plans are recorded of those near the ego alone.
+const MOST_WITH_PLANS: f64 = 40.0;
 /// What each step of a building adds, and each zone in it \[bytes\].
 const BYTES_PER_BUILDING_STEP: f64 = 500.0;
 const BYTES_PER_ZONE_STEP: f64 = 20.0;
@@ -19,10 +23,13 @@ const PLOTTED_ZONES_OF_MANY: usize = 4;
 const BYTES_PER_PLOTTED_ZONE: f64 = 50e3;
 const BYTES_PER_PLOTTED_ZONE_STEP: f64 = 150.0;
 
+/// So many others are near a vehicle in dense traffic.
+const MOST_NEAR: u64 = 80;
+
 /// What a run will make: counts are exact, operations and bytes are estimates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunCost {
-    /// Plans of vehicles.
+    /// Plans of vehicles, at most: whoever leaves early makes fewer.
     pub plans: u64,
     /// Steps of bodies, pairs of bodies, and zones.
     pub steps: u64,
@@ -38,8 +45,9 @@ impl RunCost {
     /// What a scenario will make, without its counterfactuals.
     pub(crate) fn estimate(scenario: &Scenario) -> RunCost {
         let (vehicles, ticks) = (scenario.vehicles.len() as u64, scenario.tick_count() as u64);
-        let plans = vehicles * scenario.plan_count() as u64;
-        let bodies_and_pairs = vehicles * (vehicles + 1) / 2;
+        let plans = scenario.vehicles.iter().map(|vehicle| plans_of(scenario, vehicle)).sum();
+        // Of many, each is looked at beside those near it alone.
+        let bodies_and_pairs = vehicles * (vehicles.min(MOST_NEAR) + 1) / 2;
         let sub_steps = match scenario.plant {
             Plant::Kinematic(_) => 1,
             Plant::Dynamic(_) => Plant::sub_steps(scenario.step_s) as u64,
@@ -51,7 +59,7 @@ impl RunCost {
             scenario.controller().operations_per_day(zones as f64, steps_per_day as f64) * scenario.days() as f64;
         let zone_steps = building_steps.saturating_mul(zones as u64);
         let bytes = EMPTY_RECORDING_BYTES
-            + (plans as f64) * scenario.horizon_steps as f64 * BYTES_PER_STAGE
+            + vehicles_bytes(scenario, plans, ticks)
             + building_steps as f64 * BYTES_PER_BUILDING_STEP
             + zone_steps as f64 * BYTES_PER_ZONE_STEP
             + plots_bytes(zones, building_steps);
@@ -73,6 +81,23 @@ impl RunCost {
             ..self
         }
     }
+}
+
+/// What vehicles add to a recording, with so many plans and ticks \[bytes\].
+fn vehicles_bytes(scenario: &Scenario, plans: u64, ticks: u64) -> f64 {
+    let planned = plans as f64 * scenario.horizon_steps as f64 * BYTES_PER_STAGE;
+    let vehicles = scenario.vehicles.len() as f64;
+    if vehicles <= MOST_WITH_PLANS {
+        planned
+    } else {
+        planned * MOST_WITH_PLANS / vehicles + ticks as f64 * vehicles * BYTES_PER_TICK
+    }
+}
+
+/// How often a vehicle plans at most: from when it comes on.
+fn plans_of(scenario: &Scenario, vehicle: &Vehicle) -> u64 {
+    let absent_share = vehicle.stay.enters_s.unwrap_or(0.0) / scenario.duration_s;
+    (scenario.plan_count() as f64 * (1.0 - absent_share).max(0.0)).ceil() as u64
 }
 
 /// What plots of single zones add to a recording \[bytes\].

@@ -30,6 +30,10 @@ const MIN_RIBBON_RATIO: f64 = 1.5;
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
 const LABEL_PX: f64 = 14.0;
+/// Of more vehicles, the legend has those nearest to the ego,
+const MOST_LISTED: usize = 12;
+/// in at most so many rows.
+const ROWS_OF_MANY: usize = 5;
 /// Width of the line of what a vehicle may do instead \[px\].
 const BRANCH_PX: f64 = 2.5;
 
@@ -39,8 +43,8 @@ pub struct DrivingPictures<'a> {
     moments: Vec<Moment>,
     views: Vec<CameraView>,
     road: RoadShapes,
-    /// Rows of the legend: index of a vehicle, its words, and where they begin.
-    legend: Vec<Vec<(usize, String, f64)>>,
+    /// Rows of the legend of all; of many vehicles, of none.
+    legend: Vec<LegendRow>,
     /// Words that explain the marks on the road.
     key: String,
 }
@@ -55,13 +59,15 @@ impl<'a> DrivingPictures<'a> {
             [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]
         })?;
         let road = RoadShapes::trace(run.scenario, bounds);
-        let legend = legend(&run);
+        let driven: Vec<usize> = run.driven().collect();
+        let legend = if driven.len() > MOST_LISTED { Vec::new() } else { legend(&run, &driven) };
         let key = key(&run, &moments);
         Some(DrivingPictures { run, moments, views, road, legend, key })
     }
 
     fn bar_px(&self) -> f64 {
-        LINE_PX * (2.0 + self.legend.len() as f64) + 14.0
+        let rows = if self.legend.is_empty() { ROWS_OF_MANY } else { self.legend.len() };
+        LINE_PX * (2.0 + rows as f64) + 14.0
     }
 
     fn draw_view(
@@ -188,6 +194,22 @@ impl<'a> DrivingPictures<'a> {
         canvas.text([clock_left, 0.5 * TITLE_PX], Align::Right, LABEL_PX, &speed, ink);
     }
 
+    /// The legend of those who are nearest to the ego now.
+    fn legend_of_many(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
+        let ego = &seen[self.run.scenario.ego_index()].state;
+        let away_m = |index: &usize| {
+            let state = &seen[*index].state;
+            libm::hypot(state.x_m - ego.x_m, state.y_m - ego.y_m)
+        };
+        let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_absent).collect();
+        listed.sort_by(|one, other| away_m(one).total_cmp(&away_m(other)));
+        listed.truncate(MOST_LISTED);
+        listed.sort_unstable();
+        let mut rows = legend(&self.run, &listed);
+        rows.truncate(ROWS_OF_MANY);
+        rows
+    }
+
     fn draw_words(&self, canvas: &mut Canvas, top: f64, words: &Caption, seen: &[SeenVehicle]) {
         let [width, height] = canvas.size();
         canvas.block([0.0, top], [width, height], BAR);
@@ -198,12 +220,16 @@ impl<'a> DrivingPictures<'a> {
         let longest = longest - width_of(&self.key, LABEL_PX) - 2.0 * MARGIN_PX;
         canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
         canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, &self.key, QUIET_WORDS);
-        for (row, entries) in self.legend.iter().enumerate() {
+        let near = if self.legend.is_empty() { self.legend_of_many(seen) } else { Vec::new() };
+        for (row, entries) in self.legend.iter().chain(&near).enumerate() {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {
                 let ring = [[*left, y - 5.5], [left + 17.0, y - 5.5], [left + 17.0, y + 5.5], [*left, y + 5.5]];
                 canvas.fill_rounded(&ring, 4.0, self.run.colours[*index]);
-                let speed = format!("{words} {:.1} m/s", seen[*index].state.speed_mps.abs());
+                let speed = match &seen[*index] {
+                    seen if seen.is_absent => words.clone(),
+                    seen => format!("{words} {:.1} m/s", seen.state.speed_mps.abs()),
+                };
                 canvas.text([left + 23.0, y], Align::Left, LABEL_PX, &speed, WORDS);
             }
         }
@@ -270,12 +296,15 @@ fn is_ribbon(plan: &[[f64; 2]], body: &Body) -> bool {
     plan.iter().any(|point| libm::hypot(point[0] - x, point[1] - y) > least_m)
 }
 
-/// Rows of names and drivers that fit side by side.
-fn legend(run: &DrivingRun) -> Vec<Vec<(usize, String, f64)>> {
-    let mut rows: Vec<Vec<(usize, String, f64)>> = vec![Vec::new()];
+/// A row of the legend: the index of each vehicle, its words, and where they begin.
+type LegendRow = Vec<(usize, String, f64)>;
+
+/// Rows of names and drivers of some vehicles that fit side by side.
+fn legend(run: &DrivingRun, listed: &[usize]) -> Vec<LegendRow> {
+    let mut rows: Vec<LegendRow> = vec![Vec::new()];
     let mut left = MARGIN_PX;
-    let driven = run.scenario.vehicles.iter().enumerate().filter(|(_, vehicle)| vehicle.obstacle.is_none());
-    for (index, vehicle) in driven {
+    for index in listed.iter().copied() {
+        let vehicle = &run.scenario.vehicles[index];
         let words = format!("{}: {}", vehicle.name, vehicle.driver.description());
         let wide = 23.0 + width_of(&format!("{words} 00.0 m/s"), LABEL_PX) + 20.0;
         if left + wide > WIDTH_PX && left > MARGIN_PX {

@@ -57,6 +57,12 @@ pub struct DrivingRun<'a> {
 }
 
 impl<'a> DrivingRun<'a> {
+    /// The vehicles that somebody drives, by index.
+    pub fn driven(&self) -> impl Iterator<Item = usize> + '_ {
+        let vehicles = self.scenario.vehicles.iter().enumerate();
+        vehicles.filter(|(_, vehicle)| vehicle.obstacle.is_none()).map(|(index, _)| index)
+    }
+
     /// The vehicles of a run; none of a run without them.
     pub fn from_run(recorded: &'a RecordedRun) -> Option<DrivingRun<'a>> {
         let frames: Vec<&Frame> = recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty()).collect();

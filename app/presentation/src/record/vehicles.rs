@@ -16,6 +16,10 @@ use crate::answer::Requests;
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
 use crate::signals::{Turn, is_braking, turn as indicated};
 
+/// Of more vehicles, plans are drawn of those near the ego alone,
+const MOST_WITH_PLANS: usize = 40;
+/// within so many lengths of their bodies.
+const NEAR_LENGTHS: f64 = 30.0;
 /// Heights of what lies on the road, in widths of a body: ellipses, paths, predictions, branches, plans and proposals.
 const ELLIPSE_WIDTHS: f64 = 0.03;
 const TRACE_WIDTHS: f64 = 0.04;
@@ -44,6 +48,8 @@ struct DrawnVehicle {
     last: Option<State>,
     /// Whether it was not on the road in the last tick.
     is_absent: bool,
+    /// Whether its plans are drawn.
+    shows_intent: bool,
     asks: bool,
     /// Whether its last plan had branches.
     branches: bool,
@@ -72,6 +78,7 @@ impl VehicleLayer {
                 route: Arc::clone(&vehicle.route),
                 last: None,
                 is_absent: false,
+                shows_intent: false,
                 asks: false,
                 branches: false,
                 brakes: false,
@@ -104,13 +111,23 @@ impl VehicleLayer {
         frame: &Frame,
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
+        let is_crowd = self.vehicles.len() > MOST_WITH_PLANS;
+        let ego = frame.vehicles.get(self.ego).filter(|ego| is_crowd && !ego.is_absent).map(|ego| ego.state);
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
             if drawn.log_absence(stream, vehicle.is_absent)? {
                 continue;
             }
-            drawn.log_tick(stream, vehicle, &asks)?;
+            drawn.log_motion(stream, &vehicle.state)?;
             drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
+            if is_crowd && !ego.is_some_and(|ego| drawn.is_near(&ego, &vehicle.state)) {
+                drawn.hide_intent(stream)?;
+                continue;
+            }
+            // Between two plans everybody follows the last one, which is there.
+            if frame.plans || !drawn.shows_intent {
+                drawn.log_intent(stream, vehicle, &asks)?;
+            }
             if index != self.ego {
                 let heading_rad = drawn.route.locate(vehicle.state.position(), None).heading_rad;
                 let place = pose(&State { heading_rad, ..vehicle.state });
@@ -164,21 +181,43 @@ impl DrawnVehicle {
             }
         }
         self.is_absent = is_absent;
+        self.shows_intent &= !is_absent;
         Ok(is_absent)
     }
 
-    fn log_tick(
-        &mut self,
-        stream: &RecordingStream,
-        vehicle: &VehicleFrame,
-        asks: &[&Proposal],
-    ) -> RecordingStreamResult<()> {
-        let state = &vehicle.state;
+    /// Whether it is so near to the ego that its plans are worth drawing among many.
+    fn is_near(&self, ego: &State, state: &State) -> bool {
+        let reach_m = NEAR_LENGTHS * (self.body.front_m + self.body.rear_m);
+        libm::hypot(state.x_m - ego.x_m, state.y_m - ego.y_m) <= reach_m
+    }
+
+    /// Takes away its plans and what belongs to them.
+    fn hide_intent(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        if std::mem::take(&mut self.shows_intent) {
+            stream.log(self.at("safety"), &Transform3D::update_fields().with_mat3x3([[0.0; 3]; 3]))?;
+            for line in ["plan", "prediction", "branches"] {
+                stream.log(self.at(line), &strips([]))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn log_motion(&mut self, stream: &RecordingStream, state: &State) -> RecordingStreamResult<()> {
         stream.log(self.at("body"), &pose(state))?;
         if let Some(last) = self.last.replace(*state) {
             let height_m = self.z(TRACE_WIDTHS);
             stream.log(self.at("trace"), &strips([vec![point(&last, height_m), point(state, height_m)]]))?;
         }
+        Ok(())
+    }
+
+    fn log_intent(
+        &mut self,
+        stream: &RecordingStream,
+        vehicle: &VehicleFrame,
+        asks: &[&Proposal],
+    ) -> RecordingStreamResult<()> {
+        self.shows_intent = true;
         let plan_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
         let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
