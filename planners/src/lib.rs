@@ -44,7 +44,7 @@
 //!         body: Body::default(),
 //!         limits: Limits::default(),
 //!         route: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.37, end: None }.into(),
-//!         prediction: constant_velocity(&state, horizon, step_s),
+//!         prediction: constant_velocity(&state, horizon, step_s).into(),
 //!         shared_goal: None,
 //!         can_be_asked: true,
 //!         is_obstacle: false,

@@ -21,6 +21,8 @@ use interplay_simulation::watch::{WatchError, Watcher};
 const FOLLOWERS: usize = 12;
 /// The speed at which all but the first aim \[m/s\].
 const WANTED_MPS: f64 = 30.0;
+/// A row whose speed is further from that of the first has not settled \[m/s\].
+const MOST_OFF_MPS: f64 = 0.5;
 const SPEEDS_MPS: [f64; 6] = [2.0, 5.0, 10.0, 15.0, 20.0, 25.0];
 const DRIVERS: [(&str, &str); 4] = [
     ("IDM", "{ kind = \"idm\" }"),
@@ -91,6 +93,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 }
                 _ => String::new(),
             };
+            if spacing_m <= 0.0 || (found_mps - speed_mps).abs() > MOST_OFF_MPS {
+                println!("| {name} | {speed_mps:.1} | the row broke up | | | {closed} |");
+                continue;
+            }
             let (density, flow) = (1000.0 / spacing_m, 3600.0 * found_mps / spacing_m);
             println!("| {name} | {found_mps:.1} | {spacing_m:.1} | {density:.1} | {flow:.0} | {closed} |");
         }

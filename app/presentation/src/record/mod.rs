@@ -23,6 +23,7 @@ mod blueprint;
 mod building;
 mod cameras;
 mod car;
+mod crowd;
 mod error;
 mod labels;
 mod layout;

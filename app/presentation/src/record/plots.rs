@@ -8,6 +8,7 @@ use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::crowd::told;
 use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
@@ -135,7 +136,9 @@ impl Plots {
     /// If Rerun refuses a component.
     pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
         let drives = |(vehicle, stated): &(&VehicleFrame, &Vehicle)| !vehicle.is_absent && stated.obstacle.is_none();
-        for (vehicle, _) in frame.vehicles.iter().zip(&scenario.vehicles).filter(drives) {
+        let told = told(scenario, frame);
+        let driven = frame.vehicles.iter().zip(&scenario.vehicles).zip(&told);
+        for ((vehicle, _), _) in driven.filter(|(pair, is_told)| **is_told && drives(pair)) {
             let speed_mps = vehicle.state.speed_mps;
             let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
             self.speeds_mps = Some([low.min(speed_mps), high.max(speed_mps)]);
@@ -150,13 +153,14 @@ impl Plots {
             self.gaps_m = Some([low.min(least_m), high.max(gap)]);
             stream.log(GAP, &Scalars::single(gap))?;
         }
-        self.reasons(stream, frame)?;
+        self.reasons(stream, frame, &told)?;
         self.reasons_in_words(stream, frame)?;
         self.events(stream, scenario, frame)
     }
 
-    fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        let present = frame.vehicles.iter().zip(&self.planners).filter(|(vehicle, _)| !vehicle.is_absent);
+    fn reasons(&mut self, stream: &RecordingStream, frame: &Frame, told: &[bool]) -> RecordingStreamResult<()> {
+        let all = frame.vehicles.iter().zip(&self.planners).zip(told);
+        let present = all.filter(|((vehicle, _), is_told)| **is_told && !vehicle.is_absent).map(|(pair, _)| pair);
         for (vehicle, PlannerPaths { folder, end, explanation }) in present {
             for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
                 let path = format!("{folder}/{}{end}", slug(quantity));

@@ -7,6 +7,7 @@ use interplay_scenarios::{LaneReference, Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::crowd::told;
 use super::palette::NamedColour;
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
@@ -43,8 +44,9 @@ impl StatusLines {
             return Ok(());
         }
         let mut text = String::new();
+        let told = told(scenario, frame);
         let drives = |(index, (vehicle, _)): &(usize, (&Vehicle, _))| {
-            vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent
+            vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent && told[*index]
         };
         for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate().filter(drives) {
             let asks = requests.sentence(frame, index);

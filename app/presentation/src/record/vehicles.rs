@@ -8,6 +8,7 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
+use super::crowd::told;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
@@ -16,10 +17,6 @@ use crate::answer::Requests;
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
 use crate::signals::{Turn, is_braking, turn as indicated};
 
-/// Of more vehicles, plans are drawn of those near the ego alone,
-const MOST_WITH_PLANS: usize = 40;
-/// within so many lengths of their bodies.
-const NEAR_LENGTHS: f64 = 30.0;
 /// Heights of what lies on the road, in widths of a body: ellipses, paths, predictions, branches, plans and proposals.
 const ELLIPSE_WIDTHS: f64 = 0.03;
 const TRACE_WIDTHS: f64 = 0.04;
@@ -111,8 +108,7 @@ impl VehicleLayer {
         frame: &Frame,
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
-        let is_crowd = self.vehicles.len() > MOST_WITH_PLANS;
-        let ego = frame.vehicles.get(self.ego).filter(|ego| is_crowd && !ego.is_absent).map(|ego| ego.state);
+        let told = told(scenario, frame);
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
             if drawn.log_absence(stream, vehicle.is_absent)? {
@@ -120,7 +116,7 @@ impl VehicleLayer {
             }
             drawn.log_motion(stream, &vehicle.state)?;
             drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
-            if is_crowd && !ego.is_some_and(|ego| drawn.is_near(&ego, &vehicle.state)) {
+            if !told[index] {
                 drawn.hide_intent(stream)?;
                 continue;
             }
@@ -183,12 +179,6 @@ impl DrawnVehicle {
         self.is_absent = is_absent;
         self.shows_intent &= !is_absent;
         Ok(is_absent)
-    }
-
-    /// Whether it is so near to the ego that its plans are worth drawing among many.
-    fn is_near(&self, ego: &State, state: &State) -> bool {
-        let reach_m = NEAR_LENGTHS * (self.body.front_m + self.body.rear_m);
-        libm::hypot(state.x_m - ego.x_m, state.y_m - ego.y_m) <= reach_m
     }
 
     /// Takes away its plans and what belongs to them.
