@@ -8,7 +8,7 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
-use super::crowd::told;
+use super::crowd::{is_crowd, told};
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
@@ -120,8 +120,8 @@ impl VehicleLayer {
                 drawn.hide_intent(stream)?;
                 continue;
             }
-            // Between two plans everybody follows the last one, which is there.
-            if frame.plans || !drawn.shows_intent {
+            // Between two plans everybody follows the last one, which is there; of a crowd it is not said again.
+            if frame.plans || !drawn.shows_intent || !is_crowd(scenario) {
                 drawn.log_intent(stream, vehicle, &asks)?;
             }
             if index != self.ego {
