@@ -199,9 +199,9 @@ impl Measurement for FirstContact {
 
 #[cfg(test)]
 mod tests {
-    use crate::measure::metric::SharedStates;
     use super::*;
     use crate::frame::{Collision, Frame, VehicleFrame};
+    use crate::measure::metric::SharedStates;
 
     /// A vehicle that drives along the road.
     fn at(name: &str, x_m: f64, speed_mps: f64) -> VehicleFrame {
@@ -223,7 +223,13 @@ mod tests {
             let mut contact = FirstContact::of(ego, &[]);
             let end = ObservedMoment { time_s: 0.0, vehicles: &[], states: &[], along_m: &[] };
             for frame in frames {
-                contact.observe(&ObservedTick { frame, step_s: 0.1, shared: &SharedStates::default(), previous_inputs: &[], end });
+                contact.observe(&ObservedTick {
+                    frame,
+                    step_s: 0.1,
+                    shared: &SharedStates::default(),
+                    previous_inputs: &[],
+                    end,
+                });
             }
             contact.measured().value == Some(MetricValue::Flag(true))
         };
@@ -258,7 +264,13 @@ mod tests {
             let collisions = if tick == 20 { vec![touch] } else { Vec::new() };
             let vehicles = vec![at(0, back_s), at(1, back_s)];
             let frame = Frame { time_s: 2.0 - back_s, vehicles, collisions, ..Frame::default() };
-            contact.observe(&ObservedTick { frame: &frame, step_s: 0.1, shared: &SharedStates::default(), previous_inputs: &[], end });
+            contact.observe(&ObservedTick {
+                frame: &frame,
+                step_s: 0.1,
+                shared: &SharedStates::default(),
+                previous_inputs: &[],
+                end,
+            });
         }
         contact.measured().value == Some(MetricValue::Flag(true))
     }

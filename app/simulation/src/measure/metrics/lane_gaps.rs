@@ -239,9 +239,9 @@ fn braking_mps2(tick: &ObservedTick<'_>, vehicle: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::measure::metric::SharedStates;
     use super::*;
     use crate::frame::{Frame, VehicleFrame};
+    use crate::measure::metric::SharedStates;
     use interplay_scenarios::load;
 
     /// Seconds, states before and after a tick of three vehicles: the ego, one in the new lane ahead of it and one behind it.
@@ -258,7 +258,13 @@ mod tests {
             let before = pair[0].map(|state| VehicleFrame { state, ..VehicleFrame::default() });
             let frame = Frame { vehicles: before.to_vec(), ..Frame::default() };
             let end = moment(&pair[1], tick as f64 + 1.0);
-            measurement.observe(&ObservedTick { frame: &frame, step_s: 1.0, shared: &SharedStates::default(), previous_inputs: &[], end });
+            measurement.observe(&ObservedTick {
+                frame: &frame,
+                step_s: 1.0,
+                shared: &SharedStates::default(),
+                previous_inputs: &[],
+                end,
+            });
         }
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }

@@ -143,10 +143,10 @@ fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::frame::VehicleFrame;
-    use crate::measure::metric::SharedStates;
     use super::*;
     use crate::frame::Frame;
+    use crate::frame::VehicleFrame;
+    use crate::measure::metric::SharedStates;
     use interplay_scenarios::load;
 
     /// The ego drives along x through the origin, which its centre reaches at `ego_s`, and the other along a heading, at 10 m/s.
@@ -170,7 +170,13 @@ mod tests {
             let vehicles = pair[0].map(|state| VehicleFrame { state, ..VehicleFrame::default() }).to_vec();
             let frame = Frame { time_s: before_s, vehicles, ..Frame::default() };
             let end = moment(&pair[1], before_s + 0.1);
-            measurement.observe(&ObservedTick { frame: &frame, step_s: 0.1, shared: &SharedStates::default(), previous_inputs: &[], end });
+            measurement.observe(&ObservedTick {
+                frame: &frame,
+                step_s: 0.1,
+                shared: &SharedStates::default(),
+                previous_inputs: &[],
+                end,
+            });
         }
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }
