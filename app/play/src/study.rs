@@ -23,6 +23,9 @@ pub enum StudyError {
     /// Nobody could sit there.
     #[error(transparent)]
     Seats(#[from] SessionError),
+    /// No scenario has a seat.
+    #[error("no scenario of the plan has a vehicle `{0}`; --as names vehicles, after commas")]
+    NoSuchSeat(String),
     /// A scenario has none of the seats.
     #[error("`{scenario}` has none of the seats {seats}; name one of each scenario with --as, after commas")]
     NoSeatHere {
@@ -171,11 +174,13 @@ fn trials_of(plan: &SweepPlan, seats: &[&str]) -> Result<(Vec<Trial>, f64), Stud
         return Err(StudyError::TooLarge(plan.run_count()));
     }
     let [_, styles, planners] = plan.names();
+    let mut unseen: Vec<&str> = seats.to_vec();
     let (mut trials, mut duration_s) = (Vec::new(), 0.0);
     for index in 0..plan.run_count() {
         let point = plan.point(index);
         let scenario = plan.scenario(&point).map_err(|error| StudyError::Plan(Box::new(error)))?;
         let ego = scenario.ego().map(|ego| ego.name.clone()).unwrap_or_default();
+        unseen.retain(|seat| scenario.index_of(seat).is_none());
         let there = seats_here(&point.scenario, &scenario, seats, &ego)?;
         for seat in there {
             let is_first = if seat == ego {
@@ -191,6 +196,9 @@ fn trials_of(plan: &SweepPlan, seats: &[&str]) -> Result<(Vec<Trial>, f64), Stud
         if trials.len() > MOST_TRIALS {
             return Err(StudyError::TooMany(trials.len()));
         }
+    }
+    if let Some(seat) = unseen.first() {
+        return Err(StudyError::NoSuchSeat((*seat).to_owned()));
     }
     Ok((trials, duration_s))
 }

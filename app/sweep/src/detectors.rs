@@ -26,6 +26,8 @@ const COLUMNS: [(&str, ColumnKind); 11] = [
 
 /// What all lanes together are called.
 const ALL: &str = "all";
+/// An edge of an interval is reached that is nearer than this \[s\].
+const EDGE_TOLERANCE_S: f64 = 1e-9;
 /// A vehicle that hardly moves counts with this speed in a harmonic mean \[m/s\].
 const SLOWEST_MPS: f64 = 0.01;
 
@@ -45,8 +47,8 @@ struct Counting {
     stated: DetectorConfig,
     lanes: Vec<(String, DetectorLine)>,
     after: Option<usize>,
-    /// When the interval began \[s\].
-    from_s: f64,
+    /// Intervals that are over.
+    over: u32,
     passings: Vec<Passing>,
     /// When each vehicle passed last \[s\].
     passed_s: Vec<Option<f64>>,
@@ -55,6 +57,7 @@ struct Counting {
 /// A vehicle that passes.
 #[derive(Clone, Copy, Debug)]
 struct Passing {
+    time_s: f64,
     lane: usize,
     speed_mps: f64,
     travel_time_s: Option<f64>,
@@ -78,7 +81,7 @@ impl DetectorWriter {
                 stated: detector.clone(),
                 lanes: detector.lanes.iter().filter_map(line).collect(),
                 after: scenario.detectors.iter().position(is_after),
-                from_s: 0.0,
+                over: 0,
                 passings: Vec::new(),
                 passed_s: vec![None; scenario.vehicles.len()],
             }
@@ -114,7 +117,7 @@ impl DetectorWriter {
                 let counting = &mut self.detectors[detector];
                 counting.passed_s[vehicle] = Some(time_s);
                 let travel_time_s = began_s.map(|began_s| time_s - began_s);
-                counting.passings.push(Passing { lane, speed_mps, travel_time_s });
+                counting.passings.push(Passing { time_s, lane, speed_mps, travel_time_s });
             }
         }
     }
@@ -128,13 +131,13 @@ impl Watcher for DetectorWriter {
         for (awaited_s, vehicle) in self.awaited_s.iter_mut().zip(&frame.vehicles) {
             *awaited_s = awaited_s.filter(|_| vehicle.is_absent);
         }
+        self.count(frame);
         let outside = self.outside(frame.time_s);
         for counting in &mut self.detectors {
-            while frame.time_s >= counting.from_s + counting.stated.interval_s {
-                counting.write(counting.from_s + counting.stated.interval_s, outside, &mut self.rows)?;
+            while frame.time_s >= counting.edge_s() - EDGE_TOLERANCE_S {
+                counting.write(counting.edge_s(), outside, &mut self.rows)?;
             }
         }
-        self.count(frame);
         self.time_s = frame.time_s;
         self.before = frame
             .vehicles
@@ -147,7 +150,7 @@ impl Watcher for DetectorWriter {
     fn finish(mut self: Box<Self>) -> Result<(), WatchError> {
         let outside = self.outside(self.time_s);
         for counting in &mut self.detectors {
-            if self.time_s > counting.from_s {
+            if self.time_s > counting.began_s() + EDGE_TOLERANCE_S {
                 counting.write(self.time_s, outside, &mut self.rows)?;
             }
         }
@@ -156,9 +159,20 @@ impl Watcher for DetectorWriter {
 }
 
 impl Counting {
+    /// When the interval began \[s\].
+    fn began_s(&self) -> f64 {
+        f64::from(self.over) * self.stated.interval_s
+    }
+
+    /// When it ends \[s\].
+    fn edge_s(&self) -> f64 {
+        f64::from(self.over + 1) * self.stated.interval_s
+    }
+
     /// Writes the rows of the interval that ends, and begins the next.
     fn write(&mut self, to_s: f64, outside: u64, rows: &mut RowFile) -> Result<(), WatchError> {
-        let passings = std::mem::take(&mut self.passings);
+        let passings: Vec<Passing> =
+            self.passings.extract_if(.., |passing| passing.time_s < to_s + EDGE_TOLERANCE_S).collect();
         for (index, (name, _)) in self.lanes.iter().enumerate() {
             let here: Vec<Passing> = passings.iter().filter(|passing| passing.lane == index).copied().collect();
             rows.push(self.row(name, (to_s, outside), &here))?;
@@ -166,7 +180,7 @@ impl Counting {
         if self.lanes.len() > 1 {
             rows.push(self.row(ALL, (to_s, outside), &passings))?;
         }
-        self.from_s = to_s;
+        self.over += 1;
         Ok(())
     }
 
@@ -175,13 +189,13 @@ impl Counting {
         let mean = |sum: f64| (count > 0.0).then(|| sum / count);
         let mean_mps = mean(passings.iter().map(|passing| passing.speed_mps).sum());
         let slowness_spm = mean(passings.iter().map(|passing| 1.0 / passing.speed_mps.max(SLOWEST_MPS)).sum());
-        let flow_per_h = 3600.0 * count / (to_s - self.from_s);
+        let flow_per_h = 3600.0 * count / (to_s - self.began_s());
         let times_s: Vec<f64> = passings.iter().filter_map(|passing| passing.travel_time_s).collect();
         let travel_time_s = (!times_s.is_empty()).then(|| times_s.iter().sum::<f64>() / times_s.len() as f64);
         [
             Cell::Text(Some(self.stated.name.clone())),
             Cell::Text(Some(lane.to_owned())),
-            Cell::Number(Some(self.from_s)),
+            Cell::Number(Some(self.began_s())),
             Cell::Number(Some(to_s)),
             Cell::Count(Some(passings.len() as u64)),
             Cell::Number(Some(flow_per_h)),
@@ -218,7 +232,8 @@ mod tests {
             [[vehicle]]\nname = 'ego'\nstart = { lane = 1, along_m = 900.0, speed_mps = 20.0 }\n\
             [[flow]]\nname = 'west'\nvehicles_per_h = 1800\nheadways = 'even'\nfrom = [0]\nspeed_mps = 20.0\n\
             [[detector]]\nname = 'a'\nlanes = [0, 1]\nalong_m = 20.0\ninterval_s = 20.0\n\
-            [[detector]]\nname = 'b'\nlanes = [0]\nalong_m = 120.0\ninterval_s = 40.0\nafter = 'a'\n";
+            [[detector]]\nname = 'b'\nlanes = [0]\nalong_m = 120.0\ninterval_s = 40.0\nafter = 'a'\n\
+            [[detector]]\nname = 'c'\nlanes = [0]\nalong_m = 20.0\ninterval_s = 0.7\n";
         let scenario = from_text("even.toml", text, &[]).expect("a scenario");
         let target: TableFile = path.to_string_lossy().parse().expect("an ending of a table");
         let writer = DetectorWriter::begin(&target, &scenario).expect("writable");
@@ -237,5 +252,11 @@ mod tests {
         assert_eq!(row("a", "1", "20")[0], 0.0, "nobody in the other lane");
         assert_eq!(row("a", "all", "20")[0], a[0]);
         near(row("b", "0", "0")[5], 5.0, 0.4);
+        // At one place all are counted, whatever the intervals.
+        let all = |detector: &str| -> f64 {
+            let of_lane = rows.iter().filter(|row| row[..2] == [detector, "0"]);
+            of_lane.map(|row| row[4].parse::<f64>().unwrap_or(f64::NAN)).sum()
+        };
+        assert_eq!(all("a"), all("c"));
     }
 }

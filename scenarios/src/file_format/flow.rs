@@ -25,7 +25,7 @@ pub struct FlowConfig {
     /// How many vehicles come in an hour by time: pairs of a time \[s\] and the number from then on, in order of time. Before the first
     /// pair nobody comes.
     #[serde(default)]
-    #[schemars(length(max = 1000), example = json!([[0.0, 600.0], [300.0, 1500.0]]), extend("x-excludes" = ["vehicles_per_h"]))]
+    #[schemars(length(max = 1000), example = json!([[0.0, 600.0], [300.0, 1500.0]]))]
     pub rates: Vec<[f64; 2]>,
     /// The times between two vehicles.
     #[serde(default)]

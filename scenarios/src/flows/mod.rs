@@ -16,6 +16,8 @@ use crate::file_format::flow::FlowConfig;
 use crate::json_schema::SchemaNode;
 use crate::read::merge::merge_tables;
 use crate::read::tree::{self, Table, TomlEntry, TomlNode, TomlValue};
+use crate::text::name;
+use crate::text::readable::readable;
 
 /// Most vehicles of all flows of a file.
 const MOST_VEHICLES: f64 = 10_000.0;
@@ -33,8 +35,15 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     if !faults.is_empty() {
         return Err(faults);
     }
-    let number = |key: &str| root.get(key).and_then(|entry| entry.node.to_json().as_f64());
-    let (seed, duration_s) = (number("seed").unwrap_or(1.0), number("duration_s"));
+    let seed = match root.get("seed").map(|entry| &entry.node.value) {
+        Some(TomlValue::Integer(seed)) => *seed as u64,
+        _ => 1,
+    };
+    let duration_s = root.get("duration_s").map(|entry| entry.node.to_json().as_f64().unwrap_or(f64::NAN));
+    // What is no duration is refused with the other keys.
+    if duration_s.is_some_and(|duration_s| !duration_s.is_finite()) {
+        return Ok(tree);
+    }
     let TomlValue::Array(nodes) = &stated.value else { return Ok(tree) };
     let read = |node: &TomlNode| serde_json::from_value::<FlowConfig>(node.to_json());
     let flows: Result<Vec<FlowConfig>, _> = nodes.iter().map(read).collect();
@@ -54,7 +63,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
     let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
     for (index, flow) in flows.iter().enumerate() {
-        arrivals.extend(arrival::draw(flow, seed as u64, duration_s).into_iter().map(|arrival| (index, arrival)));
+        arrivals.extend(arrival::draw(flow, seed, duration_s).into_iter().map(|arrival| (index, arrival)));
     }
     // Without another vehicle the first that comes is the ego, which is there when the run begins.
     if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list())
@@ -63,6 +72,14 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     {
         arrivals[..=first].rotate_right(1);
         arrivals[0].1.enters_s = 0.0;
+    }
+    if arrivals.is_empty() && root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
+        let fault = Fault::at(
+            &stated.place,
+            "nobody of them",
+            "nobody comes before the run ends, and there is no other vehicle".to_owned(),
+        );
+        return Err(vec![fault.help("raise the rates or `duration_s`, or state a `[[vehicle]]`".to_owned())]);
     }
     let arrivals: Vec<TomlNode> = arrivals
         .iter()
@@ -95,6 +112,10 @@ fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<F
                 "name each flow otherwise: its vehicles are called after it",
             );
         }
+        if !name::is_name(&format!("{}-{MOST_VEHICLES}", flow.name)) {
+            let help = "shorten it: its vehicles are called after it, with a number";
+            wrong("name", format!("{name} is too long for a flow"), help);
+        }
         if flow.vehicles_per_h.is_none() && flow.rates.is_empty() {
             wrong(
                 "name",
@@ -107,12 +128,12 @@ fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<F
         {
             wrong(
                 "rates",
-                "pairs are a time and a number of vehicles an hour, in order of time".to_owned(),
+                "pairs are a time and a number of vehicles an hour, both from 0 to 100000, in order of time".to_owned(),
                 "for example `[[0.0, 600.0], [300.0, 1500.0]]`",
             );
         }
         if flow.ends_s.is_some_and(|ends_s| ends_s <= flow.begins_s) {
-            wrong("ends_s", "the flow ends before it begins".to_owned(), "lower `begins_s` or raise `ends_s`");
+            wrong("ends_s", "the flow does not end after it begins".to_owned(), "lower `begins_s` or raise `ends_s`");
         }
         let shares = |shares: Vec<f64>| shares.is_empty() || shares.iter().any(|share| *share > 0.0);
         if !shares(flow.mix.iter().map(|sort| sort.share).collect()) {
@@ -125,7 +146,7 @@ fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<F
         if expected > MOST_VEHICLES {
             wrong(
                 "name",
-                format!("the flows stand for about {expected:.0} vehicles, more than {MOST_VEHICLES}"),
+                format!("the flows stand for about {} vehicles, more than {MOST_VEHICLES}", readable(expected)),
                 "lower the rates or `duration_s`",
             );
             break;
@@ -150,9 +171,47 @@ fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arriv
         "goal": goal,
         "enters_s": arrival.enters_s,
     });
+    let mut own = drawn(own);
+    for (key, place) in [("start", "from"), ("goal", "to")] {
+        if let Some(entry) = own.get_mut(key) {
+            entry.node.set_place(node.at(place).map_or(&node.place, |stated| &stated.place));
+        }
+    }
     let sort = arrival.sort.and_then(|sort| at(&format!("mix.{sort}.vehicle")));
-    let layers = [at("vehicle"), sort, Some(drawn(own))];
+    let layers = [at("vehicle"), sort, Some(own)];
     let common = drawn(json!({ "leaves_at_end": true }));
     let table = layers.into_iter().flatten().fold(common, |under, over| merge_tables(schema, under, over));
     TomlNode { place: node.place.clone(), value: TomlValue::Table(table) }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::from_text;
+
+    fn refused(flow: &str) -> String {
+        let text = format!(
+            "title = 'a'\nshows = 'a'\nscale = 'full'\nduration_s = 10.0\n\
+             road = {{ kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }}\n[[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\n{flow}"
+        );
+        from_text("a.toml", &text, &[]).map(|_| ()).expect_err("refused").faults()[0].message().to_owned()
+    }
+
+    #[test]
+    fn flows_that_make_no_sense_are_refused_once() {
+        for (flow, part) in [
+            ("", "nothing says how many vehicles"),
+            ("vehicles_per_h = 0.0", "nobody comes before the run ends"),
+            ("rates = [[5.0, 10.0], [1.0, 20.0]]", "in order of time"),
+            ("vehicles_per_h = 600.0\nbegins_s = 5.0\nends_s = 5.0", "does not end after it begins"),
+            ("vehicles_per_h = 600.0\nto = [{ lane = 1, share = 0.0 }]", "no lane has a share"),
+            ("vehicles_per_h = 600.0\nmix = [{ share = 0.0 }]", "no sort has a share"),
+            (
+                "vehicles_per_h = 600.0\n[[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\nvehicles_per_h = 1.0",
+                "two flows",
+            ),
+        ] {
+            let message = refused(flow);
+            assert!(message.contains(part), "{flow}: {message}");
+        }
+    }
 }
