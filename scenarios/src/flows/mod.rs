@@ -61,26 +61,12 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
         return Err(faults);
     }
     let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
-    let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
-    for (index, flow) in flows.iter().enumerate() {
-        arrivals.extend(arrival::draw(flow, seed, duration_s).into_iter().map(|arrival| (index, arrival)));
-    }
-    // Without another vehicle the first that comes is the ego, which is there when the run begins.
-    if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list())
-        && let Some(first) =
-            (0..arrivals.len()).min_by(|one, other| arrivals[*one].1.enters_s.total_cmp(&arrivals[*other].1.enters_s))
-    {
-        arrivals[..=first].rotate_right(1);
-        arrivals[0].1.enters_s = 0.0;
-    }
-    if arrivals.is_empty() && root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
-        let fault = Fault::at(
-            &stated.place,
-            "nobody of them",
-            "nobody comes before the run ends, and there is no other vehicle".to_owned(),
-        );
+    let is_alone = root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list());
+    let Some(arrivals) = drawn(&flows, (seed, duration_s), is_alone) else {
+        let message = "nobody comes before the run ends, and there is no other vehicle";
+        let fault = Fault::at(&stated.place, "nobody of them", message.to_owned());
         return Err(vec![fault.help("raise the rates or `duration_s`, or state a `[[vehicle]]`".to_owned())]);
-    }
+    };
     let arrivals: Vec<TomlNode> = arrivals
         .iter()
         .map(|(index, arrival)| vehicle(vehicle_schema, &flows[*index], &nodes[*index], arrival))
@@ -94,6 +80,22 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
         vehicles.extend(arrivals);
     }
     Ok(tree)
+}
+
+/// The vehicles of all flows, each with the index of its flow. Without other vehicles the first that comes is the ego, which is there when
+/// the run begins; none where nobody comes then.
+fn drawn(flows: &[FlowConfig], (seed, duration_s): (u64, f64), are_alone: bool) -> Option<Vec<(usize, Arrival<'_>)>> {
+    let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
+    for (index, flow) in flows.iter().enumerate() {
+        arrivals.extend(arrival::draw(flow, seed, duration_s).into_iter().map(|arrival| (index, arrival)));
+    }
+    if are_alone {
+        let enters_s = |index: &usize| arrivals[*index].1.enters_s;
+        let first = (0..arrivals.len()).min_by(|one, other| enters_s(one).total_cmp(&enters_s(other)))?;
+        arrivals[..=first].rotate_right(1);
+        arrivals[0].1.enters_s = 0.0;
+    }
+    Some(arrivals)
 }
 
 /// What makes no sense, though each key by itself does.
