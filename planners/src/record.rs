@@ -92,8 +92,7 @@ impl Record {
             return Some(*to);
         };
         let share = ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0);
-        let (from, to) = (from.to_array(), to.to_array());
-        Some(State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))))
+        Some(from.towards(to, share))
     }
 }
 

@@ -21,4 +21,4 @@ pub use protocol::{PageMessage, ServerMessage};
 pub use script::{ScriptError, ScriptLine, play_script, read_script};
 pub use server::{PlayServer, ServeError, ServeOptions, StopPlay};
 pub use session::{Score, ScoreRow, Session, SessionError, Wish, check_seats};
-pub use study::{Study, StudyError, StudyPlace};
+pub use study::{PlannedStudy, Study, StudyError, StudyPlace};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use interplay_scenarios::{LoadError, Scenario, SweepPlan};
+use interplay_scenarios::{Scenario, SweepPlan, SweepPoint};
 use interplay_sweep::{PeopleRows, PersonRun, RunKey, SweepError};
 use serde::Serialize;
 use thiserror::Error;
@@ -17,9 +17,9 @@ const MOST_RUNS: u64 = 50_000;
 /// Why there is no study.
 #[derive(Debug, Error)]
 pub enum StudyError {
-    /// A run of the plan is refused.
-    #[error("{0}")]
-    Plan(Box<LoadError>),
+    /// A run of the plan is refused, or its row cannot be written.
+    #[error(transparent)]
+    Plan(#[from] SweepError),
     /// Nobody could sit there.
     #[error(transparent)]
     Seats(#[from] SessionError),
@@ -40,18 +40,20 @@ pub enum StudyError {
     /// A person cannot drive so much.
     #[error("each person would have to drive {0} runs, and {MOST_TRIALS} are most; lower `samples` of the plan")]
     TooMany(usize),
-    /// The rows cannot be read or written.
-    #[error(transparent)]
-    Rows(#[from] SweepError),
+}
+
+/// What each person drives of a plan, before there is a folder.
+pub struct PlannedStudy {
+    plan: SweepPlan,
+    /// In the plan's order.
+    trials: Vec<Trial>,
+    minutes: f64,
 }
 
 /// People who drive the runs of a plan, one after another.
 pub struct Study {
-    plan: SweepPlan,
+    planned: PlannedStudy,
     rows: PeopleRows,
-    /// What each person drives, before it is shuffled.
-    trials: Vec<Trial>,
-    minutes: f64,
     now: Option<Participant>,
 }
 
@@ -83,43 +85,54 @@ pub struct StudyPlace {
     pub minutes: f64,
 }
 
-impl Study {
-    /// A study with the runs of a plan whose rows are in a folder. A person takes one of the seats, in each scenario every one that it
-    /// has; without any, the ego. The person stands in for the planner if that is the ego, and otherwise for the style: of several
-    /// planners or styles that it stands in for, the first is driven.
-    ///
-    /// # Errors
-    /// [`StudyError`] if a run or a seat is refused, they are too many, or the folder is in use.
-    pub fn new(plan: SweepPlan, folder: &Path, seats: &[&str]) -> Result<Study, StudyError> {
-        let (trials, duration_s) = trials_of(&plan, seats)?;
-        let rows = PeopleRows::open(folder)?;
-        Ok(Study { plan, rows, trials, minutes: duration_s / 60.0, now: None })
-    }
-
-    /// Checks a plan and its seats as [`Study::new`] does, before there is a folder.
+impl PlannedStudy {
+    /// A study with the runs of a plan. A person takes one of the seats, in each scenario every one that it has; without any, the ego. The
+    /// person stands in for the planner if that is the ego, and otherwise for the style: of several planners or styles that it stands in
+    /// for, the first is driven.
     ///
     /// # Errors
     /// [`StudyError`] if a run or a seat is refused, or they are too many.
-    pub fn check(plan: &SweepPlan, seats: &[&str]) -> Result<(), StudyError> {
-        trials_of(plan, seats).map(|_| ())
+    pub fn of(plan: SweepPlan, seats: &[&str]) -> Result<PlannedStudy, StudyError> {
+        let (trials, duration_s) = trials_of(&plan, seats)?;
+        Ok(PlannedStudy { plan, trials, minutes: duration_s / 60.0 })
     }
 
+    /// The plan.
+    pub fn plan(&self) -> &SweepPlan {
+        &self.plan
+    }
+
+    /// Opens the rows of people in the folder that has those of the planners.
+    ///
+    /// # Errors
+    /// [`SweepError`] if they cannot be read, or the folder is in use.
+    pub fn open(self, folder: &Path) -> Result<Study, SweepError> {
+        Ok(Study { planned: self, rows: PeopleRows::open(folder)?, now: None })
+    }
+}
+
+/// The scenario of a run of a plan.
+fn scenario_of(plan: &SweepPlan, point: &SweepPoint) -> Result<Scenario, SweepError> {
+    plan.scenario(point).map_err(|error| SweepError::Refused(Box::new(error)))
+}
+
+impl Study {
     /// Where in it somebody is.
     pub fn place(&self) -> StudyPlace {
         StudyPlace {
             participant: self.now.as_ref().map(|person| person.number),
             done: self.now.as_ref().map_or(0, |person| person.done),
-            of: self.trials.len(),
-            minutes: self.minutes,
+            of: self.planned.trials.len(),
+            minutes: self.planned.minutes,
         }
     }
 
     /// Somebody agrees: the runs come in an order of their own, which the person's number and the plan decide.
     pub fn begin(&mut self) {
         let number = self.rows.begin_participant();
-        let mut trials = self.trials.clone();
+        let mut trials = self.planned.trials.clone();
         let place = |trial: &Trial| {
-            RunKey::of_parts(&[self.plan.text(), &number.to_string(), &trial.index.to_string(), &trial.seat])
+            RunKey::of_parts(&[self.planned.plan.text(), &number.to_string(), &trial.index.to_string(), &trial.seat])
         };
         trials.sort_by_cached_key(place);
         self.now = Some(Participant { number, trials, done: 0, restarts: 0 });
@@ -140,31 +153,31 @@ impl Study {
     /// The next run and its seat; none where nobody drives or all is done.
     ///
     /// # Errors
-    /// [`StudyError::Plan`] if the run is refused.
-    pub fn next(&self) -> Result<Option<(String, Scenario, String)>, StudyError> {
+    /// [`SweepError`] if the run is refused.
+    pub fn next(&self) -> Result<Option<(String, Scenario, String)>, SweepError> {
         let trial = self.now.as_ref().and_then(|person| person.trials.get(person.done));
         let Some(trial) = trial else { return Ok(None) };
-        let point = self.plan.point(trial.index);
-        let scenario = self.plan.scenario(&point).map_err(|error| StudyError::Plan(Box::new(error)))?;
+        let point = self.planned.plan.point(trial.index);
+        let scenario = scenario_of(&self.planned.plan, &point)?;
         Ok(Some((point.scenario, scenario, trial.seat.clone())))
     }
 
     /// A run is done: it becomes a row.
     ///
     /// # Errors
-    /// [`StudyError::Rows`] if the row cannot be written.
-    pub fn add(&mut self, session: &Session) -> Result<(), StudyError> {
+    /// [`SweepError`] if the row cannot be written.
+    pub fn add(&mut self, session: &Session) -> Result<(), SweepError> {
         let Some(person) = &mut self.now else { return Ok(()) };
         let Some(trial) = person.trials.get(person.done) else { return Ok(()) };
         let run = PersonRun {
-            point: self.plan.point(trial.index),
+            point: self.planned.plan.point(trial.index),
             seat: &trial.seat,
             participant: person.number,
             restarts: std::mem::take(&mut person.restarts),
             played: &session.played(),
         };
         person.done += 1;
-        Ok(self.rows.add(&self.plan, &run)?)
+        self.rows.add(&self.planned.plan, &run)
     }
 }
 
@@ -178,7 +191,7 @@ fn trials_of(plan: &SweepPlan, seats: &[&str]) -> Result<(Vec<Trial>, f64), Stud
     let (mut trials, mut duration_s) = (Vec::new(), 0.0);
     for index in 0..plan.run_count() {
         let point = plan.point(index);
-        let scenario = plan.scenario(&point).map_err(|error| StudyError::Plan(Box::new(error)))?;
+        let scenario = scenario_of(plan, &point)?;
         let ego = scenario.ego().map(|ego| ego.name.clone()).unwrap_or_default();
         unseen.retain(|seat| scenario.index_of(seat).is_none());
         let there = seats_here(&point.scenario, &scenario, seats, &ego)?;

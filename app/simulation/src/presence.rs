@@ -80,7 +80,6 @@ pub fn come_and_go(
         traffic.road_users[index].is_absent = now.is_absent();
         frame.vehicles[index].is_absent = now.is_absent();
     }
-    traffic.find_neighbours();
 }
 
 /// Whether a vehicle has come to the end of its route.

@@ -70,7 +70,10 @@ pub fn plans_now(clock: Res<Clock>) -> bool {
 }
 
 /// Lets every sensor measure the others. The plans that they will tell are joined to what is seen in the phase Plan.
-pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, sensed: Res<Sensed>) {
+pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, mut sensed: ResMut<Sensed>) {
+    if vehicles.iter().any(|(_, driving)| driving.sensor.is_some()) {
+        sensed.0.find_neighbours();
+    }
     for (identity, mut driving) in &mut vehicles {
         let Driving { sensor, sight, .. } = &mut *driving;
         *sight = sensor.as_mut().map(|sensor| sensor.look(&sensed.0.moment(identity.index)));

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use crate::error::SweepError;
 use crate::key::RunKey;
@@ -112,14 +113,12 @@ pub(crate) fn read_rows(path: &Path) -> Result<Vec<SweepRow>, SweepError> {
     let text = fs::read_to_string(path).map_err(SweepError::file("read", path))?;
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     let lines = whole.lines().enumerate().filter(|(_, line)| !line.is_empty());
-    let row = |(index, line): (usize, &str)| {
-        serde_json::from_str(line).map_err(|reason| SweepError::Journal {
-            path: path.to_owned(),
-            line: index + 1,
-            reason,
-        })
-    };
-    lines.map(row).collect()
+    lines.map(|(index, line)| parsed(path, index + 1, line.as_bytes())).collect()
+}
+
+/// What a line of a journal says.
+fn parsed<T: DeserializeOwned>(path: &Path, line: usize, text: &[u8]) -> Result<T, SweepError> {
+    serde_json::from_slice(text).map_err(|reason| SweepError::Journal { path: path.to_owned(), line, reason })
 }
 
 /// Where the line of a run is.
@@ -171,11 +170,7 @@ impl JournalIndex {
                 return Ok(());
             }
             if text.len() > 1 {
-                let keyed: Keyed = serde_json::from_slice(&text).map_err(|reason| SweepError::Journal {
-                    path: path.clone(),
-                    line,
-                    reason,
-                })?;
+                let keyed: Keyed = parsed(&path, line, &text)?;
                 let place = LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
                 self.places.entry(keyed.key).or_insert(place);
             }
@@ -209,11 +204,7 @@ impl JournalIndex {
         let mut text = vec![0; place.length as usize];
         file.seek(SeekFrom::Start(place.start)).map_err(&failed)?;
         file.read_exact(&mut text).map_err(&failed)?;
-        serde_json::from_slice(&text).map_err(|reason| SweepError::Journal {
-            path: path.clone(),
-            line: place.line as usize,
-            reason,
-        })
+        parsed(path, place.line as usize, &text)
     }
 }
 

@@ -105,9 +105,8 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     })?;
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.sync()?;
-    let table = table_path(folder, shard);
-    let (rows, unfinished) = write_table(plan, shard, folder, &table, &part.runs)?;
-    Ok(SweepOutcome { table, rows, made: part.to_make.len() as u64, unfinished })
+    let (rows, unfinished) = write_table(plan, shard, (folder, &JournalIndex::read(folder)?), &part.runs)?;
+    Ok(SweepOutcome { table: table_path(folder, shard), rows, made: part.to_make.len() as u64, unfinished })
 }
 
 /// Checks the runs of a shard as [`sweep`] does before it makes the first, all as if none were there; `checked` is called after
@@ -242,18 +241,17 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
 pub(crate) fn write_again(plan: &SweepPlan, folder: &Path) -> Result<(), SweepError> {
     let known = JournalIndex::read(folder)?;
     let part = Part::of(plan, Shard::WHOLE, &known, &|| ())?;
-    write_table(plan, Shard::WHOLE, folder, &table_path(folder, Shard::WHOLE), &part.runs).map(|_| ())
+    write_table(plan, Shard::WHOLE, (folder, &known), &part.runs).map(|_| ())
 }
 
-/// Writes the rows of some keys, sorted, from the journals, and with those of a whole plan the rows of people. Returns how many there are, and how many have no result.
+/// Writes the rows of some keys, sorted, from the journals, and with those of a whole plan the rows of people. Returns how many there
+/// are, and how many have no result.
 fn write_table(
     plan: &SweepPlan,
     shard: Shard,
-    folder: &Path,
-    table: &Path,
+    (folder, index): (&Path, &JournalIndex),
     runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
-    let index = JournalIndex::read(folder)?;
     let people = if shard == Shard::WHOLE { rows(folder)? } else { Vec::new() };
     let mut inputs = inputs(plan);
     if !people.is_empty() {
@@ -265,6 +263,6 @@ fn write_table(
     let made = made.chain(people.into_iter().map(Ok)).inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
-    let count = write_rows(table, (&inputs, plan.metrics()), &about, made)?;
+    let count = write_rows(&table_path(folder, shard), (&inputs, plan.metrics()), &about, made)?;
     Ok((count, unfinished))
 }

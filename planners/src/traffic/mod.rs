@@ -124,7 +124,7 @@ impl Traffic {
 
     /// The moment as it is around one vehicle, with the predictions as they stand of all who can matter to it within the horizon.
     pub fn moment(&self, vehicle: usize) -> Scene {
-        let others = self.near.of(vehicle, &self.road_users, self.horizon_s());
+        let others = self.near.of(vehicle, &self.road_users);
         Scene {
             tick: self.tick,
             step_s: self.step_s,

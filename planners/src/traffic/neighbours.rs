@@ -18,27 +18,33 @@ pub struct Neighbours {
     cell_m: f64,
     /// Cells with the indices of those in them, sorted by cell and index.
     cells: Vec<([i64; 2], usize)>,
+    /// How far each road user can come within the horizon \[m\].
+    reaches_m: Vec<f64>,
 }
 
 impl Neighbours {
     /// Sorts those who are on the road into cells.
     pub fn find(road_users: &[RoadUser], horizon_s: f64) -> Neighbours {
         let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent);
-        let reaches = present().map(|(_, user)| reach_m(&user.agent, horizon_s) + margin_m(&user.agent));
+        let reaches_m: Vec<f64> = road_users.iter().map(|user| reach_m(&user.agent, horizon_s)).collect();
         // Those who come towards each other meet within both reaches.
-        let cell_m = 2.0 * reaches.fold(0.0, f64::max).max(1.0);
+        let farthest_m = present().map(|(index, user)| reaches_m[index] + margin_m(&user.agent)).fold(0.0, f64::max);
+        let cell_m = 2.0 * farthest_m.max(1.0);
         let mut cells: Vec<_> = present().map(|(index, user)| (cell_of(&user.agent.state, cell_m), index)).collect();
         cells.sort_unstable();
-        Neighbours { cell_m, cells }
+        Neighbours { cell_m, cells, reaches_m }
     }
 
     /// The indices of those who can matter to a road user, in the order in which they are listed.
-    pub fn of(&self, vehicle: usize, road_users: &[RoadUser], horizon_s: f64) -> Vec<usize> {
+    pub fn of(&self, vehicle: usize, road_users: &[RoadUser]) -> Vec<usize> {
         let ego = &road_users[vehicle].agent;
         if self.cells.is_empty() {
             let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
             return present.map(|(other, _)| other).collect();
         }
+        let is_near = |other: &usize| {
+            can_matter((ego, self.reaches_m[vehicle]), (&road_users[*other].agent, self.reaches_m[*other]))
+        };
         let [column, row] = cell_of(&ego.state, self.cell_m);
         let mut found = Vec::new();
         for x in column.saturating_sub(1)..=column.saturating_add(1) {
@@ -46,7 +52,7 @@ impl Neighbours {
                 let from = self.cells.partition_point(|(cell, _)| *cell < [x, y]);
                 let here = self.cells[from..].iter().take_while(|(cell, _)| *cell == [x, y]);
                 let others = here.map(|(_, index)| *index).filter(|index| *index != vehicle);
-                found.extend(others.filter(|index| can_matter(ego, &road_users[*index].agent, horizon_s)));
+                found.extend(others.filter(is_near));
             }
         }
         found.sort_unstable();
@@ -58,7 +64,8 @@ impl Scene {
     /// The scene with those others only who can reach the planning vehicle within the horizon, or be reached by it.
     pub(crate) fn within_reach(&self) -> Cow<'_, Scene> {
         let horizon_s = self.horizon as f64 * self.step_s;
-        let is_near = |other: &Agent| can_matter(&self.ego, other, horizon_s);
+        let own_m = reach_m(&self.ego, horizon_s);
+        let is_near = |other: &Agent| can_matter((&self.ego, own_m), (other, reach_m(other, horizon_s)));
         if self.others.iter().all(is_near) {
             return Cow::Borrowed(self);
         }
@@ -68,9 +75,8 @@ impl Scene {
 }
 
 /// Whether two vehicles can come to each other within a horizon, whatever both do: one reaches the place of the other if they go the same
-/// way, and else both together the way between them.
-fn can_matter(one: &Agent, other: &Agent, horizon_s: f64) -> bool {
-    let [own_m, their_m] = [one, other].map(|agent| reach_m(agent, horizon_s));
+/// way, and else both together the way between them. Each comes with its reach \[m\].
+fn can_matter((one, own_m): (&Agent, f64), (other, their_m): (&Agent, f64)) -> bool {
     let margin_m = margin_m(one) + margin_m(other);
     let turned = libm::cos(one.state.heading_rad - other.state.heading_rad);
     let reach_m = if turned > libm::cos(SAME_WAY_RAD) { own_m.max(their_m) } else { own_m + their_m } + margin_m;

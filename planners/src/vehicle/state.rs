@@ -44,6 +44,12 @@ impl State {
         self.to_array().iter().all(|value| value.is_finite())
     }
 
+    /// The state at a share of the way from this one to another, each component by itself.
+    pub fn towards(&self, other: &State, share: f64) -> State {
+        let (from, to) = (self.to_array(), other.to_array());
+        State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+    }
+
     /// Of two vehicles that touch, whether this one causes it: it moves towards the other, and at least as fast as the other
     /// moves towards it.
     pub fn drives_into(&self, other: &State) -> bool {

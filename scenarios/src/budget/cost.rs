@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::file_format::plant::Plant;
-use crate::scenario::{Scenario, Vehicle};
+use crate::scenario::{MOST_TOLD, Scenario, Vehicle};
 
 /// Size of a recording of nothing: the blueprint, descriptions and the road \[bytes\].
 const EMPTY_RECORDING_BYTES: f64 = 500e3;
@@ -11,8 +11,6 @@ const EMPTY_RECORDING_BYTES: f64 = 500e3;
 const BYTES_PER_STAGE: f64 = 30.0;
 /// What each tick of a vehicle adds \[bytes\].
 const BYTES_PER_TICK: f64 = 60.0;
-/// Of more vehicles, plans are recorded of those near the ego alone.
-const MOST_WITH_PLANS: f64 = 40.0;
 /// What each step of a building adds, and each zone in it \[bytes\].
 const BYTES_PER_BUILDING_STEP: f64 = 500.0;
 const BYTES_PER_ZONE_STEP: f64 = 20.0;
@@ -86,12 +84,12 @@ impl RunCost {
 /// What vehicles add to a recording, with so many plans and ticks \[bytes\].
 fn vehicles_bytes(scenario: &Scenario, plans: u64, ticks: u64) -> f64 {
     let planned = plans as f64 * scenario.horizon_steps as f64 * BYTES_PER_STAGE;
-    let vehicles = scenario.vehicles.len() as f64;
-    if vehicles <= MOST_WITH_PLANS {
-        planned
-    } else {
-        planned * MOST_WITH_PLANS / vehicles + ticks as f64 * vehicles * BYTES_PER_TICK
+    if !scenario.is_crowd() {
+        return planned;
     }
+    // Of a crowd about so many are near the ego.
+    let vehicles = scenario.vehicles.len() as f64;
+    planned * MOST_TOLD as f64 / vehicles + ticks as f64 * vehicles * BYTES_PER_TICK
 }
 
 /// How often a vehicle plans at most: from when it comes on.

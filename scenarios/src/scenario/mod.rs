@@ -48,6 +48,9 @@ use crate::scenario::obstacle::{ObstacleForm, Outline};
 use crate::scenario::remark::ScenarioRemarks;
 use crate::text::name::EGO;
 
+/// So many vehicles and fewer are no crowd.
+pub(crate) const MOST_TOLD: usize = 40;
+
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
@@ -150,6 +153,11 @@ impl Scenario {
             iterations: None,
             ..self
         }
+    }
+
+    /// Whether there are so many vehicles that recordings and pictures tell of those near the ego alone.
+    pub fn is_crowd(&self) -> bool {
+        self.vehicles.len() > MOST_TOLD
     }
 
     /// Index in [`Scenario::vehicles`] of the vehicle of that name.

@@ -6,13 +6,13 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 use interplay_play::{
-    PlayServer, Score, ScoreRow, ServeOptions, Session, Study, StudyError, check_seats, keep, play_script, read_script,
-    write,
+    PlannedStudy, PlayServer, Score, ScoreRow, ServeOptions, Session, Study, StudyError, check_seats, keep,
+    play_script, read_script, write,
 };
 use interplay_scenarios::{Registry, Scenario, read_regular};
 use serde_json::json;
 
-use crate::commands::sweep::make_missing_rows;
+use crate::commands::sweep::{folder_of_plan, make_missing_rows};
 use crate::flag_values::files::{destroyed, is_same_file};
 use crate::output::exit_status::ExitStatus;
 use crate::output::refusal::gave_up;
@@ -97,12 +97,11 @@ impl Play {
             print_load_error(error);
             ExitStatus::BadInput
         })?;
-        let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
-        let folder = self.out.clone().unwrap_or_else(|| Path::new("studies").join(&*stem));
+        let folder = self.out.clone().unwrap_or_else(|| folder_of_plan("studies", name));
         let seats: Vec<&str> = self.seat.iter().flat_map(|seats| seats.split(',')).map(str::trim).collect();
-        Study::check(&plan, &seats).map_err(refused_study)?;
-        make_missing_rows(&plan, &folder).map_err(gave_up)?;
-        let study = Study::new(plan, &folder, &seats).map_err(refused_study)?;
+        let planned = PlannedStudy::of(plan, &seats).map_err(refused_study)?;
+        make_missing_rows(planned.plan(), &folder).map_err(gave_up)?;
+        let study = planned.open(&folder).map_err(gave_up)?;
         print_error(&format!(
             "rows are in {}; `interplay compare {} --by scenario` reads them",
             folder.display(),
@@ -244,11 +243,7 @@ impl Play {
 /// Says why there is no study.
 fn refused_study(error: StudyError) -> ExitStatus {
     match error {
-        StudyError::Plan(error) => {
-            print_load_error(*error);
-            ExitStatus::BadInput
-        }
-        StudyError::Rows(error) => gave_up(error),
+        StudyError::Plan(error) => gave_up(error),
         other => {
             print_error(&other.to_string());
             ExitStatus::BadInput

@@ -158,33 +158,37 @@ impl Sweep {
 
     fn folder(&self) -> PathBuf {
         let name = if self.flags.text().is_some() { "flags" } else { &self.plan };
-        let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
-        self.out.clone().unwrap_or_else(|| Path::new("sweeps").join(&*stem))
-    }
-
-    fn pool(&self, plan: &SweepPlan) -> Result<ThreadPool, SweepError> {
-        let pool = pool(self.jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
-        pool.map_err(|error| SweepError::Input(error.to_string()))
+        self.out.clone().unwrap_or_else(|| folder_of_plan("sweeps", name))
     }
 
     /// Checks every run and makes none.
     fn check(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<(), SweepError> {
         let checks = CheckProgress::start(plan.run_count());
-        let outcome = self.pool(plan)?.install(|| check(plan, shard, folder, &|| checks.advance()));
+        let outcome = pool_for(plan, self.jobs)?.install(|| check(plan, shard, folder, &|| checks.advance()));
         checks.clear();
         outcome
     }
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        make_rows(&self.pool(plan)?, plan, (shard, folder), &self.keep)
+        make_rows(&pool_for(plan, self.jobs)?, plan, (shard, folder), &self.keep)
     }
 }
 
 /// Makes the runs of a whole plan that are not in a folder yet, and tells how far it is.
 pub(crate) fn make_missing_rows(plan: &SweepPlan, folder: &Path) -> Result<SweepOutcome, SweepError> {
-    let pool = pool(None, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
-    let pool = pool.map_err(|error| SweepError::Input(error.to_string()))?;
-    make_rows(&pool, plan, (Shard::WHOLE, folder), &[])
+    make_rows(&pool_for(plan, None)?, plan, (Shard::WHOLE, folder), &[])
+}
+
+/// Where the rows of a plan go by default: into a folder of its name.
+pub(crate) fn folder_of_plan(above: &str, name: &str) -> PathBuf {
+    let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
+    Path::new(above).join(&*stem)
+}
+
+/// The threads in which a plan is run.
+fn pool_for(plan: &SweepPlan, jobs: Option<NonZeroUsize>) -> Result<ThreadPool, SweepError> {
+    let pool = pool(jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
+    pool.map_err(|error| SweepError::Input(error.to_string()))
 }
 
 fn make_rows(

@@ -28,8 +28,6 @@ pub struct Session {
     seats: Vec<Seat>,
     world: Simulation,
     witness: StageWitness,
-    /// The last tick.
-    frame: Option<Frame>,
     kept: VecDeque<KeptMoment>,
     ticks: usize,
 }
@@ -87,7 +85,6 @@ impl Session {
             scenario: Arc::new(played),
             world,
             witness: StageWitness::default(),
-            frame: None,
             kept: VecDeque::new(),
             ticks: 0,
         };
@@ -150,9 +147,9 @@ impl Session {
         self.world.states()
     }
 
-    /// The last tick; none before the first, and after a step back. Others are not kept: the run is repeated where they are needed.
+    /// The last tick; none before the first. Others are not kept: the run is repeated where they are needed.
     pub fn frame(&self) -> Option<&Frame> {
-        self.frame.as_ref()
+        self.world.frame()
     }
 
     /// What was measured so far.
@@ -210,10 +207,9 @@ impl Session {
         // Steps of a building between two ticks are no ticks.
         while self.world.step()?.is_some_and(|frame| frame.vehicles.is_empty()) {}
         self.ticks += 1;
-        let Some(frame) = self.world.frame().cloned() else { return Ok(None) };
+        let Some(frame) = self.world.frame() else { return Ok(None) };
         let people = self.seats.iter().filter(|seat| seat.planner.is_none()).map(|seat| seat.vehicle);
-        let moment = self.witness.tick(&self.scenario, &frame, &self.world.states(), &people.collect::<Vec<_>>());
-        self.frame = Some(frame);
+        let moment = self.witness.tick(&self.scenario, frame, &self.world.states(), &people.collect::<Vec<_>>());
         let every = (KEEP_EVERY_S / self.scenario.step_s).round().max(1.0) as usize * self.scenario.ticks_per_plan;
         if self.ticks.is_multiple_of(every) {
             self.keep()?;
@@ -250,7 +246,6 @@ impl Session {
         }
         self.witness = kept.witness.clone();
         self.ticks = kept.ticks;
-        self.frame = None;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use interplay_play::{PlayServer, ServeOptions, Study, StudyError};
+use interplay_play::{PlannedStudy, PlayServer, ServeOptions, StudyError};
 use interplay_scenarios::{Registry, SweepPlan};
 use interplay_sweep::compare::{Comparison, GroupBy, compare};
 use interplay_sweep::{Shard, SweepOptions, sweep};
@@ -32,7 +32,7 @@ fn make_rows(folder: &Path) {
 }
 
 fn serve(folder: &Path, seats: &[&str]) -> Served {
-    let study = Study::new(plan(folder), folder, seats).expect("a study");
+    let study = PlannedStudy::of(plan(folder), seats).expect("a plan").open(folder).expect("a study");
     let options = ServeOptions { folder: folder.join("played"), ..ServeOptions::new(Registry::standard()) };
     Served::of(PlayServer::bind(options).expect("a free port").with_study(study))
 }
@@ -118,7 +118,7 @@ fn a_person_in_the_ego_stands_in_for_a_planner_and_nobody_is_counted_who_leaves(
 #[test]
 fn who_cannot_sit_there_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let refused = |seats: &[&str]| Study::check(&plan(folder.path()), seats).expect_err("nobody sits there");
+    let refused = |seats: &[&str]| PlannedStudy::of(plan(folder.path()), seats).err().expect("nobody sits there");
     assert!(matches!(refused(&["nobody"]), StudyError::NoSeatHere { .. }));
     assert!(refused(&["nobody"]).to_string().contains("has none of the seats nobody"));
     assert!(std::fs::read_dir(folder.path()).expect("the folder").next().is_none(), "nothing is written");

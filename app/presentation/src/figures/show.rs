@@ -5,8 +5,6 @@ use super::recorded_run::RecordedRun;
 use super::space_time::space_time;
 use super::{climate, driving, measures};
 
-/// Of more vehicles neither footprints nor speeds are drawn one by one.
-const MOST_DRAWN: usize = 40;
 /// Of so many vehicles, what each believes and intends is drawn; of more, of the ego alone.
 const MOST_EXPLAINED: usize = 16;
 
@@ -15,7 +13,8 @@ const MOST_EXPLAINED: usize = 16;
 pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
     let mut content = FigureContent::default();
     if !recorded.scenario.vehicles.is_empty() {
-        if recorded.scenario.vehicles.len() <= MOST_DRAWN {
+        // Neither footprints nor speeds of a crowd are drawn one by one.
+        if !recorded.scenario.is_crowd() {
             content.pictures.push(driving::footprints("Footprints at equal steps of time", recorded).drawing());
             content.pictures.push(driving::motion("Speeds, gap and accelerations", recorded).drawing());
         }

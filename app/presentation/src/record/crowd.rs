@@ -3,15 +3,8 @@
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 
-/// So many vehicles and fewer are no crowd.
-const MOST_TOLD: usize = 40;
 /// Of a crowd those are told of who are within so many lengths of their bodies from the ego.
 const NEAR_LENGTHS: f64 = 30.0;
-
-/// Whether a scenario has a crowd of vehicles.
-pub(super) fn is_crowd(scenario: &Scenario) -> bool {
-    scenario.vehicles.len() > MOST_TOLD
-}
 
 /// Of each vehicle, whether the plans, numbers and words of a tick tell of it.
 pub(super) fn told(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
@@ -22,7 +15,7 @@ pub(super) fn told(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
         let (own, other) = (&ego.state, &vehicle.state);
         libm::hypot(other.x_m - own.x_m, other.y_m - own.y_m) <= reach_m
     };
-    if !is_crowd(scenario) {
+    if !scenario.is_crowd() {
         return vec![true; frame.vehicles.len()];
     }
     frame.vehicles.iter().zip(&scenario.vehicles).map(is_told).collect()

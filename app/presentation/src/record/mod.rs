@@ -201,10 +201,11 @@ impl Recorder {
         self.stream.set_duration_secs(SIM_TIME, frame.time_s);
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
         self.requests.tick(&self.scenario, frame);
-        self.vehicles.tick(&self.stream, &self.scenario, frame, &self.requests)?;
+        let told = crowd::told(&self.scenario, frame);
+        self.vehicles.tick(&self.stream, (&self.scenario, &told), frame, &self.requests)?;
         self.lights.tick(&self.stream, frame.time_s)?;
-        self.status.tick(&self.stream, (&self.scenario, &self.vehicle_colours), frame, &self.requests)?;
-        self.plots.tick(&self.stream, &self.scenario, frame)?;
+        self.status.tick(&self.stream, (&self.scenario, &self.vehicle_colours, &told), frame, &self.requests)?;
+        self.plots.tick(&self.stream, (&self.scenario, &told), frame)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;
         }

@@ -8,7 +8,6 @@ use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::crowd::told;
 use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
@@ -134,10 +133,14 @@ impl Plots {
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
+    pub fn tick(
+        &mut self,
+        stream: &RecordingStream,
+        (scenario, told): (&Scenario, &[bool]),
+        frame: &Frame,
+    ) -> RecordingStreamResult<()> {
         let drives = |(vehicle, stated): &(&VehicleFrame, &Vehicle)| !vehicle.is_absent && stated.obstacle.is_none();
-        let told = told(scenario, frame);
-        let driven = frame.vehicles.iter().zip(&scenario.vehicles).zip(&told);
+        let driven = frame.vehicles.iter().zip(&scenario.vehicles).zip(told);
         for ((vehicle, _), _) in driven.filter(|(pair, is_told)| **is_told && drives(pair)) {
             let speed_mps = vehicle.state.speed_mps;
             let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
@@ -153,7 +156,7 @@ impl Plots {
             self.gaps_m = Some([low.min(least_m), high.max(gap)]);
             stream.log(GAP, &Scalars::single(gap))?;
         }
-        self.reasons(stream, frame, &told)?;
+        self.reasons(stream, frame, told)?;
         self.reasons_in_words(stream, frame)?;
         self.events(stream, scenario, frame)
     }

@@ -7,7 +7,6 @@ use interplay_scenarios::{LaneReference, Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::crowd::told;
 use super::palette::NamedColour;
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
@@ -36,7 +35,7 @@ impl StatusLines {
     pub fn tick(
         &mut self,
         stream: &RecordingStream,
-        (scenario, vehicle_colours): (&Scenario, &[NamedColour]),
+        (scenario, vehicle_colours, told): (&Scenario, &[NamedColour], &[bool]),
         frame: &Frame,
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
@@ -44,7 +43,6 @@ impl StatusLines {
             return Ok(());
         }
         let mut text = String::new();
-        let told = told(scenario, frame);
         let drives = |(index, (vehicle, _)): &(usize, (&Vehicle, _))| {
             vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent && told[*index]
         };

@@ -8,7 +8,6 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
-use super::crowd::{is_crowd, told};
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
@@ -104,11 +103,10 @@ impl VehicleLayer {
     pub fn tick(
         &mut self,
         stream: &RecordingStream,
-        scenario: &Scenario,
+        (scenario, told): (&Scenario, &[bool]),
         frame: &Frame,
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
-        let told = told(scenario, frame);
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
             if drawn.log_absence(stream, vehicle.is_absent)? {
@@ -121,7 +119,7 @@ impl VehicleLayer {
                 continue;
             }
             // Between two plans everybody follows the last one, which is there; of a crowd it is not said again.
-            if frame.plans || !drawn.shows_intent || !is_crowd(scenario) {
+            if frame.plans || !drawn.shows_intent || !scenario.is_crowd() {
                 drawn.log_intent(stream, vehicle, &asks)?;
             }
             if index != self.ego {

@@ -140,16 +140,10 @@ impl ObservedTick<'_> {
         }
         let at = |share: f64| -> MomentStates {
             let moved = self.frame.vehicles.iter().zip(self.end.states);
-            moved.map(|(from, to)| (!from.is_absent).then(|| between(&from.state, to, share))).collect()
+            moved.map(|(from, to)| (!from.is_absent).then(|| from.state.towards(to, share))).collect()
         };
         let states: Arc<[MomentStates]> = (1..=parts).map(|part| at(part as f64 / parts as f64)).collect();
         known.push((parts, Arc::clone(&states)));
         states
     }
-}
-
-/// The state at a share of the way from one to another.
-fn between(from: &State, to: &State, share: f64) -> State {
-    let [from, to] = [from.to_array(), to.to_array()];
-    State::from_array(std::array::from_fn(|index| from[index] + share * (to[index] - from[index])))
 }

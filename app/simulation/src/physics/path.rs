@@ -32,8 +32,7 @@ pub(super) struct Path {
 impl Path {
     /// The state when a share of the tick has passed.
     pub fn at(&self, share: f64) -> State {
-        let (from, to) = (self.from.to_array(), self.to.to_array());
-        State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+        self.from.towards(&self.to, share)
     }
 
     /// The circle around it in a state; none if it is not on the road.
