@@ -87,6 +87,7 @@ pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use file_format::building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
 pub use file_format::counterfactual::CounterfactualConfig;
+pub use file_format::detail::Detail;
 pub use file_format::detector::DetectorConfig;
 pub use file_format::expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedMetric,

@@ -9,6 +9,7 @@ use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 use interplay_scenarios::{Outline, Stay};
 
+use crate::detail::LevelOfDetail;
 use crate::frame::{Frame, VehicleFrame};
 use crate::not_copied::NotCopied;
 
@@ -82,6 +83,8 @@ pub struct Driving {
     pub sensor: Option<Sensor>,
     /// The vehicles that the sensor sees in this tick.
     pub sight: Option<Sight>,
+    /// Who takes turns at the wheel, near the ego and far from it; none for a vehicle that drives in the same way everywhere.
+    pub detail: Option<LevelOfDetail>,
 }
 
 impl Driving {
@@ -91,16 +94,15 @@ impl Driving {
     /// [`NotCopied`] if the driver does not fork.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
         let Driving { can_be_asked, goes_first, knows_plans, keeps_rules, .. } = *self;
-        let why =
-            || NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() };
         Ok(Driving {
             can_be_asked,
-            planner: self.planner.fork().ok_or_else(why)?,
+            planner: self.planner.fork().ok_or_else(|| NotCopied::driver_of(name))?,
             goes_first,
             knows_plans,
             keeps_rules,
             sensor: self.sensor.clone(),
             sight: self.sight.clone(),
+            detail: self.detail.as_ref().map(|detail| detail.fork(name)).transpose()?,
         })
     }
 }

@@ -30,6 +30,7 @@ pub mod act;
 pub mod climate;
 pub mod components;
 pub mod day;
+mod detail;
 pub mod driven;
 pub mod environment;
 mod external;

@@ -11,3 +11,10 @@ pub struct NotCopied {
     /// Why the piece of state has no copy.
     pub why: String,
 }
+
+impl NotCopied {
+    /// The driver of the vehicle called `name` does not fork.
+    pub fn driver_of(name: &str) -> Self {
+        NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() }
+    }
+}

@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::traffic::{Decision, Origin};
+use interplay_planners::traffic::{Decision, Origin, RoadUser, Traffic};
 use interplay_planners::trajectory::Statistics;
 use interplay_planners::{Plan, PlanEventKind};
 
@@ -25,6 +25,7 @@ pub fn plan(
     let mut drivers: Vec<_> = vehicles.iter_mut().collect();
     drivers.sort_by_key(|(identity, ..)| identity.index);
     let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
+    change_detail(drivers.iter_mut().map(|(_, driving, ..)| &mut **driving), traffic, frame);
     let decisions = traffic.plan(|index, scene| {
         let (_, driving, handed_in, ..) = &mut drivers[index];
         if let Some(handed_in) = handed_in.take() {
@@ -58,6 +59,19 @@ pub fn plan(
     }
     if clock.ticks_per_plan > 1 {
         followed.0 = frame.vehicles.iter().map(as_followed).collect();
+    }
+}
+
+/// Lets those change their drivers who have come near the ego, or are near no more.
+fn change_detail<'w>(drivers: impl Iterator<Item = &'w mut Driving>, traffic: &Traffic, frame: &mut Frame) {
+    let there = |user: &RoadUser| (!user.is_absent).then_some(user.agent.state);
+    let states: Vec<_> = traffic.road_users.iter().map(there).collect();
+    for (index, driving) in drivers.enumerate() {
+        let Some((planner, text)) = driving.detail.as_mut().and_then(|detail| detail.successor(index, &states)) else {
+            continue;
+        };
+        driving.planner = planner;
+        frame.events.push(Event { vehicle: frame.vehicles[index].name.clone(), level: Level::Note, text });
     }
 }
 

@@ -7,6 +7,7 @@ use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
 use crate::components::{Committed, Driving, HandedIn, Identity, Motion, VehicleGoal, VehicleParameters};
+use crate::detail::LevelOfDetail;
 use crate::physics::{Physics, VehicleBody};
 use crate::presence::Presence;
 
@@ -65,6 +66,7 @@ pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState>
                 keeps_rules: vehicle.keeps_rules(),
                 sensor: vehicle.sensor(scenario.seed),
                 sight: None,
+                detail: LevelOfDetail::of(scenario, index),
             },
             handed_in: HandedIn::awaited_if(vehicle.driver.is_driven_from_outside()),
             committed: Committed::default(),

@@ -49,6 +49,11 @@ impl Settings {
     pub fn literature() -> Settings {
         Settings { headway_s: 1.5, gap_m: 2.0, acceleration_mps2: 1.4, braking_mps2: 2.0, ..Settings::default() }
     }
+
+    /// The same for vehicles that are `ratio` times as large, by Froude's law: times grow with its root, accelerations stay.
+    pub fn scaled(self, ratio: f64) -> Settings {
+        Settings { headway_s: self.headway_s * ratio.sqrt(), gap_m: self.gap_m * ratio, ..self }
+    }
 }
 
 /// When the driver changes lanes (MOBIL).

@@ -83,11 +83,7 @@ impl HandOver {
                 let style = Some(self.style.unwrap_or(Style::Normal));
                 human::Settings { style, reaction_s: human::REACTION_S * times, ..human::Settings::default() }.driver()
             }
-            Successor::Idm => {
-                let real = idm::Settings::literature();
-                let (headway_s, gap_m) = (real.headway_s * times, real.gap_m * scene.ego.body.real_ratio());
-                idm::Settings { headway_s, gap_m, ..real }.driver()
-            }
+            Successor::Idm => idm::Settings::literature().scaled(scene.ego.body.real_ratio()).driver(),
         }
     }
 }

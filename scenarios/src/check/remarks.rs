@@ -32,6 +32,7 @@ const MOST_PER_LANE_PER_H: f64 = 2000.0;
 pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
     faults.extend(crowded_flows(tree));
+    faults.extend(idle_detail(scenario, tree));
     let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         // Of the vehicles of a flow, which are written in one place, the first stands for all.
@@ -55,6 +56,17 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
         faults.extend(short_horizon(scenario, vehicle).map(|said| remark("goal.speed_mps", "cannot stop", said)));
     }
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
+}
+
+/// A level of detail that concerns nobody.
+fn idle_detail(scenario: &Scenario, tree: &TomlNode) -> Option<Fault> {
+    let ego = scenario.ego_index();
+    let mut others = scenario.vehicles.iter().enumerate().filter(|(index, _)| *index != ego);
+    let concerned = others.any(|(_, vehicle)| matches!(vehicle.driver, Driver::Human(_)));
+    let message =
+        "`detail` changes nothing: it concerns drivers of kind `human` beside the ego, and there are none".to_owned();
+    (scenario.detail.is_some() && !concerned)
+        .then(|| Fault::at(tree.place_of("detail"), "concerns nobody", message).help("leave it out".to_owned()))
 }
 
 /// Flows of more vehicles than their lanes carry.

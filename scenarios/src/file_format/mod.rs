@@ -5,6 +5,7 @@ pub(crate) mod building;
 pub(crate) mod building_plant;
 pub(crate) mod conduct;
 pub(crate) mod counterfactual;
+pub(crate) mod detail;
 pub(crate) mod detector;
 pub(crate) mod expect;
 mod expectation_names;

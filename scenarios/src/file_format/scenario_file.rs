@@ -15,6 +15,7 @@ use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
 use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::detail::Detail;
 use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::flow::FlowConfig;
@@ -98,6 +99,9 @@ pub struct ScenarioFile {
     #[serde(rename = "detector", default)]
     #[schemars(length(max = 1000), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub detectors: Vec<DetectorConfig>,
+    /// How closely the traffic far from the ego is simulated; by default like all other traffic.
+    #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "within_m": 150.0 }))]
+    pub detail: Option<Stated<Detail>>,
     /// Traffic lights at the ends of lanes with names, one `[[light]]` each.
     #[serde(rename = "light", default)]
     #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]

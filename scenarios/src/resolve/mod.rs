@@ -80,6 +80,7 @@ fn read(
         plant: reader.or_default("plant", file.plant)?,
         lights: file.lights,
         detectors: file.detectors,
+        detail: reader.optional("detail", file.detail)?,
         start_jitter: reader.or_default("start_jitter", file.start_jitter)?,
         building: reader.optional("building", file.building)?,
         weather: WeatherSource::default(),

@@ -33,6 +33,7 @@ use crate::file_format::budget_limits::BudgetLimits;
 use crate::file_format::building::BuildingConfig;
 use crate::file_format::conduct::Conduct;
 use crate::file_format::counterfactual::CounterfactualConfig;
+use crate::file_format::detail::Detail;
 use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::goal::GoalConfig;
@@ -86,6 +87,8 @@ pub struct Scenario {
     pub lights: Vec<LightConfig>,
     /// Where traffic is counted.
     pub detectors: Vec<DetectorConfig>,
+    /// How closely the traffic far from the ego is simulated; like all other traffic without it.
+    pub detail: Option<Detail>,
     /// Random change of every start, drawn from the seed.
     pub start_jitter: StartJitter,
     /// The vehicles, in the order of the file, and after them the obstacles.

@@ -48,6 +48,7 @@ impl Scenario {
             // Their vehicles are among the others.
             flows: Vec::new(),
             detectors: self.detectors.clone(),
+            detail: self.detail.map(Stated::from),
             lights: self.lights.clone(),
             obstacles: self.vehicles.iter().filter_map(Vehicle::to_obstacle).collect(),
             defaults: None,

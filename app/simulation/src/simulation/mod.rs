@@ -20,6 +20,7 @@ use interplay_scenarios::Scenario;
 use self::saved_run::HandedInput;
 use crate::climate::Building;
 use crate::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
+use crate::detail::LevelOfDetail;
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
@@ -236,6 +237,7 @@ impl Simulation {
                 driving.can_be_asked = new.driver.can_be_asked();
                 driving.goes_first = new.driver.goes_first();
                 driving.knows_plans = new.driver.knows_plans();
+                driving.detail = LevelOfDetail::of(changed, identity.index);
                 goal.shared = new.driver.shared_goal(&goal.goal);
             }
         }

@@ -36,6 +36,7 @@ impl Simulation {
         *handed_in = HandedIn::awaited_if(to.is_none());
         if let Some(driver) = to {
             driving.planner.replace_driver(driver);
+            driving.detail = None;
         }
     }
 
