@@ -1,7 +1,9 @@
 //! A driver at work: what every kind of driver has around it.
 
+use std::borrow::Cow;
+
 use crate::belief::{self, DriverBeliefs, Outlook};
-use crate::certificate::{refused, violations};
+use crate::certificate::{refused, violations, within_touch};
 use crate::deadline::PlanDeadline;
 use crate::drive::{Drive, DriverKind};
 use crate::homotopy::HomotopyLog;
@@ -108,13 +110,24 @@ impl Planner {
         Ok(plan)
     }
 
+    /// The scene as the driver expects it, with those at least whom the plan touches in it.
+    fn expected_to_touch<'a>(&self, scene: &'a Scene, plan: &Plan) -> Cow<'a, Scene> {
+        if self.prediction != Prediction::ConstantVelocity {
+            return Cow::Borrowed(scene);
+        }
+        let others = within_touch(scene, &plan.trajectory);
+        Cow::Owned(self.prediction.applied_to(&Scene { others, ego: scene.ego.clone(), ..*scene }).into_owned())
+    }
+
     /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
     fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let mut plan = self.driver.plan(scene, outlook)?;
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
-        let expected = self.prediction.applied_to(scene);
-        plan.violations = violations(&expected, &plan.trajectory);
-        let refused = self.may_be_refused.then(|| refused(&expected, &plan.trajectory, &plan.violations)).flatten();
+        plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
+        let may_be_refused = self.may_be_refused && !plan.violations.is_empty();
+        let refused = may_be_refused
+            .then(|| refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations))
+            .flatten();
         if let Some(violation) = refused {
             return Err(PlanError::Refused(violation.clone()));
         }

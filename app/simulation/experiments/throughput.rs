@@ -1,10 +1,10 @@
 //! How fast worlds are: by family, against the number of vehicles, and against the number of zones.
 //!
 //! ```sh
-//! cargo run --release -p interplay-simulation --example throughput -- [families] [vehicles] [zones] [only NAME...]
+//! cargo run --release -p interplay-simulation --example throughput -- [families] [vehicles] [motorway] [zones] [only NAME...]
 //! ```
 //!
-//! prints a Markdown table for each word (all three without any). `only` times the authored scenarios of these names. Times are
+//! prints a Markdown table for each word (all four without any). `only` times the authored scenarios of these names. Times are
 //! processor times of this process, which other programs on the machine disturb less than wall times; a world runs on one thread.
 //! Each figure is the shortest of [`BATCHES`] means over as many runs as take [`BATCH_S`].
 
@@ -26,6 +26,14 @@ const BATCH_S: f64 = 0.5;
 const CLOCK_TICKS_PER_S: f64 = 100.0;
 /// Numbers of vehicles.
 const VEHICLES: [usize; 5] = [2, 4, 8, 16, 32];
+/// Numbers of vehicles on a motorway.
+const ON_MOTORWAY: [usize; 9] = [5, 10, 20, 40, 80, 100, 160, 320, 1000];
+/// Who drives there, with what conduct, and up to how many.
+const MOTORISTS: [(&str, &str, &str, usize); 3] = [
+    ("IDM", "idm", "", 1000),
+    ("human of the source", "human", "conduct = 'source'", 160),
+    ("human of people", "human", "", 100),
+];
 /// Rows and columns of grids of zones.
 const GRIDS: [[usize; 2]; 8] = [[1, 2], [2, 2], [2, 4], [4, 4], [4, 8], [8, 8], [8, 16], [16, 16]];
 /// How long vehicles are driven \[s\].
@@ -45,6 +53,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if is_asked("vehicles") {
         vehicles()?;
+    }
+    if is_asked("motorway") {
+        motorway()?;
     }
     if is_asked("zones") {
         zones()?;
@@ -170,6 +181,48 @@ fn straight_road(count: usize, driver: &str) -> String {
             text,
             "[[vehicle]]\nname = 'car-{index}'\nstart = {{ x_m = {x_m:?}, y_m = {y_m:?}, speed_mps = {speed_mps:?} }}\n\
              goal = {{ lane = {lane}, speed_mps = {speed_mps:?} }}\ndriver = {driver}\n"
+        );
+    }
+    text
+}
+
+/// A line for each number of cars at 25 m/s on a motorway of three lanes, 40 m apart on each.
+fn motorway() -> Result<(), Box<dyn Error>> {
+    println!("| drivers | vehicles | times real time | for twice as many |\n|---|---|---|---|");
+    for (name, kind, conduct, most) in MOTORISTS {
+        let mut last: Option<(usize, f64)> = None;
+        for count in ON_MOTORWAY.into_iter().filter(|count| *count <= most) {
+            let scenario = from_text("motorway", &three_lanes(count, kind, conduct), &[])?;
+            let factor = Speed::measure(&scenario)?.real_time_factor();
+            // A factor per doubling, whatever the ratio of the numbers is.
+            let growth = last.map(|(fewer, before)| {
+                (before / factor).powf(std::f64::consts::LN_2 / (count as f64 / fewer as f64).ln())
+            });
+            let growth = growth.map_or_else(String::new, |growth| format!("{growth:.2}"));
+            println!("| {name} | {count} | {factor:.1} | {growth} |");
+            last = Some((count, factor));
+        }
+    }
+    println!();
+    Ok(())
+}
+
+/// A motorway of three lanes with cars at about 25 m/s.
+fn three_lanes(count: usize, kind: &str, conduct: &str) -> String {
+    let mut text = format!(
+        "title = 'Motorway'\nshows = 'Three lanes'\nscale = 'full'\n{conduct}\nduration_s = 20.0\n\
+         budget = {{ plans = 1000000000, steps = 100000000000 }}\n\
+         road = {{ kind = 'lanes', lane_count = 3, lane_width_m = 3.5 }}\n\
+         defaults = {{ class = 'car', driver = {{ kind = '{kind}' }} }}\n"
+    );
+    for index in 0..count {
+        let (lane, place) = (index % 3, index / 3);
+        let along_m = -40.0 * place as f64 - 13.0 * lane as f64;
+        let speed_mps = 25.0 + 0.8 * ((index * 7) % 5) as f64 - 1.6;
+        let _ = write!(
+            text,
+            "[[vehicle]]\nname = 'car-{index}'\nstart = {{ lane = {lane}, along_m = {along_m:?}, speed_mps = {speed_mps:?} }}\n\
+             goal = {{ lane = {lane}, speed_mps = {speed_mps:?} }}\n"
         );
     }
     text

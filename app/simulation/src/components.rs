@@ -190,9 +190,10 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Sensed(pub Traffic);
 
-/// What the vehicles planned last, for the ticks until they plan again; empty where they plan in every tick.
+/// The vehicles as they were in the last tick that had any, while the next one is made of them: those follow their plans until they
+/// plan again.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct FollowedPlans(pub Vec<VehicleFrame>);
+pub struct LastVehicles(pub Vec<VehicleFrame>);
 
 /// The frame of the current tick, which the phases fill in.
 #[derive(Resource, Clone, Debug, Default)]

@@ -4,22 +4,17 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::PlanEventKind;
 use interplay_planners::traffic::{Decision, Origin, RoadUser, Traffic};
-use interplay_planners::trajectory::Statistics;
-use interplay_planners::{Plan, PlanEventKind};
 
-use crate::components::{
-    Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Sensed, VehicleParameters,
-};
+use crate::components::{Committed, CurrentFrame, Driving, HandedIn, Identity, Sensed, VehicleParameters};
 use crate::external;
-use crate::frame::{Event, Frame, Level, VehicleFrame};
+use crate::frame::{Event, Frame, Level};
 
 /// Lets every driver decide.
 pub fn plan(
     mut vehicles: Query<(&Identity, &mut Driving, &mut HandedIn, &mut VehicleParameters, &mut Committed)>,
-    clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
-    mut followed: ResMut<FollowedPlans>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let mut drivers: Vec<_> = vehicles.iter_mut().collect();
@@ -57,9 +52,6 @@ pub fn plan(
         vehicle.urgency = user.agent.urgency;
         committed.0 = user.committed.clone();
     }
-    if clock.ticks_per_plan > 1 {
-        followed.0 = frame.vehicles.iter().map(as_followed).collect();
-    }
 }
 
 /// Lets those change their drivers who have come near the ego, or are near no more.
@@ -73,12 +65,6 @@ fn change_detail<'w>(drivers: impl Iterator<Item = &'w mut Driving>, traffic: &T
         driving.planner = planner;
         frame.events.push(Event { vehicle: frame.vehicles[index].name.clone(), level: Level::Note, text });
     }
-}
-
-/// What the frame of a vehicle is in the ticks in which it follows its plan: what happened while it planned is told once.
-fn as_followed(planned: &VehicleFrame) -> VehicleFrame {
-    let plan = Plan { events: Vec::new(), statistics: Statistics::default(), ..planned.plan.clone() };
-    VehicleFrame { plan, plan_ms: 0.0, ..planned.clone() }
 }
 
 /// Notes what a planner reports, or why it found no plan and what happens instead.

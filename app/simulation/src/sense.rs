@@ -7,9 +7,10 @@ use interplay_planners::Agent;
 use interplay_planners::rules::{RoadRules, RuleBook};
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::traffic::{CommittedPlan, RoadUser, Traffic};
+use interplay_planners::trajectory::Statistics;
 
 use crate::components::{
-    Clock, Committed, CurrentFrame, Driving, FollowedPlans, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
+    Clock, Committed, CurrentFrame, Driving, Identity, LastVehicles, Motion, Sensed, VehicleGoal, VehicleParameters,
 };
 use crate::frame::{Frame, VehicleFrame};
 use crate::presence::Presence;
@@ -32,32 +33,36 @@ type SeenItem<'w> =
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
     vehicles: Query<SeenParts>,
-    (clock, followed): (Res<Clock>, Res<FollowedPlans>),
-    mut sensed: ResMut<Sensed>,
+    clock: Res<Clock>,
+    (mut last, mut sensed): (ResMut<LastVehicles>, ResMut<Sensed>),
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    if clock.ticks_since_plan() > 0 {
-        return go_on(vehicles.iter(), (&clock, &followed), (&mut sensed.0, &mut current_frame.0));
+    let last = std::mem::take(&mut last.0);
+    let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
+    let plans = clock.ticks_since_plan() == 0;
+    *frame = Frame { tick: clock.tick, time_s: clock.time_s(), plans, ..Frame::default() };
+    if !plans {
+        frame.vehicles = last;
+        return go_on(vehicles.iter(), traffic, frame);
     }
-    let rule_book = std::mem::take(&mut sensed.0.rule_book);
-    sensed.0 = traffic(vehicles.iter(), &clock, rule_book);
-    let frames = sensed.0.road_users.iter().map(|user| VehicleFrame {
-        name: user.agent.name.clone(),
+    *traffic = sensed_anew(vehicles.iter(), &clock, std::mem::take(&mut traffic.rule_book));
+    let mut names = last.into_iter().map(|vehicle| vehicle.name);
+    let vehicles = traffic.road_users.iter().map(|user| VehicleFrame {
+        name: names.next().unwrap_or_else(|| user.agent.name.clone()),
         state: user.agent.state,
         is_absent: user.is_absent,
         ..VehicleFrame::default()
     });
-    current_frame.0 =
-        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), plans: true, ..Frame::default() };
+    frame.vehicles = vehicles.collect();
 }
 
-/// Between two plans only the states are new: everybody follows the last plan.
-fn go_on<'w>(
-    vehicles: impl Iterator<Item = SeenItem<'w>>,
-    (clock, followed): (&Clock, &FollowedPlans),
-    (traffic, frame): (&mut Traffic, &mut Frame),
-) {
-    *frame = Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: followed.0.clone(), ..Frame::default() };
+/// Between two plans only the states are new: everybody follows the last plan, and what happened while it planned is told once.
+fn go_on<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, traffic: &mut Traffic, frame: &mut Frame) {
+    for VehicleFrame { plan, plan_ms, .. } in &mut frame.vehicles {
+        plan.events.clear();
+        plan.statistics = Statistics::default();
+        *plan_ms = 0.0;
+    }
     for (identity, motion, ..) in vehicles {
         traffic.road_users[identity.index].agent.state = motion.state;
         frame.vehicles[identity.index].state = motion.state;
@@ -84,7 +89,7 @@ pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, mut sensed: ResMut<S
 pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
     let mut vehicles = world.try_query::<SeenParts>()?;
     let rule_book = world.get_resource::<Sensed>()?.0.rule_book.clone();
-    let mut traffic = traffic(vehicles.iter(world), world.get_resource()?, rule_book);
+    let mut traffic = sensed_anew(vehicles.iter(world), world.get_resource()?, rule_book);
     traffic.predict();
     let scene = (vehicle < traffic.road_users.len()).then(|| traffic.scene(vehicle))?;
     let (.., driving, _) = vehicles.iter(world).find(|(identity, ..)| identity.index == vehicle)?;
@@ -93,7 +98,7 @@ pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
 }
 
 /// Everybody as plain values, in the scenario's order.
-fn traffic<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule_book: RuleBook) -> Traffic {
+fn sensed_anew<'w>(vehicles: impl Iterator<Item = SeenItem<'w>>, clock: &Clock, rule_book: RuleBook) -> Traffic {
     let mut sorted: Vec<_> = vehicles.collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
     let road_users =

@@ -8,7 +8,7 @@ use interplay_scenarios::Scenario;
 
 use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
 use crate::components::{
-    Clock, Committed, CurrentFrame, Driving, FollowedPlans, HandedIn, Identity, Motion, Sensed, VehicleGoal,
+    Clock, Committed, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, Sensed, VehicleGoal,
     VehicleParameters,
 };
 use crate::measure::{BuildingMeasures, Measures};
@@ -31,8 +31,8 @@ pub struct WorldState {
     pub time_point: TimePoint,
     /// The traffic as it was sensed last.
     pub sensed: Sensed,
-    /// The plans that vehicles follow.
-    pub followed_plans: FollowedPlans,
+    /// The vehicles as they were in the last tick that had any.
+    pub last_vehicles: LastVehicles,
     /// The last frame.
     pub current_frame: CurrentFrame,
     /// Measures of the vehicles so far.
@@ -71,7 +71,7 @@ impl WorldState {
             },
             time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
             sensed: Sensed::default(),
-            followed_plans: FollowedPlans::default(),
+            last_vehicles: LastVehicles::default(),
             current_frame: CurrentFrame::default(),
             measures: Measures::new(scenario),
             physics,
@@ -117,7 +117,7 @@ impl WorldState {
             clock: *world.resource(),
             time_point: *world.resource(),
             sensed: world.resource::<Sensed>().clone(),
-            followed_plans: world.resource::<FollowedPlans>().clone(),
+            last_vehicles: world.resource::<LastVehicles>().clone(),
             current_frame: world.resource::<CurrentFrame>().clone(),
             measures: world.resource::<Measures>().clone(),
             physics: world.resource::<Physics>().fork(),
@@ -138,7 +138,7 @@ impl WorldState {
         world.insert_resource(self.clock);
         world.insert_resource(self.time_point);
         world.insert_resource(self.sensed);
-        world.insert_resource(self.followed_plans);
+        world.insert_resource(self.last_vehicles);
         world.insert_resource(self.current_frame);
         world.insert_resource(self.measures);
         world.insert_resource(self.physics);

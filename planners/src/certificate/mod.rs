@@ -17,8 +17,8 @@ mod violation;
 pub(crate) use last_resort::rolled_out;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
 pub use rectangles::overlap_m;
-pub(crate) use violation::touches_ahead;
 pub use violation::violations;
+pub(crate) use violation::{touches_ahead, within_touch};
 
 use crate::{PlanCondition, PlanViolation, Scene, Trajectory};
 

@@ -76,6 +76,31 @@ fn farthest_corner_m(body: &Body) -> f64 {
     libm::hypot(body.front_m.max(body.rear_m), 0.5 * body.width_m)
 }
 
+/// How far two vehicles can be from each other and touch \[m\].
+fn reach_m(one: &Agent, other: &Agent) -> f64 {
+    [one, other].map(|agent| farthest_corner_m(&agent.body)).iter().sum::<f64>()
+}
+
+fn is_farther(x_m: f64, y_m: f64, reach_m: f64) -> bool {
+    x_m * x_m + y_m * y_m > reach_m * reach_m
+}
+
+/// The others whom a plan may touch where they are if they keep their speed and heading, which is found out without predictions:
+/// all others where their roads are curved.
+pub(crate) fn within_touch(scene: &Scene, plan: &Trajectory) -> Vec<Agent> {
+    let may_touch = |other: &&Agent| {
+        let (sin, cos) = libm::sincos(other.state.heading_rad);
+        let reach_m = reach_m(&scene.ego, other);
+        let is_near = |(stage, here): (usize, &State)| {
+            let driven_m = other.state.speed_mps * scene.step_s * stage.min(scene.horizon) as f64;
+            let [x_m, y_m] = [other.state.x_m + driven_m * cos, other.state.y_m + driven_m * sin];
+            !is_farther(here.x_m - x_m, here.y_m - y_m, reach_m)
+        };
+        other.route.straight().is_none() || plan.states.iter().enumerate().any(is_near)
+    };
+    scene.others.iter().filter(may_touch).cloned().collect()
+}
+
 /// Where a vehicle is expected to be.
 pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
     let states = &other.prediction.states;
@@ -85,12 +110,12 @@ pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
 /// The first stage at which the body touches that of another where it is expected to be.
 pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> Option<usize> {
     let tolerance_m = PLACE_TOLERANCE * length_m(&scene.ego);
-    let reach_m = [&scene.ego, other].map(|agent| farthest_corner_m(&agent.body)).iter().sum::<f64>();
+    let reach_m = reach_m(&scene.ego, other);
     let touches = |stage: usize| {
         let here = &plan.states[stage];
         expected(other, stage).is_some_and(|there| {
-            let is_far = libm::hypot(here.x_m - there.x_m, here.y_m - there.y_m) > reach_m;
-            !is_far && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
+            !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
+                && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
         })
     };
     let mut stages = 0..plan.states.len();

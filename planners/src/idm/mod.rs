@@ -99,12 +99,11 @@ impl Drive for Idm {
             }
             None
         };
-        let whole = along_the_road(self.settings.prediction.applied_to(scene).into_owned());
-        let mut minded = whole.clone();
+        let whole = self.settings.prediction.applied_to(&along_the_road(scene)).into_owned();
         let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
-        minded
-            .others
-            .retain(|other| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name));
+        let is_minded =
+            |other: &&Agent| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name);
+        let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
         let choice = mobil::choose(&minded, &self.settings, now);
@@ -153,13 +152,21 @@ fn is_on_path(scene: &Scene, obstacle: &Agent) -> bool {
 
 /// The scene with those others only that are on the same road; to a driver who knows comfort also those on it whose way joins the own
 /// only ahead.
-fn along_the_road(mut scene: Scene) -> Scene {
-    let Scene { ego, others, .. } = &mut scene;
+fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
+    let ego = &scene.ego;
     let joins =
         |other: &Agent| matches!(ego.relation(other), Relation::Conflict(at) if at.kind == ConflictKind::Merging);
-    let is_minded = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
-    others.retain(|other| ego.relation(other) == Relation::Alongside || is_minded(other));
-    scene
+    let joins_ahead = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
+    with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
+}
+
+/// The scene with those others only of whom something holds.
+fn with_others(scene: &Scene, holds: impl Fn(&&Agent) -> bool) -> Cow<'_, Scene> {
+    if scene.others.iter().all(|other| holds(&other)) {
+        return Cow::Borrowed(scene);
+    }
+    let others = scene.others.iter().filter(&holds).cloned().collect();
+    Cow::Owned(Scene { others, ego: scene.ego.clone(), ..*scene })
 }
 
 #[cfg(test)]

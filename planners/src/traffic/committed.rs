@@ -1,6 +1,7 @@
 //! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
 
 use std::iter::repeat;
+use std::sync::Arc;
 
 use crate::certificate::{last_resorts, least_harmful, rolled_out};
 use crate::predict::{steadily_along, steady_inputs};
@@ -10,7 +11,7 @@ use crate::{Agent, Scene, Trajectory};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CommittedPlan {
     /// The plan of the last tick, or the fallback in its place; none before the first.
-    pub trajectory: Option<Trajectory>,
+    pub trajectory: Option<Arc<Trajectory>>,
     /// How many inputs of the last plan that the planner found are still to come.
     pub remaining_inputs: usize,
 }
@@ -50,7 +51,7 @@ impl CommittedPlan {
         found: Option<&Trajectory>,
         is_crashed: bool,
         scene: &Scene,
-    ) -> (Trajectory, Origin) {
+    ) -> (Arc<Trajectory>, Origin) {
         let (trajectory, origin) = match found {
             _ if is_crashed => (braking(scene), Origin::Crashed),
             Some(found) => (found.clone(), Origin::Planned),
@@ -61,7 +62,8 @@ impl CommittedPlan {
             Origin::Continued => self.remaining_inputs.saturating_sub(1),
             Origin::Braking | Origin::Evading | Origin::Crashed => 0,
         };
-        self.trajectory = Some(trajectory.clone());
+        let trajectory = Arc::new(trajectory);
+        self.trajectory = Some(Arc::clone(&trajectory));
         (trajectory, origin)
     }
 

@@ -157,9 +157,9 @@ impl Traffic {
         let found = plan.as_ref().map(|plan| &plan.trajectory);
         let (trajectory, origin) = user.committed.renew(found, user.is_crashed, &scene);
         if user.goes_first {
-            user.agent.prediction = Arc::new(trajectory.clone());
+            user.agent.prediction = Arc::clone(&trajectory);
         }
-        let plan = plan.unwrap_or_else(|| Plan { trajectory, ..Plan::default() });
+        let plan = plan.unwrap_or_else(|| Plan { trajectory: (*trajectory).clone(), ..Plan::default() });
         Decision { vehicle, plan, origin, failure }
     }
 

@@ -120,7 +120,7 @@ fn plans_of_those_who_go_first_are_known_at_once_and_others_a_tick_later() {
     let (rear_start, one_start) = (start(0), start(2));
     let first = shown(&mut traffic);
     let plans: Vec<Trajectory> =
-        traffic.road_users.iter().map(|user| user.committed.trajectory.clone().expect("a plan")).collect();
+        traffic.road_users.iter().map(|user| (**user.committed.trajectory.as_ref().expect("a plan")).clone()).collect();
     assert_eq!(first("rear", "front"), plans[1], "from front to rear");
     assert_eq!(first("front", "rear"), rear_start, "the rear one has not planned yet");
     assert_eq!(first("one", "rear"), plans[0]);

@@ -19,7 +19,7 @@ use interplay_scenarios::Scenario;
 
 use self::saved_run::HandedInput;
 use crate::climate::Building;
-use crate::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, Motion, VehicleGoal};
+use crate::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, VehicleGoal};
 use crate::detail::LevelOfDetail;
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
@@ -138,7 +138,11 @@ impl Simulation {
         }
         let tick = self.time_points.passed();
         self.time_points = ahead;
-        self.world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
+        let frame = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
+        let last = std::mem::replace(&mut self.world.resource_mut::<CurrentFrame>().0, frame);
+        if !last.vehicles.is_empty() {
+            self.world.resource_mut::<LastVehicles>().0 = last.vehicles;
+        }
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();
