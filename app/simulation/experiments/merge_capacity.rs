@@ -17,8 +17,8 @@ use interplay_simulation::frame::Frame;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-/// Vehicles are counted here, behind the merge \[m\].
-const COUNTED_AT_M: f64 = 480.0;
+/// Vehicles are counted here, as a coordinate of the world along the motorway, behind the merge \[m\].
+const COUNTED_AT_M: f64 = 440.0;
 /// The road fills for so long before anybody is counted \[s\].
 const FILLS_S: f64 = 90.0;
 /// Vehicles are counted for so long \[s\].

@@ -1,0 +1,50 @@
+//! What a tick of traffic allocates: as much in the hundredth second as in the first, and twice as much for twice as many vehicles at
+//! the same density. It is not nothing: scenes, plans and what the engine and measures keep of a tick are made anew.
+
+use std::fmt::Write;
+
+use interplay_scenarios::from_text;
+use interplay_simulation::Simulation;
+
+/// Cars after the intelligent driver model on three lanes, 40 m apart on each.
+fn motorway(vehicles: usize) -> Simulation {
+    let mut text = String::from(
+        "title = 'Motorway'\nshows = 'Three lanes'\nduration_s = 100.0\nroad = { kind = 'lanes', lane_count = 3, lane_width_m = 3.5 }\n\
+         defaults = { class = 'car', driver = { kind = 'idm' } }\nbudget = { plans = 1000000, steps = 100000000 }\n",
+    );
+    for index in 0..vehicles {
+        let (lane, along_m) = (index % 3, -40.0 * (index / 3) as f64 - 13.0 * (index % 3) as f64);
+        let start = format!("{{ lane = {lane}, along_m = {along_m:?}, speed_mps = 25.0 }}");
+        writeln!(text, "[[vehicle]]\nname = 'car-{index}'\nstart = {start}\ngoal = {{ lane = {lane} }}").expect("a text");
+    }
+    Simulation::new(&from_text("motorway.toml", &text, &[]).expect("a scenario")).expect("a world")
+}
+
+/// Allocations and bytes held more than before, over so many ticks.
+fn over(simulation: &mut Simulation, ticks: usize) -> (u64, i64) {
+    let info = allocation_counter::measure(|| {
+        for _ in 0..ticks {
+            simulation.step().expect("a step");
+        }
+    });
+    (info.count_total, info.bytes_current)
+}
+
+#[test]
+fn a_tick_allocates_no_more_as_time_goes_by_and_in_proportion_to_the_vehicles() {
+    const TICKS: usize = 100;
+    let counted = [120, 240].map(|vehicles| {
+        let mut simulation = motorway(vehicles);
+        over(&mut simulation, TICKS);
+        let (early, _) = over(&mut simulation, TICKS);
+        over(&mut simulation, 2 * TICKS);
+        let (late, held_more) = over(&mut simulation, TICKS);
+        assert!(late <= early + early / 50, "{early} allocations in the second 10 s, {late} in the fifth");
+        // Measures keep numbers of each tick: time gaps, and whatever medians are made of.
+        let held_per_tick = held_more / (TICKS * vehicles) as i64;
+        assert!(held_per_tick < 100, "{held_per_tick} bytes more a vehicle and tick");
+        println!("{vehicles}: {:.1} a vehicle and tick, {held_per_tick} bytes kept", late as f64 / (TICKS * vehicles) as f64);
+        late
+    });
+    assert!(counted[1] < counted[0] * 22 / 10, "{counted:?}");
+}
