@@ -15,7 +15,8 @@ fn motorway(vehicles: usize) -> Simulation {
     for index in 0..vehicles {
         let (lane, along_m) = (index % 3, -40.0 * (index / 3) as f64 - 13.0 * (index % 3) as f64);
         let start = format!("{{ lane = {lane}, along_m = {along_m:?}, speed_mps = 25.0 }}");
-        writeln!(text, "[[vehicle]]\nname = 'car-{index}'\nstart = {start}\ngoal = {{ lane = {lane} }}").expect("a text");
+        writeln!(text, "[[vehicle]]\nname = 'car-{index}'\nstart = {start}\ngoal = {{ lane = {lane} }}")
+            .expect("a text");
     }
     Simulation::new(&from_text("motorway.toml", &text, &[]).expect("a scenario")).expect("a world")
 }
@@ -43,7 +44,10 @@ fn a_tick_allocates_no_more_as_time_goes_by_and_in_proportion_to_the_vehicles() 
         // Measures keep numbers of each tick: time gaps, and whatever medians are made of.
         let held_per_tick = held_more / (TICKS * vehicles) as i64;
         assert!(held_per_tick < 100, "{held_per_tick} bytes more a vehicle and tick");
-        println!("{vehicles}: {:.1} a vehicle and tick, {held_per_tick} bytes kept", late as f64 / (TICKS * vehicles) as f64);
+        println!(
+            "{vehicles}: {:.1} a vehicle and tick, {held_per_tick} bytes kept",
+            late as f64 / (TICKS * vehicles) as f64
+        );
         late
     });
     assert!(counted[1] < counted[0] * 22 / 10, "{counted:?}");

@@ -61,7 +61,9 @@ impl Motion<'_> {
         let Motion { settings, scene, lanes, from_to, .. } = self;
         let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);
         // In the lane that it leaves it minds the vehicle ahead until it is out of it.
-        let [left, taken] = from_to.map(|lane| leader(scene, lanes, lane, state, t));
+        let [from, to] = *from_to;
+        let taken = leader(scene, lanes, to, state, t);
+        let left = if from == to { taken } else { leader(scene, lanes, from, state, t) };
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
         // Brakes take hold only after a while where jerk is bounded: a lower limit ahead counts already.

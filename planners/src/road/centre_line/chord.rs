@@ -1,5 +1,7 @@
 //! The straight line between the ends of a segment, for the search of the segment that is nearest to a position.
 
+use std::ops::Range;
+
 /// A chord, with what is needed to tell how near it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Chord {
@@ -46,6 +48,48 @@ impl Chord {
     pub fn is_beyond(&self, distance_m: f64, position: [f64; 2]) -> bool {
         let reach_m = (1.0 + MARGIN_RATIO) * (distance_m + self.half_m);
         self.squared_to_middle(position) > reach_m * reach_m
+    }
+}
+
+/// Chords one after another, and a circle around them, so that a search passes over all of them at once.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ChordGroup {
+    /// Numbers of its chords.
+    pub chords: Range<usize>,
+    /// The length of the longest of them \[m\].
+    pub longest_m: f64,
+    /// The centre of the circle \[m\].
+    middle: [f64; 2],
+    /// The radius of the circle \[m\].
+    reach_m: f64,
+}
+
+/// How many chords make a group.
+const GROUP: usize = 12;
+
+impl ChordGroup {
+    /// All chords of a curve in groups.
+    pub fn all(chords: &[Chord]) -> Vec<ChordGroup> {
+        let group = |(number, members): (usize, &[Chord])| {
+            let mean = |axis: usize| members.iter().map(|chord| chord.middle[axis]).sum::<f64>() / members.len() as f64;
+            let middle = [mean(0), mean(1)];
+            let reaches_m = members.iter().map(|chord| chord.squared_to_middle(middle).sqrt() + chord.half_m);
+            let first = number * GROUP;
+            ChordGroup {
+                chords: first..first + members.len(),
+                longest_m: members.iter().map(|chord| 2.0 * chord.half_m).fold(0.0, f64::max),
+                middle,
+                reach_m: reaches_m.fold(0.0, f64::max),
+            }
+        };
+        chords.chunks(GROUP).enumerate().map(group).collect()
+    }
+
+    /// Whether every point of its chords is farther from a position than `distance_m`, certainly.
+    pub fn is_beyond(&self, distance_m: f64, [x, y]: [f64; 2]) -> bool {
+        let apart = [x - self.middle[0], y - self.middle[1]];
+        let reach_m = (1.0 + MARGIN_RATIO) * (distance_m + self.reach_m);
+        apart[0] * apart[0] + apart[1] * apart[1] > reach_m * reach_m
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::chord::Chord;
+use super::chord::{Chord, ChordGroup};
 use super::segment::{Jet, Segment};
 
 /// A plane curve of which position, heading and curvature are continuous, by arc length.
@@ -51,6 +51,8 @@ pub(super) struct Curve {
     pub length_m: f64,
     /// The chord of each segment.
     pub chords: Vec<Chord>,
+    /// The same in groups.
+    pub groups: Vec<ChordGroup>,
     /// For the begin of each of equally long sections, and for the end of the line: the number of the segment there.
     sections: Vec<u32>,
     sections_per_m: f64,
@@ -115,8 +117,10 @@ impl Curve {
         let sections = begins.map(|along_m| number(along_m) as u32).collect();
         let starts = segments.iter().map(Segment::start);
         let last = segments.last().map(|last| last.knot(last.length_m)[0]);
-        let chords = starts.clone().zip(starts.skip(1).chain(last)).map(|(from, to)| Chord::new(from, to)).collect();
-        Some(Curve { segments, length_m: from_m, chords, sections, sections_per_m })
+        let ends = starts.clone().zip(starts.skip(1).chain(last));
+        let chords: Vec<Chord> = ends.map(|(from, to)| Chord::new(from, to)).collect();
+        let groups = ChordGroup::all(&chords);
+        Some(Curve { segments, length_m: from_m, chords, groups, sections, sections_per_m })
     }
 
     /// The segment that holds an arc length between 0 and the length; at a knot, up to rounding, one of both.

@@ -1,7 +1,9 @@
 //! The point of a curve that is nearest to a position, by descents of Halley's method.
 
+use super::chord::{Chord, ChordGroup};
 use super::line::{Curve, CurvePoint};
 use super::plane::{distance, dot};
+use super::segment::Segment;
 
 /// Most steps of a search. Halley's method needs 1 to 4; the rest is for bisection.
 const MAX_STEPS: usize = 64;
@@ -113,41 +115,58 @@ impl Curve {
     pub(super) fn nearest(&self, position: [f64; 2]) -> (f64, CurvePoint<'_>) {
         let mut best = self.descend(position, self.nearest_chord_m(position));
         let mut best_m = distance(best.1.jet[0], position);
-        for (segment, chord) in self.segments.iter().zip(&self.chords) {
-            let sag_m = MAX_SAG_RATIO * segment.length_m;
-            if chord.is_beyond(best_m + sag_m, position) {
+        for group in &self.groups {
+            // A segment is a little longer than its chord.
+            if group.is_beyond(best_m + 2.0 * MAX_SAG_RATIO * group.longest_m, position) {
                 continue;
             }
-            let [distance_m, share] = chord.nearest(position);
-            // A descent from the best place would only be repeated.
-            let is_known = (segment.from_m..=segment.end_m()).contains(&best.0);
-            if !is_known && distance_m - sag_m < best_m {
-                let other = self.descend(position, segment.from_m + share * segment.length_m);
-                let other_m = distance(other.1.jet[0], position);
-                if other_m < best_m && (0.0..=self.length_m).contains(&other.0) {
-                    (best, best_m) = (other, other_m);
+            for (segment, chord) in self.members(group) {
+                let sag_m = MAX_SAG_RATIO * segment.length_m;
+                if chord.is_beyond(best_m + sag_m, position) {
+                    continue;
+                }
+                let [distance_m, share] = chord.nearest(position);
+                // A descent from the best place would only be repeated.
+                let is_known = (segment.from_m..=segment.end_m()).contains(&best.0);
+                if !is_known && distance_m - sag_m < best_m {
+                    let other = self.descend(position, segment.from_m + share * segment.length_m);
+                    let other_m = distance(other.1.jet[0], position);
+                    if other_m < best_m && (0.0..=self.length_m).contains(&other.0) {
+                        (best, best_m) = (other, other_m);
+                    }
                 }
             }
         }
         best
     }
 
+    fn members(&self, group: &ChordGroup) -> impl Iterator<Item = (&Segment, &Chord)> {
+        self.segments[group.chords.clone()].iter().zip(&self.chords[group.chords.clone()])
+    }
+
     /// The arc length of the point of the chords that is nearest to a position; the first of equally near ones \[m\].
     fn nearest_chord_m(&self, position: [f64; 2]) -> f64 {
         let (mut nearby, mut least) = (0, f64::INFINITY);
-        for (index, chord) in self.chords.iter().enumerate() {
-            let square = chord.squared_to_middle(position);
-            if square < least {
-                (nearby, least) = (index, square);
+        for group in self.groups.iter() {
+            if group.is_beyond(least.sqrt(), position) {
+                continue;
+            }
+            for index in group.chords.clone() {
+                let square = self.chords[index].squared_to_middle(position);
+                if square < least {
+                    (nearby, least) = (index, square);
+                }
             }
         }
         let bound_m = self.chords[nearby].nearest(position)[0];
         let mut best = [f64::INFINITY, 0.0];
-        for (segment, chord) in self.segments.iter().zip(&self.chords) {
-            if !chord.is_beyond(bound_m, position) {
-                let [distance_m, share] = chord.nearest(position);
-                if distance_m < best[0] {
-                    best = [distance_m, segment.from_m + share * segment.length_m];
+        for group in self.groups.iter().filter(|group| !group.is_beyond(bound_m, position)) {
+            for (segment, chord) in self.members(group) {
+                if !chord.is_beyond(bound_m, position) {
+                    let [distance_m, share] = chord.nearest(position);
+                    if distance_m < best[0] {
+                        best = [distance_m, segment.from_m + share * segment.length_m];
+                    }
                 }
             }
         }
