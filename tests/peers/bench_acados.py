@@ -20,29 +20,20 @@ import casadi as ca
 import numpy as np
 from acados_template import AcadosModel, AcadosOcp, AcadosOcpSolver
 
+import one_vehicle
 from bench_piqp import Descent, relative
 from compare_ipopt import ours, problems
-from trajectory_nlp import Ipopt, Programme, axes_of, bicycle, clearances, headings_of, in_axes, outside
-
-KINDS = ["human", "conservative"]
-BODY, ROAD, END, TARGET, AXES, STEP, ELLIPSE = 5, 3, 3, 4, 2, 1, 6
-
+from one_vehicle import KINDS
+from trajectory_nlp import Ipopt
 
 def model_of(ellipses, has_end, name):
     """Dynamics, residuals and soft rows of a stage."""
-    x, u = ca.SX.sym("x", 6), ca.SX.sym("u", 2)
-    p = ca.SX.sym("p", BODY + ROAD + END + TARGET + AXES + STEP + ELLIPSE * ellipses)
-    parts = ca.vertsplit(p, np.cumsum([0, BODY, ROAD, END, TARGET, AXES, STEP] + [ELLIPSE] * ellipses).tolist())
-    body, road, end, target, axes, step = parts[:6]
-    model = AcadosModel()
-    model.name, model.x, model.u, model.p = name, x, u, p
-    model.disc_dyn_expr = ca.vertcat(bicycle(x[:4], u, body[3], body[4], step), u)
-    deviation = in_axes(x[:4] - target, axes)
-    model.cost_y_expr = ca.vertcat(u - x[4:], deviation)
-    model.cost_y_expr_0, model.cost_y_expr_e = model.cost_y_expr, deviation
-    rows = [clearances(x[:4], body, road, end if has_end else None)]
-    rows += [outside(x[:2], e[:2], e[2:5], e[5]) for e in parts[6:]]
-    model.con_h_expr = model.con_h_expr_e = ca.vertcat(*rows)
+    stage, model = one_vehicle.Stage(ellipses, has_end), AcadosModel()
+    model.name, model.x, model.u, model.p = name, stage.x, stage.u, stage.p
+    model.disc_dyn_expr = stage.next
+    model.cost_y_expr = model.cost_y_expr_0 = ca.vertcat(stage.change, stage.deviation)
+    model.cost_y_expr_e = stage.deviation
+    model.con_h_expr = model.con_h_expr_e = stage.rows
     return model
 
 
@@ -87,27 +78,19 @@ def solver_of(ellipses, has_end, horizon, kind):
 def prepare(solver, problem, states, inputs):
     """Writes the numbers of a problem and the guess."""
     vehicle, n = problem["vehicles"][0], problem["horizon"]
-    targets = vehicle["targets"] * n if len(vehicle["targets"]) == 1 else vehicle["targets"]
-    ellipses = vehicle.get("keep_outs", [])
     weights = 2.0 * np.array([*vehicle["comfort"], *vehicle["weights"]])
-    braking, accelerating, steering, slowest, fastest = vehicle["limits"]
-    linear = np.array([Programme.ROAD_EDGE[0]] * 4 + [e["penalty"][0] for e in ellipses])
-    quadratic = 2.0 * np.array([Programme.ROAD_EDGE[1]] * 4 + [e["penalty"][1] for e in ellipses])
-    first = np.array([*vehicle["start"], *vehicle["previous_input"]])
+    braking, accelerating, steering, *_ = vehicle["limits"]
+    linear, squared = one_vehicle.prices(problem)
+    first = one_vehicle.first_state(problem)
     for t in range(n + 1):
-        at = max(t - 1, 0)
-        numbers = [*vehicle["body"], *vehicle["road"], *(vehicle.get("lane_end") or [0.0, 0.0, 1.0]), *targets[at], *axes_of(vehicle), problem["step_s"]]
-        for e in ellipses:
-            numbers += [*e["centres"][at], *e["shape"], headings_of(e, n)[at]]
-        solver.set(t, "p", np.array(numbers))
+        solver.set(t, "p", one_vehicle.numbers(problem, t))
         solver.cost_set(t, "W", np.diag(weights if 0 < t < n else weights[2:] if t else [*weights[:2], 0, 0, 0, 0]))
         if t:
             # acados has no soft rows at the first stage.
             solver.cost_set(t, "zl", linear), solver.cost_set(t, "zu", linear)
-            solver.cost_set(t, "Zl", quadratic), solver.cost_set(t, "Zu", quadratic)
-            elapsed = problem["step_s"] * t
-            solver.constraints_set(t, "lbx", np.array([min(slowest, first[3] + accelerating * elapsed)]))
-            solver.constraints_set(t, "ubx", np.array([max(fastest, first[3] + braking * elapsed)]))
+            solver.cost_set(t, "Zl", 2.0 * squared), solver.cost_set(t, "Zu", 2.0 * squared)
+            slowest, fastest = one_vehicle.speeds(problem, t)
+            solver.constraints_set(t, "lbx", np.array([slowest])), solver.constraints_set(t, "ubx", np.array([fastest]))
         else:
             solver.cost_set(0, "zl", np.zeros(len(linear))), solver.cost_set(0, "zu", np.zeros(len(linear)))
             solver.constraints_set(0, "lbx", first), solver.constraints_set(0, "ubx", first)
@@ -144,7 +127,7 @@ def main():
             times, qps, solved, apart = [], [], 0, []
             for problem, o in zip(posed, mine):
                 vehicle = problem["vehicles"][0]
-                key = len(vehicle.get("keep_outs", [])), vehicle.get("lane_end") is not None, problem["horizon"], method
+                key = *one_vehicle.shape(problem), method
                 if key not in solvers:
                     solvers[key] = solver_of(*key)
                 programme = ipopt.programme(problem)
