@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import statistics
 import tempfile
 import time
@@ -217,6 +218,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=1.0, help="of each measurement")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--only", default="", help="measures what matches this, beside EnvPool")
     parser.add_argument("--street", action="append", choices=[street.name for street in STREETS])
     asked = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -230,7 +232,7 @@ def main() -> None:
         for street in STREETS:
             if asked.street and street.name not in asked.street:
                 continue
-            measured = contenders(street, Path(folder))
+            measured = [entry for entry in contenders(street, Path(folder)) if re.search(asked.only, entry.label) or "EnvPool" in entry.label]
             for _ in range(asked.rounds):
                 for entry in measured:
                     entry.measure(asked.seconds)

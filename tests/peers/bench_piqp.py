@@ -296,7 +296,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeats", type=int, default=3, help="solves of every QP by PIQP, of every problem by IPOPT; ours seven times as many")
     parser.add_argument("--kind", action="append", choices=KINDS)
-    parser.add_argument("--limit", type=int, help="only so many problems of each kind")
+    parser.add_argument("--every", type=int, default=1, help="takes one problem in so many")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of PIQP")
     parser.add_argument("--backend", default="multistage", choices=BACKENDS)
     arguments = parser.parse_args()
@@ -304,7 +304,7 @@ def main():
     print("| problems | solver | median ms | p99 ms | QPs in the median | inner iterations a QP | microseconds a QP | same cost as ours | dearer | cheaper |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for kind in arguments.kind or KINDS:
-        posed = problems(kind)[: arguments.limit]
+        posed = problems(kind)[:: arguments.every]
         own = {o["id"]: o for o in ours(kind, "robust", repeats=7 * arguments.repeats)}
         own = [own[problem["id"]] for problem in posed]
         descents, theirs, ms, with_derivatives = {}, [], [], []
