@@ -11,6 +11,7 @@ its step problems ("sparse") is a third opinion.
 
 import argparse
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -28,8 +29,9 @@ FLOOR = 1e-2
 
 def ours(kind, solver, starts=None, repeats=1):
     """Our outcome of every problem, from the recorded guesses or from given inputs by id."""
-    command = ["cargo", "run", "--release", "--quiet", "-p", "interplay-planners", "--example", "solve_problems", "--",
-               kind, solver, str(repeats)]
+    build = ["cargo", "run", "--release", "--quiet", "-p", "interplay-planners", "--example", "solve_problems", "--"]
+    built = os.environ.get("SOLVE_PROBLEMS")
+    command = [*([built] if built else build), kind, solver, str(repeats)]
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         if starts is not None:
             json.dump(starts, file)

@@ -400,6 +400,7 @@ class Programme:
         return {
             "solved": bool(stats["success"]), "status": stats["return_status"], "cost": float(answer["f"]),
             "iterations": stats["iter_count"], "time_ms": 1e3 * stats["t_wall_total"],
+            "processor_ms": 1e3 * stats["t_proc_total"],
             "inputs": self.inputs(problem, np.array(answer["x"]).ravel()),
         }
 
