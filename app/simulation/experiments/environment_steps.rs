@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = arguments.next().ok_or("which scenario?")?;
     let seconds: f64 = arguments.next().map_or(Ok(5.0), |text| text.parse())?;
     let scenario = interplay_scenarios::load(&file, &[])?;
-    let settings = EnvironmentSettings { action: Action::DiscreteMeta, decision_s: Some(1.0), ..EnvironmentSettings::default() };
+    let settings =
+        EnvironmentSettings { action: Action::DiscreteMeta, decision_s: Some(1.0), ..EnvironmentSettings::default() };
     let mut environment = Environment::new(&scenario, &settings)?;
     let (mut decisions, mut episodes, mut resetting_s) = (0_u64, 0_u64, 0.0);
     let began = Instant::now();

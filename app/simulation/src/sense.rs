@@ -85,16 +85,19 @@ pub fn look(mut vehicles: Query<(&Identity, &mut Driving)>, mut sensed: ResMut<S
     }
 }
 
-/// What the driver of a vehicle would be given at the next tick, before anybody has planned in it; none without that vehicle.
-pub fn observed(world: &World, vehicle: usize) -> Option<SensedScene> {
+/// What the drivers of some vehicles would be given at the next tick, before anybody has planned in it; none if one of them is not there.
+pub fn observed(world: &World, wanted: &[usize]) -> Option<Vec<SensedScene>> {
     let mut vehicles = world.try_query::<SeenParts>()?;
     let rule_book = world.get_resource::<Sensed>()?.0.rule_book.clone();
     let mut traffic = sensed_anew(vehicles.iter(world), world.get_resource()?, rule_book);
     traffic.predict();
-    let scene = (vehicle < traffic.road_users.len()).then(|| traffic.scene(vehicle))?;
-    let (.., driving, _) = vehicles.iter(world).find(|(identity, ..)| identity.index == vehicle)?;
-    let mut sensor = driving.sensor.clone();
-    Some(sensor.as_mut().map_or_else(|| SensedScene::perfect(&scene), |sensor| sensor.sense(&scene)))
+    let sensed = |vehicle: &usize| {
+        let scene = (*vehicle < traffic.road_users.len()).then(|| traffic.scene(*vehicle))?;
+        let (.., driving, _) = vehicles.iter(world).find(|(identity, ..)| identity.index == *vehicle)?;
+        let mut sensor = driving.sensor.clone();
+        Some(sensor.as_mut().map_or_else(|| SensedScene::perfect(&scene), |sensor| sensor.sense(&scene)))
+    };
+    wanted.iter().map(sensed).collect()
 }
 
 /// Everybody as plain values, in the scenario's order.

@@ -137,8 +137,9 @@ impl Environment {
     /// Every agent looks at the world.
     fn look(&mut self) -> Result<(), EnvironmentError> {
         let Some(world) = &self.world else { return Err(EnvironmentError::Over) };
-        for seat in &mut self.seats {
-            let sensed = world.observe(&seat.name)?;
+        let vehicles: Vec<usize> = self.seats.iter().map(|seat| seat.vehicle).collect();
+        let Some(sensed) = world.observe_all(&vehicles) else { return Err(EnvironmentError::Over) };
+        for (seat, sensed) in self.seats.iter_mut().zip(sensed) {
             seat.interface.look(&sensed);
             seat.sensed = Some(sensed);
         }

@@ -186,7 +186,12 @@ impl Simulation {
     /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
     pub fn observe(&self, vehicle: &str) -> Result<SensedScene, RunError> {
         let index = self.index_of(vehicle)?;
-        sense::observed(&self.world, index).ok_or_else(|| self.no_vehicle(vehicle))
+        self.observe_all(&[index]).and_then(|mut sensed| sensed.pop()).ok_or_else(|| self.no_vehicle(vehicle))
+    }
+
+    /// The same for several vehicles, by their indices in the scenario, which costs little more than one; none if one is not there.
+    pub(crate) fn observe_all(&self, vehicles: &[usize]) -> Option<Vec<SensedScene>> {
+        sense::observed(&self.world, vehicles)
     }
 
     /// Hands in the input of a vehicle with `driver = { kind = "external" }` for the next tick. The others expect it to keep its
