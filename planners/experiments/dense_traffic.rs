@@ -19,9 +19,7 @@ use interplay_common::random::SplitMix64;
 use interplay_planners::human::{REACTION_S, Settings, Style};
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::trajectory::Term;
-use interplay_planners::{
-    Agent, Body, ComfortLimits, Corridor, Driver, Goal, Limits, Planner, SafetyEllipse, predict,
-};
+use interplay_planners::{Agent, Body, ComfortLimits, Corridor, Driver, Goal, Limits, Planner, SafetyEllipse, predict};
 use world::{Vehicle, vehicle};
 
 const LANES: usize = 3;
@@ -120,7 +118,10 @@ fn report(work: &mut Work, digest: u64) -> Result<(), Box<dyn Error>> {
     let each = |sum: usize| sum as f64 / *plans as f64;
     let at = |share: f64| times_ms.get(((times_ms.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);
     let mut out = std::io::stdout();
-    writeln!(out, "| plans | not found | others | ellipses | programmes | iterations | mean ms | median ms | p99 ms | digest |")?;
+    writeln!(
+        out,
+        "| plans | not found | others | ellipses | programmes | iterations | mean ms | median ms | p99 ms | digest |"
+    )?;
     writeln!(out, "|---|---|---|---|---|---|---|---|---|---|")?;
     writeln!(
         out,
