@@ -81,4 +81,9 @@ impl RowTerm for KeepOut {
         let position = iterate.states[self.vehicle][stage + 1].position();
         rows[0] = expand(&self.ellipses[stage], position, self.centres[stage]);
     }
+
+    fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
+        let position = iterate.states[self.vehicle][stage + 1].position();
+        values[0] = self.ellipses[stage].distance(position, self.centres[stage]).squared - 1.0;
+    }
 }

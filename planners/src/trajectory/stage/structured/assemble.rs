@@ -3,7 +3,7 @@
 use super::memory::Memory;
 use super::riccati::{PairHessian, VehicleHessian, pair_index, pairs_among};
 use crate::trajectory::stage::adjoint::curvature_gradient;
-use crate::trajectory::stage::qp::StageQp;
+use crate::trajectory::stage::qp::{Row, StageQp};
 
 impl<const W: usize> Memory<W> {
     /// Assembles the second derivatives with the weights `ω`.
@@ -126,8 +126,10 @@ impl<const W: usize> Memory<W> {
 
     fn add_row_curvature(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
+        // Most rows do not bend: all of a Gauss-Newton step, and otherwise those without a multiplier.
+        let bends = |row: &Row| row.active && row.curvature != [0.0; 6];
         for block in &qp.blocks {
-            for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
+            for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| bends(row)) {
                 let (at, other) = (k * vehicles + block.vehicle, block.other.map(|other| k * vehicles + other));
                 let own = self.point.states[at];
                 let origin = other.map_or([0.0; 4], |other| self.point.states[other]);
