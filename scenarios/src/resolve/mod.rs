@@ -108,8 +108,7 @@ fn read(
     }
     scenario.remarks.0.extend(moved.map(|origin| ScenarioRemark(local_origin::remark(origin, tree))));
     let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
-    let unread = read_named_files(&mut scenario, named, tree);
-    Ok((scenario, unread))
+    Ok(with_named_files(scenario, named, tree))
 }
 
 /// How many ticks there are from one plan to the next.
@@ -127,19 +126,19 @@ fn ticks_per_plan(period_s: f64, step_s: f64, tree: &TomlNode) -> Result<usize, 
     Err(vec![Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help)])
 }
 
-/// Puts what the weather file and the tables of prices and gains say in the place of their names; returns what is wrong with them.
-fn read_named_files(
-    scenario: &mut Scenario,
+/// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
+fn with_named_files(
+    mut scenario: Scenario,
     (weather, gains): (WeatherConfig, Vec<GainsConfig>),
     tree: &TomlNode,
-) -> Vec<Fault> {
+) -> (Scenario, Vec<Fault>) {
     let mut unread = Vec::new();
     let read = match weather {
         WeatherConfig::Synthetic(synthetic) => Ok((WeatherSource::Synthetic(synthetic), Vec::new())),
         WeatherConfig::Epw(stated) => {
-            weather_file::read(stated, scenario, tree).map(|(weather, remarks)| (WeatherSource::Epw(weather), remarks))
+            weather_file::read(stated, &scenario, tree).map(|(weather, remarks)| (WeatherSource::Epw(weather), remarks))
         }
-        WeatherConfig::Csv(stated) => weather_file::read_table(stated, scenario, tree)
+        WeatherConfig::Csv(stated) => weather_file::read_table(stated, &scenario, tree)
             .map(|(weather, remarks)| (WeatherSource::Csv(weather), remarks)),
     };
     match read {
@@ -149,12 +148,12 @@ fn read_named_files(
         }
         Err(fault) => unread.push(fault),
     }
-    match scenario.tariff.as_ref().map(|tariff| tariff_file::read(tariff, scenario, tree)).transpose() {
+    match scenario.tariff.as_ref().map(|tariff| tariff_file::read(tariff, &scenario, tree)).transpose() {
         Ok(tariff) => scenario.tariff = tariff,
         Err(fault) => unread.push(fault),
     }
     for (index, stated) in gains.into_iter().enumerate() {
-        match gains_file::read(stated, index, scenario, tree) {
+        match gains_file::read(stated, index, &scenario, tree) {
             Ok((gains, remark)) => {
                 scenario.gains.push(gains);
                 scenario.remarks.0.extend(remark.map(ScenarioRemark));
@@ -162,7 +161,7 @@ fn read_named_files(
             Err(fault) => unread.push(fault),
         }
     }
-    unread
+    (scenario, unread)
 }
 
 /// Reads tables of settings.

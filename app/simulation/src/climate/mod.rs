@@ -143,6 +143,11 @@ impl Building {
         }
     }
 
+    /// The price of electricity in a step of today \[currency/kWh\]; none without a tariff.
+    fn price_per_kwh(&self, step: usize) -> Option<f64> {
+        self.targets.supply.price_per_kwh.as_ref().map(|prices| prices[step])
+    }
+
     /// The sun in a step of a day.
     fn sun(&self, day: usize, step: usize) -> SunOfStep {
         let (step_s, steps) = (self.model.step_s(), self.steps_per_day());
