@@ -4,7 +4,9 @@
 //!
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)
+//! - [`sun`]: where it stands, and its radiation on planes of any orientation
 //! - [`comfort`]: the temperatures that are wanted; [`schedule`] and [`calendar`]: by zone and weekday
+//! - [`series`]: series at equal intervals, and tables of them
 //! - [`energy`]: what heat takes in electricity and costs in money
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
@@ -35,12 +37,8 @@
 //! let (step_s, steps) = (1800.0, 48);
 //! let model = Model::exact(&Network::testbed(), step_s)?;
 //! let targets = Setpoints::default().targets(4, step_s, steps)?;
-//! let surroundings = Surroundings {
-//!     weather: Climate::default().weather(1, 5),
-//!     forecast: Forecast::Exact,
-//!     forecast_seed: 1,
-//!     people: Occupancy::default().people(4, 1),
-//! };
+//! let (weather, people) = (Climate::default().weather(1, 5), Occupancy::default().people(4, 1));
+//! let surroundings = Surroundings::new(weather, (Forecast::Exact, 1), people, model.network());
 //! let mut controller = Controller::IterativeLearning(Default::default()).controller(&model, steps)?;
 //!
 //! let mut temperatures_c = vec![28.0; 4];
@@ -67,4 +65,6 @@ pub mod lifted;
 pub mod network;
 pub mod occupancy;
 pub mod schedule;
+pub mod series;
+pub mod sun;
 pub mod weather;

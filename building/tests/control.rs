@@ -170,7 +170,8 @@ struct World(Surroundings);
 impl World {
     fn new(seed: u64, forecast: Forecast) -> Self {
         let weather = Climate::default().weather(seed, 8);
-        Self(Surroundings { weather, forecast, forecast_seed: seed, people: Occupancy::default().people(4, seed) })
+        let people = Occupancy::default().people(4, seed);
+        Self(Surroundings::new(weather, (forecast, seed), people, testbed().network()))
     }
 
     /// Cost and regret of each of five days; the building goes on from where a day left it.

@@ -3,7 +3,7 @@
 //! The files are made here. `INTERPLAY_EPW_DIR` may name a folder with real ones: `SGP_Singapore.486980_IWEC.epw` and
 //! `USA_CA_San.Francisco.Intl.AP.724940_TMY3.epw`.
 
-use interplay_building::weather::epw::{Epw, EpwError, EpwProblem, Field};
+use interplay_building::weather::epw::{Epw, EpwError, EpwProblem, EpwUse, Field};
 
 const HOUR_S: f64 = 3600.0;
 const DAYS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
@@ -89,6 +89,70 @@ impl File {
 /// Lines before the first row.
 const HEADER: usize = 8;
 
+/// Three days of some fields, with gaps of at most 6 h.
+fn all_days(fields: &[Field]) -> EpwUse<'_> {
+    EpwUse { fields, from_s: 0.0, to_s: 72.0 * HOUR_S, bridge_gaps_h: 6.0 }
+}
+
+/// 120 cells of −999 in October are nothing to a run in February, whatever the field, and its first line is told.
+#[test]
+fn cells_that_a_run_does_not_use_are_remarks() {
+    let october = 24 * 280;
+    let file = (october..october + 120).fold(File::year(), |file, index| file.with(index, 6, "-999"));
+    let file = (0..8760).fold(file, |file, index| file.with(index, 9, "1009"));
+    let epw = file.with(10, 22, "11").with(11, 21, "-1").parse().expect("rows follow each other");
+    let february = EpwUse { from_s: 31.0 * 24.0 * HOUR_S, to_s: 59.0 * 24.0 * HOUR_S, ..all_days(&[Field::DryBulb]) };
+    let remarks = epw.check_use(&february).expect("February is right");
+    let found: Vec<(usize, bool)> =
+        remarks.iter().map(|remark| (remark.line - HEADER, remark.text.contains("does not use this cell"))).collect();
+    assert_eq!(found, [(october + 1, false), (1, false), (12, true), (11, true)], "{remarks:?}");
+    assert!(remarks[0].text.contains("is -999") && remarks[0].text.contains("120 such cells"), "{}", remarks[0].text);
+    assert!(remarks[1].text.contains("air pressure") && remarks[1].text.contains("8760 such cells"), "{remarks:?}");
+    for (from_day, to_day) in [(270.0, 290.0), (0.0, 365.0), (360.0, 650.0)] {
+        let usage = EpwUse { from_s: from_day * 24.0 * HOUR_S, to_s: to_day * 24.0 * HOUR_S, ..february };
+        let error = epw.check_use(&usage).expect_err("October is used");
+        assert_eq!(error.line, HEADER + october + 1, "{from_day}");
+    }
+    let after = EpwUse { from_s: 300.0 * 24.0 * HOUR_S, to_s: 390.0 * 24.0 * HOUR_S, ..february };
+    assert!(epw.check_use(&after).is_ok(), "from November into the next January");
+}
+
+#[test]
+fn a_gap_is_bridged_with_a_word_or_refused() {
+    let missing = |rows: std::ops::Range<usize>| {
+        rows.fold(File::days((1, 3)), |file, index| file.with(index, 6, "99.9")).parse().expect("rows")
+    };
+    let remarks = missing(30..36).check_use(&all_days(&[Field::DryBulb])).expect("six hours");
+    assert_eq!(remarks.len(), 1);
+    assert!(remarks[0].line == HEADER + 31 && remarks[0].text.contains("6 rows"), "{remarks:?}");
+    let error = missing(30..37).check_use(&all_days(&[Field::DryBulb])).expect_err("seven hours");
+    assert_eq!(
+        (error.line, error.to_string().contains("is missing for 7 h from here on")),
+        (HEADER + 31, true),
+        "{error}"
+    );
+    let longer = EpwUse { bridge_gaps_h: 7.0, ..all_days(&[Field::DryBulb]) };
+    assert!(missing(30..37).check_use(&longer).is_ok());
+}
+
+#[test]
+fn a_file_without_sun_is_refused_where_the_sun_is_used() {
+    let without = |columns: &[usize]| {
+        let cells = (0..72).flat_map(|row| columns.iter().map(move |column| (row, *column)));
+        let file = cells.fold(File::days((1, 3)), |file, (row, column)| file.with(row, column, "9999"));
+        file.parse().expect("the temperatures are there")
+    };
+    assert_eq!(without(&[13, 14, 15]).check_use(&all_days(&[Field::DryBulb])), Ok(Vec::new()));
+    let used = [Field::DryBulb, Field::GlobalHorizontal];
+    let error = without(&[13, 14, 15]).check_use(&all_days(&used)).expect_err("no sun");
+    assert_eq!(error.problem, EpwProblem::NoValues { field: "global horizontal radiation" });
+    // Direct and diffuse radiation make up the global one.
+    let diffuse = (0..72).fold(File::days((1, 3)), |file, row| file.with(row, 13, "9999").with(row, 15, "200"));
+    let epw = diffuse.parse().expect("rows");
+    assert_eq!(epw.check_use(&all_days(&used)), Ok(Vec::new()));
+    assert_eq!(epw.weather().sun_w_per_m2.at(12.0 * HOUR_S), 200.0);
+}
+
 #[test]
 fn the_hour_of_a_row_ends_at_its_stamp() {
     let weather = File::year().parse().expect("a whole year").weather();
@@ -115,7 +179,11 @@ fn dates_of_the_data_period_may_have_a_year_first_or_last() {
     for other in ["Sunday,2015/1/1,2015/12/31", "Sunday,1/1/2015,12/31/2015", "Sunday,2015/01/01,12/31"] {
         assert_eq!(Epw::parse(&text.replace(stated, other)), Ok(usual.clone()), "{other}");
     }
-    for wrong in ["Sunday,2015/13/1,2015/12/31", "Sunday,2015/1,12/31", "Sunday,0/1/1,12/31"] {
+    // As spreadsheets save it.
+    for other in ["Sunday,1-Jan,31-Dec", "Sunday,Jan 1,Dec 31", "Sunday,2015-01-01,2015-12-31"] {
+        assert_eq!(Epw::parse(&text.replace(stated, other)), Ok(usual.clone()), "{other}");
+    }
+    for wrong in ["Sunday,2015/13/1,2015/12/31", "Sunday,2015/1,12/31", "Sunday,0/1/1,12/31", "Sunday,1-Jen,31-Dec"] {
         assert!(Epw::parse(&text.replace(stated, wrong)).is_err(), "{wrong}");
     }
 }
@@ -214,11 +282,16 @@ fn what_is_wrong_is_located() {
         (error.line - HEADER, error.to_string())
     };
     let days = || File::days((1, 3));
-    let (row, text) = problem(days().with(30, 6, "warm"));
+    let used = |file: File| {
+        let epw = file.parse().expect("rows follow each other");
+        let error = epw.check_use(&all_days(&[Field::DryBulb])).expect_err("must be refused");
+        (error.line - HEADER, error.to_string())
+    };
+    let (row, text) = used(days().with(30, 6, "warm"));
     assert_eq!((row, text.contains("column 7, dry-bulb temperature, is `warm`, not a number")), (31, true), "{text}");
-    let (row, text) = problem(days().with(3, 6, "-99.0"));
+    let (row, text) = used(days().with(3, 6, "-99.0"));
     assert_eq!((row, text.contains("is -99; possible are -70 to 70, and missing is 99.9")), (4, true), "{text}");
-    let (row, text) = problem(days().with(3, 6, "NaN"));
+    let (row, text) = used(days().with(3, 6, "NaN"));
     assert_eq!((row, text.contains("is NaN")), (4, true), "{text}");
     let (row, text) = problem(days().with(0, 2, "32"));
     assert_eq!((row, text.contains("day of the month")), (1, true), "{text}");

@@ -24,7 +24,7 @@ pub fn identify(
         let summary = interplay_presentation::report::identification(&names.0, &found);
         let network = found.network.as_ref().ok();
         let scenario = network
-            .map(|network| interplay_presentation::report::identified_scenario(&names.0, &found.report, network));
+            .map(|network| interplay_presentation::report::identified_scenario(&names.0, &found.report, network, None));
         Ok((report, summary, scenario))
     })
 }

@@ -94,6 +94,7 @@ pub use file_format::expect::{
     ExpectedSpeed, ExpectedYield, ExpectedZone,
 };
 pub use file_format::flow::{FlowConfig, FlowGoal, FlowShare, Headways};
+pub use file_format::gains::{GainsConfig, RecordedGainsFile};
 pub use file_format::goal::GoalConfig;
 pub use file_format::lane_reference::LaneReference;
 pub use file_format::light::LightConfig;
@@ -107,7 +108,7 @@ pub use file_format::start_jitter::StartJitter;
 pub use file_format::stated::Stated;
 pub use file_format::vehicle_config::VehicleConfig;
 pub use file_format::vehicle_defaults::{GoalDefaults, VehicleDefaults};
-pub use file_format::weather::{EpwFile, EpwWeather, Synthetic, WeatherConfig, WeatherSource};
+pub use file_format::weather::{CsvWeather, EpwFile, EpwWeather, Synthetic, WeatherConfig, WeatherSource};
 pub use file_format::weights::Weights;
 pub use files::{files, files_below};
 pub use load::{from_text, load};

@@ -44,7 +44,7 @@ pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
         return Err(FmuError::TooMuchWeather { numbers, limit: MAX_WEATHER_NUMBERS });
     }
     let model = Model::new(&network, described.method, described.step_s)?;
-    let outside = OutsideSeries::collect(&surroundings_of(scenario, zones), &model, steps, days);
+    let outside = OutsideSeries::collect(&surroundings_of(scenario, &network), &model, steps, days);
     let numbers = plant(&model, described.initial_c, &outside);
     let guid = guid(&scenario.title, &numbers);
     let resources = format!("interplay-plant 1\nguid {guid}\n{numbers}");

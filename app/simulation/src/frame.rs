@@ -37,7 +37,7 @@ pub struct Frame {
 }
 
 /// A building at one of its steps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct BuildingFrame {
     /// The day, from 0: the iteration.
     pub day: usize,
@@ -49,6 +49,12 @@ pub struct BuildingFrame {
     pub ambient_c: f64,
     /// Outdoor temperature that was forecast at midnight for the step \[°C\].
     pub forecast_c: f64,
+    /// Temperatures of the walls that store heat, at the start of the step \[°C\].
+    pub walls_c: Vec<f64>,
+    /// Global radiation on a horizontal plane during the step \[W/m²\].
+    pub sun_w_per_m2: f64,
+    /// The price of electricity in the step \[currency/kWh\]; none without a tariff.
+    pub price_per_kwh: Option<f64>,
     /// The controller's description of its plan for the day, at the first step of the day.
     pub design: Option<Box<Design>>,
     /// The key figures of the day, at its last step.
@@ -56,7 +62,7 @@ pub struct BuildingFrame {
 }
 
 /// One zone at one step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ZoneFrame {
     /// Temperature at the start of the step \[°C\].
     pub temperature_c: f64,
@@ -72,6 +78,10 @@ pub struct ZoneFrame {
     pub heat_kw: f64,
     /// Heat from people, sun and machines \[kW\].
     pub gains_kw: f64,
+    /// The part of it that is the sun's \[kW\].
+    pub sun_kw: f64,
+    /// Electricity that its heat takes \[kW\].
+    pub electric_kw: f64,
 }
 
 /// One vehicle at one tick.

@@ -85,7 +85,7 @@ impl RowFile {
         let rows = match target.format {
             TableFormat::Csv => {
                 let mut file = BufWriter::new(WholeFile::begin(path).map_err(SweepError::file("write", path))?);
-                let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+                let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
                 writeln!(file, "{}", names.join(",")).map_err(SweepError::file("write", path))?;
                 Rows::Csv(file)
             }
@@ -98,9 +98,12 @@ impl RowFile {
     }
 
     /// Appends a row, a value for each column in their order.
-    pub fn push<const N: usize>(&mut self, cells: [Cell; N]) -> Result<(), WatchError> {
+    pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), WatchError> {
         match &mut self.rows {
-            Rows::Csv(file) => writeln!(file, "{}", cells.map(|cell| in_csv(&cell)).join(","))?,
+            Rows::Csv(file) => {
+                let cells: Vec<String> = cells.into_iter().map(|cell| in_csv(&cell)).collect();
+                writeln!(file, "{}", cells.join(","))?;
+            }
             Rows::Parquet(table) => table.push(cells)?,
         }
         Ok(())

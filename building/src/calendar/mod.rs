@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use interplay_common::setting::SettingKey;
 
+use crate::sun::days_since_2000;
+
 /// The date of the first day, and the holidays.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -92,6 +94,12 @@ impl Weekday {
         WEEK.into_iter().find(|weekday| format!("{weekday:?}").eq_ignore_ascii_case(word))
     }
 
+    /// The weekday of a midnight, in days since noon of the 1st of January 2000, a Saturday.
+    pub fn of_local_days(local_days: f64) -> Self {
+        let since_monday = (local_days + 0.5).round() + 5.0;
+        WEEK[since_monday.rem_euclid(WEEK.len() as f64) as usize]
+    }
+
     fn from_date(date: Date) -> Self {
         let since_monday = CivilWeekday::Monday.until(date.weekday());
         WEEK[usize::from(since_monday.unsigned_abs()) % WEEK.len()]
@@ -162,9 +170,18 @@ impl Calendar {
         Ok(date.map(|date| (u32::from(date.month().unsigned_abs()), u32::from(date.day().unsigned_abs()))))
     }
 
-    fn first_date(&self) -> Result<Option<Date>, CalendarError> {
+    /// The date of the first day, if one is stated.
+    ///
+    /// # Errors
+    /// [`CalendarError`] if the text is no date.
+    pub fn first_date(&self) -> Result<Option<Date>, CalendarError> {
         self.first_day.as_ref().map(|text| date(text, &SettingKey::from("first_day"))).transpose()
     }
+}
+
+/// The midnight at the start of a date, in days since noon of the 1st of January 2000, on the clocks of the place.
+pub fn local_days(date: Date) -> f64 {
+    days_since_2000(i32::from(date.year()), date.month(), date.day())
 }
 
 /// The date that a text names.
@@ -195,6 +212,14 @@ mod tests {
         let days = calendar(Some("2026-07-06"), &["2027-07-06"]).days(None).expect("dates");
         assert_eq!(days.kind(0), DayKind::Plain(Weekday::Monday));
         assert_eq!(days.kind(365), DayKind::Holiday, "a year later");
+    }
+
+    #[test]
+    fn days_since_2000_have_the_weekdays_of_their_dates() {
+        for text in ["2000-01-01", "1999-12-31", "2026-07-06", "1961-04-12"] {
+            let date: Date = text.parse().expect("a date");
+            assert_eq!(Weekday::of_local_days(local_days(date)), Weekday::from_date(date), "{text}");
+        }
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Key figures of a day, as defined by BOPTEST.
 //!
 //! Discomfort is the time integral of the deviation beyond the comfort band, averaged over the zones \[K·h per zone\].
-//! Energy is thermal; heating and cooling both count as positive. The peak is the highest power of the whole building
-//! averaged over a quarter of an hour (or over a step, if that is longer). BOPTEST divides energy and peak by the floor
-//! area, which a thermal network does not have.
+//! `energy_kwh` and `peak_kw` are thermal, of heat in and out; heating and cooling both count as positive. BOPTEST's energy and peak are
+//! those of the meter, here `electricity_kwh` and `electric_peak_kw`. A peak is the highest power of the whole building averaged over a
+//! quarter of an hour (or over a step, if that is longer). BOPTEST divides energy and peak by the floor area, which a thermal network
+//! does not have.
 
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ pub struct KeyFigures {
     pub tracking_rmse_c: f64,
     /// Deviation beyond the comfort band while occupied, integrated over time \[K·h per zone\].
     pub discomfort_k_h: f64,
-    /// Heat brought in and taken out by the equipment \[kWh\].
+    /// Heat brought in and taken out by the equipment, thermal \[kWh\].
     pub energy_kwh: f64,
     /// Electricity that the equipment took for this heat \[kWh\]; without a heat pump as much as the heat.
     pub electricity_kwh: f64,
@@ -34,8 +35,10 @@ pub struct KeyFigures {
     pub heating_kwh: f64,
     /// Heat taken out \[kWh\].
     pub cooling_kwh: f64,
-    /// Highest power of all zones together \[kW\].
+    /// Highest thermal power of all zones together, heat in and out \[kW\].
     pub peak_kw: f64,
+    /// Highest electric power of all zones together \[kW\]; without a heat pump as much as the thermal one.
+    pub electric_peak_kw: f64,
     /// Largest excess of a requested input over its limit \[kW\]; the equipment then did less than was requested.
     pub input_violation_kw: f64,
 }
@@ -56,7 +59,9 @@ impl KeyFigures {
         };
         let count = errors_k().count().max(1) as f64;
         let beyond_k: f64 = record.temperatures_c.iter().enumerate().map(|(i, t)| targets.beyond_k(i, *t)).sum();
-        let electric_kwh = |i: usize| hours * targets.supply.electric_kw(i / n, record.heat_kw[i]);
+        let electric_kw: Vec<f64> =
+            record.heat_kw.iter().enumerate().map(|(i, kw)| targets.supply.electric_kw(i / n, *kw)).collect();
+        let electric_kwh = |i: usize| hours * electric_kw[i];
         let money = |i: usize| targets.supply.money(i / n, electric_kwh(i));
         let excess = |(i, kw): (usize, &f64)| limits.excess_kw(i % n, *kw);
         Self {
@@ -69,6 +74,7 @@ impl KeyFigures {
             heating_kwh,
             cooling_kwh,
             peak_kw: peak_kw(&record.heat_kw, n, step_s),
+            electric_peak_kw: peak_kw(&electric_kw, n, step_s),
             input_violation_kw: record.requested_kw.iter().enumerate().map(excess).fold(0.0, f64::max),
         }
     }

@@ -1,4 +1,4 @@
-//! The price of electricity, hour by hour.
+//! The price of electricity over time.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,6 +9,12 @@ use interplay_common::setting::{self, SettingKey};
 /// markets may be negative.
 const MIN_PRICE_RATIO: f64 = 0.05;
 const HOUR_S: f64 = 3600.0;
+const DAY_S: f64 = 86_400.0;
+
+/// Whether a ratio is a whole number of at least 1.
+fn is_whole(ratio: f64) -> bool {
+    ratio >= 0.5 && (ratio - ratio.round()).abs() < 1e-9
+}
 
 /// What a kilowatt-hour of electricity costs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,8 +23,9 @@ pub struct Tariff {
     /// The currency, for reports.
     #[schemars(length(min = 1))]
     pub currency: String,
-    /// The price of each hour from the first midnight on \[currency/kWh\]. After the last they begin again: 1 price holds
-    /// always, 24 are a day, 168 a week.
+    /// The prices from the first midnight on, each for `interval_s` \[currency/kWh\]. After the last they begin again, so they are
+    /// whole days, or fit a whole number of times into a day, or reach to the end of the run: of prices by the hour 1 holds always, 24
+    /// are a day, 168 a week.
     #[schemars(
         inner(range(min = -1000.0, max = 1000.0)),
         length(max = 100000),
@@ -26,15 +33,19 @@ pub struct Tariff {
         extend("x-unit" = "currency/kWh")
     )]
     pub prices_per_kwh: Vec<f64>,
-    /// A table of the prices as comma-separated values: a header `hour,price_per_kwh`, and a row an hour from the first midnight
-    /// on, counted from 0. The path is relative to the scenario or plan that states it, and in a flag to the current folder.
+    /// How long each price holds, such as 3600 or 900; a day must be a whole number of them. That of a `file` follows from its rows \[s\].
+    #[schemars(range(min = 60.0, max = 86400.0))]
+    pub interval_s: f64,
+    /// A table of the prices as comma-separated values: a header `hour,price_per_kwh`, and rows at equal intervals from hour 0 of the
+    /// first day on, such as hours 0, 0.25, 0.5, or instead of `hour` a column of dates with a time. The path is relative to the scenario
+    /// or plan that states it, and in a flag to the current folder.
     #[schemars(example = &"prices.csv", extend("x-excludes" = ["prices_per_kwh"]))]
     pub file: Option<String>,
 }
 
 impl Default for Tariff {
     fn default() -> Self {
-        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), file: None }
+        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), interval_s: HOUR_S, file: None }
     }
 }
 
@@ -66,6 +77,10 @@ impl Tariff {
             let problem = "there are no prices: state `prices_per_kwh`, such as `[0.3]`, or a `file`".to_owned();
             return refused("prices_per_kwh", problem);
         }
+        if !is_whole(DAY_S / self.interval_s) {
+            let problem = format!("a day is no whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
+            return refused("interval_s", problem);
+        }
         let mean = self.mean_per_kwh();
         if mean.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return refused("prices_per_kwh", format!("the mean price is {:.6}; it must be above 0", mean));
@@ -78,25 +93,54 @@ impl Tariff {
         self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
+    /// How many days the prices are.
+    pub fn days(&self) -> f64 {
+        self.prices_per_kwh.len() as f64 * self.interval_s / DAY_S
+    }
+
+    /// Refuses prices that would begin anew in the middle of a day of a run of `days` days.
+    ///
+    /// # Errors
+    /// [`TariffError`].
+    pub fn check_days(&self, days: usize) -> Result<(), TariffError> {
+        let count = self.prices_per_kwh.len();
+        if count == 0 || is_whole(self.days()) || is_whole(1.0 / self.days()) || self.days() >= days as f64 {
+            return Ok(());
+        }
+        let per_day = DAY_S / self.interval_s;
+        let problem = format!(
+            "there are {count} prices, and the run takes {}: after the last they would begin anew in the middle of a day; \
+             state whole days ({} or {} prices), or all of them",
+            days as f64 * per_day,
+            (self.days().floor().max(1.0)) * per_day,
+            self.days().ceil().max(2.0) * per_day
+        );
+        Err(TariffError { key: "prices_per_kwh".into(), problem })
+    }
+
     /// Whether one day has other prices than the next.
     pub fn days_differ(&self) -> bool {
-        24 % self.prices_per_kwh.len().max(1) != 0
+        !is_whole(1.0 / self.days())
     }
 
     /// The price in each step of a day, counted from zero \[currency/kWh\]: the mean over the step.
     pub fn day_per_kwh(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
-        let first_h = day * 24;
-        let price = |hour: usize| self.prices_per_kwh[(first_h + hour) % self.prices_per_kwh.len()];
+        let first = day * (DAY_S / self.interval_s).round() as usize;
+        let price = |interval: usize| self.prices_per_kwh[(first + interval) % self.prices_per_kwh.len()];
         let step_price = |step: usize| {
             let (from_s, to_s) = (step as f64 * step_s, (step + 1) as f64 * step_s);
-            let hour = (from_s / HOUR_S + 1e-9).floor() as usize;
-            let turn_s = (hour + 1) as f64 * HOUR_S;
+            let interval = (from_s / self.interval_s + 1e-9).floor() as usize;
+            let turn_s = (interval + 1) as f64 * self.interval_s;
             if to_s <= turn_s + 1e-6 {
-                return price(hour);
+                return price(interval);
             }
-            // A step is at most an hour, so it lies in two hours at most.
-            let share = (turn_s - from_s) / step_s;
-            share * price(hour) + (1.0 - share) * price(hour + 1)
+            let (mut sum, mut from_s, mut interval) = (0.0, from_s, interval);
+            while from_s < to_s - 1e-6 {
+                let until_s = ((interval + 1) as f64 * self.interval_s).min(to_s);
+                sum += (until_s - from_s) / step_s * price(interval);
+                (from_s, interval) = (until_s, interval + 1);
+            }
+            sum
         };
         (0..steps).map(step_price).collect()
     }

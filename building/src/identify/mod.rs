@@ -46,9 +46,10 @@ pub use report::{
 pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
 pub use smoothing::local_linear;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit,
-    Mapping, MeasuredWall, MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry,
-    TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
+    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, EnergyUnit, Gaps, HeatColumns, Hold,
+    IrradianceUnit, Mapping, MeasuredWall, MeasuredZone, MeterReading, Neighbour, PowerUnit, RecordedDays, SolarColumn,
+    SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape,
+    WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;

@@ -53,8 +53,12 @@ pub(super) fn check_walls(zones: &[Zone], walls: &[Wall]) -> Result<Vec<[Option<
         let called = wall_name(index, &walls[index]);
         NetworkError::Setting { part: Part::Wall(index), called, error }
     })?;
-    match walls.iter().position(|wall| wall.solar_aperture_m2 > 0.0 && wall.capacity_kj_per_k.is_none()) {
-        Some(wall) => Err(NetworkError::SunWithoutMass { wall, called: wall_name(wall, &walls[wall]) }),
+    let has_sun = |wall: &Wall| wall.solar_aperture_m2 > 0.0 || !wall.windows.is_empty();
+    match walls.iter().position(|wall| has_sun(wall) && wall.capacity_kj_per_k.is_none()) {
+        Some(wall) => {
+            let key = if walls[wall].windows.is_empty() { "solar_aperture_m2" } else { "window" };
+            Err(NetworkError::SunWithoutMass { wall, called: wall_name(wall, &walls[wall]), key })
+        }
         None => Ok(ends),
     }
 }

@@ -66,6 +66,8 @@ pub enum NetworkError {
         wall: usize,
         /// The wall, in words.
         called: String,
+        /// The key that lets the sun in.
+        key: &'static str,
     },
     /// A setting of a zone or a wall is out of range.
     #[error("{called}: {error}")]
@@ -101,7 +103,7 @@ impl NetworkError {
             Self::NoZones => None,
             Self::BadName { .. } | Self::DuplicateZone { .. } => Some("name".into()),
             Self::UnknownZone { .. } | Self::SamePlace { .. } => Some("between".into()),
-            Self::SunWithoutMass { .. } => Some("solar_aperture_m2".into()),
+            Self::SunWithoutMass { key, .. } => Some((*key).into()),
             Self::Setting { error, .. } | Self::Believed(error) => Some(error.key.clone()),
         }
     }

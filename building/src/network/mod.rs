@@ -23,6 +23,8 @@ mod power_limits;
 mod presets;
 mod remarks;
 mod settings;
+mod sunlight;
+mod window;
 
 use nalgebra::DMatrix;
 
@@ -30,6 +32,8 @@ pub use error::{NetworkError, Part, Remark};
 pub use mismatch::ModelMismatch;
 pub use power_limits::PowerLimits;
 pub use settings::{AMBIENT, Wall, Zone};
+use sunlight::Openings;
+pub use window::Window;
 
 /// A conductance between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +53,7 @@ pub struct Network {
     zone_count: usize,
     capacities_kj_per_k: Vec<f64>,
     limits: PowerLimits,
-    /// Of each node.
-    solar_apertures_m2: Vec<f64>,
+    openings: Openings,
     links: Vec<Link>,
     ambient_kw_per_k: Vec<f64>,
     /// Pairs of zones with a wall between them, the smaller number first, sorted, without repetition.
@@ -75,11 +78,12 @@ impl Network {
                 heating_kw: zones.iter().map(|zone| zone.heating_limit_kw.unwrap_or(zone.limit_kw)).collect(),
                 cooling_kw: zones.iter().map(|zone| zone.cooling_limit_kw.unwrap_or(zone.limit_kw)).collect(),
             },
-            solar_apertures_m2: zones.iter().map(|zone| zone.solar_aperture_m2).collect(),
+            openings: Openings::default(),
             links: Vec::new(),
             ambient_kw_per_k: vec![0.0; zones.len()],
             adjacent: Vec::new(),
         };
+        zones.iter().for_each(|zone| network.openings.push(zone.solar_aperture_m2, &zone.windows));
         for (number, (wall, ends)) in walls.iter().zip(checks::check_walls(zones, walls)?).enumerate() {
             network.add(number, wall, ends);
         }
@@ -102,7 +106,7 @@ impl Network {
         self.names.push(checks::wall_name(number, wall));
         self.capacities_kj_per_k.push(capacity_kj_per_k);
         self.ambient_kw_per_k.push(0.0);
-        self.solar_apertures_m2.push(wall.solar_aperture_m2);
+        self.openings.push(wall.solar_aperture_m2, &wall.windows);
         let sides = match wall.mass_position {
             None => [2.0, 2.0],
             Some(position) => [1.0 / position, 1.0 / (1.0 - position)],
@@ -148,19 +152,6 @@ impl Network {
     /// The largest heating and cooling power of each zone.
     pub fn limits(&self) -> &PowerLimits {
         &self.limits
-    }
-
-    /// How many nodes get heat of people, machines or sun: the zones, or all nodes where the sun falls on a wall that stores heat.
-    pub fn gain_count(&self) -> usize {
-        let on_walls = self.solar_apertures_m2[self.zone_count..].iter().any(|aperture_m2| *aperture_m2 > 0.0);
-        if on_walls { self.node_count() } else { self.zone_count }
-    }
-
-    /// Heat that the sun brings into each of the first [`Network::gain_count`] nodes \[kW\], for a global radiation on a
-    /// horizontal plane \[W/m²\].
-    pub fn solar_gains_kw(&self, sun_w_per_m2: f64) -> Vec<f64> {
-        let apertures_m2 = &self.solar_apertures_m2[..self.gain_count()];
-        apertures_m2.iter().map(|aperture_m2| aperture_m2 * sun_w_per_m2 / 1000.0).collect()
     }
 
     /// Conductances between nodes, in the order of the walls.

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Window;
+
 /// The name that a wall uses for the air outside.
 pub const AMBIENT: &str = "ambient";
 
@@ -34,6 +36,10 @@ pub struct Zone {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub solar_aperture_m2: f64,
+    /// Its windows, one `[[building.zone.window]]` each, by the direction that they face; the weather must say where the sun stands.
+    #[serde(rename = "window", default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub windows: Vec<Window>,
 }
 
 fn default_capacity_kj_per_k() -> f64 {
@@ -54,6 +60,7 @@ impl Zone {
             heating_limit_kw: None,
             cooling_limit_kw: None,
             solar_aperture_m2: 0.0,
+            windows: Vec::new(),
         }
     }
 }
@@ -86,6 +93,11 @@ pub struct Wall {
     #[serde(default)]
     #[schemars(range(min = 0.0), example = 1.5)]
     pub solar_aperture_m2: f64,
+    /// Windows through which the sun falls on the stored heat of the wall, such as that of a floor, in the form of those of a zone. Only
+    /// a wall with `capacity_kj_per_k` can have them.
+    #[serde(rename = "window", default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub windows: Vec<Window>,
 }
 
 impl Wall {
@@ -97,6 +109,7 @@ impl Wall {
             capacity_kj_per_k: None,
             mass_position: None,
             solar_aperture_m2: 0.0,
+            windows: Vec::new(),
         }
     }
 

@@ -14,13 +14,17 @@ use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{TimeSeries, Weather};
+use super::{Sky, TimeSeries, Weather};
+use crate::sun::{Site, days_since_2000};
 
 /// Time between two values \[s\].
 const INTERVAL_S: f64 = 1800.0;
 const INTERVALS_PER_DAY: usize = 48;
 /// The hour of the day when the sun is highest in Singapore, whose clocks are an hour ahead of the sun.
 const NOON_H: f64 = 13.1;
+/// Where the sun is highest at that hour, on clocks eight hours ahead of Greenwich.
+const SITE: Site = Site { latitude_deg: 0.0, longitude_deg: 103.5, elevation_m: 0.0 };
+const AHEAD_OF_GREENWICH_H: f64 = 8.0;
 /// Radiation on a horizontal plane under the highest sun and a clear sky \[W/m²\].
 const CLEAR_SUN_W_PER_M2: f64 = 950.0;
 
@@ -98,7 +102,9 @@ impl Climate {
             }
         }
         let series = |values| TimeSeries { first_s: -86_400.0, interval_s: INTERVAL_S, cyclic: false, values };
-        Weather { ambient_c: series(ambient_c), sun_w_per_m2: series(sun_w_per_m2) }
+        let sun_w_per_m2 = series(sun_w_per_m2);
+        let sky = Some(Sky { site: SITE, utc_days: equinoxes(days + 1), parts: None });
+        Weather { ambient_c: series(ambient_c), sun_w_per_m2, sky }
     }
 
     /// The next value of the AR(1) noise.
@@ -120,6 +126,13 @@ impl Storm {
         }
         self.depth_k * (since_h / ONSET_H).min(1.0) * libm::exp(-since_h / WEARS_OFF_H)
     }
+}
+
+/// The moments of the values of some days, each an equinox, as [`sun_height`] has it.
+fn equinoxes(days: usize) -> Vec<f64> {
+    let midnight = days_since_2000(2026, 3, 20) - AHEAD_OF_GREENWICH_H / 24.0;
+    let of_day = (0..INTERVALS_PER_DAY).map(|interval| midnight + interval as f64 * INTERVAL_S / 86_400.0);
+    std::iter::repeat_n(of_day, days).flatten().collect()
 }
 
 /// The course of a day with mean zero: coldest about 06:00, warmest about 14:00.

@@ -7,11 +7,15 @@
 mod climate;
 pub mod epw;
 mod forecast;
+mod recorded;
+mod sky;
 mod time_series;
 
 pub use climate::Climate;
 pub use epw::{Epw, EpwError};
 pub use forecast::{ErrorLevel, ErrorModel, Forecast};
+pub use recorded::{ReadWeather, RecordedWeather, RowMeaning, RunSpan, default_bridge_gaps_h};
+pub use sky::Sky;
 pub use time_series::TimeSeries;
 
 /// Outdoor temperature and sunshine as functions of time.
@@ -21,6 +25,8 @@ pub struct Weather {
     pub ambient_c: TimeSeries,
     /// Global radiation on a horizontal plane \[W/m²\].
     pub sun_w_per_m2: TimeSeries,
+    /// Radiation by its direction, where it is known: windows of any orientation need it.
+    pub sky: Option<Sky>,
 }
 
 impl Weather {

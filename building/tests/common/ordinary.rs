@@ -70,12 +70,9 @@ impl OrdinaryBuilding {
             ..Setpoints::default()
         };
         let targets = setpoints.targets(count, STEP_S, STEPS).expect("valid");
-        let surroundings = Surroundings {
-            weather: Climate::default().weather(seed, 1),
-            forecast: Forecast::Uncertain { level: ErrorLevel::Medium },
-            forecast_seed: seed,
-            people: Occupancy::default().people(count, seed),
-        };
+        let forecast = Forecast::Uncertain { level: ErrorLevel::Medium };
+        let (weather, people) = (Climate::default().weather(seed, 1), Occupancy::default().people(count, seed));
+        let surroundings = Surroundings::new(weather, (forecast, seed), people, &network);
         let day = (surroundings.forecast(&model, STEPS, 0), surroundings.actual(&model, STEPS, 0));
         Self { construction, model, targets, day }
     }

@@ -112,14 +112,11 @@ pub fn assert_close(got: f64, want: f64, relative: f64) {
 
 /// Days of a synthetic climate with a forecast of medium error, and people who deviate from their schedule.
 pub fn synthetic(seed: u64, days: usize, zones: usize) -> Vec<(Disturbance, Disturbance)> {
-    let surroundings = Surroundings {
-        weather: Climate::default().weather(seed, days),
-        forecast: Forecast::Uncertain { level: ErrorLevel::Medium },
-        forecast_seed: seed,
-        people: Occupancy::default().people(zones, seed),
-    };
+    let forecast = Forecast::Uncertain { level: ErrorLevel::Medium };
     // The zones have no windows: of the model, only the step matters.
     let model = Model::exact(&Network::grid(1, zones), STEP_S).expect("stable");
+    let (weather, people) = (Climate::default().weather(seed, days), Occupancy::default().people(zones, seed));
+    let surroundings = Surroundings::new(weather, (forecast, seed), people, model.network());
     (0..days).map(|day| (surroundings.forecast(&model, STEPS, day), surroundings.actual(&model, STEPS, day))).collect()
 }
 

@@ -10,6 +10,7 @@ pub(crate) mod detector;
 pub(crate) mod expect;
 mod expectation_names;
 pub(crate) mod flow;
+pub(crate) mod gains;
 pub(crate) mod goal;
 pub(crate) mod lane_reference;
 pub(crate) mod light;

@@ -19,6 +19,7 @@ use crate::file_format::detail::Detail;
 use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
 use crate::file_format::flow::FlowConfig;
+use crate::file_format::gains::GainsConfig;
 use crate::file_format::light::LightConfig;
 use crate::file_format::obstacle::ObstacleConfig;
 use crate::file_format::plant::Plant;
@@ -118,6 +119,10 @@ pub struct ScenarioFile {
     /// The people in the building; by default office hours with real deviations.
     #[schemars(extend("x-concerns" = "building"), example = json!({}))]
     pub occupancy: Option<Stated<Occupancy>>,
+    /// Recorded heat of people and machines, one `[[gains]]` for each table; without it all heat of people follows the schedules.
+    #[serde(default)]
+    #[schemars(length(max = 100), extend("x-concerns" = "building"))]
+    pub gains: Vec<Stated<GainsConfig>>,
     /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
     #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Stated<Setpoints>>,

@@ -1,9 +1,9 @@
-//! The weather of a scenario: synthetic, or from an EPW file.
+//! The weather of a scenario: synthetic, from an EPW file, or from a table.
 
 use std::sync::Arc;
 
 use interplay_building::calendar::Weekday;
-use interplay_building::weather::{Climate, Epw, Forecast, TimeSeries, Weather};
+use interplay_building::weather::{Climate, Epw, Forecast, RecordedWeather, Weather, default_bridge_gaps_h};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,8 @@ pub enum WeatherConfig {
     Synthetic(Synthetic),
     /// A file in the format of EnergyPlus.
     Epw(EpwFile),
+    /// A table of comma-separated values.
+    Csv(RecordedWeather),
 }
 
 impl Default for WeatherConfig {
@@ -52,6 +54,10 @@ pub struct EpwFile {
     /// How a day's temperatures are forecast at its start; by default without error.
     #[serde(default)]
     pub forecast: Forecast,
+    /// The longest gap in what the run uses that is bridged, with a remark; a longer one is refused \[h\].
+    #[serde(default = "default_bridge_gaps_h")]
+    #[schemars(range(min = 0.0, max = 100000.0))]
+    pub bridge_gaps_h: f64,
 }
 
 impl EpwFile {
@@ -71,6 +77,8 @@ pub enum WeatherSource {
     Synthetic(Synthetic),
     /// The rows of an EPW file.
     Epw(EpwWeather),
+    /// The rows of a table.
+    Csv(CsvWeather),
 }
 
 /// An EPW file that was read, and the first day that is simulated.
@@ -86,6 +94,19 @@ pub struct EpwWeather {
     pub start_s: f64,
 }
 
+/// A table of weather that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CsvWeather {
+    /// What is stated of the table.
+    pub stated: RecordedWeather,
+    /// Where the table was found: an absolute path.
+    pub found: String,
+    /// What it says of the run, from its first midnight on.
+    pub weather: Arc<Weather>,
+    /// The weekday of the first day, if the table has dates.
+    pub first_weekday: Option<Weekday>,
+}
+
 impl Default for WeatherSource {
     fn default() -> Self {
         WeatherSource::Synthetic(Synthetic::default())
@@ -98,24 +119,25 @@ impl WeatherSource {
         match self {
             WeatherSource::Synthetic(synthetic) => synthetic.forecast,
             WeatherSource::Epw(weather) => weather.stated.forecast,
+            WeatherSource::Csv(weather) => weather.stated.forecast,
         }
     }
 
     /// The weekday of the first day, if a weather file states one.
     pub fn first_weekday(&self) -> Option<Weekday> {
-        let WeatherSource::Epw(weather) = self else { return None };
-        weather.rows.weekday(weather.start_s)
+        match self {
+            WeatherSource::Synthetic(_) => None,
+            WeatherSource::Epw(weather) => weather.rows.weekday(weather.start_s),
+            WeatherSource::Csv(weather) => weather.first_weekday,
+        }
     }
 
     /// Returns the weather over `days` days as functions of the time since the first midnight.
     pub fn days(&self, days: usize, seed: u64) -> Weather {
         match self {
             WeatherSource::Synthetic(synthetic) => synthetic.climate.weather(seed, days),
-            WeatherSource::Epw(weather) => {
-                let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - weather.start_s, ..series };
-                let Weather { ambient_c, sun_w_per_m2 } = weather.rows.weather();
-                Weather { ambient_c: shifted(ambient_c), sun_w_per_m2: shifted(sun_w_per_m2) }
-            }
+            WeatherSource::Epw(weather) => weather.rows.weather().from_s(weather.start_s),
+            WeatherSource::Csv(weather) => (*weather.weather).clone(),
         }
     }
 
@@ -125,6 +147,9 @@ impl WeatherSource {
             WeatherSource::Synthetic(synthetic) => WeatherConfig::Synthetic(*synthetic),
             WeatherSource::Epw(weather) => {
                 WeatherConfig::Epw(EpwFile { file: weather.found.clone(), ..weather.stated.clone() })
+            }
+            WeatherSource::Csv(weather) => {
+                WeatherConfig::Csv(RecordedWeather { file: weather.found.clone(), ..weather.stated.clone() })
             }
         }
     }

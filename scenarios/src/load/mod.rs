@@ -348,7 +348,7 @@ pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     }
 }
 
-/// Where a scenario names files: its weather, its prices, and the records of its vehicles.
+/// Where a scenario names files: its weather, its prices, its gains, and the records of its vehicles.
 fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
     let mut found = Vec::new();
     let file = |node| match node {
@@ -360,6 +360,9 @@ fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
     for (key, entry) in root {
         match (key.as_str(), &mut entry.node) {
             ("weather" | "tariff", node) => found.extend(file(node)),
+            ("gains", TomlNode { value: TomlValue::Array(tables), .. }) => {
+                found.extend(tables.iter_mut().filter_map(file))
+            }
             ("vehicle", TomlNode { value: TomlValue::Array(vehicles), .. }) => {
                 let drivers = vehicles.iter_mut().filter_map(|vehicle| match &mut vehicle.value {
                     TomlValue::Table(vehicle) => vehicle.get_mut("driver").map(|entry| &mut entry.node),

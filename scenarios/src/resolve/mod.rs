@@ -1,9 +1,11 @@
 //! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
 
+mod gains_file;
 pub(crate) mod local_origin;
 mod measured_drivers;
 pub(crate) mod placement;
 pub(crate) mod records;
+mod series_file;
 pub(crate) mod tariff_file;
 pub(crate) mod weather_file;
 
@@ -13,6 +15,7 @@ use interplay_planners::Driver;
 
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
+use crate::file_format::gains::GainsConfig;
 use crate::file_format::scenario_file::{ScenarioFile, defaults};
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::{VehicleConfig, default_driver};
@@ -85,6 +88,7 @@ fn read(
         building: reader.optional("building", file.building)?,
         weather: WeatherSource::default(),
         occupancy: reader.optional("occupancy", file.occupancy)?,
+        gains: Vec::new(),
         setpoints: reader.optional("setpoints", file.setpoints)?,
         schedules: reader.list("schedule", file.schedules)?,
         calendar: reader.optional("calendar", file.calendar)?,
@@ -104,9 +108,8 @@ fn read(
         scenario.ticks_per_plan = ticks_per_plan(period_s, scenario.step_s, tree)?;
     }
     scenario.remarks.0.extend(moved.map(|origin| ScenarioRemark(local_origin::remark(origin, tree))));
-    let weather = reader.or_default("weather", file.weather)?;
-    let unread = read_named_files(&mut scenario, weather, tree);
-    Ok((scenario, unread))
+    let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
+    Ok(with_named_files(scenario, named, tree))
 }
 
 /// How many ticks there are from one plan to the next.
@@ -124,23 +127,42 @@ fn ticks_per_plan(period_s: f64, step_s: f64, tree: &TomlNode) -> Result<usize, 
     Err(vec![Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help)])
 }
 
-/// Puts what the weather file and the table of prices say in the place of their names; returns what is wrong with them.
-fn read_named_files(scenario: &mut Scenario, weather: WeatherConfig, tree: &TomlNode) -> Vec<Fault> {
+/// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
+fn with_named_files(
+    mut scenario: Scenario,
+    (weather, gains): (WeatherConfig, Vec<GainsConfig>),
+    tree: &TomlNode,
+) -> (Scenario, Vec<Fault>) {
     let mut unread = Vec::new();
-    match weather {
-        WeatherConfig::Synthetic(synthetic) => scenario.weather = WeatherSource::Synthetic(synthetic),
-        WeatherConfig::Epw(stated) => match weather_file::read(stated, scenario.days(), tree) {
-            Ok(weather) => scenario.weather = WeatherSource::Epw(weather),
-            Err(fault) => unread.push(fault),
-        },
+    let read = match weather {
+        WeatherConfig::Synthetic(synthetic) => Ok((WeatherSource::Synthetic(synthetic), Vec::new())),
+        WeatherConfig::Epw(stated) => {
+            weather_file::read(stated, &scenario, tree).map(|(weather, remarks)| (WeatherSource::Epw(weather), remarks))
+        }
+        WeatherConfig::Csv(stated) => weather_file::read_table(stated, &scenario, tree)
+            .map(|(weather, remarks)| (WeatherSource::Csv(weather), remarks)),
+    };
+    match read {
+        Ok((weather, remarks)) => {
+            scenario.weather = weather;
+            scenario.remarks.0.extend(remarks);
+        }
+        Err(fault) => unread.push(fault),
     }
-    if let Some(tariff) = &mut scenario.tariff {
-        match tariff_file::read(tariff, tree) {
-            Ok(prices) => *tariff = prices,
+    match scenario.tariff.as_ref().map(|tariff| tariff_file::read(tariff, &scenario, tree)).transpose() {
+        Ok(tariff) => scenario.tariff = tariff,
+        Err(fault) => unread.push(fault),
+    }
+    for (index, stated) in gains.into_iter().enumerate() {
+        match gains_file::read(stated, index, &scenario, tree) {
+            Ok((gains, remark)) => {
+                scenario.gains.push(gains);
+                scenario.remarks.0.extend(remark.map(ScenarioRemark));
+            }
             Err(fault) => unread.push(fault),
         }
     }
-    unread
+    (scenario, unread)
 }
 
 /// Reads tables of settings.

@@ -1,17 +1,23 @@
-//! Reads the weather file of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
+//! Reads the weather file of a scenario, EPW or a table, when the scenario is loaded: whatever is wrong with it is said then, with its line.
 
 use std::sync::Arc;
 
-use interplay_building::weather::Epw;
+use interplay_building::calendar::Weekday;
+use interplay_building::weather::epw::{EpwProblem, EpwRemark, EpwUse, Field};
+use interplay_building::weather::{Epw, EpwError, Forecast, ReadWeather, RecordedWeather, RunSpan};
 use interplay_common::spelling::suggestion;
 
+use super::series_file::SeriesFile;
 use crate::error::{Fault, Place, quoted};
 use crate::file_format::building::DAY_S;
-use crate::file_format::weather::{EpwFile, EpwWeather};
+use crate::file_format::building_plant::BuildingPlant;
+use crate::file_format::weather::{CsvWeather, EpwFile, EpwWeather};
 use crate::read::regular_file::read_regular;
 use crate::read::stated_path::{base_in_words, path_beside};
 use crate::read::text_line::line_of;
 use crate::read::tree::TomlNode;
+use crate::scenario::Scenario;
+use crate::scenario::remark::ScenarioRemark;
 
 /// Weather files in the binary, by the name that a scenario gives as `file`.
 static EMBEDDED: &[(&str, &str)] = &[("tropical-july.epw", include_str!("../../weather/tropical-july.epw"))];
@@ -20,9 +26,14 @@ const MAX_FILE_BYTES: u64 = 1 << 27;
 /// Errors in weather are listed after those in the scenario.
 const RANK: usize = 1000;
 
-/// Reads an EPW file and checks that it covers `days` days of simulation.
-pub(crate) fn read(stated: EpwFile, days: usize, tree: &TomlNode) -> Result<EpwWeather, Fault> {
-    let (place, file) = (tree.place_of("weather.file"), &stated);
+/// Reads an EPW file and checks that it covers the days of the simulation and is right where these use it; what is wrong elsewhere is
+/// remarked upon.
+pub(crate) fn read(
+    stated: EpwFile,
+    scenario: &Scenario,
+    tree: &TomlNode,
+) -> Result<(EpwWeather, Vec<ScenarioRemark>), Fault> {
+    let (place, file, days) = (tree.place_of("weather.file"), &stated, scenario.days());
     let EpwText { title, found, text } = text_of(&file.file, place)?;
     let epw = Epw::parse(&text).map_err(|error| located(&title, &text, error.line, &error.problem.to_string()))?;
     let Some(start_s) = file.start_s(&epw) else {
@@ -37,7 +48,53 @@ pub(crate) fn read(stated: EpwFile, days: usize, tree: &TomlNode) -> Result<EpwW
         let fault = Fault::at(place, "too short", message);
         return Err(fault.help("lower `iterations`, start earlier, or take a file of a whole year, which repeats"));
     }
-    Ok(EpwWeather { stated, found, rows: Arc::new(epw), start_s })
+    // A forecast that repeats the day before uses that day, too.
+    let back_s = if file.forecast == Forecast::Persistence { DAY_S } else { 0.0 };
+    let usage = EpwUse {
+        fields: used_fields(scenario),
+        from_s: start_s - back_s,
+        to_s: start_s + days as f64 * DAY_S,
+        bridge_gaps_h: file.bridge_gaps_h,
+    };
+    let remarks = epw.check_use(&usage).map_err(|error| unusable(&title, &text, &error))?;
+    let remark = |remark: EpwRemark| {
+        let message = format!("{}: line {}: {}", quoted(&title), remark.line, remark.text);
+        ScenarioRemark(Fault::at(&line_of(&title, &text, remark.line, RANK), "this line", message))
+    };
+    let remarks = remarks.into_iter().map(remark).collect();
+    Ok((EpwWeather { stated, found, rows: Arc::new(epw), start_s }, remarks))
+}
+
+/// What the run takes from a weather file: temperatures, and of the sun what its building lets in.
+fn used_fields(scenario: &Scenario) -> &'static [Field] {
+    const ALL: [Field; 4] = [Field::DryBulb, Field::GlobalHorizontal, Field::DirectNormal, Field::DiffuseHorizontal];
+    let building = scenario.building.as_ref();
+    let is_foreign = building.is_some_and(|building| !matches!(building.plant, BuildingPlant::Network(_)));
+    match building.and_then(|building| building.network().ok()) {
+        Some(network) if !network.window_planes().is_empty() => &ALL,
+        Some(network) if network.has_sun() || is_foreign => &ALL[..2],
+        _ => &ALL[..1],
+    }
+}
+
+/// Reads a table of weather.
+pub(crate) fn read_table(
+    stated: RecordedWeather,
+    scenario: &Scenario,
+    tree: &TomlNode,
+) -> Result<(CsvWeather, Vec<ScenarioRemark>), Fault> {
+    let file = SeriesFile::read(&stated.file, "weather.file", tree, ("table of weather", RANK))?;
+    let start = file.start(scenario, stated.skip_days);
+    let span = RunSpan {
+        start_s: start.start_s,
+        duration_s: scenario.days() as f64 * DAY_S,
+        local_days: start.local_days,
+        uses_sun: used_fields(scenario).len() > 1,
+    };
+    let ReadWeather { weather, remarks } = stated.read(&file.table, &span).map_err(|error| file.fault(&error))?;
+    let remarks = remarks.iter().map(|remark| ScenarioRemark(file.remark(remark))).collect();
+    let first_weekday = file.table.first_day.and(start.local_days).map(Weekday::of_local_days);
+    Ok((CsvWeather { stated, found: file.found, weather: Arc::new(weather), first_weekday }, remarks))
 }
 
 /// Whether a file of weather of that name is in the binary.
@@ -72,6 +129,19 @@ fn text_of(file: &str, place: &Place) -> Result<EpwText, Fault> {
     let bytes = bytes.ok_or_else(too_large)?;
     let found = std::path::absolute(&path).unwrap_or(path).to_string_lossy().into_owned();
     Ok(EpwText { title, found, text: String::from_utf8_lossy(&bytes).into_owned() })
+}
+
+/// A fault in what a run uses of an EPW file.
+fn unusable(title: &str, text: &str, error: &EpwError) -> Fault {
+    let message = format!("{}: line {}: {}", quoted(title), error.line, error.problem);
+    let help = match error.problem {
+        EpwProblem::Gap { .. } => "`weather.bridge_gaps_h` bridges longer gaps; or take other days, or another file",
+        EpwProblem::NoValues { .. } => {
+            "take a file that has it, or leave `solar_aperture_m2` and `window` out of the building"
+        }
+        _ => "the run uses this cell: correct it, take other days, or another file",
+    };
+    Fault::at(&line_of(title, text, error.line, RANK), "this line", message).help(help)
 }
 
 /// A fault in a line of an EPW file, counted from 1.

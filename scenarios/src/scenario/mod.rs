@@ -36,6 +36,7 @@ use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::detail::Detail;
 use crate::file_format::detector::DetectorConfig;
 use crate::file_format::expect::Expect;
+use crate::file_format::gains::RecordedGainsFile;
 use crate::file_format::goal::GoalConfig;
 use crate::file_format::light::LightConfig;
 use crate::file_format::plant::Plant;
@@ -99,6 +100,8 @@ pub struct Scenario {
     pub weather: WeatherSource,
     /// The people in the building; by default office hours with real deviations.
     pub occupancy: Option<Occupancy>,
+    /// Recorded heat of people and machines.
+    pub gains: Vec<RecordedGainsFile>,
     /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
     pub setpoints: Option<Setpoints>,
     /// Schedules of zones that have other hours, wanted temperatures or people than the others.
@@ -147,6 +150,7 @@ impl Scenario {
             building: None,
             weather: WeatherSource::default(),
             occupancy: None,
+            gains: Vec::new(),
             setpoints: None,
             schedules: Vec::new(),
             calendar: None,

@@ -55,6 +55,7 @@ impl Scenario {
             building: self.building.clone().map(Stated::from),
             weather,
             occupancy: self.occupancy.map(Stated::from),
+            gains: self.gains.iter().map(|gains| gains.config().into()).collect(),
             setpoints: self.setpoints.clone().map(Stated::from),
             schedules: self.schedules.iter().cloned().map(Stated::from).collect(),
             calendar: self.calendar.clone().map(Stated::from),

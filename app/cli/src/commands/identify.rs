@@ -4,7 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
+use interplay_building::identify::{
+    Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, identify,
+};
 use interplay_presentation::{plot, report, shell};
 use interplay_scenarios::{Fault, read_regular};
 use thiserror::Error;
@@ -44,14 +46,15 @@ pub(crate) struct Identify {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Write a scenario with the network that was found and its uncertainty; a file that exists is never overwritten
+    /// Write a scenario with the network that was found and its uncertainty, and beside it NAME-weather.csv, the recorded weather; a
+    /// file that exists is never overwritten
     #[arg(long, value_name = "FILE.toml")]
     scenario: Option<PathBuf>,
 }
 
 impl Identify {
     pub(crate) fn execute(self) -> ExitStatus {
-        let found = match self.identify() {
+        let (found, recorded) = match self.identify() {
             Ok(found) => found,
             Err(error) => {
                 print_error(&format!("Error: {error}"));
@@ -62,7 +65,7 @@ impl Identify {
             print_error(&format!("Error: {error}"));
             return ExitStatus::Unfinished;
         }
-        let scenario = match self.scenario_text(&found) {
+        let scenario = match self.scenario_texts(&found, recorded) {
             Ok(scenario) => scenario,
             // What was found says why.
             Err(error) => {
@@ -77,36 +80,55 @@ impl Identify {
         ExitStatus::Well
     }
 
-    /// The scenario, if one is asked for.
-    fn scenario_text(&self, found: &Identification) -> Result<Option<String>, InputError> {
+    /// The scenario, and the table of its weather where whole days were recorded, if they are asked for.
+    fn scenario_texts(
+        &self,
+        found: &Identification,
+        recorded: Option<RecordedDays>,
+    ) -> Result<Option<ScenarioTexts>, InputError> {
         let Some(path) = &self.scenario else { return Ok(None) };
         let table = self.table.display().to_string();
         let network = found
             .network
             .as_ref()
             .map_err(|reason| InputError::NoNetwork { table: table.clone(), reason: reason.clone() })?;
-        let text = report::identified_scenario(&table, &found.report, network);
-        match interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
-            Ok(_) => Ok(Some(text)),
-            Err(error) => {
-                let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
-                let reason = format!("no scenario can hold it: {}", faults.join("; "));
-                Err(InputError::NoNetwork { table, reason })
-            }
+        // What may be wrong is the network, and the table of weather is not written yet.
+        let text = report::identified_scenario(&table, &found.report, network, None);
+        if let Err(error) = interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
+            let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
+            let reason = format!("no scenario can hold it: {}", faults.join("; "));
+            return Err(InputError::NoNetwork { table, reason });
         }
+        let weather = self.weather_path().zip(recorded);
+        let Some((weather_path, recorded)) = weather else { return Ok(Some(ScenarioTexts { text, weather: None })) };
+        let name = weather_path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let text = report::identified_scenario(&table, &found.report, network, Some((&name, &recorded)));
+        Ok(Some(ScenarioTexts { text, weather: Some((weather_path, recorded.csv)) }))
     }
 
-    fn write_scenario(&self, text: Option<String>) -> Result<(), CommandError> {
-        let (Some(path), Some(text)) = (&self.scenario, text) else { return Ok(()) };
+    /// Where the recorded weather of the scenario goes.
+    fn weather_path(&self) -> Option<PathBuf> {
+        let scenario = self.scenario.as_ref()?;
+        let stem = scenario.file_stem()?.to_string_lossy().into_owned();
+        Some(scenario.with_file_name(format!("{stem}-weather.csv")))
+    }
+
+    fn write_scenario(&self, texts: Option<ScenarioTexts>) -> Result<(), CommandError> {
+        let (Some(path), Some(ScenarioTexts { text, weather })) = (&self.scenario, texts) else { return Ok(()) };
+        if let Some((weather_path, csv)) = weather {
+            write_file(&weather_path, csv.as_bytes())?;
+            print_error(&format!("recorded weather in {}", weather_path.display()));
+        }
         write_file(path, text.as_bytes())?;
         let run = shell::line(["interplay", "run", &path.to_string_lossy()]);
         print_error(&format!("wrote {}; to run it: {run}", path.display()));
         Ok(())
     }
 
-    fn identify(&self) -> Result<Identification, InputError> {
-        if let Some(path) = self.scenario.as_ref().filter(|path| path.exists()) {
-            return Err(InputError::ScenarioExists { path: path.clone() });
+    fn identify(&self) -> Result<(Identification, Option<RecordedDays>), InputError> {
+        let mut outputs = self.scenario.clone().into_iter().chain(self.weather_path());
+        if let Some(path) = outputs.find(|path| path.exists()) {
+            return Err(InputError::ScenarioExists { path });
         }
         let mapping_file = self.mapping.clone().unwrap_or_else(|| self.table.with_extension("toml"));
         let table = read(&self.table, "")?;
@@ -118,7 +140,7 @@ impl Identify {
         let mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
         let name = self.table.display().to_string();
         let telemetry = Telemetry::read(&name, &table, &mapping)?;
-        identify(&telemetry, &mapping.identify).map_err(|reason| match reason {
+        let found = identify(&telemetry, &mapping.identify).map_err(|reason| match reason {
             // These are said by the mapping; the table is not to blame.
             IdentifyError::Setting(_)
             | IdentifyError::NothingToIdentify { .. }
@@ -126,7 +148,8 @@ impl Identify {
                 InputError::Identify { name: mapping_file.display().to_string(), reason }
             }
             _ => InputError::Identify { name, reason },
-        })
+        })?;
+        Ok((found, telemetry.recorded_days()))
     }
 
     /// Prints what was found, and draws it if that is asked for.
@@ -142,6 +165,13 @@ impl Identify {
         };
         print(&text)
     }
+}
+
+/// What is written of a network that was found.
+struct ScenarioTexts {
+    text: String,
+    /// The recorded weather, and where it goes.
+    weather: Option<(PathBuf, String)>,
 }
 
 /// Why telemetry cannot be used.

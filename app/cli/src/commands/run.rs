@@ -12,7 +12,7 @@ use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
-use interplay_sweep::{DetectorWriter, SweepError, TableFile, TrajectoryWriter};
+use interplay_sweep::{DetectorWriter, SeriesWriter, SweepError, TableFile, TrajectoryWriter};
 use thiserror::Error;
 
 use crate::flag_values::export_file::ExportFile;
@@ -34,6 +34,7 @@ use crate::process::watch::WatchedFiles;
     interplay run intersection/nice --report my-report     (pictures and a page)\n  \
     interplay run intersection/nice --animate nice.gif     (a moving picture)\n  \
     interplay run intersection/nice --trajectories nice.csv\n  \
+    interplay run building/office-and-flat --series week.parquet\n  \
     interplay run their.xml --planner conservative --export driven.xml")]
 pub(crate) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
@@ -86,6 +87,10 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE")]
     detectors: Option<TableFile>,
 
+    /// Write what happened in the building at every step as a table, with weather, forecast, sun and price: .csv or .parquet
+    #[arg(long, value_name = "FILE")]
+    series: Option<TableFile>,
+
     /// Write the run as a scenario of CommonRoad, all but the ego as obstacles, and beside it NAME.solution.xml: the ego's
     /// motion as a solution of its planning problem
     #[arg(long, value_name = "FILE.xml")]
@@ -132,7 +137,7 @@ impl Run {
         print_remarks(&scenario);
         let name = short_name(self.scenario());
         let refused = without_input(&scenario).or_else(|| self.refused_output(&name, registry));
-        if let Some(reason) = refused.or_else(|| self.without_vehicles(&scenario)) {
+        if let Some(reason) = refused.or_else(|| self.without_subject(&scenario)) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
@@ -181,6 +186,9 @@ impl Run {
         if let Some(file) = &self.detectors {
             tables.push(Box::new(DetectorWriter::begin(file, scenario)?));
         }
+        if let Some(file) = &self.series {
+            tables.push(Box::new(SeriesWriter::begin(file, scenario)?));
+        }
         if let Some(file) = &self.trajectories {
             tables.push(Box::new(TrajectoryWriter::begin(file)?));
         }
@@ -197,6 +205,7 @@ impl Run {
             ("animation", animation),
             ("table of trajectories", trajectories),
             ("table of detectors", self.detectors.as_ref().map(TableFile::path)),
+            ("table of series", self.series.as_ref().map(TableFile::path)),
             ("scenario of CommonRoad", self.export.as_ref().map(ExportFile::scenario)),
             ("solution", self.export.as_ref().map(ExportFile::solution)),
         ];
@@ -205,11 +214,14 @@ impl Run {
         outputs.refused(registry, self.scenario(), &self.overrides())
     }
 
-    /// Why there is nothing to write of what vehicles did.
-    fn without_vehicles(&self, scenario: &Scenario) -> Option<String> {
+    /// Why there is nothing to write of what vehicles or the building did.
+    fn without_subject(&self, scenario: &Scenario) -> Option<String> {
         let asked = [("--trajectories", self.trajectories.is_some()), ("--export", self.export.is_some())];
         if self.detectors.is_some() && scenario.detectors.is_empty() {
             return Some(format!("--detectors needs a `[[detector]]`, and `{}` has none", self.scenario()));
+        }
+        if self.series.is_some() && scenario.building.is_none() {
+            return Some(format!("--series needs a `[building]`, and `{}` has none", self.scenario()));
         }
         let (flag, _) = asked.into_iter().find(|(_, asked)| *asked && scenario.vehicles.is_empty())?;
         Some(format!("{flag} needs vehicles, and `{}` has none", self.scenario()))
@@ -249,7 +261,12 @@ impl Run {
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
-        for (what, file) in [("trajectories", &self.trajectories), ("what detectors counted", &self.detectors)] {
+        let tables = [
+            ("trajectories", &self.trajectories),
+            ("what detectors counted", &self.detectors),
+            ("series of the building", &self.series),
+        ];
+        for (what, file) in tables {
             if let Some(file) = file {
                 print_error(&format!("{what} in {}", file.path().display()));
             }

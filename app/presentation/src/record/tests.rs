@@ -250,7 +250,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             band_k: None,
             requested_kw: 0.0,
             heat_kw: 0.0,
-            gains_kw: 0.0,
+            ..ZoneFrame::default()
         };
         let (ambient_c, forecast_c) = (30.0, 31.0);
         let building = BuildingFrame {
@@ -259,8 +259,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             zones: vec![zone; 100],
             ambient_c,
             forecast_c,
-            design: None,
-            figures: None,
+            ..BuildingFrame::default()
         };
         let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
         recorder.tick(&frame).expect("recorded");

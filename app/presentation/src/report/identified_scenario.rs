@@ -2,24 +2,33 @@
 
 use std::fmt::{self, Write};
 
-use interplay_building::identify::{IdentificationReport, IdentifiedNetwork};
+use interplay_building::identify::{IdentificationReport, IdentifiedNetwork, RecordedDays};
 
 /// The smallest and largest factor of `[building.believed]`.
 const BELIEVED: (f64, f64) = (0.1, 10.0);
 
+/// The most days that a scenario takes of a record.
+const MAX_DAYS: usize = 14;
+
 /// A scenario with the network that was identified from `file`. Its `[building.believed]` is wrong by as much as the data allow.
-pub fn identified_scenario(file: &str, report: &IdentificationReport, network: &IdentifiedNetwork) -> String {
+/// `weather` is what was recorded, and the table beside the scenario in which it stands; without it the weather is synthetic.
+pub fn identified_scenario(
+    file: &str,
+    report: &IdentificationReport,
+    network: &IdentifiedNetwork,
+    weather: Option<(&str, &RecordedDays)>,
+) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
-    let _ = write_scenario(&mut text, file, report, network);
+    let _ = write_scenario(&mut text, file, (report, network), weather);
     text
 }
 
 fn write_scenario(
     text: &mut String,
     file: &str,
-    report: &IdentificationReport,
-    network: &IdentifiedNetwork,
+    (report, network): (&IdentificationReport, &IdentifiedNetwork),
+    weather: Option<(&str, &RecordedDays)>,
 ) -> fmt::Result {
     let file = file.replace(char::is_control, " ");
     writeln!(text, "# A building as identified from {file}.")?;
@@ -30,15 +39,14 @@ fn write_scenario(
         }
     }
     network.remarks.iter().try_for_each(|remark| writeln!(text, "# {}.", remark.replace(char::is_control, " ")))?;
-    writeln!(
-        text,
-        "# Weather and set-points are examples: replace them, and choose a controller by `[controller]`.\n"
-    )?;
+    let examples = if weather.is_some() { "Set-points are examples" } else { "Weather and set-points are examples" };
+    writeln!(text, "# {examples}: replace them, and choose a controller by `[controller]`.\n")?;
     writeln!(text, "title = {}", quoted(&format!("As identified from {file}")))?;
     writeln!(text, "shows = \"What a controller does in the building whose measurements these are\"")?;
-    writeln!(text, "iterations = 5\n")?;
+    writeln!(text, "iterations = {}\n", weather.map_or(5, |(_, recorded)| recorded.days.min(MAX_DAYS)))?;
     writeln!(text, "[building]")?;
-    writeln!(text, "step_s = 1800.0")?;
+    let step_s = weather.and_then(|(_, recorded)| recorded.step_s).unwrap_or(1800.0);
+    writeln!(text, "step_s = {step_s:?}")?;
     writeln!(text, "initial_c = {:?}\n", rounded(network.mean_c.0))?;
     write_believed(text, network)?;
     for zone in &network.zones {
@@ -63,11 +71,28 @@ fn write_scenario(
         }
         writeln!(text)?;
     }
-    writeln!(text, "[weather]\nkind = \"synthetic\"")?;
-    if let Some(outdoor_c) = network.mean_c.1 {
-        writeln!(text, "climate = {{ mean_c = {:?} }}", rounded(outdoor_c))?;
-    }
+    write_weather(text, network, weather)?;
     writeln!(text, "\n[setpoints]\noccupied_c = [{:?}]", rounded(network.mean_c.0))
+}
+
+/// The recorded weather, or a synthetic one that is as warm.
+fn write_weather(
+    text: &mut String,
+    network: &IdentifiedNetwork,
+    weather: Option<(&str, &RecordedDays)>,
+) -> fmt::Result {
+    let Some((file, recorded)) = weather else {
+        writeln!(text, "[weather]\nkind = \"synthetic\"")?;
+        let climate = |outdoor_c| writeln!(text, "climate = {{ mean_c = {:?} }}", rounded(outdoor_c));
+        return network.mean_c.1.map_or(Ok(()), climate);
+    };
+    writeln!(text, "# As recorded; day {} of the record is the first.", recorded.skip_days + 1)?;
+    if recorded.has_other_sun {
+        writeln!(text, "# The sun is that of the first zone with irradiance; a scenario has only one.")?;
+    }
+    let rows = if recorded.are_means { "mean-from" } else { "instant" };
+    writeln!(text, "[weather]\nkind = \"csv\"\nfile = {}\nrows = \"{rows}\"", quoted(file))?;
+    writeln!(text, "skip_days = {}", recorded.skip_days)
 }
 
 fn write_believed(text: &mut String, network: &IdentifiedNetwork) -> fmt::Result {

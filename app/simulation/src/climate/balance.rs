@@ -33,8 +33,7 @@ pub fn balance(
         requested_kw[node.index] = equipment.requested_kw;
         gains_kw[node.index] = gains.0;
     }
-    let ambient_c = building.today.actual.ambient_c[step];
-    let before_c = temperatures_c[..count].to_vec();
+    let (ambient_c, before_c) = (building.today.actual.ambient_c[step], temperatures_c.clone());
     let heat = Heat { requested_kw, applied_kw };
     let inputs = StepInputs { step: building.step, heat_kw: &heat.applied_kw, gains_kw: &gains_kw, ambient_c };
     if let Err(error) = building.plant.step(&inputs, &mut temperatures_c) {
@@ -46,7 +45,7 @@ pub fn balance(
         temperature.0 = temperatures_c[node.index];
     }
     let (reference_c, weight) = (building.targets.reference_at(step), building.targets.weight_at(step));
-    let band_k = building.targets.band_at(step);
+    let (band_k, sun) = (building.targets.band_at(step), building.sun(day, step));
     let zone = |index: usize| ZoneFrame {
         temperature_c: before_c[index],
         next_c: temperatures_c[index],
@@ -55,6 +54,8 @@ pub fn balance(
         requested_kw: heat.requested_kw[index],
         heat_kw: heat.applied_kw[index],
         gains_kw: gains_kw[index],
+        sun_kw: sun.nodes_kw[index],
+        electric_kw: building.electric_kw(heat.applied_kw[index], ambient_c),
     };
     current_frame.0.building = Some(BuildingFrame {
         day,
@@ -62,6 +63,9 @@ pub fn balance(
         zones: (0..count).map(zone).collect(),
         ambient_c,
         forecast_c: building.today.forecast.ambient_c[step],
+        walls_c: before_c[count..].to_vec(),
+        sun_w_per_m2: sun.horizontal_w_per_m2,
+        price_per_kwh: building.price_per_kwh(step),
         design: (step == 0).then(|| Box::new(building.today.record.design.clone())),
         figures: None,
     });

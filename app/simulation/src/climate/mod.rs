@@ -56,6 +56,14 @@ pub struct Equipment {
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Gains(pub f64);
 
+/// The sun in a step.
+struct SunOfStep {
+    /// Global radiation on a horizontal plane \[W/m²\].
+    horizontal_w_per_m2: f64,
+    /// Heat that it brings into each node that gets any \[kW\].
+    nodes_kw: Vec<f64>,
+}
+
 /// All components of a temperature of the building.
 #[derive(Clone, Debug)]
 pub struct NodeState {
@@ -125,6 +133,30 @@ impl Building {
     /// Number of steps of a day.
     pub fn steps_per_day(&self) -> usize {
         self.targets.steps()
+    }
+
+    /// Electricity that heat takes at an outdoor temperature \[kW\].
+    fn electric_kw(&self, heat_kw: f64, outdoor_c: f64) -> f64 {
+        match &self.targets.supply.heat_pump {
+            Some(heat_pump) => heat_kw.abs() / heat_pump.cop(heat_kw > 0.0, outdoor_c),
+            None => heat_kw.abs(),
+        }
+    }
+
+    /// The price of electricity in a step of today \[currency/kWh\]; none without a tariff.
+    fn price_per_kwh(&self, step: usize) -> Option<f64> {
+        self.targets.supply.price_per_kwh.as_ref().map(|prices| prices[step])
+    }
+
+    /// The sun in a step of a day.
+    fn sun(&self, day: usize, step: usize) -> SunOfStep {
+        let (step_s, steps) = (self.model.step_s(), self.steps_per_day());
+        let start_s = (day * steps + step) as f64 * step_s;
+        let horizontal = self.surroundings.weather.sun_steps_w_per_m2(start_s, step_s, 1);
+        SunOfStep {
+            horizontal_w_per_m2: horizontal[0],
+            nodes_kw: self.surroundings.sun_kw(self.model.network(), start_s, step_s, 1),
+        }
     }
 
     /// The day, from 0, and the step within it.

@@ -4,8 +4,8 @@ use interplay_building::comfort::{Agenda, SetpointsError};
 use interplay_building::control::{ControlError, Disturbance};
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::{Model, ModelError};
-use interplay_building::network::NetworkError;
-use interplay_building::occupancy::People;
+use interplay_building::network::{Network, NetworkError};
+use interplay_building::occupancy::{People, RecordedGains};
 use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario, TimetableError};
 use thiserror::Error;
 
@@ -59,7 +59,7 @@ impl ClimateState {
         let model = Model::new(&network, described.method, described.step_s)?;
         let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
         let zones = network.zone_count();
-        let surroundings = surroundings_of(scenario, zones);
+        let surroundings = surroundings_of(scenario, &network);
         let controller = scenario.controller().controller(&believed, steps)?;
         let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
         let nodes = plant.start()?.into_iter().enumerate().map(|(index, initial_c)| NodeState {
@@ -91,13 +91,14 @@ impl ClimateState {
     }
 }
 
-/// Weather and people of a scenario with `zones` zones.
-pub fn surroundings_of(scenario: &Scenario, zones: usize) -> Surroundings {
+/// Weather, people and recorded gains around a scenario's network.
+pub fn surroundings_of(scenario: &Scenario, network: &Network) -> Surroundings {
+    let weather = scenario.weather.days(scenario.days(), scenario.seed);
+    let forecast = (scenario.weather.forecast(), scenario.seed ^ FORECAST_SEED_BIT);
+    let records = scenario.gains.iter().flat_map(|gains| gains.zones.iter().cloned());
     Surroundings {
-        weather: scenario.weather.days(scenario.days(), scenario.seed),
-        forecast: scenario.weather.forecast(),
-        forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
-        people: people(scenario, zones),
+        recorded: RecordedGains { zones: records.collect() },
+        ..Surroundings::new(weather, forecast, people(scenario, network.zone_count()), network)
     }
 }
 

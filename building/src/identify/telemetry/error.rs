@@ -147,6 +147,24 @@ pub enum TelemetryProblem {
         /// The form that the mapping states.
         format: String,
     },
+    /// Clocks of the stated time zone never showed this.
+    #[error("clocks of {zone} never showed {text}: they were put forward")]
+    NoSuchHour {
+        /// The time, as read.
+        text: String,
+        /// The time zone.
+        zone: String,
+    },
+    /// The count of a meter falls.
+    #[error("the meter in column `{column}` falls from {from} to {to}")]
+    CounterFalls {
+        /// Name of the column.
+        column: String,
+        /// The count before.
+        from: f64,
+        /// The count in this row.
+        to: f64,
+    },
     /// The time between two rows is not the sampling time.
     #[error("`{text}` is {elapsed_s} s after the row before, and the sampling time is {step_s} s: {}", kind_of_gap(*.elapsed_s))]
     Gap {
@@ -208,6 +226,12 @@ impl TelemetryProblem {
                 "write a number like 21.5 (`table.decimal` sets the decimal sign), or list the text in `table.missing`".into()
             }
             Self::Time { .. } => "set `time.format` to the form of the column, for example `%Y-%m-%d %H:%M:%S`".into(),
+            Self::NoSuchHour { .. } => {
+                "leave `time.zone` out if these clocks are not put forward and back, or correct it".into()
+            }
+            Self::CounterFalls { .. } => {
+                "begin another recording where a meter was changed (`time.batch`), or state `reading` if rows are no counts".into()
+            }
             Self::Gap { .. } => {
                 "add the missing rows, correct `time.step_s`, or set `time.gaps = \"split\"` to start anew after each gap".into()
             }

@@ -32,7 +32,9 @@ use toml::de::DeTable;
 use super::error::{TelemetryError, TelemetryProblem};
 use super::form;
 use super::measurements::Hold;
-use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
+use super::table_form::TableForm;
+use super::time_zone::NamedZone;
+use super::units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
 
 /// A mapping: which column of a table is which quantity. Unknown keys are refused.
@@ -61,53 +63,6 @@ pub struct Mapping {
     pub identify: IdentifySettings,
 }
 
-/// The form of the table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct TableForm {
-    /// The separator of fields: an ASCII character other than the decimal sign.
-    #[schemars(extend("x-ascii" = true))]
-    pub separator: char,
-    /// The decimal sign.
-    pub decimal: DecimalSign,
-    /// Texts that stand for "no value", such as `NA`; an empty field always does.
-    pub missing: Vec<String>,
-    /// The unit of all temperatures.
-    pub temperature_unit: TemperatureUnit,
-}
-
-impl Default for TableForm {
-    fn default() -> Self {
-        Self {
-            separator: ',',
-            decimal: DecimalSign::Point,
-            missing: Vec::new(),
-            temperature_unit: TemperatureUnit::Celsius,
-        }
-    }
-}
-
-/// The decimal sign of numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum DecimalSign {
-    /// `21.5`.
-    #[serde(rename = ".")]
-    Point,
-    /// `21,5`.
-    #[serde(rename = ",")]
-    Comma,
-}
-
-impl DecimalSign {
-    /// The character of the sign.
-    pub fn character(self) -> char {
-        match self {
-            Self::Point => '.',
-            Self::Comma => ',',
-        }
-    }
-}
-
 /// A column that is computed: the mean of others, times a factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -134,6 +89,11 @@ pub struct TimeAxis {
     /// offset from UTC, such as `+08:00` or `+0800`.
     #[serde(default = "default_format")]
     pub format: String,
+    /// The time zone of times without an offset, by its name in the tz database, such as `Europe/Zurich`: clocks that are put forward
+    /// and back leave no gap. Without it clocks are taken to run evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"Europe/Zurich")]
+    pub zone: Option<String>,
     /// Sampling time \[s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub step_s: f64,
@@ -209,6 +169,21 @@ pub enum HeatColumns {
         #[schemars(extend("not" = { "const": 0.0 }))]
         factor: f64,
     },
+    /// A meter of energy, such as one of kilowatt-hours: the mean power from a row to the next follows from it. The last row of a
+    /// recording keeps the power before it.
+    Meter {
+        /// The column.
+        column: String,
+        /// Its unit.
+        unit: EnergyUnit,
+        /// What a row states.
+        #[serde(default)]
+        reading: MeterReading,
+        /// What the column is multiplied by, −1 for a cooling energy, or the efficiency of a boiler.
+        #[serde(default = "one")]
+        #[schemars(extend("not" = { "const": 0.0 }))]
+        factor: f64,
+    },
     /// Air blown in: ṁ c_p (T_supply − T_zone), the control input of eq. 2.2.
     SupplyAir {
         /// The column of the flow.
@@ -233,6 +208,19 @@ pub enum HeatColumns {
 
 fn one() -> f64 {
     1.0
+}
+
+/// What a row of a meter of energy states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeterReading {
+    /// The count of the meter, which only rises; energies are differences.
+    #[default]
+    Counter,
+    /// The energy from the row before to this one.
+    UntilRow,
+    /// The energy from this row to the next.
+    FromRow,
 }
 
 /// A column of irradiance.
@@ -278,6 +266,7 @@ impl Mapping {
     /// Checks what the form alone cannot.
     fn check(&self) -> Result<(), Refusal> {
         self.check_separator()?;
+        self.check_time_zone()?;
         for (index, zone) in self.zones.iter().enumerate() {
             zone.check_heat(&SettingKey::from("zone").entry(index))?;
         }
@@ -299,6 +288,21 @@ impl Mapping {
         let problem = TelemetryProblem::Conflict { key: key.clone(), value: format!("`{separator}`"), wanted };
         // One of the two may be left out.
         Err((vec![key, "table.decimal".into()], problem))
+    }
+
+    fn check_time_zone(&self) -> Result<(), Refusal> {
+        let Some(name) = &self.time.zone else { return Ok(()) };
+        let key = SettingKey::from("time.zone");
+        if NamedZone::find(name).is_none() {
+            let (word, known) = (name.clone(), NamedZone::names());
+            return Err((vec![key.clone()], TelemetryProblem::UnknownWord { key, word, known }));
+        }
+        let is_of_dates = self.time.column.is_some() && !["seconds", "hours"].contains(&self.time.format.as_str());
+        if is_of_dates && !self.time.format.contains("%z") {
+            return Ok(());
+        }
+        let wanted = "left out, or beside a `time.column` of dates without an offset";
+        Err((vec![key.clone()], TelemetryProblem::Conflict { key, value: format!("`{name}`"), wanted }))
     }
 
     fn check_names(&self) -> Result<(), Refusal> {
@@ -341,8 +345,16 @@ impl Mapping {
 type Refusal = (Vec<SettingKey>, TelemetryProblem);
 
 impl ZoneColumns {
-    /// Refuses heat without a unit beside other heat; `numbered` is the key of this zone in the document.
+    /// Refuses heat without a unit beside other heat, and energies that would not be means; `numbered` is the key of this zone in the
+    /// document.
     fn check_heat(&self, numbered: &SettingKey) -> Result<(), Refusal> {
+        let is_meter = |heat: &HeatColumns| matches!(heat, HeatColumns::Meter { .. });
+        if self.heat_hold == Hold::FirstOrder && self.heat.iter().any(is_meter) {
+            let key = SettingKey::from("zone").key(&self.name).key("heat_hold");
+            let value = "`first-order` beside a meter of energy".to_owned();
+            let wanted = "`zero-order`: a meter knows the mean from a row to the next";
+            return Err((vec![numbered.key("heat_hold")], TelemetryProblem::Conflict { key, value, wanted }));
+        }
         let is_unknown = |heat: &HeatColumns| matches!(heat, HeatColumns::Power { unit: PowerUnit::Unknown, .. });
         let Some(index) = self.heat.iter().position(is_unknown).filter(|_| self.heat.len() > 1) else { return Ok(()) };
         let unit_of = |zone: &SettingKey| zone.key("heat").entry(index).key("unit");

@@ -9,18 +9,22 @@ mod form;
 mod mapping;
 mod measurements;
 mod read;
+mod recorded_days;
 mod table;
+mod table_form;
+mod time_zone;
 mod units;
 mod value_shape;
 mod write;
 
 pub use error::{TelemetryError, TelemetryProblem};
 pub use mapping::{
-    BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis,
-    ZoneColumns,
+    BoundaryColumns, ComputedColumn, Gaps, HeatColumns, Mapping, MeterReading, SolarColumn, TimeAxis, ZoneColumns,
 };
 pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
-pub use units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
+pub use recorded_days::RecordedDays;
+pub use table_form::{DecimalSign, TableForm};
+pub use units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 pub use value_shape::ValueShape;
 
 impl Telemetry {

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use super::error::{TelemetryError, TelemetryProblem};
-use super::mapping::{Gaps, HeatColumns, Mapping, ZoneColumns};
+use super::mapping::{Gaps, HeatColumns, Mapping, MeterReading, ZoneColumns};
 use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 use super::table::{Column, Row, Table, TableTime};
+use super::time_zone::NamedZone;
 use super::units::PowerUnit;
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
@@ -15,7 +16,7 @@ const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
 pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetry, TelemetryError> {
     let table = Table::split(file, text, mapping)?;
     let rows = complete_rows(&table, mapping)?;
-    let reader = Reader { table: &table, mapping, rows: &rows.kept };
+    let reader = Reader { table: &table, mapping, rows: &rows.kept, segments: &rows.segments };
     let boundaries = mapping
         .boundaries
         .iter()
@@ -59,6 +60,7 @@ fn wanted(mapping: &Mapping) -> Vec<(&str, String)> {
         for heat in &zone.heat {
             match heat {
                 HeatColumns::Power { column, .. } => wanted.push((column, role("power"))),
+                HeatColumns::Meter { column, .. } => wanted.push((column, role("energy"))),
                 HeatColumns::SupplyAir { flow, temperature, .. } => {
                     wanted.push((flow, role("supply air flow")));
                     wanted.push((temperature, role("supply air temperature")));
@@ -92,19 +94,22 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     let mut offset_s = 0.0;
     // The row before, if it was complete: its time and batch.
     let mut before: Option<(f64, &str)> = None;
+    let clock = axis.zone.as_deref().and_then(NamedZone::find);
+    let mut last: Option<TableTime> = None;
     for (index, row) in table.rows.iter().enumerate() {
         let now = match time {
-            Some(column) => table.time(row, column, &axis.format)?,
+            Some(column) => table.time(row, column, (axis, clock.as_ref()), last)?,
             None => TableTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
         };
         let now_s = now.elapsed_s;
+        last = Some(now);
         if !is_complete(table, row, &columns, axis.gaps)? {
             before = None;
             continue;
         }
         let recording = batch.map_or("", |column| table.text(row, column));
         let continues = match before {
-            Some((then_s, last)) if last == recording => {
+            Some((then_s, batch)) if batch == recording => {
                 let on_time = is_step(now_s - then_s, axis.step_s);
                 if let (false, Gaps::Refuse, Some(column)) = (on_time, axis.gaps, time) {
                     return Err(table.at(row, column, gap(table.text(row, column), now_s - then_s, axis.step_s)));
@@ -185,6 +190,7 @@ struct Reader<'a> {
     table: &'a Table<'a>,
     mapping: &'a Mapping,
     rows: &'a [usize],
+    segments: &'a [Range<usize>],
 }
 
 impl Reader<'_> {
@@ -230,6 +236,26 @@ impl Reader<'_> {
         Ok(zone)
     }
 
+    /// The energy from each row to the next, in the unit of its column; that of the last row of a segment is the one before it.
+    fn energies(&self, name: &str, reading: MeterReading) -> Result<Vec<f64>, TelemetryError> {
+        let column = self.table.column(name, "energy")?;
+        let values = self.column(name, "energy")?;
+        let mut energies = values.clone();
+        for segment in self.segments.iter().filter(|_| reading != MeterReading::FromRow) {
+            let last = segment.end - 1;
+            for row in segment.start..last {
+                let (from, to) = (values[row], values[row + 1]);
+                energies[row] = if reading == MeterReading::Counter { to - from } else { to };
+                if reading == MeterReading::Counter && to < from {
+                    let problem = TelemetryProblem::CounterFalls { column: self.table.title(column), from, to };
+                    return Err(self.table.at(&self.table.rows[self.rows[row + 1]], column, problem));
+                }
+            }
+            energies[last] = if last > segment.start { energies[last - 1] } else { 0.0 };
+        }
+        Ok(energies)
+    }
+
     fn add_heat(&self, zone: &mut MeasuredZone, heat: &HeatColumns) -> Result<(), TelemetryError> {
         match heat {
             HeatColumns::Power { column, unit, factor } => {
@@ -237,6 +263,11 @@ impl Reader<'_> {
                 let scale = unit.kw() * factor;
                 let values = self.column(column, "power")?;
                 zone.power_kw.iter_mut().zip(values).for_each(|(power, value)| *power += scale * value);
+            }
+            HeatColumns::Meter { column, unit, reading, factor } => {
+                let scale = unit.kj() * factor / self.mapping.time.step_s;
+                let energies = self.energies(column, *reading)?;
+                zone.power_kw.iter_mut().zip(energies).for_each(|(power, energy)| *power += scale * energy);
             }
             HeatColumns::SupplyAir { flow, flow_unit, temperature } => {
                 let conductance_kw_per_k =

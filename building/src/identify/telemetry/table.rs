@@ -1,11 +1,12 @@
 //! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use jiff::civil::DateTime;
 use jiff::fmt::strtime::BrokenDownTime;
 
 use super::error::{TelemetryError, TelemetryProblem};
-use super::mapping::{DecimalSign, Mapping, TableForm};
+use super::mapping::{Mapping, TimeAxis};
+use super::table_form::{DecimalSign, TableForm};
+use super::time_zone::{NamedZone, seconds_since_1970};
 
 /// A table of text; every row has as many fields as the header.
 pub(super) struct Table<'a> {
@@ -52,13 +53,15 @@ impl<'a> Table<'a> {
         let lines = Lines::new(text);
         // The schema of the mapping asks for an ASCII character.
         let separator = u8::try_from(form.separator).unwrap_or(b',');
+        let skipped = lines.start_of(form.skip_rows + 1);
+        let rest = text.get(skipped..).unwrap_or_default();
         let mut reader =
-            ReaderBuilder::new().delimiter(separator).trim(Trim::All).has_headers(false).from_reader(text.as_bytes());
+            ReaderBuilder::new().delimiter(separator).trim(Trim::All).has_headers(false).from_reader(rest.as_bytes());
         let mut rows = reader.records().map(|record| match record {
-            Ok(fields) => Ok(Row { line: lines.number(fields.position()), fields }),
+            Ok(fields) => Ok(Row { line: lines.number(fields.position(), skipped), fields }),
             Err(error) => {
                 let problem = TelemetryProblem::Row { reason: reason(&error) };
-                Err(TelemetryError::new(file, Some((lines.number(error.position()), 1)), problem))
+                Err(TelemetryError::new(file, Some((lines.number(error.position(), skipped), 1)), problem))
             }
         });
         let empty = || TelemetryError::new(file, None, TelemetryProblem::Empty);
@@ -76,7 +79,7 @@ impl<'a> Table<'a> {
                 let (name, header) = (computed.name.clone(), table.header.clone());
                 let fault = "the name of another column already";
                 let problem = TelemetryProblem::Column { name, role: "a computed column".into(), fault, header };
-                return Err(TelemetryError::new(file, Some((1, 1)), problem));
+                return Err(TelemetryError::new(file, Some((form.skip_rows + 1, 1)), problem));
             }
             table.computed.push(Computed { name: computed.name.trim().into(), members, factor: computed.factor });
         }
@@ -101,7 +104,7 @@ impl<'a> Table<'a> {
         };
         let problem =
             TelemetryProblem::Column { name: name.into(), role: role.into(), fault, header: self.header.clone() };
-        Err(TelemetryError::new(self.file, Some((1, 1)), problem))
+        Err(TelemetryError::new(self.file, Some((self.form.skip_rows + 1, 1)), problem))
     }
 
     /// The text of a field; of the first one where the column is computed.
@@ -148,18 +151,41 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A field as a time.
-    pub fn time(&self, row: &Row, column: Column, format: &str) -> Result<TableTime, TelemetryError> {
-        let text = self.text(row, column);
+    /// A field as a time. `clock` is the time zone of times without an offset, and `after` the time of the row before.
+    pub fn time(
+        &self,
+        row: &Row,
+        column: Column,
+        (axis, clock): (&TimeAxis, Option<&NamedZone>),
+        after: Option<TableTime>,
+    ) -> Result<TableTime, TelemetryError> {
+        let (text, format) = (self.text(row, column), axis.format.as_str());
         let number = |unit_s: f64| {
             let number = text.parse().ok().filter(|time: &f64| time.is_finite());
             number.map(|number| TableTime { elapsed_s: number * unit_s, offset_s: 0.0 })
         };
-        let time = match format {
-            "seconds" => number(1.0),
-            "hours" => number(3600.0),
-            // One letter for both ways to write an offset.
-            _ => calendar_time(format, text).or_else(|| calendar_time(&format.replace("%z", "%:z"), text)),
+        // One letter for both ways to write an offset.
+        let parsed = || {
+            BrokenDownTime::parse(format, text)
+                .or_else(|_| BrokenDownTime::parse(format.replace("%z", "%:z"), text))
+                .ok()
+        };
+        let time = match (format, clock) {
+            ("seconds", _) => number(1.0),
+            ("hours", _) => number(3600.0),
+            (_, None) => parsed().and_then(|parsed| calendar_time(&parsed)),
+            (_, Some(clock)) => {
+                let shown = parsed().and_then(|parsed| parsed.to_datetime().ok());
+                let time = |shown| {
+                    let offset_s = clock.offset_s(shown, after.map(|after| after.elapsed_s))?;
+                    Some(TableTime { elapsed_s: seconds_since_1970(shown) - offset_s, offset_s })
+                };
+                if let Some((shown, None)) = shown.map(|shown| (shown, time(shown))) {
+                    let zone = axis.zone.clone().unwrap_or_default();
+                    return Err(self.at(row, column, TelemetryProblem::NoSuchHour { text: shown.to_string(), zone }));
+                }
+                shown.and_then(time)
+            }
         };
         time.ok_or_else(|| {
             let (text, column_name, format) = (text.into(), self.title(column), format.into());
@@ -181,11 +207,10 @@ impl<'a> Table<'a> {
     }
 }
 
-/// A time by a pattern of `strptime`: seconds since 1970, in UTC where the pattern has an offset.
-fn calendar_time(format: &str, text: &str) -> Option<TableTime> {
-    let parsed = BrokenDownTime::parse(format, text).ok()?;
+/// A time as it is written: seconds since 1970, in UTC where it has an offset.
+fn calendar_time(parsed: &BrokenDownTime) -> Option<TableTime> {
     let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
-    let here = parsed.to_datetime().ok()?.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64();
+    let here = seconds_since_1970(parsed.to_datetime().ok()?);
     Some(TableTime { elapsed_s: here - offset_s, offset_s })
 }
 
@@ -202,11 +227,17 @@ impl<'a> Lines<'a> {
     }
 
     /// The line, from 1, on which a row starts; the reader's positions may lie before the end of the line above.
-    fn number(&self, position: Option<&csv::Position>) -> usize {
-        let byte = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
+    /// What is read began at byte `from`.
+    fn number(&self, position: Option<&csv::Position>, from: usize) -> usize {
+        let byte = from + position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
         let rest = self.text.get(byte..).unwrap_or_default();
         let start = byte + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
         self.starts.partition_point(|&line| line <= start)
+    }
+
+    /// The byte at which a line, from 1, begins; the end of the text beyond its last line.
+    fn start_of(&self, number: usize) -> usize {
+        self.starts.get(number.saturating_sub(1)).copied().unwrap_or(self.text.len())
     }
 
     /// The text of a line.

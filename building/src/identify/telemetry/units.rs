@@ -55,6 +55,35 @@ impl PowerUnit {
     }
 }
 
+/// A unit of energy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnergyUnit {
+    /// kWh
+    Kwh,
+    /// Wh
+    Wh,
+    /// MWh
+    Mwh,
+    /// MJ
+    Mj,
+    /// GJ
+    Gj,
+}
+
+impl EnergyUnit {
+    /// This unit in kJ.
+    pub fn kj(self) -> f64 {
+        match self {
+            Self::Kwh => 3600.0,
+            Self::Wh => 3.6,
+            Self::Mwh => 3.6e6,
+            Self::Mj => 1e3,
+            Self::Gj => 1e6,
+        }
+    }
+}
+
 /// A unit of irradiance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
+use super::mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, MeasuredZone, Telemetry};
+use super::table_form::TableForm;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
 use crate::identify::IdentifySettings;
 
@@ -83,6 +84,7 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
         time: TimeAxis {
             column: Some("time_s".into()),
             format: "seconds".into(),
+            zone: None,
             step_s: telemetry.step_s,
             gaps: if has_missing(telemetry) { Gaps::Bridge } else { Gaps::Refuse },
             batch: Some("recording".into()),

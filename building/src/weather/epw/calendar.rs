@@ -36,8 +36,30 @@ impl Date {
         civil::Date::new(YEAR, i8::try_from(month).ok()?, i8::try_from(day).ok()?).ok().map(Self)
     }
 
+    /// A day as headers write it: `month/day`, `month/day/year` or `year/month/day` with a year of four digits that is not
+    /// needed, `year-month-day`, or with the name of the month, as spreadsheets save it: `31-Dec`, `Dec 31`.
+    pub(super) fn written(text: &str) -> Option<Self> {
+        let parts: Vec<&str> =
+            text.split(['/', '-', ' ', '.']).map(str::trim).filter(|part| !part.is_empty()).collect();
+        let named = parts.iter().position(|part| month_named(part).is_some());
+        if let Some(named) = named {
+            let day = parts.iter().enumerate().find(|(place, part)| *place != named && part.len() <= 2)?.1;
+            return Self::new(month_named(parts[named])?, day.parse().ok()?);
+        }
+        let numbers = parts.iter().map(|part| part.parse().ok()).collect::<Option<Vec<u32>>>()?;
+        match (text.contains('/'), numbers.as_slice()) {
+            (_, [1000..=9999, month, day]) | (true, [month, day] | [month, day, _]) => Self::new(*month, *day),
+            _ => None,
+        }
+    }
+
+    /// Month from 1, and day of the month.
+    pub(super) fn month_and_day(self) -> (i8, i8) {
+        (self.0.month(), self.0.day())
+    }
+
     /// The day after, in a year with or without a 29th of February.
-    fn next(self, leap: bool) -> Self {
+    pub(super) fn next(self, leap: bool) -> Self {
         match Self(self.0.saturating_add(1.day())) {
             Self::FEBRUARY_29 if !leap => Self::MARCH_1,
             Self(next) if next.year() != YEAR => Self::JANUARY_1,
@@ -55,6 +77,27 @@ impl Date {
         let days_of_year = if leap { 366 } else { 365 };
         (place(self) - place(other)).rem_euclid(days_of_year).unsigned_abs().into()
     }
+}
+
+/// The number of a month by its English name or the first three letters of it.
+fn month_named(text: &str) -> Option<u32> {
+    const MONTHS: [&str; 12] = [
+        "january",
+        "february",
+        "march",
+        "april",
+        "may",
+        "june",
+        "july",
+        "august",
+        "september",
+        "october",
+        "november",
+        "december",
+    ];
+    let text = text.to_ascii_lowercase();
+    let found = MONTHS.iter().position(|name| text.len() >= 3 && name.starts_with(&text))?;
+    u32::try_from(found + 1).ok()
 }
 
 impl Stamp {
@@ -111,6 +154,19 @@ mod tests {
             }
             assert_eq!(walk[days - 1].next(leap), first, "the year is cyclic");
             assert_eq!(walk.contains(&Date::FEBRUARY_29), leap);
+        }
+    }
+
+    #[test]
+    fn a_day_is_read_as_headers_write_it() {
+        let day = |text: &str| Date::written(text).map(|date| date.to_string());
+        for text in
+            ["12/31", " 12/ 31", "12/31/2015", "2015/12/31", "2015-12-31", "31-Dec", "Dec 31", "31 december 2015"]
+        {
+            assert_eq!(day(text).as_deref(), Some("12/31"), "{text}");
+        }
+        for text in ["12-31", "31/12", "2015/12", "Dec", "31-Foo", "", "2015/13/1", "Dec-32"] {
+            assert_eq!(day(text), None, "{text}");
         }
     }
 

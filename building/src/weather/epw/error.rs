@@ -98,4 +98,22 @@ pub enum EpwProblem {
     /// The file states no outdoor temperature at all.
     #[error("every dry-bulb temperature is marked as missing")]
     NoTemperature,
+    /// A field that is used has no values at all.
+    #[error("every {field} is marked as missing, and the run uses it")]
+    NoValues {
+        /// Name of the column.
+        field: &'static str,
+    },
+    /// A field that is used is missing for longer than may be bridged.
+    #[error("column {column}, {field}, is missing for {hours} h from here on, and at most {limit_h} h are bridged")]
+    Gap {
+        /// Position of the column, from one.
+        column: usize,
+        /// Name of the column.
+        field: &'static str,
+        /// How long the values are missing \[h\].
+        hours: f64,
+        /// The longest gap that is bridged \[h\].
+        limit_h: f64,
+    },
 }

@@ -1,6 +1,8 @@
 //! The columns that are read, with what marks a value as missing and what is possible (EnergyPlus, *Auxiliary Programs*,
 //! EPW data dictionary).
 
+use crate::series::Fill;
+
 /// A column of an EPW file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Field {
@@ -26,15 +28,6 @@ pub enum Field {
     WindSpeed,
     /// Sky covered by clouds at the end of the interval \[tenths\].
     SkyCover,
-}
-
-/// How gaps are filled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fill {
-    /// Linearly between the values around the gap.
-    Linear,
-    /// With the value before, where the mean of two values means nothing.
-    Previous,
 }
 
 /// What the data dictionary says about a field.
@@ -91,45 +84,9 @@ impl Field {
     }
 }
 
-impl Fill {
-    /// Replaces what is not a number. Returns how many values were replaced, or `None` if there is nothing to go by.
-    pub(super) fn apply(self, values: &mut [f64]) -> Option<usize> {
-        let first = values.iter().position(|value| !value.is_nan())?;
-        let (mut before, mut filled) = (first, first);
-        for i in 0..first {
-            values[i] = values[first];
-        }
-        while let Some(gap) = values[before..].iter().position(|value| value.is_nan()).map(|i| before + i) {
-            let end = values[gap..].iter().position(|value| !value.is_nan()).map_or(values.len(), |i| gap + i);
-            let from = values[gap - 1];
-            let to = if self == Self::Linear && end < values.len() { values[end] } else { from };
-            let width = (end - gap + 1) as f64;
-            for i in gap..end {
-                values[i] = from + (to - from) * (i - gap + 1) as f64 / width;
-            }
-            filled += end - gap;
-            before = end - 1;
-        }
-        Some(filled)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn gaps_are_bridged() {
-        const NONE: f64 = f64::NAN;
-        let mut values = [NONE, 1.0, NONE, NONE, 4.0, 5.0, NONE, 9.0, NONE];
-        assert_eq!(Fill::Linear.apply(&mut values), Some(5));
-        assert_eq!(values, [1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 9.0]);
-        let mut values = [350.0, NONE, 10.0];
-        assert_eq!(Fill::Previous.apply(&mut values), Some(1));
-        assert_eq!(values, [350.0, 350.0, 10.0]);
-        assert_eq!(Fill::Linear.apply(&mut [NONE, NONE]), None);
-        assert_eq!(Fill::Linear.apply(&mut [2.0]), Some(0));
-    }
 
     #[test]
     fn the_table_is_in_the_order_of_the_fields() {

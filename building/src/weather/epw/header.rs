@@ -123,13 +123,8 @@ impl<'a> Fields<'a> {
         number.filter(|number| number.is_finite()).ok_or_else(|| self.wrong(index, field, wanted))
     }
 
-    /// `month/day`, or `month/day/year` or `year/month/day` with a year of four digits that is not needed.
     fn date(&self, index: usize, field: &'static str) -> Result<Date, EpwError> {
-        let parts: Option<Vec<u32>> = self.text(index).split('/').map(|part| part.trim().parse().ok()).collect();
-        let date = match parts.as_deref() {
-            Some([1000..=9999, month, day] | [month, day] | [month, day, _]) => Date::new(*month, *day),
-            _ => None,
-        };
-        date.ok_or_else(|| self.wrong(index, field, "month/day, as in 12/31, or year/month/day"))
+        Date::written(self.text(index))
+            .ok_or_else(|| self.wrong(index, field, "month/day, as in 12/31, or year/month/day, or 31-Dec"))
     }
 }

@@ -8,25 +8,37 @@
 //! Times are local standard time all year, as in the file; daylight saving in the header is ignored, and so are the years
 //! and minutes of the rows (typical years mix years; hourly files write minute 0 or 60). A year is a leap year if the rows
 //! have a 29th of February, whatever the header says. Missing values are bridged, and
-//! counted in [`Epw::filled`]. Values are taken from no other column: a file without radiation has none.
+//! counted in [`Epw::filled`]. A cell that cannot be counts as missing, too, until something asks for it: [`Epw::check_use`] says what
+//! is wrong with the rows and fields that a run uses, and remarks upon the others. Global radiation that is missing everywhere is
+//! computed from direct and diffuse radiation, where these are there.
 
 mod calendar;
 mod error;
 mod field;
 mod header;
+mod rows;
+mod usage;
 
-use calendar::{Date, Stamp};
+use std::ops::Range;
+
+use calendar::Date;
 pub use error::{EpwError, EpwProblem};
+use field::FIELDS;
 pub use field::Field;
-use field::{COLUMNS, FIELDS, Specification};
 use header::Header;
 pub use header::Location;
+use rows::{Doubt, Rows};
+pub use usage::{EpwRemark, EpwUse};
 
-use super::{TimeSeries, Weather};
+use super::{Sky, TimeSeries, Weather};
 use crate::calendar::Weekday;
+use crate::series::gaps;
+use crate::sun::{Site, SplitRadiation, days_since_2000};
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
+/// The year of rows that state none; the sun of one year is within half a degree where that of any other is.
+const USUAL_YEAR: i16 = 2001;
 
 /// The content of an EPW file.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,25 +55,38 @@ pub struct Epw {
     whole_year: bool,
     /// Values of each field in the order of [`FIELDS`]; none if all are missing.
     columns: Vec<Option<Vec<f64>>>,
+    /// The rows in which each field was missing, in the same order.
+    gaps: Vec<Vec<Range<usize>>>,
+    /// Cells that cannot be, which count as missing.
+    doubts: Vec<Doubt>,
+    /// The line of each row, from one.
+    lines: Vec<usize>,
+    /// The year that each day's first row states; none where it is no year.
+    years: Vec<Option<i16>>,
 }
 
 impl Epw {
     /// Reads the text of a file. (Old files are Latin-1: decode them lossily, other letters occur in names only.)
     ///
     /// # Errors
-    /// [`EpwError`] with the line, if the text is no EPW file, is cut off, skips or repeats a row, or states something
-    /// impossible.
+    /// [`EpwError`] with the line, if the text is no EPW file, is cut off, or skips or repeats a row. What a run does not use
+    /// may be wrong; [`Epw::check_use`] says whether it uses that.
     pub fn parse(text: &str) -> Result<Self, EpwError> {
         let header = Header::parse(text)?;
-        let Rows { mut columns, leap } = Rows::parse(text, &header)?;
+        let Rows { columns, leap, doubts, lines, years } = Rows::parse(text, &header)?;
+        let missing: Vec<Vec<Range<usize>>> = columns.iter().map(|values| gaps(values)).collect();
         let mut filled = Vec::new();
-        let columns: Vec<Option<Vec<f64>>> = (FIELDS.iter().zip(&mut columns))
-            .map(|(specification, values)| {
-                let gaps = specification.fill.apply(values)?;
-                if gaps > 0 {
-                    filled.push((specification.field, gaps));
+        let columns: Vec<Option<Vec<f64>>> = (FIELDS.iter().zip(columns).zip(&missing))
+            .map(|((specification, mut values), gaps)| {
+                let count = gaps.iter().map(Range::len).sum();
+                if count == values.len() {
+                    return None;
                 }
-                Some(std::mem::take(values))
+                specification.fill.apply(&mut values, gaps);
+                if count > 0 {
+                    filled.push((specification.field, count));
+                }
+                Some(values)
             })
             .collect();
         let Some(rows) = columns[Field::DryBulb as usize].as_ref().map(Vec::len) else {
@@ -77,6 +102,10 @@ impl Epw {
             leap,
             whole_year: rows == days * 24 * header.intervals_per_hour as usize,
             columns,
+            gaps: missing,
+            doubts,
+            lines,
+            years,
         })
     }
 
@@ -121,100 +150,44 @@ impl Epw {
             cyclic: self.whole_year,
             values,
         };
-        let ambient_c = self.column(Field::DryBulb).unwrap_or_default().to_vec();
         let per_hour = HOUR_S / self.interval_s;
-        let sun = self
-            .column(Field::GlobalHorizontal)
-            .map_or(vec![0.0], |sums| sums.iter().map(|sum| sum * per_hour).collect());
-        Weather { ambient_c: series(self.interval_s, ambient_c), sun_w_per_m2: series(0.5 * self.interval_s, sun) }
+        let power =
+            |field: Field| -> Option<Vec<f64>> { Some(self.column(field)?.iter().map(|sum| sum * per_hour).collect()) };
+        let mid_s = 0.5 * self.interval_s;
+        let parts = power(Field::DirectNormal).zip(power(Field::DiffuseHorizontal)).map(|(direct, diffuse)| {
+            let part = |(direct_normal_w_per_m2, diffuse_w_per_m2)| SplitRadiation {
+                direct_normal_w_per_m2,
+                diffuse_w_per_m2,
+            };
+            direct.into_iter().zip(diffuse).map(part).collect()
+        });
+        let sky = Sky { site: self.site(), utc_days: self.utc_days(), parts };
+        let global = power(Field::GlobalHorizontal).or_else(|| sky.global_w_per_m2());
+        let sky = global.is_some().then_some(sky);
+        let sun = global.unwrap_or_else(|| vec![0.0]);
+        let ambient_c = self.column(Field::DryBulb).unwrap_or_default().to_vec();
+        Weather { ambient_c: series(self.interval_s, ambient_c), sun_w_per_m2: series(mid_s, sun), sky }
     }
-}
 
-/// The values of all rows, with NaN for missing ones.
-struct Rows {
-    columns: [Vec<f64>; FIELDS.len()],
-    leap: bool,
-}
+    /// Where the weather was measured, as the sun sees it.
+    fn site(&self) -> Site {
+        let Location { latitude_deg, longitude_deg, elevation_m, .. } = self.location;
+        Site { latitude_deg, longitude_deg, elevation_m }
+    }
 
-impl Rows {
-    fn parse(text: &str, header: &Header) -> Result<Self, EpwError> {
-        let end = Stamp::last(header.last, header.intervals_per_hour);
-        let march = Stamp::first(Date::MARCH_1, header.intervals_per_hour);
-        let mut rows = Self { columns: Default::default(), leap: false };
-        let mut wanted = Stamp::first(header.first, header.intervals_per_hour);
-        let mut last = None;
-        let mut line = header.lines;
-        for row in text.lines().skip(header.lines) {
-            line += 1;
-            if row.trim().is_empty() {
-                continue;
-            }
-            let fail = |problem| EpwError { line, problem };
-            if last == Some(end) {
-                return Err(fail(EpwProblem::TooLong { end }));
-            }
-            let cells = cells(row).map_err(fail)?;
-            let date = date(&cells).map_err(fail)?;
-            if date == Date::FEBRUARY_29 {
-                rows.leap = true;
-                if wanted == march {
-                    wanted = Stamp::first(date, header.intervals_per_hour);
-                }
-            }
-            let found = Stamp { date, hour: whole(&cells, 3, "hour").map_err(fail)?, ..wanted };
-            if found != wanted {
-                return Err(fail(EpwProblem::OutOfOrder { found, wanted }));
-            }
-            for (values, specification) in rows.columns.iter_mut().zip(&FIELDS) {
-                values.push(value(&cells, specification).map_err(fail)?);
-            }
-            last = Some(found);
-            wanted = found.next(false);
+    /// The middle of each row's interval in universal time, in days since noon of the 1st of January 2000. The year is that of
+    /// the row's day, since its radiation came from the sun of that day.
+    fn utc_days(&self) -> Vec<f64> {
+        let per_day = (DAY_S / self.interval_s).round() as usize;
+        let mut date = self.first;
+        let mut days = Vec::with_capacity(self.rows());
+        for year in &self.years {
+            let (month, day) = date.month_and_day();
+            let midnight = days_since_2000(i32::from(year.unwrap_or(USUAL_YEAR)), month, day);
+            let middle_s = |row: usize| (row as f64 + 0.5) * self.interval_s - self.location.time_zone_h * HOUR_S;
+            days.extend((0..per_day).map(|row| midnight + middle_s(row) / DAY_S));
+            date = date.next(self.leap);
         }
-        if last == Some(end) {
-            return Ok(rows);
-        }
-        let found = rows.columns[0].len();
-        Err(EpwError { line, problem: EpwProblem::CutOff { found, wanted: end } })
+        days
     }
-}
-
-/// The columns that are needed.
-fn cells(row: &str) -> Result<[&str; COLUMNS], EpwProblem> {
-    let mut cells = [""; COLUMNS];
-    let mut found = 0;
-    for (cell, text) in cells.iter_mut().zip(row.split(',')) {
-        *cell = text.trim();
-        found += 1;
-    }
-    if found < COLUMNS { Err(EpwProblem::ShortRow { found, wanted: COLUMNS }) } else { Ok(cells) }
-}
-
-fn date(cells: &[&str; COLUMNS]) -> Result<Date, EpwProblem> {
-    let (month, day) = (whole(cells, 1, "month")?, whole(cells, 2, "day")?);
-    Date::new(month, day).ok_or_else(|| not_a_number(cells, 2, "day of the month"))
-}
-
-fn whole(cells: &[&str; COLUMNS], column: usize, field: &'static str) -> Result<u32, EpwProblem> {
-    cells[column].parse().map_err(|_| not_a_number(cells, column, field))
-}
-
-/// A value, or NaN where it is missing.
-fn value(cells: &[&str; COLUMNS], specification: &Specification) -> Result<f64, EpwProblem> {
-    let &Specification { field, column, missing, least, greatest, .. } = specification;
-    if cells[column].is_empty() {
-        return Ok(f64::NAN);
-    }
-    let found: f64 = cells[column].parse().map_err(|_| not_a_number(cells, column, field.name()))?;
-    if found >= missing {
-        return Ok(f64::NAN);
-    }
-    if (least..=greatest).contains(&found) {
-        return Ok(found);
-    }
-    Err(EpwProblem::Impossible { column: column + 1, field: field.name(), found, least, greatest, missing })
-}
-
-fn not_a_number(cells: &[&str; COLUMNS], column: usize, field: &'static str) -> EpwProblem {
-    EpwProblem::NotANumber { column: column + 1, field, found: cells[column].to_owned() }
 }

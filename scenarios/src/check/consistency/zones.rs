@@ -17,6 +17,7 @@ pub(super) fn check(scenario: &Scenario, tree: &TomlNode, network: &Network) -> 
     checker.calendar();
     checker.timetable();
     checker.energy();
+    checker.windows(network);
     checker.expected_zones(&network.names()[..network.zone_count()]);
     checker.faults
 }
@@ -61,7 +62,9 @@ impl Checker<'_> {
 
     /// Whether prices and coefficients of performance make sense.
     fn energy(&mut self) {
-        if let Some(Err(error)) = self.scenario.tariff.as_ref().map(Tariff::check) {
+        let days = self.scenario.days();
+        let check = |tariff: &Tariff| tariff.check().and_then(|()| tariff.check_days(days));
+        if let Some(Err(error)) = self.scenario.tariff.as_ref().map(check) {
             let is_read = error.key.as_str() == "prices_per_kwh" && self.tree.at("tariff.file").is_some();
             let key = if is_read { "file" } else { error.key.as_str() };
             self.refuse(&format!("tariff.{key}"), "here", format!("`tariff`: {error}"), "");
@@ -70,6 +73,18 @@ impl Checker<'_> {
             let help = "write the points of a curve at rising outdoor temperatures";
             self.refuse(&format!("heat_pump.{}", error.key), "here", format!("`heat_pump`: {error}"), help);
         }
+    }
+
+    /// Whether the weather says where the sun stands, if windows ask for it.
+    fn windows(&mut self, network: &Network) {
+        let WeatherSource::Csv(weather) = &self.scenario.weather else { return };
+        if network.window_planes().is_empty() || weather.weather.sky.is_some() {
+            return;
+        }
+        let message = "the building has windows, and the table of weather does not say where the sun stands".to_owned();
+        let help = "state `latitude_deg`, `longitude_deg` and `time_zone_h` in `[weather]`, and `calendar.first_day` where the table \
+                    has no dates";
+        self.refuse("weather", "where is it?", message, help);
     }
 
     /// Whether expectations of zones are about zones that exist, and about money only where there are prices.

@@ -10,6 +10,7 @@ pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     let weather = match &scenario.weather {
         WeatherSource::Synthetic(synthetic) => format!("synthetic weather around {} °C", synthetic.climate.mean_c),
         WeatherSource::Epw(weather) => format!("the file {}", code(&weather.stated.file)),
+        WeatherSource::Csv(weather) => format!("the table {}", code(&weather.stated.file)),
     };
     format!(
         "**{title}**\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\

@@ -152,18 +152,9 @@ mod tests {
     #[test]
     fn every_room_has_its_place_and_its_colour() {
         let plan = FloorPlanLayer { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middles_c: vec![25.0; 4] };
-        let zone = |temperature_c| ZoneFrame {
-            temperature_c,
-            next_c: 0.0,
-            reference_c: None,
-            band_k: None,
-            requested_kw: 0.0,
-            heat_kw: 0.0,
-            gains_kw: 0.0,
-        };
+        let zone = |temperature_c| ZoneFrame { temperature_c, ..ZoneFrame::default() };
         let zones: Vec<ZoneFrame> = [20.0, 25.0, 30.0].map(zone).to_vec();
-        let frame =
-            BuildingFrame { day: 0, step: 0, zones, ambient_c: 25.0, forecast_c: 25.0, design: None, figures: None };
+        let frame = BuildingFrame { zones, ambient_c: 25.0, forecast_c: 25.0, ..BuildingFrame::default() };
         let [width, height] = plan.size();
         assert_eq!(
             [width, height],

@@ -103,10 +103,12 @@ impl SocketPlant {
     /// The outside of a day, drawn once.
     fn outside(&mut self, day: usize) -> &OutsideDay {
         let (step_s, steps) = (self.believed.step_s(), self.told.steps_per_day);
-        let Surroundings { weather, people, .. } = &self.surroundings;
+        let surroundings = &self.surroundings;
+        let weather = &surroundings.weather;
+        let zones = self.believed.network().zone_count();
         let draw = || OutsideDay {
             day,
-            people_kw: people.actual_kw(day, step_s, steps),
+            people_kw: surroundings.people_kw(day, zones, step_s, steps),
             sun_w_per_m2: weather.sun_steps_w_per_m2(day as f64 * step_s * steps as f64, step_s, steps),
         };
         let kept = self.today.take().filter(|outside| outside.day == day);

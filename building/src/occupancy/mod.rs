@@ -5,6 +5,10 @@
 //! The others cannot: people come earlier or later and are more or fewer (shift, scatter), and meetings take place
 //! unannounced, or are cancelled. In these buildings the error of occupancy dominates that of the weather forecast.
 
+mod recorded;
+
+pub use recorded::{RecordedGains, ZoneRecord};
+
 use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,12 @@
+//! Series of values at equal intervals, and the tables that state them: prices, weather, heat of people.
+
+mod error;
+mod gaps;
+mod held;
+mod read;
+mod row_time;
+
+pub use error::SeriesError;
+pub use gaps::{Fill, gaps};
+pub use held::HeldSeries;
+pub use read::{SeriesColumn, SeriesTable};
