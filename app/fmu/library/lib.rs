@@ -23,3 +23,4 @@ mod snapshot;
 
 pub use fmi2::*;
 pub use fmi3::*;
+pub use logger::LogMessage;

@@ -1,11 +1,13 @@
 //! Calls that are wrong or not supported.
 
+use std::ffi::CString;
 use std::path::Path;
 use std::ptr;
+use std::rc::Rc;
 
 use crate::house::{GUID, Resources, STEP_S, model, resources};
 use crate::library;
-use crate::unit::{BOTH, ERROR, Fmi, OK, Unit, instantiate3};
+use crate::unit::{BOTH, ERROR, Fmi, Log, OK, Unit, instantiate3};
 
 #[test]
 fn wrong_calls_are_errors_and_leave_the_instance_as_it_was() {
@@ -56,8 +58,9 @@ fn an_importer_of_fmi_3_is_told_what_is_wrong() {
     assert!(log.len() == 1 && log[0].contains("{another}"), "{log:?}");
     let log = Unit::new(Fmi::Three, Path::new(""), GUID).expect_err("no folder");
     assert!(log.len() == 1 && log[0].contains("no folder"), "{log:?}");
-    let (mut log, path) = (Vec::new(), std::ffi::CString::new(folder.path().display().to_string()).expect("no zero"));
-    assert!(instantiate3([c"house", c"{0-0}", &path], true, &mut log).is_null());
+    let (log, path) = (Rc::new(Log::default()), CString::new(folder.path().display().to_string()).expect("no zero"));
+    assert!(instantiate3([c"house", c"{0-0}", &path], true, &log).is_null());
+    let log = log.take();
     assert!(log.len() == 1 && log[0].contains("event mode"), "{log:?}");
 }
 

@@ -110,7 +110,8 @@ fn spoilt_bytes_make_no_state() {
     for (bytes, said) in &spoilt {
         let (status, state) = unit.state_of(bytes);
         assert_eq!((status, state.0.is_null()), (ERROR, true), "{said}");
-        assert!(unit.last_message().contains(said), "`{said}` is not said in `{}`", unit.last_message());
+        let message = unit.last_message();
+        assert!(message.contains(said), "`{said}` is not said in `{message}`");
     }
     assert_eq!(unit.forget(&mut state), OK);
 }

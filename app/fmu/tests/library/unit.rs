@@ -1,8 +1,10 @@
 //! An instance in either version of FMI, behind the same methods.
 
+use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr;
+use std::rc::Rc;
 
 use crate::library::{self, LogMessage};
 
@@ -25,27 +27,30 @@ pub const BOTH: [Fmi; 2] = [Fmi::Two, Fmi::Three];
 #[derive(Debug)]
 pub struct State(pub *mut c_void);
 
+/// What an instance logged.
+pub type Log = RefCell<Vec<String>>;
+
 /// An instance, which is freed in the end.
 #[derive(Debug)]
 pub struct Unit {
     fmi: Fmi,
     instance: *mut c_void,
     /// What the instance logged; FMI 3.0 only, for the logger of FMI 2.0 takes any number of arguments.
-    log: Box<Vec<String>>,
+    log: Rc<Log>,
 }
 
 /// Keeps a message in the list that is the environment.
 unsafe extern "C" fn keep(environment: *mut c_void, status: c_int, category: *const c_char, message: *const c_char) {
     // SAFETY: the environment is the list of a unit, which lives as long as its instance; the texts end with a zero.
     let (log, category, message) =
-        unsafe { (&mut *environment.cast::<Vec<String>>(), CStr::from_ptr(category), CStr::from_ptr(message)) };
-    log.push(format!("{status} {} {}", category.to_string_lossy(), message.to_string_lossy()));
+        unsafe { (&*environment.cast::<Log>(), CStr::from_ptr(category), CStr::from_ptr(message)) };
+    log.borrow_mut().push(format!("{status} {} {}", category.to_string_lossy(), message.to_string_lossy()));
 }
 
 impl Unit {
     /// Makes an instance at the first midnight; an error has what was logged.
     pub fn new(fmi: Fmi, folder: &Path, guid: &str) -> Result<Self, Vec<String>> {
-        let mut log = Box::new(Vec::new());
+        let log = Rc::new(Log::default());
         let (name, guid) = (CString::new("house").expect("no zero"), CString::new(guid).expect("no zero"));
         let path = folder.display().to_string();
         let instance = match fmi {
@@ -57,9 +62,9 @@ impl Unit {
                 // SAFETY: all texts and the callbacks live until the end of the call; the callbacks are copied.
                 unsafe { library::fmi2Instantiate(name.as_ptr(), 1, guid.as_ptr(), uri.as_ptr(), callbacks, 0, 0) }
             }
-            Fmi::Three => instantiate3([&name, &guid, &CString::new(path).expect("no zero")], false, &mut log),
+            Fmi::Three => instantiate3([&name, &guid, &CString::new(path).expect("no zero")], false, &log),
         };
-        if instance.is_null() { Err(*log) } else { Ok(Self { fmi, instance, log }) }
+        if instance.is_null() { Err(log.take()) } else { Ok(Self { fmi, instance, log }) }
     }
 
     /// Begins at a time \[s\].
@@ -194,8 +199,8 @@ impl Unit {
     }
 
     /// What was logged last; FMI 3.0 only.
-    pub fn last_message(&self) -> &str {
-        self.log.last().map_or("", String::as_str)
+    pub fn last_message(&self) -> String {
+        self.log.borrow().last().cloned().unwrap_or_default()
     }
 }
 
@@ -212,10 +217,10 @@ impl Drop for Unit {
 }
 
 /// Makes an instance of FMI 3.0 of name, token and path; null if that is refused.
-pub fn instantiate3(texts: [&CStr; 3], events: bool, log: &mut Vec<String>) -> *mut c_void {
+pub fn instantiate3(texts: [&CStr; 3], events: bool, log: &Rc<Log>) -> *mut c_void {
     let [name, token, path] = texts.map(CStr::as_ptr);
-    let (environment, keep): (_, LogMessage) = (ptr::from_mut(log).cast(), keep);
-    // SAFETY: all texts live until the end of the call, and the list longer than the instance.
+    let (environment, keep): (_, LogMessage) = (Rc::as_ptr(log).cast_mut().cast(), keep);
+    // SAFETY: all texts live until the end of the call, and the log as long as the instance.
     unsafe {
         library::fmi3InstantiateCoSimulation(
             name,
