@@ -55,6 +55,41 @@ fn an_fmu_has_description_library_and_resources_and_is_the_same_again() {
     assert_ne!(fs::read(folder.join("rooms.fmu")).expect("it was written"), archive);
 }
 
+/// The folder of the binaries, the description and the resources of an export of four rooms.
+fn exported(folder: &Path, more: &[&str]) -> (String, String, Vec<u8>) {
+    let outcome = export(folder, more);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    let mut files = stored_files(&fs::read(folder.join("rooms.fmu")).expect("it was written")).into_iter();
+    let mut next = || files.next().expect("three files");
+    let (description, library, resources) = (next(), next(), next());
+    assert_eq!((description.0.as_str(), resources.0.as_str()), ("modelDescription.xml", "resources/plant.txt"));
+    let text = String::from_utf8(description.1).expect("text");
+    (library.0.rsplit_once('/').expect("a folder").0.to_owned(), text, resources.1)
+}
+
+#[test]
+fn both_versions_of_the_standard_have_the_same_resources() {
+    let folder = scratch("fmu-versions");
+    let (two, three) = (exported(&folder, &["--fmi", "2.0"]), exported(&folder, &["--fmi", "3.0"]));
+    assert_eq!(two.2, three.2);
+    assert_eq!(two, exported(&folder, &[]), "2.0 is the default");
+    for (description, pieces) in [
+        (&two.1, ["fmiVersion=\"2.0\"", "canGetAndSetFMUstate=\"true\"", "canSerializeFMUstate=\"true\""]),
+        (&three.1, ["fmiVersion=\"3.0\"", "canGetAndSetFMUState=\"true\"", "canSerializeFMUState=\"true\""]),
+    ] {
+        let once = "canBeInstantiatedOnlyOncePerProcess=\"false\"";
+        for piece in pieces.into_iter().chain([once, "room 1.heat", "room 4.gains", "stepSize=\"1800\""]) {
+            assert!(description.contains(piece), "{piece}:\n{description}");
+        }
+    }
+    if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        assert_eq!((two.0.as_str(), three.0.as_str()), ("binaries/linux64", "binaries/x86_64-linux"));
+    }
+    let outcome = export(&folder, &["--fmi", "1.0"]);
+    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    assert!(outcome.stderr.contains("2.0") && outcome.stderr.contains("3.0"), "{outcome:?}");
+}
+
 #[test]
 fn what_cannot_be_exported_is_said_and_nothing_is_written() {
     let folder = scratch("fmu-refused");

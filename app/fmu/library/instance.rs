@@ -4,19 +4,19 @@ use std::ffi::CString;
 use std::fs;
 use std::path::Path;
 
-use super::callbacks::CallbackFunctions;
+use super::logger::Logger;
 use super::plant::DiscretePlant;
 
 /// How far the importer's time may be from that of a step, as a share of the step.
 const MAX_TIME_ERROR_SHARE: f64 = 1e-6;
 
-/// An instance of the FMU: a plant with its callbacks.
+/// An instance of the FMU: a plant with the logger of its importer. It shares nothing with other instances.
 #[derive(Debug)]
 pub struct Instance {
     /// Name of the instance, for the log.
     pub name: CString,
-    /// Callbacks through which errors are logged.
-    pub callbacks: CallbackFunctions,
+    /// Where errors are logged.
+    pub logger: Logger,
     /// The simulated building.
     pub plant: DiscretePlant,
 }
@@ -28,6 +28,7 @@ pub struct Instance {
 /// n … 2n−1    temperature of the zone [°C], output
 /// 2n … 3n−1   heat of people, machines and sun [kW], output
 /// 3n          outdoor temperature [°C], output
+/// 3n+1        time [s], which only FMI 3.0 lists as a variable
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Variable {
@@ -35,6 +36,7 @@ enum Variable {
     Temperature(usize),
     Gains(usize),
     Outdoor,
+    Time,
 }
 
 impl Variable {
@@ -45,7 +47,8 @@ impl Variable {
             0 => Ok(Self::Heat(zone)),
             1 => Ok(Self::Temperature(zone)),
             2 => Ok(Self::Gains(zone)),
-            3 if zone == 0 => Ok(Self::Outdoor),
+            _ if reference == 3 * zones => Ok(Self::Outdoor),
+            _ if reference == 3 * zones + 1 => Ok(Self::Time),
             _ => Err(format!("there is no variable with the value reference {reference}")),
         }
     }
@@ -56,6 +59,9 @@ impl Variable {
 /// # Errors
 /// If the file cannot be read, or belongs to another FMU.
 pub fn read_plant(folder: &Path, guid: &str) -> Result<DiscretePlant, String> {
+    if folder.as_os_str().is_empty() {
+        return Err("no folder of resources was given".to_owned());
+    }
     let path = folder.join("plant.txt");
     let text = fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let plant = DiscretePlant::parse(&text).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -78,25 +84,27 @@ impl Instance {
         if steps >= self.plant.steps() {
             return Err(format!("the weather in the FMU ends before {time_s} s"));
         }
-        self.plant.step = steps;
+        self.plant.present.step = steps;
         Ok(())
     }
 
     /// Moves on from a time by a duration \[s\] of whole steps.
     ///
     /// # Errors
-    /// If the time is not that of the instance, the duration is no whole number of steps, or a step fails.
+    /// If the time is not that of the instance, the duration is no whole number of steps, or a step fails: the state is
+    /// unchanged.
     pub fn advance(&mut self, time_s: f64, duration_s: f64) -> Result<(), String> {
         let step_s = self.plant.step_s;
-        if self.whole_steps(time_s) != Some(self.plant.step) {
-            let now_s = self.plant.step as f64 * step_s;
+        if self.whole_steps(time_s) != Some(self.plant.present.step) {
+            let now_s = self.plant.time_s();
             return Err(format!("a step was asked for at {time_s} s, but the time of the FMU is {now_s} s"));
         }
         let steps = self.whole_steps(duration_s).filter(|steps| *steps > 0);
         let steps = steps.ok_or_else(|| {
             format!("a step of {duration_s} s was asked for; it must be a whole number of steps of {step_s} s")
         })?;
-        (0..steps).try_for_each(|_| self.plant.advance())
+        let before = self.plant.present.clone();
+        (0..steps).try_for_each(|_| self.plant.advance()).inspect_err(|_| self.plant.present = before)
     }
 
     /// How many steps a time is, if it is a whole number of them.
@@ -113,10 +121,11 @@ impl Instance {
     pub fn value(&self, reference: u32) -> Result<f64, String> {
         let plant = &self.plant;
         Ok(match Variable::parse(reference, plant.zones)? {
-            Variable::Heat(zone) => plant.heat_kw[zone],
-            Variable::Temperature(zone) => plant.nodes_c[zone],
+            Variable::Heat(zone) => plant.present.heat_kw[zone],
+            Variable::Temperature(zone) => plant.present.nodes_c[zone],
             Variable::Gains(zone) => plant.gains_kw()[zone],
             Variable::Outdoor => plant.ambient_c(),
+            Variable::Time => plant.time_s(),
         })
     }
 
@@ -128,10 +137,10 @@ impl Instance {
         match Variable::parse(reference, self.plant.zones)? {
             Variable::Heat(_) if !value.is_finite() => Err(format!("heat of {value} kW is no finite number")),
             Variable::Heat(zone) => {
-                self.plant.heat_kw[zone] = value;
+                self.plant.present.heat_kw[zone] = value;
                 Ok(())
             }
-            _ => Err(format!("the variable with the value reference {reference} is an output and cannot be set")),
+            _ => Err(format!("the variable with the value reference {reference} is no input and cannot be set")),
         }
     }
 }

@@ -33,12 +33,19 @@ pub struct DiscretePlant {
     ambient_c: Vec<f64>,
     /// Heat w of people, sun and machines, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
     gains_kw: Vec<f64>,
-    /// Temperatures of the nodes \[°C\].
-    pub nodes_c: Vec<f64>,
-    /// Heat u of the equipment, held until it is set anew \[kW\].
-    pub heat_kw: Vec<f64>,
+    /// What changes while it is simulated.
+    pub present: PlantState,
+}
+
+/// What changes while a plant is simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlantState {
     /// Number of steps since the first midnight.
     pub step: usize,
+    /// Temperatures of the nodes, zones first \[°C\].
+    pub nodes_c: Vec<f64>,
+    /// Heat u of the equipment, one number per zone, held until it is set anew \[kW\].
+    pub heat_kw: Vec<f64>,
 }
 
 /// Words of the file, one after the other.
@@ -100,23 +107,31 @@ impl DiscretePlant {
             zones,
             nodes,
             gained,
-            nodes_c: initial_c.clone(),
+            present: PlantState { step: 0, nodes_c: initial_c.clone(), heat_kw: vec![0.0; zones] },
             initial_c,
             state: words.numbers("state", state_size)?,
             gain: words.numbers("gain", gain_size)?,
             outdoor: words.numbers("outdoor", nodes)?,
             ambient_c: words.numbers("ambient_c", steps)?,
             gains_kw: words.numbers("gains_kw", gains_size)?,
-            heat_kw: vec![0.0; zones],
-            step: 0,
         })
     }
 
     /// Returns to the first midnight, without heat.
     pub fn reset(&mut self) {
-        self.nodes_c.clone_from(&self.initial_c);
-        self.heat_kw.fill(0.0);
-        self.step = 0;
+        self.present.nodes_c.clone_from(&self.initial_c);
+        self.present.heat_kw.fill(0.0);
+        self.present.step = 0;
+    }
+
+    /// Time since the first midnight \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.present.step as f64 * self.step_s
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.nodes
     }
 
     /// Number of steps for which there is weather.
@@ -126,13 +141,13 @@ impl DiscretePlant {
 
     /// Outdoor temperature of the next step, or of the last one \[°C\].
     pub fn ambient_c(&self) -> f64 {
-        self.ambient_c[self.step.min(self.steps() - 1)]
+        self.ambient_c[self.present.step.min(self.steps() - 1)]
     }
 
     /// Heat of people, sun and machines in the next step, or in the last one, one number per node that gets any, zones
     /// first \[kW\].
     pub fn gains_kw(&self) -> &[f64] {
-        let step = self.step.min(self.steps() - 1);
+        let step = self.present.step.min(self.steps() - 1);
         &self.gains_kw[step * self.gained..(step + 1) * self.gained]
     }
 
@@ -141,25 +156,27 @@ impl DiscretePlant {
     /// # Errors
     /// If there is no weather any more, or if a temperature is no finite number then: the state is unchanged.
     pub fn advance(&mut self) -> Result<(), String> {
-        if self.step >= self.steps() {
+        if self.present.step >= self.steps() {
             let end_s = self.step_s * self.steps() as f64;
             return Err(format!("the weather in the FMU ends at {end_s} s"));
         }
         let mut net_kw = self.gains_kw().to_vec();
-        net_kw.iter_mut().zip(&self.heat_kw).for_each(|(net_kw, heat_kw)| *net_kw += heat_kw);
+        net_kw.iter_mut().zip(&self.present.heat_kw).for_each(|(net_kw, heat_kw)| *net_kw += heat_kw);
         let ambient_c = self.ambient_c();
         let row = |matrix: &[f64], node: usize, vector: &[f64]| -> f64 {
             let width = vector.len();
             matrix[node * width..(node + 1) * width].iter().zip(vector).map(|(a, x)| a * x).sum()
         };
         let next_c: Vec<f64> = (0..self.nodes)
-            .map(|i| row(&self.state, i, &self.nodes_c) + row(&self.gain, i, &net_kw) + self.outdoor[i] * ambient_c)
+            .map(|i| {
+                row(&self.state, i, &self.present.nodes_c) + row(&self.gain, i, &net_kw) + self.outdoor[i] * ambient_c
+            })
             .collect();
         if !next_c.iter().all(|temperature_c| temperature_c.is_finite()) {
             return Err("a temperature is no finite number; is the heat one?".to_owned());
         }
-        self.nodes_c = next_c;
-        self.step += 1;
+        self.present.nodes_c = next_c;
+        self.present.step += 1;
         Ok(())
     }
 }

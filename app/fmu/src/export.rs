@@ -1,5 +1,7 @@
 //! From a scenario to the bytes of an FMU.
 
+use std::env::consts::{ARCH, OS};
+
 use interplay_building::discretise::Model;
 use interplay_scenarios::{BuildingPlant, Scenario};
 use interplay_simulation::climate::surroundings_of;
@@ -9,6 +11,7 @@ use crate::archive::archive;
 use crate::description::Description;
 use crate::error::FmuError;
 use crate::resources::{OutsideSeries, plant};
+use crate::version::FmiVersion;
 
 /// The shared library for the system that this crate was compiled for; empty if there is none.
 const LIBRARY: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/library.bin"));
@@ -19,20 +22,21 @@ const MAX_NODES: usize = 500;
 /// The most numbers of people and sun.
 const MAX_WEATHER_NUMBERS: usize = 5_000_000;
 
-/// The building of a scenario that was loaded, as an FMU: a co-simulation unit of FMI 2.0 for the system at hand.
+/// The building of a scenario that was loaded, as an FMU: a co-simulation unit for the system at hand.
 ///
-/// The same scenario gives the same bytes.
+/// The same scenario gives the same bytes, and both versions compute the same.
 ///
 /// # Errors
 /// [`FmuError`] if the scenario has no building, if it is too large, or if this build has no library.
-pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
+pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuError> {
     let described = scenario.building.as_ref().ok_or(FmuError::NoBuilding)?;
     if matches!(described.plant, BuildingPlant::Socket(_)) {
         return Err(FmuError::Foreign);
     }
-    let (folder, extension) = platform().filter(|_| !LIBRARY.is_empty()).ok_or_else(|| FmuError::NoLibrary {
-        platform: format!("{} on {}", std::env::consts::OS, std::env::consts::ARCH),
-    })?;
+    let (folder, extension) = version
+        .binary(OS, ARCH)
+        .filter(|_| !LIBRARY.is_empty())
+        .ok_or_else(|| FmuError::NoLibrary { platform: format!("{OS} on {ARCH}") })?;
     let network = described.network()?;
     let (nodes, zones) = (network.node_count(), network.zone_count());
     if nodes > MAX_NODES {
@@ -58,22 +62,10 @@ pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
         stop_s: described.step_s * (steps * days) as f64,
     };
     Ok(archive(&[
-        ("modelDescription.xml".to_owned(), description.xml().as_bytes()),
+        ("modelDescription.xml".to_owned(), description.xml(version).as_bytes()),
         (format!("binaries/{folder}/{IDENTIFIER}.{extension}"), LIBRARY),
         ("resources/plant.txt".to_owned(), resources.as_bytes()),
     ]))
-}
-
-/// The folder of binaries and their extension, for the systems that FMI has names for.
-fn platform() -> Option<(&'static str, &'static str)> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => Some(("linux64", "so")),
-        ("linux", "aarch64") => Some(("aarch64-linux", "so")),
-        ("windows", "x86_64") => Some(("win64", "dll")),
-        ("macos", "x86_64") => Some(("darwin64", "dylib")),
-        ("macos", "aarch64") => Some(("aarch64-darwin", "dylib")),
-        _ => None,
-    }
 }
 
 /// An identity that follows from the content.

@@ -1,4 +1,5 @@
-//! A building as a functional mock-up unit: its network and its weather for any program that imports FMI 2.0.
+//! A building as a functional mock-up unit: its network and its weather for any program that imports FMI
+//! 2.0 or 3.0.
 //!
 //! ```text
 //! scenario -> discrete network, weather -> plant.txt ┐
@@ -11,7 +12,7 @@
 //!
 //! ```no_run
 //! let scenario = interplay_scenarios::load("building/four-room-pid", &[])?;
-//! std::fs::write("four-rooms.fmu", interplay_fmu::export(&scenario)?)?;
+//! std::fs::write("four-rooms.fmu", interplay_fmu::export(&scenario, interplay_fmu::FmiVersion::Two)?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -20,6 +21,8 @@ mod description;
 mod error;
 mod export;
 mod resources;
+mod version;
 
 pub use error::FmuError;
 pub use export::export;
+pub use version::FmiVersion;

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
-use interplay_fmu::export;
+use clap::{Args, ValueEnum};
+use interplay_fmu::{FmiVersion, export};
 use interplay_presentation::figures::FrameLog;
 use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::run::run;
@@ -14,12 +14,13 @@ use crate::output::error::{CommandError, write_file};
 use crate::output::exit_status::ExitStatus;
 use crate::output::{print_error, print_load_error};
 
-/// Write the building of a scenario, with its weather, as a functional mock-up unit (FMI 2.0, co-simulation).
+/// Write the building of a scenario, with its weather, as a functional mock-up unit (FMI 2.0 or 3.0, co-simulation).
 ///
 /// The heat of each zone is an input, its temperature an output. People, sun and the air outside are those of the scenario.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay export-fmu building/four-room-pid --out rooms.fmu\n  \
+    interplay export-fmu building/four-room-pid --out rooms.fmu --fmi 3.0\n  \
     interplay export-fmu my.toml --out my.fmu --reference my.csv   (and heat and temperatures of a run of ours)")]
 pub(crate) struct ExportFmu {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
@@ -30,6 +31,10 @@ pub(crate) struct ExportFmu {
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
 
+    /// Version of the standard that the importer knows; both compute the same
+    #[arg(long, value_name = "VERSION", value_enum, default_value_t = Version::Two)]
+    fmi: Version,
+
     /// Run the scenario, too, and write heat and temperatures of every step into this table, to compare an importer with
     #[arg(long, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
@@ -37,6 +42,24 @@ pub(crate) struct ExportFmu {
     /// Change one value of the scenario; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     sets: Vec<String>,
+}
+
+/// The versions of FMI by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Version {
+    #[value(name = "2.0")]
+    Two,
+    #[value(name = "3.0")]
+    Three,
+}
+
+impl From<Version> for FmiVersion {
+    fn from(version: Version) -> Self {
+        match version {
+            Version::Two => Self::Two,
+            Version::Three => Self::Three,
+        }
+    }
 }
 
 impl ExportFmu {
@@ -52,7 +75,7 @@ impl ExportFmu {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
-        let fmu = match export(&scenario) {
+        let fmu = match export(&scenario, self.fmi.into()) {
             Ok(fmu) => fmu,
             Err(error) => {
                 print_error(&format!("Error: {}: {error}", self.scenario));

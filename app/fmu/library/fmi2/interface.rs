@@ -1,41 +1,14 @@
-//! The functions of FMI 2.0 that this FMU supports.
-//!
-//! Pointers come from the importer. FMI 2.0 promises that a component is one that `fmi2Instantiate` returned and nobody freed,
-//! that texts end with a zero, and that lists have as many entries as is said. Null pointers are refused nevertheless.
+//! The functions of FMI 2.0 that every instance needs. What they do with pointers is in [`calls`].
 
-use std::ffi::{CStr, CString, c_char, c_double, c_int, c_uint, c_void};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::{ptr, slice};
+use std::ffi::{c_char, c_double, c_int, c_uint, c_void};
+use std::ptr;
 
-use super::callbacks::{CallbackFunctions, status};
-use super::instance::{Instance, read_plant};
-use super::location;
+use super::super::logger::{CallbackFunctions, Logger, status};
+use super::super::{calls, location};
+use calls::{text, with_instance};
 
 /// `fmi2Type` of co-simulation.
 const CO_SIMULATION: c_int = 1;
-
-/// Asks an instance for something; an error is told to the importer, and a panic is one.
-fn with_instance(component: *mut c_void, action: impl FnOnce(&mut Instance) -> Result<(), String>) -> c_int {
-    // SAFETY: a component is null or an instance that is in use by this call alone (FMI 2.0, sections 2.1.1 and 4.2.4).
-    let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return status::ERROR };
-    let outcome = catch_unwind(AssertUnwindSafe(|| action(instance)));
-    match outcome.unwrap_or_else(|_| Err("the FMU has a fault of its own".to_owned())) {
-        Ok(()) => status::OK,
-        Err(error) => {
-            instance.callbacks.log_error(&instance.name, &error);
-            status::ERROR
-        }
-    }
-}
-
-/// A text of the importer; empty for a null pointer.
-///
-/// # Safety
-/// The pointer is null or that of a text that ends with a zero.
-unsafe fn text<'a>(pointer: *const c_char) -> &'a CStr {
-    // SAFETY: what this function demands.
-    if pointer.is_null() { c"" } else { unsafe { CStr::from_ptr(pointer) } }
-}
 
 /// The platform of the types: that of the standard.
 #[unsafe(no_mangle)]
@@ -67,20 +40,13 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let (name, guid, location, callbacks) =
         unsafe { (text(instance_name), text(guid), text(resource_location), functions.as_ref()) };
     let Some(callbacks) = callbacks else { return ptr::null_mut() };
-    let name = CString::from(name);
-    let made = catch_unwind(AssertUnwindSafe(|| {
-        if fmu_type != CO_SIMULATION {
-            return Err("this FMU is for co-simulation only".to_owned());
+    calls::instantiate(name, Logger::Fmi2(*callbacks), guid, || {
+        if fmu_type == CO_SIMULATION {
+            Ok(location::folder(&location.to_string_lossy()))
+        } else {
+            Err("this FMU is for co-simulation only".to_owned())
         }
-        read_plant(&location::folder(&location.to_string_lossy()), &guid.to_string_lossy())
-    }));
-    match made.unwrap_or_else(|_| Err("the FMU has a fault of its own".to_owned())) {
-        Ok(plant) => Box::into_raw(Box::new(Instance { name, callbacks: *callbacks, plant })).cast(),
-        Err(error) => {
-            callbacks.log_error(&name, &error);
-            ptr::null_mut()
-        }
-    }
+    })
 }
 
 /// Frees an instance.
@@ -89,10 +55,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
 /// The component is null or one of `fmi2Instantiate`, and is not used any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(component: *mut c_void) {
-    if !component.is_null() {
-        // SAFETY: it was made by `Box::into_raw` and is freed once.
-        drop(unsafe { Box::from_raw(component.cast::<Instance>()) });
-    }
+    // SAFETY: what this function demands.
+    unsafe { calls::free_instance(component) }
 }
 
 /// Logging needs no setting: only errors are logged.
@@ -157,21 +121,8 @@ pub unsafe extern "C" fn fmi2GetReal(
     count: usize,
     values: *mut c_double,
 ) -> c_int {
-    with_instance(component, |instance| {
-        if count == 0 {
-            return Ok(());
-        }
-        if references.is_null() || values.is_null() {
-            return Err("a list is a null pointer".to_owned());
-        }
-        // SAFETY: neither is null, and both have `count` entries.
-        let (references, values) =
-            unsafe { (slice::from_raw_parts(references, count), slice::from_raw_parts_mut(values, count)) };
-        for (reference, value) in references.iter().zip(values) {
-            *value = instance.value(*reference)?;
-        }
-        Ok(())
-    })
+    // SAFETY: what this function demands.
+    unsafe { calls::read_values(component, references, count, values) }
 }
 
 /// Sets inputs.
@@ -185,18 +136,8 @@ pub unsafe extern "C" fn fmi2SetReal(
     count: usize,
     values: *const c_double,
 ) -> c_int {
-    with_instance(component, |instance| {
-        if count == 0 {
-            return Ok(());
-        }
-        if references.is_null() || values.is_null() {
-            return Err("a list is a null pointer".to_owned());
-        }
-        // SAFETY: neither is null, and both have `count` entries.
-        let (references, values) =
-            unsafe { (slice::from_raw_parts(references, count), slice::from_raw_parts(values, count)) };
-        references.iter().zip(values).try_for_each(|(reference, value)| instance.set_value(*reference, *value))
-    })
+    // SAFETY: what this function demands.
+    unsafe { calls::set_values(component, references, count, values) }
 }
 
 /// Advances the simulation by whole steps.

@@ -1,9 +1,9 @@
 //! Functions of FMI 2.0 that must exist and that this FMU does not support, as its description says: other types than reals,
-//! copies of the state, derivatives, and steps that run on by themselves. Lists of no entries are no error.
+//! derivatives, and steps that run on by themselves. Lists of no entries are no error.
 
 use std::ffi::{c_int, c_void};
 
-use super::callbacks::status;
+use super::super::logger::status;
 
 /// A function about a list of variables: there are no variables of that type.
 macro_rules! no_variables {
@@ -30,12 +30,6 @@ macro_rules! refused {
 }
 
 refused! {
-    fmi2GetFMUstate(*mut c_void, *mut *mut c_void);
-    fmi2SetFMUstate(*mut c_void, *mut c_void);
-    fmi2FreeFMUstate(*mut c_void, *mut *mut c_void);
-    fmi2SerializedFMUstateSize(*mut c_void, *mut c_void, *mut usize);
-    fmi2SerializeFMUstate(*mut c_void, *mut c_void, *mut u8, usize);
-    fmi2DeSerializeFMUstate(*mut c_void, *const u8, usize, *mut *mut c_void);
     fmi2GetDirectionalDerivative(*mut c_void, *const u32, usize, *const u32, usize, *const f64, *mut f64);
     fmi2SetRealInputDerivatives(*mut c_void, *const u32, usize, *const c_int, *const f64);
     fmi2GetRealOutputDerivatives(*mut c_void, *const u32, usize, *const c_int, *mut f64);
