@@ -67,4 +67,5 @@ pub mod lifted;
 pub mod network;
 pub mod occupancy;
 pub mod schedule;
+pub mod staged;
 pub mod weather;
