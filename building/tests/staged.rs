@@ -23,8 +23,7 @@ fn model() -> Model {
 fn problem(quadratic: f64, peak: Option<Peak>) -> StagedProgram {
     let model = model();
     let nodes = model.network().node_count();
-    let inputs: Vec<Input> =
-        (0..ZONES).flat_map(|zone| [1.0, -1.0].map(|sign| Input { zone, sign })).collect();
+    let inputs: Vec<Input> = (0..ZONES).flat_map(|zone| [1.0, -1.0].map(|sign| Input { zone, sign })).collect();
     let random = numbers(2000, 1.0);
     let stage = |t: usize| {
         let price = 0.3 + 0.2 * random[t];

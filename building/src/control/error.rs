@@ -6,6 +6,7 @@ use interplay_common::setting::{SettingError, SettingKey};
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
+use crate::staged::StagedError;
 
 /// Largest magnitude of a temperature \[°C\] or of a heat flow \[kW\]. Chosen far beyond any building; larger numbers are
 /// errors of the input.
@@ -149,6 +150,9 @@ pub enum ControlError {
         /// The largest number of temperatures with matrices.
         most: usize,
     },
+    /// A plan over stages was not found.
+    #[error(transparent)]
+    Staged(#[from] StagedError),
     /// The optimisation problem is malformed.
     #[error("the day's optimum cannot be posed: {0}")]
     Problem(#[from] ProblemError),

@@ -11,6 +11,8 @@ const MAX_ITERATIONS: u32 = 120;
 const STEP_SHARE: f64 = 0.995;
 /// Slack of soft bounds at the start \[K\].
 const FIRST_SLACK_K: f64 = 1.0;
+/// A shorter step is no progress.
+const LEAST_STEP: f64 = 1e-8;
 /// How much larger than the accepted one the gap may be where rounding ends the iterations.
 const STALLED_FACTOR: f64 = 1e3;
 
@@ -31,17 +33,19 @@ pub(super) fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSol
     let mut gap = iterate.groups.gap();
     for iterations in 0..MAX_ITERATIONS {
         let accepted = tolerance * (scale + iterate.objective().abs());
-        let residual = iterate.largest_residual();
+        let (residual, _) = iterate.largest_residual();
         gap = iterate.groups.gap();
         if gap <= accepted && residual <= tolerance.sqrt() * iterate.gradient_scale() {
             return Ok(iterate.solution(gap, iterations));
         }
-        let stalled = || gap <= STALLED_FACTOR * accepted;
-        let Some(alpha) = iterate.step(gap / count) else {
-            return if stalled() { Ok(iterate.solution(gap, iterations)) } else { Err(StagedError::Unsolved { iterations, gap }) };
-        };
-        if alpha < 1e-8 {
-            return if stalled() { Ok(iterate.solution(gap, iterations)) } else { Err(StagedError::Unsolved { iterations, gap }) };
+        let moved = iterate.step(gap / count).is_some_and(|alpha| alpha >= LEAST_STEP);
+        if !moved {
+            let is_close = gap <= STALLED_FACTOR * accepted;
+            return if is_close {
+                Ok(iterate.solution(gap, iterations))
+            } else {
+                Err(StagedError::Unsolved { iterations, gap })
+            };
         }
     }
     Err(StagedError::Unsolved { iterations: MAX_ITERATIONS, gap })
@@ -113,11 +117,14 @@ impl<'a> Iterate<'a> {
 
     fn solution(self, gap: f64, iterations: u32) -> StagedSolution {
         let (objective, states_c) = (self.objective(), self.program.states(&self.v));
-        StagedSolution { inputs: self.v, states_c, slack_k: self.s, peak_kw: self.p, objective, gap, iterations }
+        let (_, initial_value) = self.largest_residual();
+        let (inputs, slack_k, peak_kw) = (self.v, self.s, self.p);
+        StagedSolution { inputs, states_c, slack_k, peak_kw, initial_value, objective, gap, iterations }
     }
 
-    /// The largest entry of the gradient of the Lagrangian, with the multipliers of the dynamics from their recursion.
-    fn largest_residual(&self) -> f64 {
+    /// The largest entry of the gradient of the Lagrangian, with the multipliers of the dynamics from their recursion, and the
+    /// multipliers of the initial state.
+    fn largest_residual(&self) -> (f64, Vec<f64>) {
         let program = self.program;
         let (n, m) = (program.initial_c.len(), program.inputs.len());
         let rows = self.groups.all().map(|pairs| pairs.z.clone());
@@ -132,7 +139,7 @@ impl<'a> Iterate<'a> {
             }
             lambda = back;
         }
-        largest
+        (largest, lambda)
     }
 
     /// Gradients of inputs and temperatures where the multipliers become `zeta`; with `reduced`, slacks have been eliminated.
@@ -230,7 +237,8 @@ impl<'a> Iterate<'a> {
     /// How inputs and temperatures answer a unit of the peak.
     fn peak_response(&self, recursion: &Recursion<'_>, curvature: &Curvature) -> (Vec<f64>, Vec<f64>) {
         let stages = self.program.stages.iter().zip(&curvature.power);
-        let f: Vec<f64> = stages.flat_map(|(stage, theta)| stage.power.iter().map(move |power| -theta * power)).collect();
+        let f: Vec<f64> =
+            stages.flat_map(|(stage, theta)| stage.power.iter().map(move |power| -theta * power)).collect();
         recursion.solve(&f, &vec![0.0; self.x.len()])
     }
 
@@ -250,7 +258,9 @@ impl<'a> Iterate<'a> {
             // Σ θ κᵀΔv over the stages.
             let weighed = |v: &[f64]| -> f64 {
                 let stages = self.program.stages.iter().zip(&curvature.power).zip(v.chunks_exact(m));
-                stages.map(|((stage, theta), v)| theta * stage.power.iter().zip(v).map(|(k, v)| k * v).sum::<f64>()).sum()
+                stages
+                    .map(|((stage, theta), v)| theta * stage.power.iter().zip(v).map(|(k, v)| k * v).sum::<f64>())
+                    .sum()
             };
             let [.., power, least] = zeta;
             let theta_least = self.groups.peak.z[0] / self.groups.peak.w[0];

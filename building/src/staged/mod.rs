@@ -118,6 +118,8 @@ pub struct StagedSolution {
     pub slack_k: Vec<f64>,
     /// The peak \[kW\]; 0 without one.
     pub peak_kw: f64,
+    /// By how much the cost rises with the temperature of each node at the start \[1/K\]: the multipliers of the initial state.
+    pub initial_value: Vec<f64>,
     /// The cost.
     pub objective: f64,
     /// By how much the cost can be above the least one, as the duality gap says.

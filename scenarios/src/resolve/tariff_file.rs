@@ -36,7 +36,7 @@ pub(crate) fn read(tariff: &Tariff, tree: &TomlNode) -> Result<Tariff, Fault> {
         let help = format!("the first line is `{HEADER}`, then there is a row an hour from 0 on, such as `0,0.31`");
         Fault::at(&line_of(&title, &text, line, RANK), "this line", message).help(help)
     })?;
-    Ok(Tariff { prices_per_kwh, file: None, currency: tariff.currency.clone() })
+    Ok(Tariff { prices_per_kwh, file: None, ..tariff.clone() })
 }
 
 /// The prices of a table; or the line, from 1, and what is wrong with it.
