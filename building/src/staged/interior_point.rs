@@ -3,14 +3,15 @@
 
 use super::pairs::{Direction, Groups, Pairs, PerRow};
 use super::recursion::{Curvature, Recursion};
-use super::{StagedError, StagedProgram, StagedSolution};
+use super::{Peak, StagedError, StagedProgram, StagedSolution};
 
 /// Iterations after which the method gives up. Problems of buildings take 10 to 40.
 const MAX_ITERATIONS: u32 = 120;
 /// Share of the way to the boundary that a step may go.
 const STEP_SHARE: f64 = 0.995;
-/// Slack of soft bounds at the start \[K\].
-const FIRST_SLACK_K: f64 = 1.0;
+/// Limits of the slack of soft bounds at the start \[K\].
+const LEAST_FIRST_SLACK_K: f64 = 0.01;
+const MOST_FIRST_SLACK_K: f64 = 10.0;
 /// A shorter step is no progress.
 const LEAST_STEP: f64 = 1e-8;
 /// How much larger than the accepted one the gap may be where rounding ends the iterations.
@@ -28,7 +29,7 @@ struct Iterate<'a> {
 /// Solves a checked problem.
 pub(super) fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
     let mut iterate = Iterate::start(program);
-    let scale = iterate.cost_scale();
+    let scale = cost_scale(program);
     let count = iterate.groups.count().max(1) as f64;
     let mut gap = iterate.groups.gap();
     for iterations in 0..MAX_ITERATIONS {
@@ -58,6 +59,7 @@ impl<'a> Iterate<'a> {
         let v: Vec<f64> =
             stages.iter().flat_map(|stage| stage.lower.iter().zip(&stage.upper).map(|(l, u)| 0.5 * (l + u))).collect();
         let (n, m) = (program.initial_c.len(), program.inputs.len());
+        let product = cost_scale(program) / v.len().max(1) as f64;
         let x = program.states(&v);
         let mut s = Vec::new();
         let mut groups = Groups::default();
@@ -69,7 +71,7 @@ impl<'a> Iterate<'a> {
             }
             for soft in &stage.soft {
                 let beyond_k = soft.sign * x[t * n + soft.node] - soft.bound;
-                s.push(beyond_k.max(0.0) + FIRST_SLACK_K);
+                s.push(beyond_k.max(0.0) + first_slack_k(product, soft.linear));
                 groups.soft.w.push(s[s.len() - 1] - beyond_k);
             }
             taken_kw.push(stage.power.iter().zip(&v[t * m..]).map(|(power, v)| power * v).sum::<f64>());
@@ -82,26 +84,29 @@ impl<'a> Iterate<'a> {
             groups.power.w = taken_kw.iter().map(|taken_kw| p - taken_kw).collect();
             groups.peak.w = vec![p - peak.least_kw];
         }
+        groups.centre(product);
         let mut iterate = Self { program, v, x, s, p, groups };
-        let scale = iterate.cost_scale() / iterate.groups.count().max(1) as f64;
-        iterate.groups.centre(scale);
+        iterate.balance();
         iterate
     }
 
-    /// About how much inputs and slacks cost.
-    fn cost_scale(&self) -> f64 {
-        let mut scale = 0.0;
-        for stage in &self.program.stages {
-            for j in 0..stage.linear.len() {
-                let reach = 0.5 * (stage.upper[j] - stage.lower[j]);
-                scale += stage.linear[j].abs() * reach + stage.quadratic[j] * reach * reach;
+    /// Multipliers with which the costs of slacks and of the peak have no gradient.
+    fn balance(&mut self) {
+        let bounds = self.program.stages.iter().flat_map(|stage| &stage.soft);
+        let Groups { soft, slack, power, peak, .. } = &mut self.groups;
+        for (k, bound) in bounds.enumerate() {
+            let slope = bound.linear + bound.quadratic * self.s[k];
+            if slope > 0.0 {
+                soft.z[k] = soft.z[k].min(0.5 * slope);
+                slack.z[k] = slope - soft.z[k];
             }
-            scale += stage.soft.iter().map(|soft| 0.1 * soft.linear).sum::<f64>();
-            scale += stage.nodes.iter().map(|(_, _, quadratic)| quadratic).sum::<f64>();
         }
-        scale.max(1e-12)
+        if let Some(Peak { price, .. }) = self.program.peak.filter(|peak| peak.price > 0.0) {
+            let share = 0.5 * price / power.z.iter().sum::<f64>();
+            power.z.iter_mut().for_each(|z| *z *= share);
+            peak.z = vec![0.5 * price];
+        }
     }
-
     /// The largest cost of a unit of an input or slack.
     fn gradient_scale(&self) -> f64 {
         let of_stage = |stage: &super::Stage| {
@@ -288,4 +293,21 @@ impl<'a> Iterate<'a> {
         }
         s
     }
+}
+
+/// About how much inputs cost.
+fn cost_scale(program: &StagedProgram) -> f64 {
+    let mut scale = 0.0;
+    for stage in &program.stages {
+        for j in 0..stage.linear.len() {
+            let reach = 0.5 * (stage.upper[j] - stage.lower[j]);
+            scale += stage.linear[j].abs() * reach + stage.quadratic[j] * reach * reach;
+        }
+    }
+    scale.max(1e-9)
+}
+
+/// The slack of a soft bound at the start \[K\], so that its product with half of its cost is `product`.
+fn first_slack_k(product: f64, linear: f64) -> f64 {
+    (2.0 * product / linear.max(1e-12)).clamp(LEAST_FIRST_SLACK_K, MOST_FIRST_SLACK_K)
 }

@@ -19,8 +19,8 @@ mod settings;
 
 pub use settings::EconomicSettings;
 
-use super::economic_stages::{Prices, Span, energy_price, inputs, stage};
 use super::interface::ControllerKind;
+use super::money_stages::{Prices, Span, energy_price, inputs, stage};
 use super::optimum::check_size;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;

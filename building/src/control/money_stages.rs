@@ -19,7 +19,7 @@ use super::Disturbance;
 
 /// Prices of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Prices {
+pub(crate) struct Prices {
     /// A kelvin beyond the band of a zone for an hour.
     pub discomfort: f64,
     /// A kilogram of emissions.
@@ -31,7 +31,7 @@ pub(super) struct Prices {
 }
 
 /// The equipment of a network that can heat or cool.
-pub(super) fn inputs(network: &Network) -> Vec<Input> {
+pub(crate) fn inputs(network: &Network) -> Vec<Input> {
     let limits = network.limits();
     let ways = |zone: usize| [(1.0, limits.heating_kw[zone]), (-1.0, limits.cooling_kw[zone])].map(|way| (zone, way));
     let all = (0..network.zone_count()).flat_map(ways);
@@ -40,7 +40,7 @@ pub(super) fn inputs(network: &Network) -> Vec<Input> {
 
 /// Steps that become a stage: their targets and disturbance are those from `first` on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
+pub(crate) struct Span {
     /// Index of the map.
     pub map: usize,
     /// First step.
@@ -50,7 +50,7 @@ pub(super) struct Span {
 }
 
 /// The stage of a span of steps of `targets`, whose supply knows the outdoor temperature.
-pub(super) fn stage(
+pub(crate) fn stage(
     model: &Model,
     inputs: &[Input],
     (targets, disturbance): (&Targets, &Disturbance),
@@ -94,7 +94,7 @@ pub(super) fn stage(
 }
 
 /// The price of electricity in a step, with that of its emissions \[currency/kWh\]; 1 without a tariff.
-pub(super) fn energy_price(supply: &EnergySupply, step: usize, emissions_per_kg: f64) -> f64 {
+pub(crate) fn energy_price(supply: &EnergySupply, step: usize, emissions_per_kg: f64) -> f64 {
     let price = supply.price_per_kwh.as_ref().and_then(|prices| prices.get(step)).copied().unwrap_or(1.0);
     price + emissions_per_kg * supply.emissions_kg_per_kwh.as_ref().and_then(|all| all.get(step)).unwrap_or(&0.0)
 }
@@ -118,7 +118,7 @@ fn band(targets: &Targets, prices: Prices, span: Span, hours: f64) -> Vec<SoftBo
 }
 
 /// What weather and gains of some steps add to the temperatures at their end \[K\].
-pub(super) fn drift_k(model: &Model, disturbance: &Disturbance, steps: std::ops::Range<usize>) -> Vec<f64> {
+pub(crate) fn drift_k(model: &Model, disturbance: &Disturbance, steps: std::ops::Range<usize>) -> Vec<f64> {
     let count = model.network().gain_count();
     let no_heat = vec![0.0; model.network().zone_count()];
     let mut drift_k = vec![0.0; model.network().node_count()];
