@@ -68,6 +68,11 @@ impl RunHistory {
         OPERATIONS_PER_CUBE * (self.initial_c.len() as f64).powi(3).max(100.0) * steps as f64 <= MAX_OPERATIONS
     }
 
+    /// Whether the highest power has a price.
+    pub fn has_demand_charge(&self) -> bool {
+        self.days.iter().any(|(targets, _)| targets.supply.demand_per_kw > 0.0)
+    }
+
     /// The least cost J (3.2) of the whole run.
     ///
     /// # Errors
