@@ -25,7 +25,7 @@ DISCOMFORT_PRICE = 100.0  # per K h: so high that there is none where heat can p
 def weather(path: str, first: date) -> tuple[np.ndarray, np.ndarray]:
     """Outdoor temperature [deg C] and radiation [kW/m2] in the middle of each step."""
     with open(path, encoding="latin-1") as lines:
-        rows = [row for row in csv.reader(lines) if len(row) > 30]
+        rows = list(csv.reader(lines))[8:]
     temperature = np.array([float(row[6]) for row in rows])
     sun = np.array([float(row[13]) for row in rows]) / 1000.0
     start_h = 24 * (first - date(first.year, 1, 1)).days
