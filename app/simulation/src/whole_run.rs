@@ -35,7 +35,7 @@ impl WholeRun {
         if days.is_empty() {
             return None;
         }
-        let cost = days.iter().map(|day| day.figures.cost).sum();
+        let cost: f64 = days.iter().map(|day| day.figures.cost).sum();
         let energy_cost: Option<f64> = days.iter().map(|day| day.figures.energy_cost).sum();
         let least_cost = history.least_cost(model).ok()?.cost;
         let cheapest =
