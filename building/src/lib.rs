@@ -66,5 +66,6 @@ pub mod network;
 pub mod occupancy;
 pub mod schedule;
 pub mod series;
+pub mod staged;
 pub mod sun;
 pub mod weather;

@@ -329,7 +329,8 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
     assert!(matches!(error, ControlError::Shape { what: "the heat gains", .. }), "{error}");
     assert_eq!(temperatures_c, [25.0; 4]);
     let mut clairvoyant = start(Controller::Clairvoyant(Default::default()), &model);
-    let day_ahead = DayAhead { initial_c: &temperatures_c, targets: &targets, forecast: &right, actual: None };
+    let day_ahead =
+        DayAhead { initial_c: &temperatures_c, targets: &targets, forecast: &right, outlook: None, actual: None };
     assert_eq!(clairvoyant.start_of_day(&day_ahead), Err(ControlError::NotClairvoyant));
 }
 

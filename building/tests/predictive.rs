@@ -74,7 +74,7 @@ fn a_plan_for_a_day_is_the_optimum_of_the_day() {
     let penalty = BandPenalty { linear: settings.discomfort_linear, quadratic: settings.discomfort_quadratic };
     let wanted = optimum(&Lifted::new(&model, STEPS), &initial_c, &targets, &forecast, Some(penalty)).expect("solved");
     let mut controller = predictive(settings, &model);
-    let ahead = DayAhead { initial_c: &initial_c, targets: &targets, forecast: &forecast, actual: None };
+    let ahead = DayAhead { initial_c: &initial_c, targets: &targets, forecast: &forecast, outlook: None, actual: None };
     controller.start_of_day(&ahead).expect("fits");
     let heat_kw = controller.act(&Observation { step: 0, temperatures_c: &initial_c[..ZONES], targets: &targets });
     assert!(distance(&heat_kw, &wanted.heat_kw[..ZONES]) < 1e-6, "{heat_kw:?} {:?}", &wanted.heat_kw[..ZONES]);

@@ -31,7 +31,7 @@ pub struct DayFigures {
     /// How zones that plan together came to their plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exchange: Option<ExchangeFigures>,
-    /// Wall time of planning and learning \[s\]; not reproducible.
+    /// Wall time of the controller: of planning at midnight and at every step, and of learning \[s\]; not reproducible.
     pub design_s: f64,
 }
 

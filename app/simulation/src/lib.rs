@@ -51,6 +51,7 @@ pub mod spawn;
 pub mod standing;
 pub mod time_points;
 pub mod watch;
+pub mod whole_run;
 pub mod why;
 mod world_state;
 pub mod worst_zones;

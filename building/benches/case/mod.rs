@@ -38,8 +38,13 @@ impl Case {
 
     /// Plans the second day; what it is expected to cost.
     pub fn plan_day_ahead(&self, controller: &mut dyn Control) -> f64 {
-        let day_ahead =
-            DayAhead { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
+        let day_ahead = DayAhead {
+            initial_c: &self.initial_c,
+            targets: &self.targets,
+            forecast: &self.day,
+            outlook: None,
+            actual: None,
+        };
         controller.start_of_day(&day_ahead).expect("shapes fit");
         let design = controller.design();
         assert!(design.fallback.is_none(), "{:?}", design.fallback);

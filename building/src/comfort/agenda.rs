@@ -69,7 +69,15 @@ impl Agenda {
         }
         let heat_pump = self.heat_pump.clone();
         let price_weight = heat_pump.as_ref().filter(|_| weighs).map_or(Vec::new(), |_| targets.input_weight.clone());
-        targets.supply = EnergySupply { price_per_kwh, heat_pump, outdoor_c: Vec::new(), price_weight };
+        let tariff = self.tariff.as_ref();
+        targets.supply = EnergySupply {
+            price_per_kwh,
+            emissions_kg_per_kwh: tariff.and_then(|tariff| tariff.day_emissions(day, self.step_s, targets.steps())),
+            demand_per_kw: tariff.map_or(0.0, |tariff| tariff.demand_per_kw),
+            heat_pump,
+            outdoor_c: Vec::new(),
+            price_weight,
+        };
         targets
     }
 

@@ -245,6 +245,29 @@ impl Targets {
         }
     }
 
+    /// Prices, emissions and equipment of the `steps` steps from step `t` of the day on, with the days of [`Targets::ahead`]. The outdoor
+    /// temperature is not known.
+    #[must_use]
+    pub fn supply_ahead(&self, t: usize, steps: usize) -> EnergySupply {
+        let tomorrow = self.tomorrow.as_deref().unwrap_or(self);
+        let stacked = |of: fn(&EnergySupply) -> &Option<Vec<f64>>| -> Option<Vec<f64>> {
+            (t..t + steps)
+                .map(|later| {
+                    let day = if later < self.steps() { self } else { tomorrow };
+                    of(&day.supply).as_ref()?.get(later % self.steps()).copied()
+                })
+                .collect()
+        };
+        EnergySupply {
+            price_per_kwh: stacked(|supply| &supply.price_per_kwh),
+            emissions_kg_per_kwh: stacked(|supply| &supply.emissions_kg_per_kwh),
+            demand_per_kw: self.supply.demand_per_kw,
+            heat_pump: self.supply.heat_pump.clone(),
+            outdoor_c: Vec::new(),
+            price_weight: Vec::new(),
+        }
+    }
+
     fn row(&self, t: usize) -> std::ops::Range<usize> {
         assert!(t < self.steps(), "step {t} of a day of {}", self.steps());
         let row = if t == 0 { self.steps() - 1 } else { t - 1 };

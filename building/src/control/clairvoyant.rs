@@ -35,7 +35,7 @@ impl ControllerKind for ClairvoyantSettings {
     }
 
     fn look_for(&self) -> &'static str {
-        "it knows the day in advance and cools before people come; no controller can be cheaper"
+        "it knows the day in advance and cools before people come; no controller is cheaper on that day alone"
     }
 
     fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {

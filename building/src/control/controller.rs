@@ -39,6 +39,8 @@ controllers! {
     IterativeLearning(super::learning::LearningSettings),
     /// Model predictive control: the cheapest inputs over a horizon, planned anew at every step.
     ModelPredictive(super::predictive::PredictiveSettings),
+    /// Economic model predictive control: the plan that costs the least money within the comfort band, made anew at every step.
+    EconomicMpc(super::economic::EconomicSettings),
     /// The day's optimum, computed from the actual disturbances: for comparison.
     Clairvoyant(super::clairvoyant::ClairvoyantSettings),
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).

@@ -6,6 +6,7 @@ use interplay_common::setting::{SettingError, SettingKey};
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
+use crate::staged::StagedError;
 
 /// Largest magnitude of a temperature \[°C\] or of a heat flow \[kW\]. Chosen far beyond any building; larger numbers are
 /// errors of the input.
@@ -107,6 +108,28 @@ pub enum ControlError {
         /// Why the wanted one was not found.
         reason: Box<ControlError>,
     },
+    /// A feedback is unstable where the model is wrong by the stated share.
+    #[error(
+        "where the model is wrong by {:.0} %, the feedback would have the spectral radius {spectral_radius:.3}; {:.4} times its gain is \
+         left",
+        100.0 * error, share
+    )]
+    NotRobust {
+        /// The stated error of the model, as a share.
+        error: f64,
+        /// The largest spectral radius with the whole gain.
+        spectral_radius: f64,
+        /// The share of the gain that is stable; 0 if none was found.
+        share: f64,
+    },
+    /// A feedback lets inputs alternate, as with a model that is wrong.
+    #[error(
+        "the inputs of the feedback alternated between up and down, as with a model that is wrong; {share:.4} times its gain is left"
+    )]
+    AlternatingInputs {
+        /// The share of the gain that is left.
+        share: f64,
+    },
     /// The feedback that was found is not stable.
     #[error("the feedback is not stable: its closed loop has the spectral radius {spectral_radius:.4}")]
     Unstable {
@@ -149,6 +172,9 @@ pub enum ControlError {
         /// The largest number of temperatures with matrices.
         most: usize,
     },
+    /// A plan over stages was not found.
+    #[error(transparent)]
+    Staged(#[from] StagedError),
     /// The optimisation problem is malformed.
     #[error("the day's optimum cannot be posed: {0}")]
     Problem(#[from] ProblemError),
@@ -158,10 +184,16 @@ pub enum ControlError {
 }
 
 impl ControlError {
+    /// Whether the controller had a plan nevertheless.
+    pub fn has_plan(&self) -> bool {
+        matches!(self, Self::AlternatingInputs { .. })
+    }
+
     /// What a controller did instead, after the words "day 2" or "this day".
     pub fn consequence(&self) -> &'static str {
         match self {
             Self::StepWithoutPlan { .. } => "followed an older plan for some steps",
+            Self::AlternatingInputs { .. } => "weakened its feedback",
             _ => "repeated the one before",
         }
     }
@@ -173,6 +205,7 @@ impl ControlError {
             Self::BelowFloor { bound, .. } => (*bound).into(),
             Self::DecayBelowFloor { .. } => "decay".into(),
             Self::TooManyTemperatures { .. } => "stability".into(),
+            Self::NotRobust { .. } => "model_error".into(),
             Self::TooManyUnknowns { design: "model-predictive", .. } => "horizon_h".into(),
             _ => "kind".into(),
         }

@@ -29,6 +29,8 @@ pub struct DayAhead<'a> {
     pub targets: &'a Targets,
     /// The forecast disturbance.
     pub forecast: &'a Disturbance,
+    /// What is forecast for the day after, where that is known.
+    pub outlook: Option<&'a Disturbance>,
     /// The actual disturbance, for the clairvoyant controller only.
     pub actual: Option<&'a Disturbance>,
 }

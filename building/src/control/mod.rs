@@ -5,7 +5,7 @@
 //! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the source.
 //!
 //! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], model [`predictive`] control, and the [`optimum()`] of
-//! a day that is known beforehand. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
+//! a day that is known beforehand. [`economic`] model predictive control minimises money. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
 //! (chapter 5, with its centralised counterpart). They plan each day with what earlier days taught, and follow the plan
 //! with feedback; what they say of it is a [`Design`]. When a design fails, its controller repeats the day before, says
 //! why, and goes on. [`ControllerKind`] is what the settings of each provide, [`Control`] what acts with them; [`Controller`] lists
@@ -25,10 +25,12 @@ pub mod cooperative;
 mod design;
 pub mod distributed;
 pub mod disturbance_estimate;
+pub mod economic;
 mod error;
 mod interface;
 pub mod iterative;
 pub mod learning;
+pub(crate) mod money_stages;
 mod optimum;
 pub mod pid;
 mod planning;

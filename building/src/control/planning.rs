@@ -114,6 +114,11 @@ pub(super) trait PlanningDesign: Clone + fmt::Debug + Send + Sync + 'static {
     /// The heat of each zone \[kW\].
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64>;
 
+    /// Why the last step did not follow the design as it was made; `None` if it did.
+    fn trouble(&self) -> Option<&ControlError> {
+        None
+    }
+
     /// Updates the uncertainty of the disturbance with the error of a day's prediction.
     fn update_uncertainty(&mut self, _lesson: &PredictionError) {}
 }
@@ -143,6 +148,10 @@ impl<L: PlanningDesign> Control for L {
 
     fn design(&self) -> Design {
         self.history().design().clone()
+    }
+
+    fn trouble(&self) -> Option<&ControlError> {
+        PlanningDesign::trouble(self)
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

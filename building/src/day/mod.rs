@@ -18,10 +18,12 @@
 
 mod key_figures;
 mod surroundings;
+mod whole_run;
 mod zone_figures;
 
 pub use key_figures::KeyFigures;
 pub use surroundings::Surroundings;
+pub use whole_run::{RunHistory, RunOptimum};
 pub use zone_figures::ZoneFigures;
 
 use std::borrow::Cow;
@@ -45,6 +47,8 @@ pub struct Day {
     pub actual: Disturbance,
     /// The record of the steps so far.
     pub record: DayRecord,
+    /// What is forecast for the day after, where that is known.
+    outlook: Option<Disturbance>,
     /// The targets under the forecast, where it changes them.
     expected_targets: Option<Targets>,
 }
@@ -64,7 +68,13 @@ impl Day {
         let empty = || Vec::with_capacity(actual.gains_kw.len());
         let record =
             DayRecord { temperatures_c: empty(), heat_kw: empty(), requested_kw: empty(), design: Design::default() };
-        Self { initial_c, forecast, actual, record, expected_targets: None }
+        Self { initial_c, forecast, actual, record, outlook: None, expected_targets: None }
+    }
+
+    /// The same day with a forecast of the day after.
+    #[must_use]
+    pub fn before(self, outlook: Option<Disturbance>) -> Self {
+        Self { outlook, ..self }
     }
 
     /// Lets the controller plan the day at midnight.
@@ -76,9 +86,10 @@ impl Day {
             Cow::Borrowed(_) => None,
             Cow::Owned(targets) => Some(targets),
         };
-        let Self { initial_c, forecast, actual, expected_targets, .. } = &*self;
+        let Self { initial_c, forecast, outlook, actual, expected_targets, .. } = &*self;
         let targets = expected_targets.as_ref().unwrap_or(targets);
-        controller.start_of_day(&DayAhead { initial_c, targets, forecast, actual: Some(actual) })?;
+        let outlook = outlook.as_ref();
+        controller.start_of_day(&DayAhead { initial_c, targets, forecast, outlook, actual: Some(actual) })?;
         self.record.design = controller.design();
         Ok(())
     }

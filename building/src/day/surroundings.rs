@@ -60,6 +60,29 @@ impl Surroundings {
         }
     }
 
+    /// What is forecast for day `day + 1` at the midnight before day `day`: the error of the outdoor temperature goes on as it began. `None`
+    /// where the weather ends before.
+    pub fn outlook(&self, model: &Model, steps: usize, day: usize) -> Option<Disturbance> {
+        let (step_s, from_s) = (model.step_s(), (day + 1) as f64 * DAY_S);
+        if !self.weather.covers(from_s + DAY_S) {
+            return None;
+        }
+        if self.forecast == Forecast::Persistence {
+            return Some(self.forecast(model, steps, day)).map(|forecast| Disturbance {
+                gains_kw: self.with_sun(
+                    self.people.scheduled_kw(day + 1, step_s, steps),
+                    model,
+                    steps,
+                    from_s - 2.0 * DAY_S,
+                ),
+                ..forecast
+            });
+        }
+        let ambient_c = self.forecast.ambient_steps_c(&self.weather, self.forecast_seed, day, step_s, 2 * steps);
+        let gains_kw = self.with_sun(self.people.scheduled_kw(day + 1, step_s, steps), model, steps, from_s);
+        Some(Disturbance { ambient_c: ambient_c[steps..].to_vec(), gains_kw })
+    }
+
     /// The actual disturbance of day `day`, counted from zero.
     pub fn actual(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
         let (start_s, step_s) = (day as f64 * DAY_S, model.step_s());

@@ -276,6 +276,11 @@ impl Model {
         self.columns(self.network.gain_count(), |unit| self.gain_product(unit))
     }
 
+    /// B with a column for each node \[K/kW\]; symmetric.
+    pub(crate) fn full_gain(&self) -> DMatrix<f64> {
+        self.columns(self.network.node_count(), |unit| self.gain_product(unit))
+    }
+
     fn columns(&self, count: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> DMatrix<f64> {
         let n = self.network.node_count();
         let mut matrix = DMatrix::zeros(n, count);

@@ -7,6 +7,10 @@ use super::HeatPump;
 pub struct EnergySupply {
     /// The price of electricity in each step \[currency/kWh\]; none without a tariff.
     pub price_per_kwh: Option<Vec<f64>>,
+    /// Emissions of electricity in each step \[kg/kWh\]; none where the tariff does not state them.
+    pub emissions_kg_per_kwh: Option<Vec<f64>>,
+    /// What the highest electric power of the run costs \[currency/kW\]; 0 without a demand charge.
+    pub demand_per_kw: f64,
     /// The heat pump; without it a kilowatt of heat takes a kilowatt of electricity.
     pub heat_pump: Option<HeatPump>,
     /// The outdoor temperature of each step \[°C\]; empty as long as it is not known.
@@ -28,6 +32,11 @@ impl EnergySupply {
     /// What `electric_kwh` cost in a step \[currency\]; none without a tariff.
     pub fn money(&self, step: usize, electric_kwh: f64) -> Option<f64> {
         Some(self.price_per_kwh.as_ref()?.get(step)? * electric_kwh)
+    }
+
+    /// What `electric_kwh` emit in a step \[kg\]; none where the tariff does not state it.
+    pub fn emitted_kg(&self, step: usize, electric_kwh: f64) -> Option<f64> {
+        Some(self.emissions_kg_per_kwh.as_ref()?.get(step)? * electric_kwh)
     }
 
     /// How much more than on average a kilowatt of heat counts in a plan, by the COP alone. A zone is expected to be heated

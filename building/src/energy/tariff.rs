@@ -41,11 +41,30 @@ pub struct Tariff {
     /// or plan that states it, and in a flag to the current folder.
     #[schemars(example = &"prices.csv", extend("x-excludes" = ["prices_per_kwh"]))]
     pub file: Option<String>,
+    /// Demand charge: what the highest electric power of all zones over a step of the run costs \[currency/kW\].
+    #[schemars(range(min = 0.0, max = 100000.0), extend("x-unit" = "currency/kW"))]
+    pub demand_per_kw: f64,
+    /// Emissions of electricity in each hour from the first midnight on \[kg/kWh\], repeated as prices are; empty where they are not
+    /// counted.
+    #[schemars(
+        inner(range(min = 0.0, max = 10.0)),
+        length(max = 100000),
+        example = vec![0.4],
+        extend("x-unit" = "kg/kWh")
+    )]
+    pub emissions_kg_per_kwh: Vec<f64>,
 }
 
 impl Default for Tariff {
     fn default() -> Self {
-        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), interval_s: HOUR_S, file: None }
+        Self {
+            currency: "EUR".to_owned(),
+            prices_per_kwh: Vec::new(),
+            interval_s: HOUR_S,
+            file: None,
+            demand_per_kw: 0.0,
+            emissions_kg_per_kwh: Vec::new(),
+        }
     }
 }
 
@@ -118,37 +137,48 @@ impl Tariff {
         Err(TariffError { key: "prices_per_kwh".into(), problem })
     }
 
-    /// Whether one day has other prices than the next.
+    /// Whether one day has other prices or emissions than the next.
     pub fn days_differ(&self) -> bool {
-        !is_whole(1.0 / self.days())
+        let has_prices = !self.prices_per_kwh.is_empty();
+        (has_prices && !is_whole(1.0 / self.days())) || 24 % self.emissions_kg_per_kwh.len().max(1) != 0
     }
 
     /// The price in each step of a day, counted from zero \[currency/kWh\]: the mean over the step.
     pub fn day_per_kwh(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
-        let first = day * (DAY_S / self.interval_s).round() as usize;
-        let price = |interval: usize| self.prices_per_kwh[(first + interval) % self.prices_per_kwh.len()];
-        let step_price = |step: usize| {
-            let (from_s, to_s) = (step as f64 * step_s, (step + 1) as f64 * step_s);
-            let interval = (from_s / self.interval_s + 1e-9).floor() as usize;
-            let turn_s = (interval + 1) as f64 * self.interval_s;
-            if to_s <= turn_s + 1e-6 {
-                return price(interval);
-            }
-            let (mut sum, mut from_s, mut interval) = (0.0, from_s, interval);
-            while from_s < to_s - 1e-6 {
-                let until_s = ((interval + 1) as f64 * self.interval_s).min(to_s);
-                sum += (until_s - from_s) / step_s * price(interval);
-                (from_s, interval) = (until_s, interval + 1);
-            }
-            sum
-        };
-        (0..steps).map(step_price).collect()
+        by_step((&self.prices_per_kwh, self.interval_s), day, step_s, steps)
     }
 
+    /// The emissions in each step of a day, counted from zero \[kg/kWh\]; `None` where they are not stated.
+    pub fn day_emissions(&self, day: usize, step_s: f64, steps: usize) -> Option<Vec<f64>> {
+        let stated = &self.emissions_kg_per_kwh;
+        (!stated.is_empty()).then(|| by_step((stated, HOUR_S), day, step_s, steps))
+    }
     /// How much more than on average a kilowatt-hour counts in a plan in each step of a day: the ratio of its price to the mean
     /// one, at least a twentieth.
     pub(crate) fn day_weights(&self, day_per_kwh: &[f64]) -> Vec<f64> {
         let mean_per_kwh = self.mean_per_kwh();
         day_per_kwh.iter().map(|price_per_kwh| (price_per_kwh / mean_per_kwh).max(MIN_PRICE_RATIO)).collect()
     }
+}
+
+/// The mean over each step of a day of a quantity that is stated for intervals of such a length \[s\], and repeated.
+fn by_step((stated, interval_s): (&[f64], f64), day: usize, step_s: f64, steps: usize) -> Vec<f64> {
+    let first = day * (DAY_S / interval_s).round() as usize;
+    let price = |interval: usize| stated[(first + interval) % stated.len()];
+    let step_price = |step: usize| {
+        let (from_s, to_s) = (step as f64 * step_s, (step + 1) as f64 * step_s);
+        let interval = (from_s / interval_s + 1e-9).floor() as usize;
+        let turn_s = (interval + 1) as f64 * interval_s;
+        if to_s <= turn_s + 1e-6 {
+            return price(interval);
+        }
+        let (mut sum, mut from_s, mut interval) = (0.0, from_s, interval);
+        while from_s < to_s - 1e-6 {
+            let until_s = ((interval + 1) as f64 * interval_s).min(to_s);
+            sum += (until_s - from_s) / step_s * price(interval);
+            (from_s, interval) = (until_s, interval + 1);
+        }
+        sum
+    };
+    (0..steps).map(step_price).collect()
 }

@@ -30,6 +30,11 @@ pub struct Weather {
 }
 
 impl Weather {
+    /// Whether the weather is known until a time: a series that is not cyclic ends.
+    pub fn covers(&self, time_s: f64) -> bool {
+        [&self.ambient_c, &self.sun_w_per_m2].iter().all(|series| series.cyclic || time_s <= series.end_s())
+    }
+
     /// Outdoor temperatures for consecutive steps \[°C\]: each is that of the middle of its step, which is also its mean
     /// over the step unless the slope changes within it.
     pub fn ambient_steps_c(&self, start_s: f64, step_s: f64, steps: usize) -> Vec<f64> {

@@ -34,6 +34,11 @@ impl TimeSeries {
         self.values[before] + part * (self.values[after] - self.values[before])
     }
 
+    /// When the last value holds no longer: an interval after its time \[s\].
+    pub fn end_s(&self) -> f64 {
+        self.first_s + self.values.len() as f64 * self.interval_s
+    }
+
     /// The arithmetic mean of the values.
     pub fn mean(&self) -> f64 {
         self.values.iter().sum::<f64>() / self.values.len() as f64

@@ -12,7 +12,7 @@ use super::reference::STEPS;
 pub fn experienced(controller: &mut dyn Control, model: &Model, targets: &Targets, day: &Disturbance) {
     let initial_c = vec![27.5; model.network().node_count()];
     let lifted = Lifted::new(model, STEPS);
-    let day_ahead = DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None };
+    let day_ahead = DayAhead { initial_c: &initial_c, targets, forecast: day, outlook: None, actual: None };
     controller.start_of_day(&day_ahead).expect("a morning");
     let temperatures_c = lifted.free_response(&initial_c, &day.ambient_c, &day.gains_kw);
     let still = vec![0.0; lifted.size()];
@@ -25,7 +25,7 @@ pub fn designed(controller: &mut dyn Control, model: &Model, targets: &Targets, 
     experienced(controller, model, targets, day);
     let initial_c = vec![27.0; model.network().node_count()];
     controller
-        .start_of_day(&DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None })
+        .start_of_day(&DayAhead { initial_c: &initial_c, targets, forecast: day, outlook: None, actual: None })
         .expect("planned");
     controller.design()
 }

@@ -46,7 +46,7 @@ pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Res
     let prices_per_kwh = from_first_midnight(&file, column, scenario)?;
     let interval_s = file.table.interval_s;
     if (60.0..=DAY_S).contains(&interval_s) {
-        return Ok(Tariff { prices_per_kwh, interval_s, file: None, currency: tariff.currency.clone() });
+        return Ok(Tariff { prices_per_kwh, interval_s, file: None, ..tariff.clone() });
     }
     refused(file.table.header_line, format!("the rows are {interval_s} s apart; 60 s to a day work"))
 }

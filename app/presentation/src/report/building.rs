@@ -23,6 +23,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
         writeln!(text, "  note: {remark}")?;
     }
     write_days(text, building)?;
+    write_whole_run(text, building)?;
     write_zones(text, building)?;
     write_exchange(text, building)?;
     for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
@@ -67,6 +68,22 @@ fn write_days(text: &mut String, building: &BuildingReport) -> std::fmt::Result 
             writeln!(text, "     …  {left_out} more in --json")?;
         }
         writeln!(text, "  {line}")?;
+    }
+    Ok(())
+}
+
+/// All days beside the cheapest run with perfect foresight.
+fn write_whole_run(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
+    let Some(run) = building.whole_run else { return Ok(()) };
+    let (cost, least, regret) = (run.cost, run.least_cost, run.regret);
+    writeln!(text, "  all days: cost {cost:.2}, the least with perfect foresight {least:.2}, regret {regret:.2}")?;
+    if let (Some(cost), Some(least), Some(currency)) = (run.energy_cost, run.least_energy_cost, &building.currency) {
+        let currency = currency.replace(char::is_control, " ");
+        let discomfort = run.discomfort_k_h;
+        writeln!(
+            text,
+            "  energy: {cost:.2} {currency} at {discomfort:.2} K·h of discomfort, the least without any {least:.2} {currency}"
+        )?;
     }
     Ok(())
 }

@@ -37,7 +37,10 @@ pub fn control(
     }
     let design = &building.today.record.design;
     let no_plan = design.fallback.as_ref().filter(|_| !had_trouble);
-    let no_plan = no_plan.map(|why| format!("no plan: this day {}: {why}", why.consequence()));
+    let no_plan = no_plan.map(|why| {
+        let what = if why.has_plan() { "unstable feedback" } else { "no plan" };
+        format!("{what}: this day {}: {why}", why.consequence())
+    });
     let weaker = design.weaker_feedback.as_ref().filter(|_| step == 0).map(ToString::to_string);
     current_frame.0.events.extend(no_plan.into_iter().chain(weaker).map(|text| Event {
         vehicle: CONTROLLER_SOURCE.to_owned(),
@@ -46,7 +49,7 @@ pub fn control(
     }));
 }
 
-/// Plans at midnight, and asks for the heat of the step.
+/// Plans at midnight, and asks for the heat of the step. All the controller's time of a day counts as that of its design.
 fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
     let Building { model, controller, targets, today, design_s, handed_in_kw, .. } = building;
     if step == 0 {
@@ -54,10 +57,14 @@ fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<
         today.plan(&mut **controller, targets)?;
         *design_s += began.elapsed().as_secs_f64();
     }
-    match handed_in_kw.take() {
-        Some(heat_kw) => Ok(today.control(model, &mut HandedHeat(heat_kw), targets, step, temperatures_c)),
-        None => Ok(today.control(model, &mut **controller, targets, step, temperatures_c)),
-    }
+    // A controller that plans at every step designs in each of them.
+    let began = Instant::now();
+    let heat = match handed_in_kw.take() {
+        Some(heat_kw) => today.control(model, &mut HandedHeat(heat_kw), targets, step, temperatures_c),
+        None => today.control(model, &mut **controller, targets, step, temperatures_c),
+    };
+    *design_s += began.elapsed().as_secs_f64();
+    Ok(heat)
 }
 
 /// Heat that was decided from outside, in place of the controller for one step.

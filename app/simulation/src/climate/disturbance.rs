@@ -20,7 +20,8 @@ pub fn disturb(
         let Building { model, surroundings, .. } = &*building;
         let steps = building.steps_per_day();
         let (forecast, actual) = (surroundings.forecast(model, steps, day), surroundings.actual(model, steps, day));
-        building.today = Day::new(initial_c, forecast, actual);
+        let outlook = surroundings.outlook(model, steps, day);
+        building.today = Day::new(initial_c, forecast, actual).before(outlook);
         building.targets = building.agenda.of_day(day);
         building.design_s = 0.0;
     }

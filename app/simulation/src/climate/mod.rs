@@ -96,7 +96,7 @@ pub struct Building {
     pub step: usize,
     /// The day in progress.
     pub today: Day,
-    /// Wall time of planning and learning today \[s\]; never part of a digest.
+    /// Wall time of the controller today \[s\]; never part of a digest.
     pub design_s: f64,
     /// The heat of each zone in the next step, where it is decided from outside \[kW\].
     pub handed_in_kw: Option<Vec<f64>>,

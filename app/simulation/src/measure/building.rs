@@ -3,16 +3,18 @@
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
-use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS, ZoneFigures};
+use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS, RunHistory, ZoneFigures};
+use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
 
 use super::milestones::Today;
-use crate::climate::Building;
+use crate::climate::{Building, Node, Temperature};
 use crate::components::CurrentFrame;
 use crate::day::{DayAheadErrors, DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
+use crate::whole_run::WholeRun;
 use crate::worst_zones::WorstZones;
 
 /// Why a day had no plan of its own.
@@ -56,6 +58,8 @@ pub struct BuildingMeasures {
     pub remarks: Vec<String>,
     /// The model of a day, if it is small enough for what takes long.
     lifted: Option<Lifted>,
+    /// What the optimum of the whole run needs, with the model; none where another program is the building.
+    whole_run: Option<(Model, RunHistory)>,
     spectral_radius: Option<f64>,
     today: Today,
     disturbance: Xxh3,
@@ -80,6 +84,7 @@ impl BuildingMeasures {
             zone_names: building.model.network().names()[..building.targets.zones].to_vec(),
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
+            whole_run: (!building.plant.is_foreign()).then(|| (building.model.clone(), RunHistory::default())),
             spectral_radius,
             today: Today::default(),
             disturbance: Xxh3::new(),
@@ -109,6 +114,12 @@ impl BuildingMeasures {
             number(&mut self.balance, zone.temperature_c);
             number(&mut self.balance, zone.next_c);
         }
+    }
+
+    /// The optimum of all days so far; `None` where it is not known or would take long.
+    pub fn whole_run(&self) -> Option<WholeRun> {
+        let (model, history) = self.whole_run.as_ref().filter(|(_, history)| history.is_small())?;
+        WholeRun::compute(model, history, &self.days)
     }
 
     /// The figures of the day that has ended.
@@ -150,6 +161,7 @@ fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
 /// Feeds the step into the digests, and measures the day when it is over.
 pub fn measure_building(
     building: Res<Building>,
+    nodes: Query<(&Node, &Temperature)>,
     mut current_frame: ResMut<CurrentFrame>,
     mut measures: ResMut<BuildingMeasures>,
 ) {
@@ -160,6 +172,13 @@ pub fn measure_building(
         let day = measures.day(&building);
         measures.days.push(day);
         let targets = building.targets.under(&building.today.actual.ambient_c);
+        if let Some((_, history)) = &mut measures.whole_run {
+            let mut end_c = vec![0.0; building.today.initial_c.len()];
+            for (node, temperature) in &nodes {
+                end_c[node.index] = temperature.0;
+            }
+            history.add(&targets, &building.today.actual, [&building.today.initial_c, &end_c]);
+        }
         let zones = ZoneFigures::of_all(&building.today.record, &targets, building.model.step_s());
         measures.zone_days.push(zones);
         if let Some(why) = &building.today.record.design.fallback {

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::day::DayFigures;
 use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
+use crate::whole_run::WholeRun;
 
 /// The outcome for a building.
 #[derive(Clone, Debug, Serialize)]
@@ -28,6 +29,9 @@ pub struct BuildingReport {
     /// The currency of costs; none without a tariff.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub currency: Option<String>,
+    /// All days beside the cheapest run with perfect foresight; none where another program is the building, or for large buildings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole_run: Option<WholeRun>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
     /// Every zone, in the order of the scenario.
@@ -55,6 +59,7 @@ impl BuildingReport {
             fallbacks: measures.fallbacks.clone(),
             weaker_feedbacks: measures.weaker_feedbacks.clone(),
             currency: measures.currency.clone(),
+            whole_run: measures.whole_run(),
             iterations: measures.days.clone(),
             zone_figures: zone_figures(measures),
         }

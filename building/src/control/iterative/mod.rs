@@ -18,6 +18,7 @@
 
 pub mod decay;
 pub mod feedback;
+pub mod guard;
 pub mod joint;
 pub mod projection;
 mod settings;
@@ -39,6 +40,7 @@ use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
+use guard::AlternationGuard;
 use joint::Joint;
 
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft. Chosen large beside the weights of
@@ -57,6 +59,9 @@ pub struct Iterative {
     feedback: Option<(Targets, StaticFeedback)>,
     /// The targets of the day in progress.
     targets: Option<Targets>,
+    guard: AlternationGuard,
+    /// Why the gain was weakened in the last step; `None` if it was not.
+    trouble: Option<ControlError>,
 }
 
 impl Iterative {
@@ -73,8 +78,12 @@ impl Iterative {
             decay::chosen(&settings, lifted.model())?;
         }
         let n = lifted.zones();
+        let limits = lifted.model().network().limits();
+        let powers_kw = limits.heating_kw.iter().zip(&limits.cooling_kw).map(|(heating, cooling)| heating + cooling);
         Ok(Self {
             settings,
+            guard: AlternationGuard::new(powers_kw),
+            trouble: None,
             uncertainty: Uncertainty::new(settings.uncertainty)?,
             estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),
             history: PlanHistory::default(),
@@ -146,7 +155,9 @@ impl Iterative {
             bias_kw: self.estimator.bias_kw().to_vec(),
             gain_kw_per_k: rows(&self.gain),
             spectral_radius: feedback.map(|feedback| feedback.spectral_radius),
-            weaker_feedback: feedback.and_then(|feedback| feedback.weaker.clone()),
+            weaker_feedback: (self.guard.weakest())
+                .map(|share| ControlError::AlternatingInputs { share })
+                .or_else(|| feedback.and_then(|feedback| feedback.weaker.clone())),
             ..Design::default()
         }
     }
@@ -223,12 +234,22 @@ impl PlanningDesign for Iterative {
             // The first day: only the initial feedback, on the error itself.
             None => (vec![0.0; n], Some(observation.weighted_errors_k())),
         };
+        let planned_kw = heat_kw.clone();
         for (j, error_k) in error_k.iter().flatten().enumerate() {
-            for (heat_kw, gain) in heat_kw.iter_mut().zip(&self.gain.column(j)) {
-                *heat_kw += gain * error_k;
+            for (i, (heat_kw, gain)) in heat_kw.iter_mut().zip(&self.gain.column(j)).enumerate() {
+                *heat_kw += self.guard.share(i) * gain * error_k;
             }
         }
-        self.estimator.lifted().model().network().limits().limited_all(&heat_kw)
+        let heat_kw = self.estimator.lifted().model().network().limits().limited_all(&heat_kw);
+        let feedback_kw: Vec<f64> =
+            heat_kw.iter().zip(planned_kw).map(|(heat_kw, planned)| heat_kw - planned).collect();
+        let halved = self.guard.observe(&feedback_kw).map(|zone| self.guard.share(zone));
+        self.trouble = halved.map(|share| ControlError::AlternatingInputs { share });
+        heat_kw
+    }
+
+    fn trouble(&self) -> Option<&ControlError> {
+        self.trouble.as_ref()
     }
 
     fn update_uncertainty(&mut self, prediction_error: &PredictionError) {

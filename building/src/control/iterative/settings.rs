@@ -87,6 +87,10 @@ pub struct IterativeSettings {
     /// K of the first day, and of all days with `stability = "fixed"`, as a multiple of the identity \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
+    /// Share by which capacities and resistances of the model may be wrong: the gain is halved until it is stable for all of them.
+    /// With 0 nothing is checked beforehand; inputs that alternate weaken the gain in any case.
+    #[schemars(range(min = 0.0, max = 2.0), extend("x-unit" = "dimensionless"))]
+    pub model_error: f64,
     /// η: how likely inputs stay within their limits.
     #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
@@ -111,6 +115,7 @@ impl Default for IterativeSettings {
             stability: Stability::default(),
             decay: None,
             initial_gain_kw_per_k: 0.1,
+            model_error: 0.0,
             confidence: 0.95,
             chance: Chance::default(),
             convergence: ErrorGrowth::default(),

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::guard::robust_gain;
 use super::projection::Projection;
 use super::{IterativeSettings, Stability, decay, feedback, size};
 use crate::comfort::Targets;
@@ -53,6 +54,12 @@ impl StaticFeedback {
         let (gain, weaker) = match settings.stability {
             Stability::Fixed => (loops.initial_gain(), None),
             _ => loops.projected(&Projection::new(lifted, &causal, &targets.busy()), settings.stability)?,
+        };
+        let (gain, weaker) = if settings.model_error > 0.0 {
+            let (gain, not_robust) = robust_gain(lifted.model(), gain, settings.model_error)?;
+            (gain, weaker.or(not_robust))
+        } else {
+            (gain, weaker)
         };
         let spectral_radius = loops.radius(&gain);
         if !is_below_one(spectral_radius) {

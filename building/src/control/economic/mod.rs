@@ -1,0 +1,296 @@
+//! Economic model predictive control: at every step the plan that costs the least money within the comfort band.
+//!
+//! ```text
+//! minimise    Σ h p(t) (u⁺/COP_h + u⁻/COP_c) + c h Σ s + ϖ P_max − πᵀx(N)         over the next hours
+//! subject to  x(t+1) = A x(t) + B (u⁺ − u⁻ + w + d) + B k T₀,   limits of u⁺ and u⁻,   |r − T| ≤ band − margin + s
+//! ```
+//!
+//! (Rawlings, Mayne and Diehl, *Model Predictive Control*, 2017, section 2.8.) `p` is the price of electricity with that of its
+//! emissions, `P_max` the highest electric power of the run, whose price ϖ is the demand charge. The state is estimated by a Kalman
+//! filter ([`kalman`]), the disturbance is the forecast with what was learned of its errors ([`learned`]).
+//!
+//! π values the heat that is left at the end of the horizon: it is the multiplier of the state at the start of the last plan, so
+//! that a day ahead heat is worth as much as now. Without it every plan would end with a cold building. It is kept within the dearest
+//! price of heat in the horizon.
+
+mod kalman;
+mod learned;
+mod settings;
+
+pub use settings::EconomicSettings;
+
+use super::interface::ControllerKind;
+use super::money_stages::{Prices, Span, energy_price, inputs, stage};
+use super::optimum::check_size;
+use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
+use crate::comfort::Targets;
+use crate::discretise::Model;
+use crate::staged::{Input, Peak, StageMap, StagedProgram};
+use kalman::Kalman;
+use learned::LearnedForecast;
+
+/// Accuracy of a plan: its cost is that of the cheapest to this share.
+const PLAN_TOLERANCE: f64 = 1e-5;
+
+/// An economic model predictive controller with its estimates.
+#[derive(Clone, Debug)]
+pub struct Economic {
+    settings: EconomicSettings,
+    model: Model,
+    inputs: Vec<Input>,
+    /// Maps of stages of 1, 2, … steps, as far as plans have them.
+    maps: Vec<StageMap>,
+    filter: Kalman,
+    learned: LearnedForecast,
+    /// The forecast of today and of the next day.
+    forecast: Disturbance,
+    steps: usize,
+    /// π \[currency/K\], of each node.
+    end_value: Vec<f64>,
+    /// The highest electric power so far \[kW\].
+    peak_kw: f64,
+    /// The last plan: heat of each zone \[kW\], stacked by steps, and how many of its steps are over.
+    planned_kw: Vec<f64>,
+    planned_steps_ago: usize,
+    trouble: Option<ControlError>,
+    days_in_trouble: usize,
+}
+
+impl Economic {
+    /// A controller before its first day of `steps` steps.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`], and [`ControlError::TooLarge`] for an exact model without matrices.
+    pub fn new(settings: EconomicSettings, model: &Model, steps: usize) -> Result<Self, ControlError> {
+        settings.check()?;
+        check_size(model)?;
+        let network = model.network();
+        let longest = settings.spans(0, model.step_s()).into_iter().max().unwrap_or(1);
+        let rate = if settings.learn_forecast { settings.learning_rate } else { 0.0 };
+        Ok(Self {
+            settings,
+            inputs: inputs(network),
+            maps: (1..=longest).map(|span| StageMap::new(model, span)).collect(),
+            filter: Kalman::new(model, &settings),
+            learned: LearnedForecast::new(steps * network.zone_count(), rate),
+            forecast: Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() },
+            steps,
+            end_value: vec![0.0; network.node_count()],
+            peak_kw: 0.0,
+            planned_kw: Vec::new(),
+            planned_steps_ago: 0,
+            trouble: None,
+            days_in_trouble: 0,
+            model: model.clone(),
+        })
+    }
+
+    /// Plans from step `step` of the day on: heat of each zone in each step of the horizon \[kW\], stacked.
+    fn plan(&mut self, step: usize, targets: &Targets) -> Result<Vec<f64>, ControlError> {
+        ControlError::check_finite("the temperatures", &self.filter.nodes_c)?;
+        let horizon = self.settings.horizon(self.model.step_s());
+        let expected = self.expected(step, horizon);
+        expected.check_finite()?;
+        let mut ahead = targets.ahead(step, horizon);
+        ahead.supply = targets.supply_ahead(step, horizon);
+        if self.inputs.is_empty() {
+            return Ok(vec![0.0; horizon * targets.zones]);
+        }
+        let spans = self.settings.spans(step, self.model.step_s());
+        let program = self.program(&ahead, &expected, &spans);
+        let solution = program.solve(PLAN_TOLERANCE)?;
+        self.value_end(&solution.initial_value, &ahead, &expected);
+        let mut heat_kw = Vec::with_capacity(horizon * targets.zones);
+        for (span, values) in spans.iter().zip(solution.inputs.chunks_exact(self.inputs.len())) {
+            let mut zones_kw = vec![0.0; targets.zones];
+            for (input, value) in self.inputs.iter().zip(values) {
+                zones_kw[input.zone] += input.sign * value;
+            }
+            (0..*span).for_each(|_| heat_kw.extend_from_slice(&zones_kw));
+        }
+        Ok(heat_kw)
+    }
+
+    /// The problem of a plan.
+    fn program(&self, ahead: &Targets, expected: &Disturbance, spans: &[usize]) -> StagedProgram {
+        let demand_per_kw = ahead.supply.demand_per_kw;
+        let prices = Prices {
+            discomfort: self.settings.discomfort_price,
+            emissions_per_kg: self.settings.emission_price_per_kg,
+            margin_k: self.settings.margin_k,
+            has_peak: demand_per_kw > 0.0,
+        };
+        let mut first = 0;
+        let mut stages = Vec::with_capacity(spans.len());
+        for &steps in spans {
+            let span = Span { map: steps - 1, first, steps };
+            stages.push(stage(&self.model, &self.inputs, (ahead, expected), prices, span));
+            first += steps;
+        }
+        if let Some(last) = stages.last_mut() {
+            last.nodes = self.end_value.iter().enumerate().map(|(node, value)| (node, *value, 0.0)).collect();
+        }
+        StagedProgram {
+            maps: self.maps.clone(),
+            inputs: self.inputs.clone(),
+            initial_c: self.filter.nodes_c.clone(),
+            stages,
+            peak: prices.has_peak.then_some(Peak { price: demand_per_kw, least_kw: self.peak_kw }),
+        }
+    }
+
+    /// π from the multiplier of the state at the start of a plan, within the dearest price of heat.
+    fn value_end(&mut self, initial_value: &[f64], ahead: &Targets, expected: &Disturbance) {
+        let price = |heats: bool| -> f64 {
+            let of_step = |step: usize| {
+                let cop = ahead.supply.heat_pump.as_ref().map_or(1.0, |pump| pump.cop(heats, expected.ambient_c[step]));
+                energy_price(&ahead.supply, step, self.settings.emission_price_per_kg) / cop
+            };
+            (0..expected.ambient_c.len()).map(of_step).fold(0.0, f64::max)
+        };
+        let (heating, cooling) = (price(true), price(false));
+        let capacities = self.model.network().capacities_kj_per_k().iter();
+        let bounded = initial_value.iter().zip(capacities).map(|(value, capacity_kj_per_k)| {
+            let kwh_per_k = capacity_kj_per_k / 3600.0;
+            if value.is_finite() { value.clamp(-heating * kwh_per_k, cooling * kwh_per_k) } else { 0.0 }
+        });
+        self.end_value = bounded.collect();
+    }
+
+    /// What is expected over the horizon: the forecast, what was learned of it, and the missed heat, which dies out.
+    fn expected(&self, step: usize, horizon: usize) -> Disturbance {
+        let (known, zones) = (self.forecast.ambient_c.len(), self.filter.missed_kw.len());
+        // Beyond what is known, the last day once more.
+        let known_step = |t: usize| if t < known { t } else { known - self.steps + t % self.steps };
+        let mut gains = Vec::with_capacity(horizon * self.model.network().gain_count());
+        for t in step..step + horizon {
+            let mut row = self.gains_kw(known_step(t)).to_vec();
+            let left = self.filter.left_after(t - step);
+            let bias = self.learned.bias_kw(t % self.steps, zones).zip(&self.filter.missed_kw);
+            row.iter_mut().zip(bias).for_each(|(gain, (bias, missed))| *gain += bias + left * missed);
+            gains.extend(row);
+        }
+        let ambient_c = (step..step + horizon).map(|t| self.forecast.ambient_c[known_step(t)]).collect();
+        Disturbance { ambient_c, gains_kw: gains }
+    }
+
+    /// Forecast gains of the nodes in a step from midnight on \[kW\].
+    fn gains_kw(&self, t: usize) -> &[f64] {
+        let count = self.model.network().gain_count();
+        &self.forecast.gains_kw[t * count..(t + 1) * count]
+    }
+
+    /// The heat of the last plan for now; none beyond its end.
+    fn planned_now(&self, zones: usize) -> Vec<f64> {
+        let from = self.planned_steps_ago * zones;
+        self.planned_kw.get(from..from + zones).map_or_else(|| vec![0.0; zones], <[f64]>::to_vec)
+    }
+
+    /// Learns what the forecast missed in the step before `step`.
+    fn note(&mut self, step: usize, unforecast_kw: Option<Vec<f64>>) {
+        let zones = self.filter.missed_kw.len();
+        let Some(unforecast_kw) = unforecast_kw else { return };
+        let bias = self.learned.bias_kw(step, zones);
+        let missed_kw: Vec<f64> = unforecast_kw.iter().zip(bias).map(|(missed, bias)| missed + bias).collect();
+        self.learned.note(step, &missed_kw);
+    }
+}
+
+impl ControllerKind for EconomicSettings {
+    fn kind(&self) -> &'static str {
+        "economic-mpc"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "heat is bought when it is cheap and stored in walls, and temperatures keep to the edge of the comfort band"
+    }
+
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Economic::new(*self, model, steps)?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        // About 15 iterations, with some dense products of nodes by nodes at each stage; walls are as many as zones.
+        let stages = self.spans(0, 86_400.0 / steps).len() as f64;
+        steps * stages * 15.0 * (10.0 * (2.0 * zones).powi(3) + 2000.0) / 10.0
+    }
+}
+
+impl Control for Economic {
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let network = self.model.network();
+        ControlError::check_length("a row of targets", day_ahead.targets.zones, network.zone_count())?;
+        ControlError::check_length("the day", day_ahead.targets.steps(), self.steps)?;
+        ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), network.node_count())?;
+        day_ahead.forecast.check(day_ahead.targets, network)?;
+        if let Some(outlook) = day_ahead.outlook {
+            outlook.check(day_ahead.targets, network)?;
+        }
+        let unforecast_kw = self.filter.begin(day_ahead.initial_c);
+        self.note(self.steps - 1, unforecast_kw);
+        self.learned.end_day();
+        self.forecast = day_ahead.forecast.clone();
+        if let Some(outlook) = day_ahead.outlook {
+            self.forecast.ambient_c.extend_from_slice(&outlook.ambient_c);
+            self.forecast.gains_kw.extend_from_slice(&outlook.gains_kw);
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let (step, zones) = (observation.step, observation.temperatures_c.len());
+        if step > 0 {
+            let unforecast_kw = self.filter.measure(observation.temperatures_c);
+            self.note(step - 1, unforecast_kw);
+        }
+        self.planned_steps_ago += 1;
+        self.trouble = match self.plan(step, observation.targets) {
+            Ok(planned_kw) => {
+                (self.planned_kw, self.planned_steps_ago) = (planned_kw, 0);
+                None
+            }
+            Err(why) => Some(ControlError::StepWithoutPlan { step, why: Box::new(why) }),
+        };
+        let heat_kw = self.model.network().limits().limited_all(&self.planned_now(zones));
+        let ambient_c = self.forecast.ambient_c[step];
+        let mut gains_kw = self.gains_kw(step).to_vec();
+        gains_kw.iter_mut().zip(self.learned.bias_kw(step, zones)).for_each(|(gain, bias)| *gain += bias);
+        self.filter.predict(&heat_kw, ambient_c, &gains_kw);
+        let supply = EnergyNow { targets: observation.targets, step, ambient_c };
+        self.peak_kw = self.peak_kw.max(heat_kw.iter().map(|kw| supply.electric_kw(*kw)).sum());
+        heat_kw
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.days_in_trouble = record.design.fallbacks;
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        let bias_kw = self.learned.all_kw(self.filter.missed_kw.len());
+        Design { fallbacks: self.days_in_trouble, bias_kw, ..Design::default() }
+    }
+
+    fn trouble(&self) -> Option<&ControlError> {
+        self.trouble.as_ref()
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+/// The equipment's electricity in a step.
+struct EnergyNow<'a> {
+    targets: &'a Targets,
+    step: usize,
+    ambient_c: f64,
+}
+
+impl EnergyNow<'_> {
+    fn electric_kw(&self, heat_kw: f64) -> f64 {
+        let pump = self.targets.supply.heat_pump.as_ref();
+        let outdoor_c = self.targets.supply.outdoor_c.get(self.step).unwrap_or(&self.ambient_c);
+        heat_kw.abs() / pump.map_or(1.0, |pump| pump.cop(heat_kw > 0.0, *outdoor_c))
+    }
+}

@@ -1,0 +1,130 @@
+//! What heat costs in money and which temperatures are comfortable, stage by stage: the problem of the economic controller and of the
+//! optimum of a whole run.
+//!
+//! ```text
+//! minimise    Σ h (price + emission price · emissions) (u⁺/COP_heating + u⁻/COP_cooling) + c h Σ s + ϖ p + terminal value
+//! subject to  |r − T| ≤ band − margin + s  while occupied,   0 ≤ u⁺ ≤ heating limit,   0 ≤ u⁻ ≤ cooling limit
+//! ```
+//!
+//! Where electricity has a negative price, heating and cooling at once would pay in the problem but not in reality. There the way that
+//! the weather suggests keeps its price, and the other one has the opposite price.
+
+use crate::comfort::Targets;
+use crate::discretise::Model;
+use crate::energy::EnergySupply;
+use crate::network::Network;
+use crate::staged::{Input, SoftBound, Stage};
+
+use super::Disturbance;
+
+/// Prices of a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Prices {
+    /// A kelvin beyond the band of a zone for an hour.
+    pub discomfort: f64,
+    /// A kilogram of emissions.
+    pub emissions_per_kg: f64,
+    /// How far plans stay within the comfort band \[K\].
+    pub margin_k: f64,
+    /// Whether the peak has a price.
+    pub has_peak: bool,
+}
+
+/// The equipment of a network that can heat or cool.
+pub(crate) fn inputs(network: &Network) -> Vec<Input> {
+    let limits = network.limits();
+    let ways = |zone: usize| [(1.0, limits.heating_kw[zone]), (-1.0, limits.cooling_kw[zone])].map(|way| (zone, way));
+    let all = (0..network.zone_count()).flat_map(ways);
+    all.filter(|(_, (_, limit_kw))| *limit_kw > 0.0).map(|(zone, (sign, _))| Input { zone, sign }).collect()
+}
+
+/// Steps that become a stage: their targets and disturbance are those from `first` on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// Index of the map.
+    pub map: usize,
+    /// First step.
+    pub first: usize,
+    /// Number of steps.
+    pub steps: usize,
+}
+
+/// The stage of a span of steps of `targets`, whose supply knows the outdoor temperature.
+pub(crate) fn stage(
+    model: &Model,
+    inputs: &[Input],
+    (targets, disturbance): (&Targets, &Disturbance),
+    prices: Prices,
+    span: Span,
+) -> Stage {
+    let limits = model.network().limits();
+    let steps = span.first..span.first + span.steps;
+    let wanted_c = |step: usize, zone: usize| targets.reference_c[step * targets.zones + zone];
+    let mut linear = vec![0.0; inputs.len()];
+    let mut power = vec![0.0; if prices.has_peak { inputs.len() } else { 0 }];
+    let hours = model.step_s() / 3600.0;
+    for step in steps.clone() {
+        let outdoor_c = disturbance.ambient_c[step];
+        let supply = &targets.supply;
+        let price = energy_price(supply, step, prices.emissions_per_kg);
+        for (j, input) in inputs.iter().enumerate() {
+            let heats = input.sign > 0.0;
+            let cop = |heats: bool| supply.heat_pump.as_ref().map_or(1.0, |pump| pump.cop(heats, outdoor_c));
+            let likely = heats == (outdoor_c < wanted_c(step, input.zone));
+            linear[j] += hours * if price < 0.0 && !likely { -price / cop(!heats) } else { price / cop(heats) };
+            if let Some(power) = power.get_mut(j) {
+                *power += 1.0 / cop(heats) / span.steps as f64;
+            }
+        }
+    }
+    Stage {
+        map: span.map,
+        drift_k: drift_k(model, disturbance, steps),
+        lower: vec![0.0; inputs.len()],
+        upper: inputs
+            .iter()
+            .map(|input| if input.sign > 0.0 { limits.heating_kw[input.zone] } else { limits.cooling_kw[input.zone] })
+            .collect(),
+        linear,
+        quadratic: vec![0.0; inputs.len()],
+        nodes: Vec::new(),
+        soft: band(targets, prices, span, hours),
+        power,
+    }
+}
+
+/// The price of electricity in a step, with that of its emissions \[currency/kWh\]; 1 without a tariff.
+pub(crate) fn energy_price(supply: &EnergySupply, step: usize, emissions_per_kg: f64) -> f64 {
+    let price = supply.price_per_kwh.as_ref().and_then(|prices| prices.get(step)).copied().unwrap_or(1.0);
+    price + emissions_per_kg * supply.emissions_kg_per_kwh.as_ref().and_then(|all| all.get(step)).unwrap_or(&0.0)
+}
+
+/// The comfort band at the end of a span.
+fn band(targets: &Targets, prices: Prices, span: Span, hours: f64) -> Vec<SoftBound> {
+    let last = span.first + span.steps - 1;
+    let mut soft = Vec::new();
+    for node in 0..targets.zones {
+        let i = last * targets.zones + node;
+        if targets.occupied[i] {
+            let band_k = targets.band_k[i] - prices.margin_k.min(0.5 * targets.band_k[i]);
+            let linear = prices.discomfort * hours * span.steps as f64;
+            for sign in [1.0, -1.0] {
+                let bound = sign * targets.reference_c[i] + band_k;
+                soft.push(SoftBound { node, sign, bound, linear, quadratic: 0.0 });
+            }
+        }
+    }
+    soft
+}
+
+/// What weather and gains of some steps add to the temperatures at their end \[K\].
+pub(crate) fn drift_k(model: &Model, disturbance: &Disturbance, steps: std::ops::Range<usize>) -> Vec<f64> {
+    let count = model.network().gain_count();
+    let no_heat = vec![0.0; model.network().zone_count()];
+    let mut drift_k = vec![0.0; model.network().node_count()];
+    for step in steps {
+        let gains_kw = &disturbance.gains_kw[step * count..(step + 1) * count];
+        model.step(&mut drift_k, &no_heat, disturbance.ambient_c[step], gains_kw);
+    }
+    drift_k
+}
