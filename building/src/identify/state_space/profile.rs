@@ -9,6 +9,7 @@ use std::cell::RefCell;
 use super::likelihood::Observations;
 use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
+use super::sandwich::Sandwich;
 use super::scoring::{Ascent, Constraint};
 use super::selection::Fit;
 use crate::identify::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
@@ -56,6 +57,8 @@ pub(super) struct Profiler<'a> {
     pub precision: Precision,
     /// The next larger model, if there is one, with its precision.
     pub larger: Option<(&'a Fit, Precision)>,
+    /// Standard errors that hold where innovations are not white, if there are any.
+    pub sandwich: Option<Sandwich>,
     /// What was found already.
     pub known: RefCell<Vec<((QuantityKind, usize), Estimated)>>,
 }
@@ -84,22 +87,39 @@ impl Profiler<'_> {
             return Some(Estimated { value, log_error, interval: (None, None) });
         }
         let rival = self.rival((kind, zone), log_value);
+        let inflation = self.inflation(&gradient, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let distance = |sign: f64| -> Option<f64> {
+            // A profile that was not followed to its end is too short: no end is nearer than the standard error says.
             let own = match WORTH_A_PROFILE.contains(&log_error) {
-                true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?,
-                false => sign * reach,
+                true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?.abs().max(reach),
+                false => reach,
             };
-            let averaged = rival.map_or(own.abs(), |rival| rival.towards(sign).averaged_end(own.abs()));
+            let own = inflation * own;
+            let averaged = rival.map_or(own, |rival| rival.towards(sign).averaged_end(own));
             (averaged < MOST_LOG_RATIO).then_some(averaged)
         };
         let (below, above) = (distance(-1.0), distance(1.0));
         let widest = below.unwrap_or(reach).max(above.unwrap_or(reach));
         Some(Estimated {
             value,
-            log_error: log_error.max(widest / STANDARD_ERRORS_OF_95_PERCENT),
+            log_error: (inflation * log_error).max(widest / STANDARD_ERRORS_OF_95_PERCENT),
             interval: (below.map(|d| value * libm::exp(-d)), above.map(|d| value * libm::exp(d))),
         })
+    }
+
+    /// By how much the standard error that allows for correlated innovations is larger than that of the information matrix; at
+    /// least 1.
+    fn inflation(&self, gradient: &[f64], log_error: f64) -> f64 {
+        let Some(sandwich) = &self.sandwich else { return 1.0 };
+        let direction = self.precision.direction(gradient, gradient.len());
+        (sandwich.standard_error(&direction) / log_error).max(1.0)
+    }
+
+    /// The same of a quantity of a zone.
+    pub fn inflation_of(&self, quantity: (QuantityKind, usize)) -> f64 {
+        let found = logarithm(self.telemetry, &self.fit.structure, quantity, &self.fit.maximum.theta);
+        found.map_or(1.0, |(_, gradient)| self.inflation(&gradient, self.precision.standard_error(&gradient)))
     }
 
     /// ln f and its standard error by the next larger model, if there is one that knows the quantity: what it does not know it
