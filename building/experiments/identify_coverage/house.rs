@@ -137,6 +137,17 @@ impl House {
         heat_kw.iter_mut().for_each(|heat| *heat *= meter);
         let late = world.clock_rows(self.step_s, random);
         let (outdoor_c, sun_kw) = (World::shifted(&outdoor_c, late), World::shifted(&sun_kw, late));
+        self.telemetry(temperature_c, heat_kw, outdoor_c, sun_kw)
+    }
+
+    fn telemetry(
+        &self,
+        temperature_c: Vec<f64>,
+        heat_kw: Vec<f64>,
+        outdoor_c: Vec<f64>,
+        sun_kw: Vec<f64>,
+    ) -> Telemetry {
+        let rows = temperature_c.len();
         let zone = MeasuredZone {
             name: "house".into(),
             temperature_c,
@@ -218,4 +229,3 @@ impl House {
         ]
     }
 }
-

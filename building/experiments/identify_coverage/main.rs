@@ -20,9 +20,7 @@ mod house;
 mod world;
 
 use house::{House, Kind};
-use interplay_building::identify::{
-    Confidence, IdentificationReport, IdentifySettings, SuspectedCause, identify,
-};
+use interplay_building::identify::{Confidence, IdentificationReport, IdentifySettings, SuspectedCause, identify};
 use interplay_common::random::Random;
 use rayon::prelude::*;
 use world::World;

@@ -105,8 +105,10 @@ impl StateSpaceFindings<'_> {
         let free_run_k = (train.free.runs > 0).then(|| (train.free.network_k[zone], train.free.mean_k[zone]));
         let evidence = ZoneEvidence { whiteness: &whiteness, free_run_k, suspicions: self.words_of(zone, doubts) };
         let kinds = QuantityKind::of_zone(self.telemetry, &profiler.fit.structure, zone);
-        let physical =
-            kinds.into_iter().filter_map(|kind| self.quantity((kind, zone), (profiler, doubts), filtered, &evidence)).collect();
+        let physical = kinds
+            .into_iter()
+            .filter_map(|kind| self.quantity((kind, zone), (profiler, doubts), filtered, &evidence))
+            .collect();
         ZoneReport {
             name: self.telemetry.zones[zone].name.clone(),
             coefficients: Vec::new(),
@@ -304,7 +306,8 @@ impl StateSpaceFindings<'_> {
         };
         let mut warnings: Vec<String> = suspicions.iter().map(of).collect();
         for row in self.choice.table.iter().filter(|row| row.search_failed) {
-            warnings.push(format!("the search for the best `{}` failed: it contains a model that is better", row.model));
+            warnings
+                .push(format!("the search for the best `{}` failed: it contains a model that is better", row.model));
         }
         if self.telemetry.left_out_rows > 0 {
             warnings.push(format!("{} rows were left out because a value is missing", self.telemetry.left_out_rows));

@@ -19,6 +19,7 @@ mod linear_model;
 mod model_average;
 mod network_run;
 mod observations;
+mod parameters;
 mod preparation;
 mod profile;
 mod quantities;

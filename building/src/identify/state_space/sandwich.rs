@@ -65,7 +65,12 @@ mod tests {
     fn correlated_scores_have_larger_errors() {
         let sign = |row: usize| if (row / 2 * 7919) % 13 < 6 { 1.0 } else { -1.0 };
         let scores: Vec<f64> = (0..400).map(sign).collect();
-        let of = |lags| Sandwich { scores: scores.clone(), parameters: 1, segments: std::iter::once(0..400).collect(), lags };
+        let of = |lags| Sandwich {
+            scores: scores.clone(),
+            parameters: 1,
+            segments: std::iter::once(0..400).collect(),
+            lags,
+        };
         let white = of(0).standard_error(&[1.0]);
         assert!((white - 20.0).abs() < 1e-12);
         assert!(of(1).standard_error(&[1.0]) > 1.15 * white);

@@ -27,10 +27,10 @@ const FITTED_SHARE: (usize, usize) = (2, 3);
 const STEPS_OF_FEWER_ROWS: usize = 12;
 /// A larger model whose log-likelihood is lower by more than this was not searched well.
 const WORSE: f64 = 0.05;
-/// Long records are first searched on this many rows.
-const SEARCHED_ROWS: usize = 6000;
-/// How many ascents of such a search go on to the end on all rows.
-const ENDED_ON_ALL_ROWS: usize = 2;
+/// Starts go on for so many steps, on at most so many rows, before the best of them go on to the end on all rows.
+const SEARCH_STEPS: usize = 20;
+const SEARCHED_ROWS: usize = 3000;
+const ENDED_STARTS: usize = 3;
 /// Steps from each start, and rows of them, before they go on.
 const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
@@ -78,17 +78,18 @@ pub(super) fn choose(
     loop {
         let mut left = chosen.structure.candidates(telemetry);
         left.retain(|extension| extension.hidden().kind().is_none_or(|kind| settings.hidden.contains(&kind)));
-        let larger: Vec<Option<Fit>> =
-            left.par_iter().map(|&added| extended(telemetry, &guess, (&chosen, &known), added, (observations, progress))).collect();
+        let larger: Vec<Option<Fit>> = left
+            .par_iter()
+            .map(|&added| extended(telemetry, &guess, (&chosen, &known), added, (observations, progress)))
+            .collect();
         let mut tried: Vec<(usize, Fit)> = Vec::new();
         for larger in larger.into_iter().flatten() {
             table.push(row(telemetry, &larger, Some(&chosen)));
             tried.push((table.len() - 1, larger));
         }
         known.extend(tried.iter().map(|(_, fit)| fit.clone()));
-        let by_criterion = |a: &&(usize, Fit), b: &&(usize, Fit)| {
-            criterion(&a.1, penalty).total_cmp(&criterion(&b.1, penalty))
-        };
+        let by_criterion =
+            |a: &&(usize, Fit), b: &&(usize, Fit)| criterion(&a.1, penalty).total_cmp(&criterion(&b.1, penalty));
         let is_allowed = |fit: &&(usize, Fit)| fit.1.structure.order() <= settings.most_states;
         let best = tried.iter().filter(is_allowed).max_by(by_criterion);
         let is_better = |fit: &Fit| {
@@ -165,8 +166,8 @@ fn extended(
     fit(guess, structure, (&starts, &near), observations)
 }
 
-/// Ascends from every start for a few steps on the first rows, then from the best ones to the end on all rows. Those
-/// near a smaller model always go to the end.
+/// Ascends from every start for a few steps on the first rows, from the better ones for more steps on more rows, and from the
+/// best of those to the end on all rows. Those near a smaller model always go to the end.
 fn fit(
     guess: &Guess,
     structure: Structure,
@@ -188,24 +189,15 @@ fn fit(
     let mut first: Vec<Maximum> = starts.par_iter().filter_map(screened).collect();
     first.sort_by(|a, b| by_likelihood(b, a));
     let (zones, _) = observations.widths;
-    let finished = first
-        .into_iter()
-        .take((FINISHED_STARTS / zones).max(1))
-        .map(|maximum| maximum.theta)
-        .chain(near.iter().cloned());
+    let finished = first.into_iter().take((FINISHED_STARTS / zones).max(1)).map(|maximum| maximum.theta);
     let finished: Vec<Vec<f64>> = finished.collect();
     let finish = |start: &Vec<f64>| ascent(observations, SCREENING_GAIN).run(start, MOST_STEPS);
-    let rows: usize = observations.segments.iter().map(std::ops::Range::len).sum();
-    let finished = match rows > SEARCHED_ROWS {
-        true => {
-            let searched = |start: &Vec<f64>| ascent(&search, SCREENING_GAIN).run(start, MOST_STEPS);
-            let mut found: Vec<Maximum> = finished.par_iter().filter_map(searched).collect();
-            found.sort_by(|a, b| by_likelihood(b, a));
-            let best = found.into_iter().take(ENDED_ON_ALL_ROWS).map(|maximum| maximum.theta);
-            best.chain(near.iter().cloned()).collect()
-        }
-        false => finished,
-    };
+    let searched = |start: &Vec<f64>| ascent(&search, SCREENING_GAIN).run(start, SEARCH_STEPS);
+    let mut found: Vec<Maximum> = finished.par_iter().filter_map(searched).collect();
+    found.sort_by(|a, b| by_likelihood(b, a));
+    let best = found.into_iter().take(ENDED_STARTS).map(|maximum| maximum.theta);
+    // The starts next to smaller models go on whatever the search says of them, so that no model is worse than its parts.
+    let finished: Vec<Vec<f64>> = best.chain(near.iter().cloned()).collect();
     let all: Vec<Maximum> = finished.par_iter().filter_map(finish).collect();
     let best = all.into_iter().max_by(by_likelihood)?;
     let maximum = ascent(observations, LEAST_GAIN).run(&best.theta, MOST_STEPS)?;

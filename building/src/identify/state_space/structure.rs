@@ -21,6 +21,7 @@ use super::exponential::{Number, exponential, real};
 use super::extension::{Extension, HiddenNode};
 use super::linear_model::{ContinuousModel, InitialState};
 use super::observations::InputLayout;
+pub(super) use super::parameters::{ParameterKind, Place};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// An hour \[s\].
@@ -30,38 +31,6 @@ pub(super) const HOUR_S: f64 = 3600.0;
 const HIDDEN_START_VARIANCE: f64 = 9.0;
 /// What a row of unknown heat adds to the variance of the air \[K²\]. Chosen: as for the start.
 const UNKNOWN_HEAT_VARIANCE: f64 = 9.0;
-
-/// Which node of a zone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Air,
-    Hidden(HiddenNode),
-}
-
-/// What a parameter is. All are logarithms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ParameterKind {
-    /// Heat capacity of a node \[kJ/K\].
-    Capacity(usize, Place),
-    /// Random heat of a node, as the deviation of its temperature in an hour \[K/√h\].
-    RandomHeat(usize, Place),
-    /// Conductance from a zone's air to a neighbour without mass between \[kW/K\].
-    Direct(usize, Neighbour),
-    /// Conductance between a zone's air and a hidden node of it \[kW/K\].
-    Inner(usize, HiddenNode),
-    /// Conductance between the wall's mass and the boundary \[kW/K\].
-    Outer(usize, usize),
-    /// Aperture of a zone's air \[m²\].
-    Aperture(usize),
-    /// Aperture of a hidden node of a zone \[m²\].
-    HiddenAperture(usize, HiddenNode),
-    /// Heat per unit of a signal without unit \[kW\].
-    HeatGain(usize),
-    /// Correlation time τ of a zone's coloured heat \[h\]; its [`ParameterKind::RandomHeat`] is its standard deviation \[K/h\].
-    CorrelationTime(usize),
-    /// Standard deviation of a zone's sensor \[K\].
-    Sensor(usize),
-}
 
 /// A node with its zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -387,7 +356,9 @@ impl Structure {
         };
         let can_be_sunlit = |&&hidden: &&HiddenNode| {
             let shines = |zone: usize| self.layout.sun[zone].is_some() && self.node(zone, hidden).is_some();
-            matches!(hidden, HiddenNode::Wall(_) | HiddenNode::Interior) && !self.sunlit.contains(&hidden) && (0..self.zones).any(shines)
+            matches!(hidden, HiddenNode::Wall(_) | HiddenNode::Interior)
+                && !self.sunlit.contains(&hidden)
+                && (0..self.zones).any(shines)
         };
         let sun = self.hidden.iter().filter(can_be_sunlit).copied().map(Extension::Sun);
         all.filter(possible).map(Extension::Node).chain(sun).collect()

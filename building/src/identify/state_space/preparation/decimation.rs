@@ -17,9 +17,8 @@ pub(super) fn factor(telemetry: &Telemetry) -> usize {
         return 1;
     }
     let an_hour = libm::round(HOUR_S / telemetry.step_s) as usize;
-    let divides = |factor: &usize| {
-        an_hour.is_multiple_of(*factor) && (an_hour as f64 * telemetry.step_s - HOUR_S).abs() < 1e-6
-    };
+    let divides =
+        |factor: &usize| an_hour.is_multiple_of(*factor) && (an_hour as f64 * telemetry.step_s - HOUR_S).abs() < 1e-6;
     let allowed: Vec<usize> = (1..=an_hour).filter(divides).collect();
     let enough = allowed.iter().copied().find(|factor| rows / factor <= MOST_ROWS);
     enough.or(allowed.last().copied()).unwrap_or(1)
@@ -62,7 +61,8 @@ pub(super) fn decimated(telemetry: &Telemetry, unknown_heat: &[usize], factor: u
             let flow = mean(&|row| air.conductance_kw_per_k[row]);
             let carried = mean(&|row| air.conductance_kw_per_k[row] * air.temperature_c[row]);
             let plain = mean(&|row| air.temperature_c[row]);
-            let of_flow = |((flow, carried), plain): ((&f64, &f64), &f64)| if *flow > 0.0 { carried / flow } else { *plain };
+            let of_flow =
+                |((flow, carried), plain): ((&f64, &f64), &f64)| if *flow > 0.0 { carried / flow } else { *plain };
             let temperature_c = flow.iter().zip(&carried).zip(&plain).map(of_flow).collect();
             *air = SupplyAir { conductance_kw_per_k: flow, temperature_c };
         }

@@ -31,7 +31,8 @@ pub(in crate::identify::state_space) fn exceeded(
             })
         }
         QuantityKind::Aperture => {
-            let losses = telemetry.neighbours(zone).into_iter().filter_map(|place| of(QuantityKind::Conductance(place), &theta));
+            let losses =
+                telemetry.neighbours(zone).into_iter().filter_map(|place| of(QuantityKind::Conductance(place), &theta));
             let most = losses.sum::<f64>() / LEAST_LOSS_KW_PER_M2_K;
             let aperture = of(QuantityKind::Aperture, &theta)?;
             (most > 0.0 && aperture > most)

@@ -55,7 +55,12 @@ impl Halves {
     }
 
     /// What the halves say of a quantity, with standard errors multiplied by `inflation`; `None` where one of them does not know it.
-    pub fn agreement(&self, telemetry: &Telemetry, quantity: (QuantityKind, usize), inflation: f64) -> Option<Agreement> {
+    pub fn agreement(
+        &self,
+        telemetry: &Telemetry,
+        quantity: (QuantityKind, usize),
+        inflation: f64,
+    ) -> Option<Agreement> {
         let of = |(fit, precision): &(Fit, Precision)| {
             let (value, gradient) = logarithm(telemetry, &fit.structure, quantity, &fit.maximum.theta)?;
             Some((value, inflation * precision.standard_error(&gradient))).filter(|(_, error)| error.is_finite())

@@ -3,8 +3,8 @@
 //!
 //! An estimate cannot tell: a wrong world has its own best parameters, with short intervals and often with white residuals.
 
-mod clock;
 pub(super) mod ceilings;
+mod clock;
 pub(super) mod halves;
 mod score_test;
 mod tails;

@@ -44,7 +44,9 @@ pub(super) fn score_tests(world: &World<'_>, zone: usize) -> Vec<(SuspectedCause
     let sun = test(columns.sun.clone());
     let p_value = survival(sun.0, sun.1 as f64);
     if p_value < LEVEL {
-        let words = format!("the sun's heat comes at other hours than its irradiance (p = {p_value:.1e}): another side or shade?");
+        let words = format!(
+            "the sun's heat comes at other hours than its irradiance (p = {p_value:.1e}): another side or shade?"
+        );
         found.push((SuspectedCause::Sun, words));
     }
     found
@@ -110,6 +112,9 @@ fn evaluated(world: &World<'_>, zone: usize, columns: &[Vec<f64>]) -> Option<Eva
 
 /// LM of the columns `range`, and how many directions of them θ leaves free.
 fn statistic(world: &World<'_>, evaluation: &Evaluation, range: Range<usize>) -> (f64, usize) {
+    if range.is_empty() {
+        return (0.0, 1);
+    }
     let parameters = world.fit.maximum.theta.len();
     let information = &evaluation.information;
     let known = free_parameters(&world.fit.maximum.theta, &world.fit.bounds, &evaluation.gradient[..parameters]);

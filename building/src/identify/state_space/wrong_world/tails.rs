@@ -34,12 +34,15 @@ pub(super) fn heavy_tail(world: &World<'_>, zone: usize) -> Option<HeavyTail> {
     }
     // Positive where the air follows the outdoors by more than the walls explain.
     let outward = values.iter().map(|(value, to_outdoor)| (value - mean).powi(3) * to_outdoor.signum()).sum::<f64>();
-    let times = format!("innovations are at times far larger than in general (kurtosis {kurtosis:.0} standard errors too large)");
+    let times = format!(
+        "innovations are at times far larger than in general (kurtosis {kurtosis:.0} standard errors too large)"
+    );
     Some(if outward > 0.0 {
         let words = format!("{times}, and towards the temperature outdoors: were windows opened?");
         HeavyTail { cause: SuspectedCause::Windows, words }
     } else {
-        let words = format!("{times}, and away from the temperature outdoors: did people or machines give off heat at times?");
+        let words =
+            format!("{times}, and away from the temperature outdoors: did people or machines give off heat at times?");
         HeavyTail { cause: SuspectedCause::People, words }
     })
 }
@@ -53,7 +56,8 @@ fn settled(world: &World<'_>, zone: usize) -> Vec<(f64, f64)> {
         let inside = world.telemetry.zones[zone].temperature_c[row];
         outdoors.map_or(-1.0, |place| world.telemetry.temperature_c(place)[row] - inside)
     };
-    let rows = world.observations.segments.iter().flat_map(|segment| (segment.start + settling).min(segment.end)..segment.end);
+    let rows =
+        world.observations.segments.iter().flat_map(|segment| (segment.start + settling).min(segment.end)..segment.end);
     rows.map(|row| (world.filtered.standardised[row * p + zone], difference(row)))
         .filter(|(value, difference)| value.is_finite() && difference.is_finite())
         .collect()
