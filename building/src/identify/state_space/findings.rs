@@ -66,6 +66,7 @@ impl StateSpaceFindings<'_> {
             fit,
             precision: Precision::new(fit),
             larger: self.choice.larger.as_ref().map(|larger| (larger, Precision::new(larger))),
+            rivals: self.choice.rivals.iter().map(|rival| (rival, Precision::new(rival))).collect(),
             sandwich: Sandwich::new(fit, self.train),
             known: RefCell::default(),
         };

@@ -54,6 +54,8 @@ pub(super) struct Choice {
     pub chosen: Fit,
     /// The best model with one more hidden node or with more sun, if there is one.
     pub larger: Option<Fit>,
+    /// All models with one more hidden node or with more sun: intervals allow for each.
+    pub rivals: Vec<Fit>,
     pub table: Vec<ModelRow>,
 }
 
@@ -100,7 +102,8 @@ pub(super) fn choose(
             None => {
                 let larger = tried.iter().max_by(by_criterion).map(|(_, fit)| fit.clone());
                 table[chosen_row].chosen = true;
-                return Some(Choice { chosen, larger, table });
+                let rivals = tried.into_iter().map(|(_, fit)| fit).collect();
+                return Some(Choice { chosen, larger, rivals, table });
             }
         }
     }
