@@ -79,6 +79,9 @@ pub(super) fn identify(
     let mut found = findings.identification()?;
     found.report.rows = record.rows();
     found.report.segments = record.segments.len();
+    let trained =
+        split.train.iter().flat_map(Clone::clone).filter(|row| prepared.unknown_heat.binary_search(row).is_err());
+    found.report.train_rows = trained.count() * prepared.decimated_by;
     if prepared.decimated_by > 1 {
         let minutes = telemetry.step_s / 60.0;
         found.report.warnings.insert(0, format!("the record is long: it was fitted in steps of {minutes} min"));
