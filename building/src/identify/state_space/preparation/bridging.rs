@@ -1,15 +1,20 @@
 //! Short gaps between segments become rows of which only the time is known.
 //!
 //! A segment begins with a guess of its hidden temperatures, so that a single missing row would cost as much knowledge as days
-//! of rows give. Through a short gap the filter goes on instead: temperatures are missing, weather is interpolated, and as nobody
-//! knows the heat of the missing rows, the temperatures that it enters may be anything after them.
+//! of rows give. Through a short gap the filter goes on instead: temperatures are missing and weather is interpolated. So is heat
+//! where it is the same on both sides of a very short gap. Elsewhere nobody knows the heat of the missing rows, and the
+//! temperatures that it enters may be anything after them.
 
 use std::ops::Range;
 
-use crate::identify::telemetry::Telemetry;
+use crate::identify::telemetry::{MeasuredZone, Telemetry};
 
 /// The longest gap that is bridged \[s\]. Chosen: the masses of a house keep most of their heat for so long.
 const LONGEST_GAP_S: f64 = 6.0 * 3600.0;
+/// In a gap of a single row, or shorter than this \[s\], heat is taken to go on as before …
+const LONGEST_HELD_GAP_S: f64 = 3600.0;
+/// … if on both sides it differs by no more than this share of its range over the record.
+const SAME_HEAT_SHARE: f64 = 0.02;
 /// A gap is a multiple of the step to this share of it.
 const TOLERANCE: f64 = 1e-3;
 
@@ -29,9 +34,12 @@ pub(super) fn bridged(telemetry: &Telemetry) -> Option<(Telemetry, Vec<usize>)> 
         let before = index.checked_sub(1).map(|before| telemetry.segments[before].end - 1);
         let missing = before.map_or(0, |before| missing_rows(telemetry, before, segment.start));
         let start = sources.len();
+        let is_held = before.is_some_and(|before| goes_on(telemetry, before, segment.start, missing));
         if let Some(before) = before.filter(|_| missing > 0) {
             for row in 1..=missing {
-                unknown_heat.push(sources.len());
+                if !is_held {
+                    unknown_heat.push(sources.len());
+                }
                 sources.push(Source::Between(before, segment.start, row as f64 / (missing + 1) as f64));
             }
         }
@@ -41,7 +49,20 @@ pub(super) fn bridged(telemetry: &Telemetry) -> Option<(Telemetry, Vec<usize>)> 
             _ => segments.push(start..sources.len()),
         }
     }
-    (!unknown_heat.is_empty()).then(|| (filled(telemetry, &sources, segments), unknown_heat))
+    (sources.len() > telemetry.segments.iter().map(Range::len).sum::<usize>())
+        .then(|| (filled(telemetry, &sources, segments), unknown_heat))
+}
+
+/// Whether the heat of all zones goes on through a gap as before.
+fn goes_on(telemetry: &Telemetry, before: usize, after: usize, missing: usize) -> bool {
+    let gap_s = (missing + 1) as f64 * telemetry.step_s;
+    let is_same = |zone: &MeasuredZone| {
+        let finite = zone.power_kw.iter().copied().filter(|power| power.is_finite());
+        let (low, high) = finite.fold((f64::MAX, f64::MIN), |(low, high), power| (low.min(power), high.max(power)));
+        let change = (zone.power_kw[after] - zone.power_kw[before]).abs();
+        zone.supply_air.is_empty() && change <= SAME_HEAT_SHARE * (high - low)
+    };
+    (missing == 1 || gap_s < LONGEST_HELD_GAP_S) && telemetry.zones.iter().all(is_same)
 }
 
 /// How many rows are missing between two rows; 0 where none is, or too many, or they do not fit the step.
