@@ -54,6 +54,7 @@ impl Findings<'_> {
             warnings: self.warnings(&zones),
             walls: self.walls(&physical),
             models: Vec::new(),
+            suspicions: Vec::new(),
             zones,
         }
     }

@@ -41,7 +41,7 @@ pub use free_run::ResidualForecast;
 pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
 pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
-    WallReport, ZoneReport, ZoneSeries,
+    SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
 pub use smoothing::local_linear;
@@ -67,9 +67,24 @@ use train_test_split::TrainTestSplit;
 /// [`IdentifyError`] for a setting out of range, a zone without anything to identify, or too few rows. A parameter that the
 /// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
+    identify_with_progress(telemetry, settings, &|_| {})
+}
+
+/// What is told while an identification goes on: a few words on what is fitted next, from any thread.
+pub type Progress<'a> = dyn Fn(&str) + Sync + 'a;
+
+/// As [`identify`], which tells `progress` what it does next. Only `state-space` takes long enough to tell anything.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_with_progress(
+    telemetry: &Telemetry,
+    settings: &IdentifySettings,
+    progress: &Progress<'_>,
+) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
     if settings.method == Estimator::StateSpace {
-        return state_space::identify(telemetry, settings);
+        return state_space::identify(telemetry, settings, progress);
     }
     let is_incomplete = |zone: &&MeasuredZone| zone.temperature_c.iter().any(|value| value.is_nan());
     if let Some(zone) = telemetry.zones.iter().find(is_incomplete) {

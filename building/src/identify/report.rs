@@ -41,8 +41,38 @@ pub struct IdentificationReport {
     /// The models that were compared to choose the order, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelRow>,
+    /// What the data contradict of that which every model takes for granted, by `state-space`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub suspicions: Vec<Suspicion>,
     /// Warnings that a reader must know before using a number.
     pub warnings: Vec<String>,
+}
+
+/// Something that the data contradict, with what would explain it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Suspicion {
+    /// The zone, if it is of one.
+    pub zone: Option<String>,
+    /// What would explain it.
+    pub cause: SuspectedCause,
+    /// The same in words, with the figures.
+    pub words: String,
+}
+
+/// What would explain that the data contradict the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SuspectedCause {
+    /// The weather's clock is not that of the building.
+    Clock,
+    /// The sun comes from another side than the measured one.
+    Sun,
+    /// Heat that nobody measured comes at the same hours each day, or when people are in.
+    People,
+    /// Heat is lost at times, as through open windows.
+    Windows,
+    /// The two halves of the record contradict each other.
+    Halves,
 }
 
 /// A model that was tried by the method `state-space`.
@@ -58,6 +88,8 @@ pub struct ModelRow {
     pub log_likelihood: f64,
     /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
     pub gain: Option<(f64, f64)>,
+    /// Whether it is worse than the model that it extends, which it contains: its best parameters were not found.
+    pub search_failed: bool,
     /// Whether this model was chosen.
     pub chosen: bool,
 }

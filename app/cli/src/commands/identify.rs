@@ -2,10 +2,11 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 use interplay_building::identify::{
-    Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, identify,
+    Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, identify_with_progress,
 };
 use interplay_presentation::{plot, report, shell};
 use interplay_scenarios::{Fault, read_regular};
@@ -22,6 +23,7 @@ use crate::output::{json, print, print_error};
 #[command(after_help = "Examples:\n  \
     interplay identify assets/telemetry/cabin.csv        (a sample; its mapping is cabin.toml beside it)\n  \
     interplay identify office.csv --mapping columns.toml --out plots/ --json\n  \
+    interplay identify office.csv --validate             (the error a day ahead on days that were not trained on)\n  \
     interplay identify office.csv --scenario office-scenario.toml\n\n\
     A mapping:\n  \
     walls = [[\"office\", \"outdoor\"]]\n  \
@@ -45,6 +47,10 @@ pub(crate) struct Identify {
     /// Draw fit, residuals and autocorrelation of each zone into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Train on the first three quarters of the days and print the error of day-ahead predictions on the others
+    #[arg(long)]
+    validate: bool,
 
     /// Write a scenario with the network that was found and its uncertainty, and beside it NAME-weather.csv, the recorded weather; a
     /// file that exists is never overwritten
@@ -137,18 +143,30 @@ impl Identify {
             None => "; a mapping says which column is what: name one with --mapping (see `interplay identify --help`)",
         };
         let described = read(&mapping_file, help)?;
-        let mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
+        let mut mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
         let name = self.table.display().to_string();
         let telemetry = Telemetry::read(&name, &table, &mapping)?;
-        let found = identify(&telemetry, &mapping.identify).map_err(|reason| match reason {
-            // These are said by the mapping; the table is not to blame.
-            IdentifyError::Setting(_)
-            | IdentifyError::NothingToIdentify { .. }
-            | IdentifyError::TooManyZones { .. } => {
-                InputError::Identify { name: mapping_file.display().to_string(), reason }
+        if self.validate && mapping.identify.train_days.is_none() {
+            mapping.identify.train_days = Some(days_to_train(&telemetry));
+        }
+        let begun = Instant::now();
+        // A short fit ends before anyone wonders.
+        let progress = |words: &str| {
+            let seconds = begun.elapsed().as_secs();
+            if seconds >= SILENT_S {
+                print_error(&format!("{seconds} s: {words}"));
             }
-            _ => InputError::Identify { name, reason },
-        })?;
+        };
+        let found =
+            identify_with_progress(&telemetry, &mapping.identify, &progress).map_err(|reason| match reason {
+                // These are said by the mapping; the table is not to blame.
+                IdentifyError::Setting(_)
+                | IdentifyError::NothingToIdentify { .. }
+                | IdentifyError::TooManyZones { .. } => {
+                    InputError::Identify { name: mapping_file.display().to_string(), reason }
+                }
+                _ => InputError::Identify { name, reason },
+            })?;
         Ok((found, telemetry.recorded_days()))
     }
 
@@ -161,7 +179,11 @@ impl Identify {
         let text = if self.json {
             json("the findings", &found.report)?
         } else {
-            report::identification(&self.table.display().to_string(), found)
+            let mut text = report::identification(&self.table.display().to_string(), found);
+            if self.validate {
+                text.push_str(&held_out(found));
+            }
+            text
         };
         print(&text)
     }
@@ -172,6 +194,39 @@ struct ScenarioTexts {
     text: String,
     /// The recorded weather, and where it goes.
     weather: Option<(PathBuf, String)>,
+}
+
+/// Seconds after which a fit tells what it does.
+const SILENT_S: u64 = 5;
+/// The share of the days that is trained on to validate.
+const TRAINED_SHARE: f64 = 0.75;
+
+/// The first three quarters of a record, in whole days if it has four \[d\].
+fn days_to_train(telemetry: &Telemetry) -> f64 {
+    let first_s = telemetry.time_s.first().copied().unwrap_or(0.0);
+    let days = telemetry.time_s.last().map_or(0.0, |last_s| (last_s - first_s + telemetry.step_s) / 86_400.0);
+    let trained = TRAINED_SHARE * days;
+    if trained >= 3.0 { trained.floor() } else { trained.max(0.001) }
+}
+
+/// The errors of free runs on the days that were held out.
+fn held_out(found: &Identification) -> String {
+    let mut text = String::from("\nheld-out days\n");
+    for zone in &found.report.zones {
+        let Some(free) = zone.test.as_ref().map(|test| &test.free_run).filter(|free| free.runs > 0) else {
+            text.push_str(&format!("  {}: too few days are left for a prediction of a day\n", zone.name));
+            continue;
+        };
+        // The last forecast is the one with all that the method models.
+        let error = free.errors_k.iter().rev().find_map(|(_, error_k)| *error_k);
+        let error = error.map_or_else(|| "-".to_owned(), |error_k| format!("{error_k:.3} K"));
+        let mean = free.mean_of_data_k.map_or_else(String::new, |mean_k| format!(", mean of the data {mean_k:.3} K"));
+        text.push_str(&format!(
+            "  {}: {} h ahead {error} (root mean square of {} predictions{mean})\n",
+            zone.name, free.horizon_h, free.runs
+        ));
+    }
+    text
 }
 
 /// Why telemetry cannot be used.

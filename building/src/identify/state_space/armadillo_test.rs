@@ -25,6 +25,7 @@ fn two_states(theta: &[Number]) -> ContinuousModel {
         diffusion: vec![sigma_w * sigma_w, real(0.0)],
         outputs: vec![1],
         sensor_variance: vec![sigma_v * sigma_v],
+        unknown_heat_variance: vec![0.0; 2],
         initial: InitialState {
             offset: vec![theta[6], real(26.7)],
             from_outputs: DMatrix::zeros(2, 1),
@@ -47,6 +48,7 @@ fn record() -> Observations {
     let inputs: Vec<f64> = rows.iter().flat_map(|row| [row[1], row[2]]).collect();
     let slope = |index: usize| if index + 2 < inputs.len() { (inputs[index + 2] - inputs[index]) / step } else { 0.0 };
     Observations {
+        unknown_heat: Vec::new(),
         step_s: step,
         segments: std::iter::once(0..rows.len()).collect(),
         outputs: rows.iter().map(|row| row[4]).collect(),

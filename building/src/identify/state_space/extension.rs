@@ -11,6 +11,8 @@ pub(super) enum HiddenNode {
     Interior,
     /// Mass between the source of heat and the air.
     Heater,
+    /// Random heat into the air that is correlated in time: a state without mass.
+    ColouredHeat,
 }
 
 /// What a model may have beyond a smaller one.
@@ -23,12 +25,13 @@ pub(super) enum Extension {
 }
 
 impl HiddenNode {
-    /// Which kind of hidden temperature it has.
-    pub fn kind(self) -> HiddenTemperature {
+    /// Which kind of hidden temperature it has; `None` where it has none.
+    pub fn kind(self) -> Option<HiddenTemperature> {
         match self {
-            Self::Wall(_) => HiddenTemperature::Wall,
-            Self::Interior => HiddenTemperature::Interior,
-            Self::Heater => HiddenTemperature::Heater,
+            Self::Wall(_) => Some(HiddenTemperature::Wall),
+            Self::Interior => Some(HiddenTemperature::Interior),
+            Self::Heater => Some(HiddenTemperature::Heater),
+            Self::ColouredHeat => None,
         }
     }
 }

@@ -9,14 +9,17 @@ use super::likelihood::{Filtered, Observations, filter};
 use super::network_run::{FreeRunErrors, NetworkRun};
 use super::profile::{Estimated, Profiler};
 use super::quantities::{Precision, QuantityKind};
+use super::sandwich::Sandwich;
 use super::selection::Choice;
 use super::trust::{QuantityEvidence, ZoneEvidence, judge};
+use super::wrong_world::halves::{Agreement, Halves};
+use super::wrong_world::{self, World, ceilings};
 use crate::identify::IdentifyError;
 use crate::identify::diagnostics::{Confidence, ParameterVerdict, Whiteness, whiteness};
 use crate::identify::free_run::ResidualForecast;
 use crate::identify::report::{
-    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, WallReport, ZoneReport,
-    ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, SuspectedCause, Suspicion,
+    WallReport, ZoneReport, ZoneSeries,
 };
 use crate::identify::settings::IdentifySettings;
 use crate::identify::telemetry::{Neighbour, Telemetry};
@@ -31,6 +34,12 @@ pub(super) struct StateSpaceFindings<'a> {
     pub train: &'a Observations,
     pub all: &'a Observations,
     pub choice: &'a Choice,
+}
+
+/// What speaks against numbers.
+struct Doubts {
+    suspicions: Vec<Suspicion>,
+    halves: Option<Halves>,
 }
 
 /// Errors on some rows, one a zone.
@@ -57,10 +66,17 @@ impl StateSpaceFindings<'_> {
             fit,
             precision: Precision::new(fit),
             larger: self.choice.larger.as_ref().map(|larger| (larger, Precision::new(larger))),
+            rivals: self.choice.rivals.iter().map(|rival| (rival, Precision::new(rival))).collect(),
+            sandwich: Sandwich::new(fit, self.train),
             known: RefCell::default(),
         };
+        let world = World { telemetry: self.telemetry, observations: self.train, fit, filtered: &filtered };
+        let halves = Halves::new(fit, self.train);
+        let mut suspicions = wrong_world::suspicions(&world);
+        suspicions.extend(self.contradictions(&profiler, halves.as_ref()));
+        let doubts = Doubts { suspicions, halves };
         let zones: Vec<ZoneReport> = (0..self.telemetry.zones.len())
-            .map(|zone| self.zone(zone, &profiler, &filtered, (&train, test.as_ref())))
+            .map(|zone| self.zone(zone, (&profiler, &doubts), &filtered, (&train, test.as_ref())))
             .collect();
         let report = IdentificationReport {
             method: self.settings.method,
@@ -69,7 +85,8 @@ impl StateSpaceFindings<'_> {
             train_rows: self.split.train.iter().map(Range::len).sum(),
             left_out_rows: self.telemetry.left_out_rows,
             segments: self.telemetry.segments.len(),
-            warnings: self.warnings(&zones, &train),
+            warnings: self.warnings(&zones, &train, &doubts.suspicions),
+            suspicions: doubts.suspicions,
             walls: self.walls(&profiler),
             models: self.choice.table.clone(),
             zones,
@@ -81,16 +98,18 @@ impl StateSpaceFindings<'_> {
     fn zone(
         &self,
         zone: usize,
-        profiler: &Profiler<'_>,
+        (profiler, doubts): (&Profiler<'_>, &Doubts),
         filtered: &Filtered,
         (train, test): (&Errors, Option<&Errors>),
     ) -> ZoneReport {
         let whiteness = self.whiteness(zone, filtered);
         let free_run_k = (train.free.runs > 0).then(|| (train.free.network_k[zone], train.free.mean_k[zone]));
-        let evidence = ZoneEvidence { whiteness: &whiteness, free_run_k };
+        let evidence = ZoneEvidence { whiteness: &whiteness, free_run_k, suspicions: self.words_of(zone, doubts) };
         let kinds = QuantityKind::of_zone(self.telemetry, &profiler.fit.structure, zone);
-        let physical =
-            kinds.into_iter().filter_map(|kind| self.quantity(kind, zone, profiler, filtered, &evidence)).collect();
+        let physical = kinds
+            .into_iter()
+            .filter_map(|kind| self.quantity((kind, zone), (profiler, doubts), filtered, &evidence))
+            .collect();
         ZoneReport {
             name: self.telemetry.zones[zone].name.clone(),
             coefficients: Vec::new(),
@@ -123,9 +142,8 @@ impl StateSpaceFindings<'_> {
 
     fn quantity(
         &self,
-        kind: QuantityKind,
-        zone: usize,
-        profiler: &Profiler<'_>,
+        (kind, zone): (QuantityKind, usize),
+        (profiler, doubts): (&Profiler<'_>, &Doubts),
         filtered: &Filtered,
         zone_evidence: &ZoneEvidence<'_>,
     ) -> Option<Quantity> {
@@ -140,6 +158,11 @@ impl StateSpaceFindings<'_> {
         let evidence = QuantityEvidence {
             balance: self.balance(kind, zone, filtered),
             larger: profiler.of_larger((kind, zone)).map(|(value, _)| libm::exp(value)),
+            halves: self
+                .agreement(profiler, doubts.halves.as_ref(), (kind, zone))
+                .filter(Agreement::is_contradiction)
+                .map(|agreement| agreement.values),
+            ceiling: ceilings::exceeded(self.telemetry, self.train, profiler.fit, (kind, zone)),
         };
         let verdict = judge(&name, &estimated, zone_evidence, &evidence);
         let mut checks = Vec::new();
@@ -155,6 +178,47 @@ impl StateSpaceFindings<'_> {
             });
         }
         Some(quantity((name, symbol, unit), Some(&estimated), verdict, checks))
+    }
+
+    /// What the halves of the record say of a quantity.
+    fn agreement(
+        &self,
+        profiler: &Profiler<'_>,
+        halves: Option<&Halves>,
+        quantity: (QuantityKind, usize),
+    ) -> Option<Agreement> {
+        halves?.agreement(self.telemetry, quantity, profiler.inflation_of(quantity))
+    }
+
+    /// Zones on which the halves of the record contradict each other.
+    fn contradictions(&self, profiler: &Profiler<'_>, halves: Option<&Halves>) -> Vec<Suspicion> {
+        let of_zone = |zone: usize| {
+            let boundaries = (0..self.telemetry.boundaries.len()).map(Neighbour::Boundary);
+            let conductances = boundaries.map(QuantityKind::Conductance);
+            let found = conductances.chain([QuantityKind::Capacity]).find_map(|kind| {
+                let agreement = self.agreement(profiler, halves, (kind, zone)).filter(Agreement::is_suspicious)?;
+                Some((kind, agreement))
+            });
+            found.map(|(kind, agreement)| {
+                let (name, _, unit) = kind.labels(self.telemetry);
+                let [first, second] = agreement.values;
+                let words = format!(
+                    "the halves of the record contradict each other: {name} {first:.3} {unit} in the first, {second:.3} {unit} in the second"
+                );
+                Suspicion { zone: Some(self.telemetry.zones[zone].name.clone()), cause: SuspectedCause::Halves, words }
+            })
+        };
+        if !self.scale_is_known() {
+            return Vec::new();
+        }
+        (0..self.telemetry.zones.len()).filter_map(of_zone).collect()
+    }
+
+    /// What speaks against all numbers of a zone.
+    fn words_of(&self, zone: usize, doubts: &Doubts) -> Vec<String> {
+        let name = &self.telemetry.zones[zone].name;
+        let of_zone = doubts.suspicions.iter().filter(|it| it.zone.as_ref().is_none_or(|other| other == name));
+        of_zone.map(|it| it.words.clone()).collect()
     }
 
     /// Whether some heat is in kW.
@@ -236,8 +300,16 @@ impl StateSpaceFindings<'_> {
         pairs.map(wall).collect()
     }
 
-    fn warnings(&self, zones: &[ZoneReport], train: &Errors) -> Vec<String> {
-        let mut warnings = Vec::new();
+    fn warnings(&self, zones: &[ZoneReport], train: &Errors, suspicions: &[Suspicion]) -> Vec<String> {
+        let of = |it: &Suspicion| match &it.zone {
+            Some(zone) => format!("{zone}: {}", it.words),
+            None => it.words.clone(),
+        };
+        let mut warnings: Vec<String> = suspicions.iter().map(of).collect();
+        for row in self.choice.table.iter().filter(|row| row.search_failed) {
+            warnings
+                .push(format!("the search for the best `{}` failed: it contains a model that is better", row.model));
+        }
         if self.telemetry.left_out_rows > 0 {
             warnings.push(format!("{} rows were left out because a value is missing", self.telemetry.left_out_rows));
         }

@@ -19,7 +19,10 @@ const CONVERGED: f64 = 1e-12;
 pub(super) type Measured = u32;
 
 /// The most outputs that a [`Measured`] can tell apart.
-pub(super) const MOST_OUTPUTS: usize = 32;
+pub(super) const MOST_OUTPUTS: usize = 31;
+
+/// The bit of a row from which on the heat is unknown until the next row.
+pub(super) const UNKNOWN_HEAT: Measured = 1 << 31;
 
 /// What the filter does along each arrow: a gain and a variance for each output, in order; outputs that are missing have a gain
 /// of zero.
@@ -197,6 +200,10 @@ impl<'a> Recursion<'a> {
                 }
             }
             self.found.variances.push(variance);
+        }
+        if measured & UNKNOWN_HEAT != 0 {
+            let variances = self.model.unknown_heat_variance.iter().enumerate();
+            variances.for_each(|(i, variance)| self.updated[i * n + i] += real(*variance));
         }
         self.predict();
         Some(())

@@ -12,7 +12,7 @@ use std::ops::Range;
 use super::exponential::Number;
 use super::likelihood::{Filtered, Observations, numbers};
 use super::selection::Fit;
-use super::structure::{HOUR_S, ParameterKind};
+use super::structure::{HOUR_S, ParameterKind, Place};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.
@@ -98,6 +98,14 @@ fn stored(
     let count = structure.nodes.len();
     let (mut stored_kj, mut random_kj2) = (0.0, 0.0);
     for (index, node) in structure.nodes.iter().enumerate().filter(|(_, node)| node.zone == zone) {
+        if !node.is_mass() {
+            // Over times far beyond its correlation time τ, coloured heat of deviation σ sums up to a variance of 2σ²τ an hour.
+            let deviation = structure.value(theta, ParameterKind::RandomHeat(zone, node.place)).re
+                * structure.value(theta, ParameterKind::Capacity(zone, Place::Air)).re;
+            let correlation_h = structure.value(theta, ParameterKind::CorrelationTime(zone)).re;
+            random_kj2 += 2.0 * deviation * deviation * correlation_h * duration_s / HOUR_S;
+            continue;
+        }
         let share = structure.share_to_air(theta, index).re;
         let capacity = share * structure.value(theta, ParameterKind::Capacity(zone, node.place)).re;
         let random = capacity * structure.value(theta, ParameterKind::RandomHeat(zone, node.place)).re;

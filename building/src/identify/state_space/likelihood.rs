@@ -15,7 +15,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number, real};
-use super::gains::{Measured, Schedule, schedule};
+use super::gains::{Measured, Schedule, UNKNOWN_HEAT, schedule};
 use super::linear_model::ContinuousModel;
 use super::tangents::{StepMatrices, Tangents, derivative, value};
 
@@ -32,6 +32,8 @@ pub(super) struct Observations {
     pub inputs: Vec<f64>,
     /// Their rates of change until the next row \[1/s\]; zero for inputs that are held.
     pub slopes: Vec<f64>,
+    /// Rows from which on the heat is not known until the next row, sorted.
+    pub unknown_heat: Vec<usize>,
     /// p and m.
     pub widths: (usize, usize),
 }
@@ -48,6 +50,21 @@ impl Observations {
             let end = segment.end.min(segment.start + left);
             left -= end - segment.start;
             segments.push(segment.start..end);
+        }
+        Self { segments, ..self.clone() }
+    }
+
+    /// All but the first rows of these, about `rows`; a segment begins where all outputs are measured.
+    pub fn ending(&self, rows: usize) -> Self {
+        let p = self.widths.0;
+        let mut left = rows;
+        let mut segments = Vec::new();
+        for segment in &self.segments {
+            let skipped = left.min(segment.len());
+            left -= skipped;
+            let is_complete = |row: &usize| self.outputs[row * p..(row + 1) * p].iter().all(|y| y.is_finite());
+            let first = (segment.start + skipped..segment.end).find(is_complete);
+            segments.extend(first.filter(|first| first + 2 <= segment.end).map(|first| first..segment.end));
         }
         Self { segments, ..self.clone() }
     }
@@ -148,6 +165,10 @@ impl<'a> Filter<'a> {
                 for output in (0..p).filter(|output| self.measured[row] >> output & 1 == 1) {
                     found[output] = self.update((row, arrow, output), &mut x, tangents, sums);
                 }
+                if sums.keeps_rows {
+                    let Sums { rows, gradient, .. } = &mut *sums;
+                    rows.extend_from_slice(gradient);
+                }
                 visit(row, &x, &found);
                 let u = &self.observations.inputs[row * m..(row + 1) * m];
                 let slope = &self.observations.slopes[row * m..(row + 1) * m];
@@ -192,6 +213,7 @@ fn measured(observations: &Observations, model: &ContinuousModel) -> Vec<Measure
     if model.initial.contains_first_outputs {
         observations.segments.iter().for_each(|segment| measured[segment.start] = 0);
     }
+    observations.unknown_heat.iter().for_each(|&row| measured[row] |= UNKNOWN_HEAT);
     measured
 }
 
@@ -203,6 +225,9 @@ struct Sums {
     information: Vec<f64>,
     /// ∂S/S of the innovation at hand.
     relative: Vec<f64>,
+    /// Whether the gradient is kept after each row, and what was kept.
+    keeps_rows: bool,
+    rows: Vec<f64>,
 }
 
 impl Sums {
@@ -212,6 +237,8 @@ impl Sums {
             gradient: vec![0.0; parameters],
             information: vec![0.0; parameters * parameters],
             relative: vec![0.0; parameters],
+            keeps_rows: false,
+            rows: Vec::new(),
         }
     }
 
@@ -256,6 +283,27 @@ pub(super) fn evaluate(model: &Parametrisation, theta: &[f64], observations: &Ob
     let is_finite = sums.log_likelihood.is_finite() && information.iter().all(|entry| entry.is_finite());
     let (log_likelihood, gradient) = (sums.log_likelihood, sums.gradient);
     is_finite.then_some(Evaluation { log_likelihood, gradient, information })
+}
+
+/// ∂ℓ/∂θ of each row \[row · k + parameter\] at θ, with k parameters; zero where nothing is measured. `None` where the model has
+/// none.
+pub(super) fn scores(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<Vec<f64>> {
+    let filter = Filter::new(model(&numbers(theta)), observations)?;
+    let mut tangents =
+        filter.tangents((0..theta.len()).map(|parameter| model(&changed(theta, parameter))).collect())?;
+    let count = theta.len();
+    let mut sums = Sums { keeps_rows: true, ..Sums::new(count) };
+    let mut rows = vec![0.0; observations.outputs.len() / observations.widths.0 * count];
+    let mut order = Vec::new();
+    filter.run(&mut tangents, &mut sums, |row, _, _| order.push(row));
+    let mut before = vec![0.0; count];
+    for (row, after) in order.into_iter().zip(sums.rows.chunks_exact(count)) {
+        for (j, slot) in rows[row * count..(row + 1) * count].iter_mut().enumerate() {
+            *slot = after[j] - before[j];
+        }
+        before.copy_from_slice(after);
+    }
+    Some(rows)
 }
 
 /// Innovations and states at θ; `None` where the model has none.

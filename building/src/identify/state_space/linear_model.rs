@@ -32,6 +32,8 @@ pub(super) struct ContinuousModel {
     pub outputs: Vec<usize>,
     /// r, variance of the noise of each output \[K²\].
     pub sensor_variance: Vec<Number>,
+    /// What each state gains in variance in a row of which the heat is unknown \[K²\].
+    pub unknown_heat_variance: Vec<f64>,
     /// How a segment begins.
     pub initial: InitialState,
 }
@@ -117,6 +119,7 @@ mod tests {
                 diffusion: vec![real(0.3)],
                 outputs: vec![0],
                 sensor_variance: vec![real(1.0)],
+                unknown_heat_variance: vec![0.0],
                 initial: InitialState {
                     offset: vec![real(0.0)],
                     from_outputs: DMatrix::zeros(1, 1),

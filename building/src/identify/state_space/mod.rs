@@ -3,7 +3,8 @@
 //! A zone is a network of one measured and up to two hidden temperatures ([`structure`]), driven by the measured boundaries,
 //! heat and sun, and by random heat. Zones with walls between them are one model. A Kalman filter turns the model and the
 //! measurements into a likelihood ([`likelihood`]), whose maximum is the estimate ([`scoring`]). How many hidden
-//! temperatures there are, a likelihood-ratio test decides ([`selection`]). Which numbers can be trusted, [`trust`] says.
+//! temperatures there are, [`selection`] decides. Which numbers can be trusted, [`trust`] says, and [`wrong_world`] whether
+//! the data contradict what every model here takes for granted.
 
 #[cfg(test)]
 mod armadillo_test;
@@ -18,25 +19,30 @@ mod linear_model;
 mod model_average;
 mod network_run;
 mod observations;
+mod parameters;
+mod preparation;
 mod profile;
 mod quantities;
+mod sandwich;
 mod scoring;
 mod selection;
 mod starts;
 mod structure;
 mod tangents;
 mod trust;
+mod wrong_world;
 
 use std::ops::Range;
 
 use findings::StateSpaceFindings;
 use observations::{InputLayout, observations};
+use preparation::Prepared;
 use structure::Structure;
 
 use super::report::Identification;
 use super::telemetry::Telemetry;
 use super::train_test_split::TrainTestSplit;
-use super::{IdentifyError, IdentifySettings};
+use super::{IdentifyError, IdentifySettings, Progress};
 
 /// At least this many rows are needed for each parameter of the smallest model.
 const ROWS_PER_PARAMETER: usize = 10;
@@ -45,7 +51,13 @@ const ROWS_PER_PARAMETER: usize = 10;
 ///
 /// # Errors
 /// [`IdentifyError`] for too many zones, too few rows, a zone that nothing acts on, and values that are not finite.
-pub(super) fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
+pub(super) fn identify(
+    record: &Telemetry,
+    settings: &IdentifySettings,
+    progress: &Progress<'_>,
+) -> Result<Identification, IdentifyError> {
+    let prepared = Prepared::new(record);
+    let telemetry = prepared.telemetry.as_ref();
     let split = TrainTestSplit::new(telemetry, settings);
     let layout = InputLayout::new(telemetry);
     for (zone, measured) in telemetry.zones.iter().enumerate() {
@@ -53,15 +65,26 @@ pub(super) fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Re
             return Err(IdentifyError::NothingToIdentify { zone: measured.name.clone() });
         }
     }
-    let train = observations(telemetry, &layout, &split.train)?;
-    let all = observations(telemetry, &layout, &telemetry.segments)?;
+    let train = observations(telemetry, &layout, &split.train, &prepared.unknown_heat)?;
+    let all = observations(telemetry, &layout, &telemetry.segments, &prepared.unknown_heat)?;
     let rows: usize = train.segments.iter().map(Range::len).sum();
     let parameters = Structure::new(telemetry, &[]).parameters.len();
     let wanted = ROWS_PER_PARAMETER * parameters;
     if rows < wanted {
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
     }
-    let choice = selection::choose(telemetry, &train, settings).ok_or(IdentifyError::NotFinite)?;
-    StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice }
-        .identification()
+    let choice = selection::choose(telemetry, &train, settings, progress).ok_or(IdentifyError::NotFinite)?;
+    progress("how certain each number is");
+    let findings = StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice };
+    let mut found = findings.identification()?;
+    found.report.rows = record.rows();
+    found.report.segments = record.segments.len();
+    let trained =
+        split.train.iter().flat_map(Clone::clone).filter(|row| prepared.unknown_heat.binary_search(row).is_err());
+    found.report.train_rows = trained.count() * prepared.decimated_by;
+    if prepared.decimated_by > 1 {
+        let minutes = telemetry.step_s / 60.0;
+        found.report.warnings.insert(0, format!("the record is long: it was fitted in steps of {minutes} min"));
+    }
+    Ok(found)
 }

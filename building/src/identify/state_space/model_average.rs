@@ -18,7 +18,7 @@ const TAIL: f64 = 0.025;
 /// What the next larger model says of a quantity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rival {
-    /// w of the larger model; at most a half, since the test prefers the smaller one.
+    /// w of the larger model. Schwarz's criterion chose the smaller one; Akaike's, which w is made of, may still prefer this one.
     weight: f64,
     /// Its estimate less that of the chosen model.
     offset: f64,
@@ -29,8 +29,7 @@ pub(super) struct Rival {
 impl Rival {
     /// From how much the larger model's −AIC/2 is above that of the chosen model.
     pub fn new(criterion_gain: f64, offset: f64, error: f64) -> Self {
-        let ratio = libm::exp(criterion_gain.min(0.0));
-        Self { weight: ratio / (1.0 + ratio), offset, error }
+        Self { weight: 1.0 / (1.0 + libm::exp(-criterion_gain)), offset, error }
     }
 
     /// The same, seen in the direction of a sign.

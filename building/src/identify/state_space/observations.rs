@@ -37,7 +37,7 @@ impl InputLayout {
 /// The rows of `segments`: zone temperatures as outputs; boundary temperatures, heat \[kW\] and irradiance \[kW/m²\] as inputs.
 ///
 /// Heat of supply air is that at the measured temperature of the zone. A segment begins at its first row in which all zones
-/// are measured.
+/// are measured. `unknown_heat` are the rows from which on the heat is unknown until the next.
 ///
 /// # Errors
 /// [`IdentifyError::TooManyZones`].
@@ -45,6 +45,7 @@ pub(super) fn observations(
     telemetry: &Telemetry,
     layout: &InputLayout,
     segments: &[std::ops::Range<usize>],
+    unknown_heat: &[usize],
 ) -> Result<Observations, IdentifyError> {
     let zones = &telemetry.zones;
     if zones.len() > MOST_OUTPUTS {
@@ -83,6 +84,7 @@ pub(super) fn observations(
         outputs,
         inputs,
         slopes,
+        unknown_heat: unknown_heat.to_vec(),
         widths: (zones.len(), layout.count),
     })
 }

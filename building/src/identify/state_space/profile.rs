@@ -2,13 +2,14 @@
 //! than 1.92 below the maximum, half of the 95 % point of chi-squared with one degree of freedom.
 //!
 //! Where the likelihood is nearly quadratic, the interval of the information matrix is the same, and is kept. Both are averaged
-//! with the next larger model ([`super::model_average`]).
+//! with each larger model ([`super::model_average`]), and the widest of these intervals counts.
 
 use std::cell::RefCell;
 
 use super::likelihood::Observations;
 use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
+use super::sandwich::Sandwich;
 use super::scoring::{Ascent, Constraint};
 use super::selection::Fit;
 use crate::identify::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
@@ -56,6 +57,10 @@ pub(super) struct Profiler<'a> {
     pub precision: Precision,
     /// The next larger model, if there is one, with its precision.
     pub larger: Option<(&'a Fit, Precision)>,
+    /// All models that are one extension larger, with their precisions.
+    pub rivals: Vec<(&'a Fit, Precision)>,
+    /// Standard errors that hold where innovations are not white, if there are any.
+    pub sandwich: Option<Sandwich>,
     /// What was found already.
     pub known: RefCell<Vec<((QuantityKind, usize), Estimated)>>,
 }
@@ -83,38 +88,62 @@ impl Profiler<'_> {
         if !log_error.is_finite() {
             return Some(Estimated { value, log_error, interval: (None, None) });
         }
-        let rival = self.rival((kind, zone), log_value);
+        let rivals = self.rivals((kind, zone), log_value);
+        let inflation = self.inflation(&gradient, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let distance = |sign: f64| -> Option<f64> {
+            // A profile that was not followed to its end is too short: no end is nearer than the standard error says.
             let own = match WORTH_A_PROFILE.contains(&log_error) {
-                true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?,
-                false => sign * reach,
+                true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?.abs().max(reach),
+                false => reach,
             };
-            let averaged = rival.map_or(own.abs(), |rival| rival.towards(sign).averaged_end(own.abs()));
+            let own = inflation * own;
+            let ends = rivals.iter().map(|rival| rival.towards(sign).averaged_end(own));
+            let averaged = ends.fold(own, f64::max);
             (averaged < MOST_LOG_RATIO).then_some(averaged)
         };
         let (below, above) = (distance(-1.0), distance(1.0));
         let widest = below.unwrap_or(reach).max(above.unwrap_or(reach));
         Some(Estimated {
             value,
-            log_error: log_error.max(widest / STANDARD_ERRORS_OF_95_PERCENT),
+            log_error: (inflation * log_error).max(widest / STANDARD_ERRORS_OF_95_PERCENT),
             interval: (below.map(|d| value * libm::exp(-d)), above.map(|d| value * libm::exp(d))),
         })
+    }
+
+    /// By how much the standard error that allows for correlated innovations is larger than that of the information matrix; at
+    /// least 1.
+    fn inflation(&self, gradient: &[f64], log_error: f64) -> f64 {
+        let Some(sandwich) = &self.sandwich else { return 1.0 };
+        let direction = self.precision.direction(gradient, gradient.len());
+        (sandwich.standard_error(&direction) / log_error).max(1.0)
+    }
+
+    /// The same of a quantity of a zone.
+    pub fn inflation_of(&self, quantity: (QuantityKind, usize)) -> f64 {
+        let found = logarithm(self.telemetry, &self.fit.structure, quantity, &self.fit.maximum.theta);
+        found.map_or(1.0, |(_, gradient)| self.inflation(&gradient, self.precision.standard_error(&gradient)))
     }
 
     /// ln f and its standard error by the next larger model, if there is one that knows the quantity: what it does not know it
     /// cannot dispute.
     pub fn of_larger(&self, quantity: (QuantityKind, usize)) -> Option<(f64, f64)> {
-        let (larger, precision) = self.larger.as_ref()?;
-        let (value, gradient) = logarithm(self.telemetry, &larger.structure, quantity, &larger.maximum.theta)?;
+        self.of_model(self.larger.as_ref()?, quantity)
+    }
+
+    fn of_model(&self, (fit, precision): &(&Fit, Precision), quantity: (QuantityKind, usize)) -> Option<(f64, f64)> {
+        let (value, gradient) = logarithm(self.telemetry, &fit.structure, quantity, &fit.maximum.theta)?;
         Some((value, precision.standard_error(&gradient))).filter(|(_, error)| *error <= KNOWN_LOG_ERROR)
     }
 
-    fn rival(&self, quantity: (QuantityKind, usize), log_value: f64) -> Option<Rival> {
-        let (larger, _) = self.larger.as_ref()?;
-        let (other, error) = self.of_larger(quantity)?;
+    /// What the larger models say of a quantity.
+    fn rivals(&self, quantity: (QuantityKind, usize), log_value: f64) -> Vec<Rival> {
         let criterion = |fit: &Fit| fit.maximum.evaluation.log_likelihood - fit.structure.parameters.len() as f64;
-        Some(Rival::new(criterion(larger) - criterion(self.fit), other - log_value, error))
+        let rival = |model: &(&Fit, Precision)| {
+            let (other, error) = self.of_model(model, quantity)?;
+            Some(Rival::new(criterion(model.0) - criterion(self.fit), other - log_value, error))
+        };
+        self.rivals.iter().filter_map(rival).collect()
     }
 
     /// How far ln f may move in the direction of `guess`; `None` without a bound.

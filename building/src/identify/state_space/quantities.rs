@@ -50,7 +50,7 @@ impl QuantityKind {
     pub fn of_zone(telemetry: &Telemetry, structure: &Structure, zone: usize) -> Vec<Self> {
         let neighbours = telemetry.neighbours(zone);
         let places: Vec<Place> =
-            structure.nodes.iter().filter(|node| node.zone == zone).map(|node| node.place).collect();
+            structure.nodes.iter().filter(|node| node.zone == zone && node.is_mass()).map(|node| node.place).collect();
         let mut kinds = vec![Self::Capacity];
         if places.len() > 1 {
             kinds.extend(places.iter().map(|&place| Self::NodeCapacity(place)));
@@ -138,6 +138,7 @@ fn hidden_name(telemetry: &Telemetry, hidden: HiddenNode) -> String {
         HiddenNode::Wall(boundary) => format!("wall to {}", telemetry.boundaries[boundary].name),
         HiddenNode::Interior => "interior mass".into(),
         HiddenNode::Heater => "heater".into(),
+        HiddenNode::ColouredHeat => "coloured heat".into(),
     }
 }
 

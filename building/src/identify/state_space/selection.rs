@@ -1,24 +1,36 @@
-//! The choice of the order: from one state a zone upwards, as long as the likelihood-ratio test calls for more (Bacher and
-//! Madsen, *Energy and Buildings* 43, 2011).
+//! The choice of the order: from one state a zone upwards (Bacher and Madsen, *Energy and Buildings* 43, 2011).
 //!
 //! Each round tries every kind of hidden node that the model does not have yet, and sun on every mass that it has. The best one
-//! by Akaike's criterion stays if twice its gain of the log-likelihood is beyond the chi-squared limit for the parameters it adds.
-//! At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
+//! by Schwarz's criterion (BIC), ln n for each parameter, stays if it is better by it than the model it extends, and if it predicts
+//! the last third of the rows better when both are fitted to the first two thirds. A likelihood-ratio test alone has a level that
+//! does not fall with the number of rows, and any small error of the data's form, such as interpolation, then buys states.
+//!
+//! Every model contains the one that it extends, so it begins next to it and cannot be worse. One that is worse is a failed search,
+//! which its row of the table says.
 
 use rayon::prelude::*;
 
 use super::extension::{Extension, HiddenNode};
-use super::likelihood::Observations;
+use super::likelihood::{Observations, log_likelihood};
 use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;
 use super::structure::Structure;
+use crate::identify::Progress;
 use crate::identify::diagnostics::survival;
 use crate::identify::report::ModelRow;
 use crate::identify::settings::IdentifySettings;
 use crate::identify::telemetry::Telemetry;
 
-/// Level of the likelihood-ratio test.
-const LEVEL: f64 = 0.1;
+/// The share of the rows that a model is fitted to before it predicts the others.
+const FITTED_SHARE: (usize, usize) = (2, 3);
+/// Steps from the estimate to that of fewer rows.
+const STEPS_OF_FEWER_ROWS: usize = 12;
+/// A larger model whose log-likelihood is lower by more than this was not searched well.
+const WORSE: f64 = 0.05;
+/// Starts go on for so many steps, on at most so many rows, before the best of them go on to the end on all rows.
+const SEARCH_STEPS: usize = 20;
+const SEARCHED_ROWS: usize = 3000;
+const ENDED_STARTS: usize = 3;
 /// Steps from each start, and rows of them, before they go on.
 const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
@@ -42,6 +54,8 @@ pub(super) struct Choice {
     pub chosen: Fit,
     /// The best model with one more hidden node or with more sun, if there is one.
     pub larger: Option<Fit>,
+    /// All models with one more hidden node or with more sun: intervals allow for each.
+    pub rivals: Vec<Fit>,
     pub table: Vec<ModelRow>,
 }
 
@@ -51,34 +65,45 @@ pub(super) fn choose(
     telemetry: &Telemetry,
     observations: &Observations,
     settings: &IdentifySettings,
+    progress: &Progress<'_>,
 ) -> Option<Choice> {
     let guess = Guess::new(telemetry);
+    progress("air alone");
     let smallest = Structure::new(telemetry, &[]);
     let starts = guess.of_smallest(telemetry, &smallest);
     let mut chosen = fit(&guess, smallest, (&starts, &[]), observations)?;
+    let count: usize = observations.segments.iter().map(std::ops::Range::len).sum();
+    let penalty = 0.5 * libm::log(count as f64);
     let mut table = vec![row(telemetry, &chosen, None)];
     let mut chosen_row = 0;
     let mut known = vec![chosen.clone()];
     loop {
         let mut left = chosen.structure.candidates(telemetry);
-        left.retain(|extension| settings.hidden.contains(&extension.hidden().kind()));
-        let larger: Vec<Option<Fit>> =
-            left.par_iter().map(|&added| extended(telemetry, &guess, (&chosen, &known), added, observations)).collect();
+        left.retain(|extension| extension.hidden().kind().is_none_or(|kind| settings.hidden.contains(&kind)));
+        let larger: Vec<Option<Fit>> = left
+            .par_iter()
+            .map(|&added| extended(telemetry, &guess, (&chosen, &known), added, (observations, progress)))
+            .collect();
         let mut tried: Vec<(usize, Fit)> = Vec::new();
         for larger in larger.into_iter().flatten() {
             table.push(row(telemetry, &larger, Some(&chosen)));
             tried.push((table.len() - 1, larger));
         }
         known.extend(tried.iter().map(|(_, fit)| fit.clone()));
-        let by_criterion = |a: &&(usize, Fit), b: &&(usize, Fit)| criterion(&a.1).total_cmp(&criterion(&b.1));
+        let by_criterion =
+            |a: &&(usize, Fit), b: &&(usize, Fit)| criterion(&a.1, penalty).total_cmp(&criterion(&b.1, penalty));
         let is_allowed = |fit: &&(usize, Fit)| fit.1.structure.order() <= settings.most_states;
         let best = tried.iter().filter(is_allowed).max_by(by_criterion);
-        match best.filter(|(index, _)| table[*index].gain.is_some_and(|(_, p_value)| p_value < LEVEL)) {
+        let is_better = |fit: &Fit| {
+            criterion(fit, penalty) > criterion(&chosen, penalty) && predicts_better(fit, &chosen, observations)
+        };
+        match best.filter(|(_, fit)| is_better(fit)) {
             Some((index, best)) => (chosen, chosen_row) = (best.clone(), *index),
             None => {
                 let larger = tried.iter().max_by(by_criterion).map(|(_, fit)| fit.clone());
                 table[chosen_row].chosen = true;
-                return Some(Choice { chosen, larger, table });
+                let rivals = tried.into_iter().map(|(_, fit)| fit).collect();
+                return Some(Choice { chosen, larger, rivals, table });
             }
         }
     }
@@ -88,9 +113,35 @@ fn likelihood(fit: &Fit) -> f64 {
     fit.maximum.evaluation.log_likelihood
 }
 
-/// Half of the negative of Akaike's criterion.
-fn criterion(fit: &Fit) -> f64 {
-    likelihood(fit) - fit.structure.parameters.len() as f64
+/// The log-likelihood less a penalty for each parameter: ½ ln n, half of the negative of Schwarz's criterion.
+fn criterion(fit: &Fit, penalty: f64) -> f64 {
+    likelihood(fit) - penalty * fit.structure.parameters.len() as f64
+}
+
+/// Whether a model predicts the last rows better than a smaller one, both fitted to the first ones.
+fn predicts_better(larger: &Fit, smaller: &Fit, observations: &Observations) -> bool {
+    let count: usize = observations.segments.iter().map(std::ops::Range::len).sum();
+    let beginning = observations.beginning(count * FITTED_SHARE.0 / FITTED_SHARE.1);
+    let of_last_rows = |fit: &Fit| -> Option<f64> {
+        let theta = fit.again(&beginning, STEPS_OF_FEWER_ROWS)?.maximum.theta;
+        let model = |theta: &[super::exponential::Number]| fit.structure.model(theta);
+        Some(log_likelihood(&model, &theta, observations)? - log_likelihood(&model, &theta, &beginning)?)
+    };
+    match (of_last_rows(larger), of_last_rows(smaller)) {
+        (Some(larger), Some(smaller)) => larger > smaller,
+        (larger, _) => larger.is_some(),
+    }
+}
+
+impl Fit {
+    /// The same model fitted to other rows, from this estimate; `None` where it has no likelihood.
+    pub fn again(&self, observations: &Observations, most_steps: usize) -> Option<Self> {
+        let model = |theta: &[super::exponential::Number]| self.structure.model(theta);
+        let ascent =
+            Ascent { model: &model, observations, bounds: &self.bounds, constraint: None, least_gain: SCREENING_GAIN };
+        let maximum = ascent.run(&self.maximum.theta, most_steps)?;
+        Some(Self { structure: self.structure.clone(), bounds: self.bounds.clone(), maximum })
+    }
 }
 
 /// The best fit of the model with one more hidden node than the chosen one, or with more sun. It begins near all known models
@@ -100,11 +151,12 @@ fn extended(
     guess: &Guess,
     (chosen, known): (&Fit, &[Fit]),
     added: Extension,
-    observations: &Observations,
+    (observations, progress): (&Observations, &Progress<'_>),
 ) -> Option<Fit> {
     let mut extensions = chosen.structure.extensions();
     extensions.push(added);
     let structure = Structure::new(telemetry, &extensions);
+    progress(&in_words(telemetry, &structure));
     let (mut starts, mut near) = (Vec::new(), Vec::new());
     for smaller in known {
         let has = smaller.structure.extensions();
@@ -117,8 +169,8 @@ fn extended(
     fit(guess, structure, (&starts, &near), observations)
 }
 
-/// Ascends from every start for a few steps on the first rows, then from the best ones to the end on all rows. Those
-/// near a smaller model always go to the end.
+/// Ascends from every start for a few steps on the first rows, from the better ones for more steps on more rows, and from the
+/// best of those to the end on all rows. Those near a smaller model always go to the end.
 fn fit(
     guess: &Guess,
     structure: Structure,
@@ -128,6 +180,7 @@ fn fit(
     let bounds = guess.bounds(&structure);
     let model = |theta: &[super::exponential::Number]| structure.model(theta);
     let beginning = observations.beginning(SCREENING_ROWS);
+    let search = observations.beginning(SEARCHED_ROWS);
     let ascent = |observations, least_gain| Ascent {
         model: &model,
         observations,
@@ -139,13 +192,15 @@ fn fit(
     let mut first: Vec<Maximum> = starts.par_iter().filter_map(screened).collect();
     first.sort_by(|a, b| by_likelihood(b, a));
     let (zones, _) = observations.widths;
-    let finished = first
-        .into_iter()
-        .take((FINISHED_STARTS / zones).max(1))
-        .map(|maximum| maximum.theta)
-        .chain(near.iter().cloned());
+    let finished = first.into_iter().take((FINISHED_STARTS / zones).max(1)).map(|maximum| maximum.theta);
     let finished: Vec<Vec<f64>> = finished.collect();
     let finish = |start: &Vec<f64>| ascent(observations, SCREENING_GAIN).run(start, MOST_STEPS);
+    let searched = |start: &Vec<f64>| ascent(&search, SCREENING_GAIN).run(start, SEARCH_STEPS);
+    let mut found: Vec<Maximum> = finished.par_iter().filter_map(searched).collect();
+    found.sort_by(|a, b| by_likelihood(b, a));
+    let best = found.into_iter().take(ENDED_STARTS).map(|maximum| maximum.theta);
+    // The starts next to smaller models go on whatever the search says of them, so that no model is worse than its parts.
+    let finished: Vec<Vec<f64>> = best.chain(near.iter().cloned()).collect();
     let all: Vec<Maximum> = finished.par_iter().filter_map(finish).collect();
     let best = all.into_iter().max_by(by_likelihood)?;
     let maximum = ascent(observations, LEAST_GAIN).run(&best.theta, MOST_STEPS)?;
@@ -167,6 +222,7 @@ fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {
         states: fit.structure.order(),
         parameters: fit.bounds.iter().filter(|(low, high)| low < high).count(),
         log_likelihood: likelihood(fit),
+        search_failed: smaller.is_some_and(|smaller| likelihood(fit) < likelihood(smaller) - WORSE),
         gain,
         chosen: false,
     }
@@ -177,6 +233,7 @@ fn in_words(telemetry: &Telemetry, structure: &Structure) -> String {
         HiddenNode::Wall(boundary) => format!("wall to {}", telemetry.boundaries[*boundary].name),
         HiddenNode::Interior => "interior mass".to_owned(),
         HiddenNode::Heater => "heater".to_owned(),
+        HiddenNode::ColouredHeat => "coloured heat".to_owned(),
     };
     if structure.hidden.is_empty() {
         return "air alone".to_owned();

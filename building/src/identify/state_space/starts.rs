@@ -14,6 +14,9 @@ const CAPACITY_RANGE: f64 = 1e4;
 const RANDOM_HEAT_RANGE: (f64, f64) = (1e-4, 50.0);
 /// Standard deviation of a sensor \[K\].
 const SENSOR_RANGE: (f64, f64) = (1e-4, 5.0);
+/// Correlation time of coloured heat \[h\].
+const CORRELATION_RANGE_H: (f64, f64) = (0.3, 48.0);
+const CORRELATION_TIME_H: f64 = 3.0;
 /// Capacity of the zone that sets the scale where no heat has a unit \[kJ/K\].
 const UNIT_CAPACITY_KJ_PER_K: f64 = 1000.0;
 
@@ -33,16 +36,20 @@ const MASS_SPLITS: [Split; 7] = [
     Split { air: 0.9, node: 1.0, conductance: 2.0 },
     Split { air: 0.3, node: 0.3, conductance: 20.0 },
     Split { air: 0.9, node: 0.3, conductance: 6.0 },
-    Split { air: 0.98, node: 0.02, conductance: 10.0 },
+    Split { air: 1.0, node: 1e-3, conductance: 10.0 },
 ];
 const HEATER_SPLITS: [Split; 3] = [
     Split { air: 0.95, node: 0.05, conductance: 2.0 },
     Split { air: 0.7, node: 0.3, conductance: 2.0 },
-    Split { air: 0.995, node: 0.005, conductance: 60.0 },
+    Split { air: 1.0, node: 1e-3, conductance: 60.0 },
 ];
 
 /// Shares of the sun that fall on a hidden node.
-const SUN_SHARES: [f64; 3] = [0.8, 0.4, 0.02];
+const SUN_SHARES: [f64; 3] = [0.8, 0.4, 1e-3];
+
+/// Deviation of coloured heat as a share of what the air's random heat is in an hour, and its correlation time \[h\]. The last
+/// one is nearly the model without it.
+const COLOURS: [(f64, f64); 3] = [(1.0, 2.0), (0.5, 10.0), (1e-3, 3.0)];
 
 /// What the data suggest at first sight.
 pub(super) struct Guess {
@@ -54,6 +61,8 @@ pub(super) struct Guess {
     heat_gain: Vec<f64>,
     /// Deviation of the change of temperature in an hour \[K\].
     change_k: Vec<f64>,
+    /// Least standard deviation of each sensor \[K\]: that of rounding to its steps, or the bound.
+    least_sensor_k: Vec<f64>,
     /// Whether some heat is in kW.
     pub scale_is_known: bool,
 }
@@ -77,7 +86,8 @@ impl Guess {
         let zones = 0..telemetry.zones.len();
         Self {
             aperture: zones.clone().map(aperture).collect(),
-            change_k: zones.map(change).collect(),
+            change_k: zones.clone().map(change).collect(),
+            least_sensor_k: zones.map(|zone| rounding_k(&telemetry.zones[zone].temperature_c)).collect(),
             conductance,
             heat_gain,
             scale_is_known,
@@ -104,6 +114,7 @@ impl Guess {
             }
             ParameterKind::Aperture(zone) | ParameterKind::HiddenAperture(zone, _) => self.aperture[zone],
             ParameterKind::HeatGain(zone) => self.heat_gain[zone],
+            ParameterKind::CorrelationTime(_) => CORRELATION_TIME_H,
             ParameterKind::Sensor(zone) => 0.2 * self.change_k[zone] * libm::sqrt(telemetry.step_s / HOUR_S),
         };
         structure.parameters.iter().map(|kind| libm::log(value(kind))).collect()
@@ -130,7 +141,8 @@ impl Guess {
                 around(self.aperture[zone], CONDUCTANCE_RANGE)
             }
             ParameterKind::HeatGain(zone) => around(self.heat_gain[zone], CONDUCTANCE_RANGE),
-            ParameterKind::Sensor(_) => (libm::log(SENSOR_RANGE.0), libm::log(SENSOR_RANGE.1)),
+            ParameterKind::CorrelationTime(_) => (libm::log(CORRELATION_RANGE_H.0), libm::log(CORRELATION_RANGE_H.1)),
+            ParameterKind::Sensor(zone) => (libm::log(self.least_sensor_k[zone]), libm::log(SENSOR_RANGE.1)),
         };
         structure.parameters.iter().map(bound).collect()
     }
@@ -138,6 +150,7 @@ impl Guess {
     /// Starts of a model with `added`, from the estimate `theta` of the model without it. The last one is nearly the smaller model.
     pub fn of_larger(&self, smaller: &Structure, theta: &[f64], larger: &Structure, added: Extension) -> Vec<Vec<f64>> {
         match added {
+            Extension::Node(HiddenNode::ColouredHeat) => of_coloured_heat(smaller, theta, larger),
             Extension::Node(hidden) => self.of_node(smaller, theta, larger, hidden),
             Extension::Sun(hidden) => of_sun(smaller, theta, larger, hidden),
         }
@@ -159,12 +172,14 @@ impl Guess {
                     0.1 * known(ParameterKind::RandomHeat(zone, Place::Air)).unwrap_or(1.0)
                 }
                 ParameterKind::Inner(zone, hidden) if hidden == added => match hidden {
+                    HiddenNode::ColouredHeat => 1.0,
                     HiddenNode::Heater => split.conductance * split.node * air(zone) / HOUR_S,
                     HiddenNode::Interior => split.conductance * conductances(smaller, theta, zone),
                     HiddenNode::Wall(boundary) => split.conductance * to_boundary(zone, boundary).unwrap_or(1.0),
                 },
                 ParameterKind::Outer(zone, boundary) if known(*kind).is_none() => {
-                    1.2 * to_boundary(zone, boundary).unwrap_or(1.0)
+                    // In series with the inner conductance it is what the smaller model has.
+                    split.conductance / (split.conductance - 1.0) * to_boundary(zone, boundary).unwrap_or(1.0)
                 }
                 kind => known(kind).unwrap_or(1.0),
             }
@@ -189,6 +204,41 @@ fn of_sun(smaller: &Structure, theta: &[f64], larger: &Structure, sunlit: Hidden
     };
     let start = |share: &f64| larger.parameters.iter().map(|kind| libm::log(value(*share, kind))).collect();
     SUN_SHARES.iter().map(start).collect()
+}
+
+/// Starts of a model with coloured heat.
+fn of_coloured_heat(smaller: &Structure, theta: &[f64], larger: &Structure) -> Vec<Vec<f64>> {
+    let known = |kind: ParameterKind| smaller.index(kind).map(|index| libm::exp(theta[index]));
+    let value = |(share, correlation_h): (f64, f64), kind: &ParameterKind| match *kind {
+        ParameterKind::CorrelationTime(_) => correlation_h,
+        ParameterKind::RandomHeat(zone, Place::Hidden(HiddenNode::ColouredHeat)) => {
+            share * known(ParameterKind::RandomHeat(zone, Place::Air)).unwrap_or(1.0)
+        }
+        kind => known(kind).unwrap_or(1.0),
+    };
+    let start = |colour: &(f64, f64)| larger.parameters.iter().map(|kind| libm::log(value(*colour, kind))).collect();
+    COLOURS.iter().map(start).collect()
+}
+
+/// Standard deviation of rounding to the steps of a sensor \[K\], q/√12 of steps q; the least bound where it has none.
+///
+/// A sensor has steps of q if all its values are multiples of one of the customary steps and at least a third of all rows
+/// repeat the value before: then rounding, not noise, is what its error is made of.
+fn rounding_k(temperature_c: &[f64]) -> f64 {
+    let finite: Vec<f64> = temperature_c.iter().copied().filter(|value| value.is_finite()).collect();
+    let is_multiple = |step: f64| {
+        let off = |value: &f64| {
+            let steps = value / step;
+            (steps - libm::round(steps)).abs() > 1e-6 * steps.abs().max(1.0)
+        };
+        !finite.iter().any(off)
+    };
+    let repeated = finite.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    let step = [1.0, 0.5, 0.2, 0.1, 0.0625, 0.05].into_iter().find(|&step| is_multiple(step));
+    match step {
+        Some(step) if 3 * repeated > finite.len() => step / libm::sqrt(12.0),
+        _ => SENSOR_RANGE.0,
+    }
 }
 
 /// All conductances out of a zone's air \[kW/K\].

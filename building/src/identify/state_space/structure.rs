@@ -8,6 +8,9 @@
 //! heater                             heat → heater(C) ─ H ─ air               in place of  heat → air
 //! ```
 //!
+//! Random heat of a zone may be correlated in time: a further state q \[K/h\] that has no mass,
+//! dq = −q/τ dt + √(2/τ) σ dw, adds to the rate of the air.
+//!
 //! The sun warms the air. It may also fall on a hidden mass, with an aperture of its own: on a floor, or on a wall.
 //!
 //! Every node gains random heat; its strength σ is stated as the standard deviation of temperature that it makes in one hour.
@@ -18,6 +21,7 @@ use super::exponential::{Number, exponential, real};
 use super::extension::{Extension, HiddenNode};
 use super::linear_model::{ContinuousModel, InitialState};
 use super::observations::InputLayout;
+pub(super) use super::parameters::{ParameterKind, Place};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// An hour \[s\].
@@ -25,42 +29,21 @@ pub(super) const HOUR_S: f64 = 3600.0;
 /// Variance of the first temperature of a hidden node about what it would be in a steady state \[K²\]. Chosen: heavy walls are
 /// a few kelvin away from it.
 const HIDDEN_START_VARIANCE: f64 = 9.0;
-
-/// Which node of a zone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Air,
-    Hidden(HiddenNode),
-}
-
-/// What a parameter is. All are logarithms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ParameterKind {
-    /// Heat capacity of a node \[kJ/K\].
-    Capacity(usize, Place),
-    /// Random heat of a node, as the deviation of its temperature in an hour \[K/√h\].
-    RandomHeat(usize, Place),
-    /// Conductance from a zone's air to a neighbour without mass between \[kW/K\].
-    Direct(usize, Neighbour),
-    /// Conductance between a zone's air and a hidden node of it \[kW/K\].
-    Inner(usize, HiddenNode),
-    /// Conductance between the wall's mass and the boundary \[kW/K\].
-    Outer(usize, usize),
-    /// Aperture of a zone's air \[m²\].
-    Aperture(usize),
-    /// Aperture of a hidden node of a zone \[m²\].
-    HiddenAperture(usize, HiddenNode),
-    /// Heat per unit of a signal without unit \[kW\].
-    HeatGain(usize),
-    /// Standard deviation of a zone's sensor \[K\].
-    Sensor(usize),
-}
+/// What a row of unknown heat adds to the variance of the air \[K²\]. Chosen: as for the start.
+const UNKNOWN_HEAT_VARIANCE: f64 = 9.0;
 
 /// A node with its zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {
     pub zone: usize,
     pub place: Place,
+}
+
+impl Node {
+    /// Whether it stores heat, as opposed to the state of coloured heat.
+    pub fn is_mass(self) -> bool {
+        self.place != Place::Hidden(HiddenNode::ColouredHeat)
+    }
 }
 
 /// The other end of a link.
@@ -113,7 +96,11 @@ impl Structure {
         };
         structure.add_hidden_nodes(telemetry);
         for node in structure.nodes.clone() {
-            structure.parameter(ParameterKind::Capacity(node.zone, node.place));
+            if node.is_mass() {
+                structure.parameter(ParameterKind::Capacity(node.zone, node.place));
+            } else {
+                structure.parameter(ParameterKind::CorrelationTime(node.zone));
+            }
             structure.parameter(ParameterKind::RandomHeat(node.zone, node.place));
         }
         structure.add_walls(telemetry);
@@ -168,7 +155,9 @@ impl Structure {
             }
         }
         for (index, node) in self.nodes.clone().into_iter().enumerate() {
-            if let Place::Hidden(hidden) = node.place {
+            if let Place::Hidden(hidden) = node.place
+                && node.is_mass()
+            {
                 let inner = self.parameter(ParameterKind::Inner(node.zone, hidden));
                 self.conductances.push(Conductance { from: node.zone, to: End::Node(index), parameter: inner });
             }
@@ -185,9 +174,9 @@ impl Structure {
         self.parameters.iter().position(|known| *known == kind)
     }
 
-    /// States per zone, at most.
+    /// Temperatures per zone, at most.
     pub fn order(&self) -> usize {
-        1 + self.hidden.len()
+        1 + self.hidden.iter().filter(|hidden| hidden.kind().is_some()).count()
     }
 
     /// The value of a parameter that the structure has, 1 if it has not.
@@ -216,6 +205,10 @@ impl Structure {
                 }
             }
         }
+        for (index, node) in self.nodes.iter().enumerate().filter(|(_, node)| !node.is_mass()) {
+            dynamics[(index, index)] -= real(1.0) / self.correlation_s(theta, node.zone);
+            dynamics[(node.zone, index)] += real(1.0 / HOUR_S);
+        }
         for zone in 0..self.zones {
             if let Some(column) = self.layout.heat[zone] {
                 let node = self.heated_node(zone);
@@ -230,7 +223,10 @@ impl Structure {
         }
         let random = |node: &Node| {
             let deviation = self.value(theta, ParameterKind::RandomHeat(node.zone, node.place));
-            deviation * deviation / HOUR_S
+            match node.is_mass() {
+                true => deviation * deviation / HOUR_S,
+                false => deviation * deviation * real(2.0) / self.correlation_s(theta, node.zone),
+            }
         };
         let sensor = |zone: usize| {
             let deviation = self.value(theta, ParameterKind::Sensor(zone));
@@ -243,6 +239,20 @@ impl Structure {
             outputs: (0..self.zones).collect(),
             sensor_variance: (0..self.zones).map(sensor).collect(),
             initial: self.initial(theta, sensor),
+            unknown_heat_variance: (0..self.nodes.len()).map(|index| self.unknown_heat_variance(index)).collect(),
+        }
+    }
+
+    /// Correlation time of a zone's coloured heat \[s\].
+    fn correlation_s(&self, theta: &[Number], zone: usize) -> Number {
+        self.value(theta, ParameterKind::CorrelationTime(zone)) * real(HOUR_S)
+    }
+
+    /// What a row of unknown heat adds to the variance of a node \[K²\]: heat goes to the air and to the heater.
+    fn unknown_heat_variance(&self, index: usize) -> f64 {
+        match self.nodes[index].place {
+            Place::Air | Place::Hidden(HiddenNode::Heater) => UNKNOWN_HEAT_VARIANCE,
+            Place::Hidden(_) => 0.0,
         }
     }
 
@@ -259,8 +269,12 @@ impl Structure {
         let mut variance = vec![real(HIDDEN_START_VARIANCE); count];
         for (index, node) in self.nodes.iter().enumerate() {
             let zone = node.zone;
-            from_outputs[(index, zone)] = real(1.0);
+            from_outputs[(index, zone)] = real(if node.is_mass() { 1.0 } else { 0.0 });
             match node.place {
+                Place::Hidden(HiddenNode::ColouredHeat) => {
+                    let deviation = self.value(theta, ParameterKind::RandomHeat(zone, node.place));
+                    variance[index] = deviation * deviation;
+                }
                 Place::Air => variance[index] = sensor(zone),
                 Place::Hidden(HiddenNode::Interior) => {}
                 Place::Hidden(hidden @ HiddenNode::Wall(boundary)) => {
@@ -335,14 +349,16 @@ impl Structure {
     /// What it may have more: hidden nodes, and sun on those masses that it has.
     pub fn candidates(&self, telemetry: &Telemetry) -> Vec<Extension> {
         let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
-        let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater]);
+        let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater, HiddenNode::ColouredHeat]);
         let possible = |hidden: &HiddenNode| {
             let applies = |zone| applies(telemetry, &self.layout, zone, *hidden);
             !self.hidden.contains(hidden) && (0..self.zones).any(applies)
         };
         let can_be_sunlit = |&&hidden: &&HiddenNode| {
             let shines = |zone: usize| self.layout.sun[zone].is_some() && self.node(zone, hidden).is_some();
-            hidden != HiddenNode::Heater && !self.sunlit.contains(&hidden) && (0..self.zones).any(shines)
+            matches!(hidden, HiddenNode::Wall(_) | HiddenNode::Interior)
+                && !self.sunlit.contains(&hidden)
+                && (0..self.zones).any(shines)
         };
         let sun = self.hidden.iter().filter(can_be_sunlit).copied().map(Extension::Sun);
         all.filter(possible).map(Extension::Node).chain(sun).collect()
@@ -350,7 +366,7 @@ impl Structure {
 
     /// Sum of the capacities of a zone's nodes \[kJ/K\].
     pub fn total_capacity(&self, theta: &[Number], zone: usize) -> Number {
-        let of_zone = self.nodes.iter().filter(|node| node.zone == zone);
+        let of_zone = self.nodes.iter().filter(|node| node.zone == zone && node.is_mass());
         of_zone.fold(real(0.0), |sum, node| sum + self.value(theta, ParameterKind::Capacity(zone, node.place)))
     }
 }
@@ -359,7 +375,7 @@ impl Structure {
 fn applies(telemetry: &Telemetry, layout: &InputLayout, zone: usize, hidden: HiddenNode) -> bool {
     match hidden {
         HiddenNode::Wall(boundary) => telemetry.neighbours(zone).contains(&Neighbour::Boundary(boundary)),
-        HiddenNode::Interior => true,
+        HiddenNode::Interior | HiddenNode::ColouredHeat => true,
         HiddenNode::Heater => layout.heat[zone].is_some(),
     }
 }

@@ -4,7 +4,10 @@
 //! 2. the residuals of its zone are white, or so nearly that it makes no difference,
 //! 3. the network alone predicts the zone better in free runs than the mean of the data does,
 //! 4. the heat balance over the record agrees with it, where it is a conductance,
-//! 5. the next larger model does not move it by more than its interval.
+//! 5. the next larger model does not move it by more than its interval,
+//! 6. the two halves of the record agree on it,
+//! 7. a building can have it, and the record can show it,
+//! 8. the data contradict nothing that every model takes for granted ([`super::wrong_world`]).
 
 use super::heat_balance::BalancedConductance;
 use super::profile::Estimated;
@@ -22,6 +25,8 @@ pub(super) struct ZoneEvidence<'a> {
     pub whiteness: &'a Whiteness,
     /// Errors of free runs of the network alone and of the mean of the data \[K\]; `None` without a run.
     pub free_run_k: Option<(f64, f64)>,
+    /// What the data contradict, in words.
+    pub suspicions: Vec<String>,
 }
 
 impl ZoneEvidence<'_> {
@@ -39,6 +44,7 @@ impl ZoneEvidence<'_> {
             )),
             Some(_) => {}
         }
+        doubts.extend(self.suspicions.iter().cloned());
         doubts
     }
 }
@@ -50,6 +56,10 @@ pub(super) struct QuantityEvidence {
     pub balance: Option<BalancedConductance>,
     /// The value by the next larger model.
     pub larger: Option<f64>,
+    /// Its values by the halves of the record, if they contradict each other.
+    pub halves: Option<[f64; 2]>,
+    /// Why it is none that a building can have or the record can show.
+    pub ceiling: Option<String>,
 }
 
 impl QuantityEvidence {
@@ -68,6 +78,10 @@ impl QuantityEvidence {
                 doubts.push(format!("the next larger model gives {larger:.4}"));
             }
         }
+        if let Some([first, second]) = self.halves {
+            doubts.push(format!("the first half of the record gives {first:.4}, and the second {second:.4}"));
+        }
+        doubts.extend(self.ceiling.clone());
         doubts
     }
 }

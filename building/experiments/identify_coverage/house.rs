@@ -1,22 +1,9 @@
-//! How often the intervals of the method `state-space` hold the truth, and how often "identified" is wrong: houses with one, two
-//! and three temperatures, simulated with random parameters, weather, heating, disturbances and sampling times.
-//!
-//! ```sh
-//! cargo run --release -p interplay-building --example identify_coverage -- 100
-//! ```
-//!
-//! The first argument is the number of houses of each kind; the second one, if there is one, the number of the first house
-//! (0), and the third one the only kind. A fourth kind is heated and mild all the time alike, so that its data say next to
-//! nothing of the capacity. In two more kinds 30 to 100 % of the sun fall on the wall, or on the interior mass. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
+//! Houses with random parameters, and their telemetry in a world.
 
-#![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
-
-use interplay_building::identify::{
-    Boundary, Confidence, Hold, IdentificationReport, IdentifySettings, MeasuredWall, MeasuredZone, Neighbour,
-    Telemetry, identify,
-};
+use interplay_building::identify::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
 use interplay_common::random::Random;
-use rayon::prelude::*;
+
+use super::world::{Unmeasured, World};
 
 const MINUTES_PER_DAY: usize = 1440;
 /// Steps of Euler's method in a minute.
@@ -25,7 +12,7 @@ const STEPS_S: [f64; 5] = [300.0, 600.0, 900.0, 1800.0, 3600.0];
 
 /// Which house.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub enum Kind {
     Air,
     Wall,
     WallAndInterior,
@@ -38,7 +25,7 @@ enum Kind {
 }
 
 /// True parameters [kJ/K], [kW/K], [m²].
-struct House {
+pub struct House {
     kind: Kind,
     air: f64,
     wall: f64,
@@ -54,7 +41,7 @@ struct House {
 }
 
 impl House {
-    fn random(kind: Kind, random: &mut Random) -> Self {
+    pub fn random(kind: Kind, random: &mut Random) -> Self {
         let ua = libm::exp(random.uniform(libm::log(0.08), libm::log(0.4)));
         let hours = random.uniform(20.0, 80.0);
         let total = ua * hours * 3600.0;
@@ -87,12 +74,12 @@ impl House {
         }
     }
 
-    fn ua(&self) -> f64 {
+    pub fn ua(&self) -> f64 {
         self.inner * self.outer / (self.inner + self.outer)
     }
 
     /// What reaches the air of the sun in a steady state, as an aperture.
-    fn effective_aperture(&self) -> f64 {
+    pub fn effective_aperture(&self) -> f64 {
         let lost = match self.kind {
             Kind::SunnyWall => self.on_mass * self.outer / (self.inner + self.outer),
             _ => 0.0,
@@ -100,18 +87,19 @@ impl House {
         self.aperture * (1.0 - lost)
     }
 
-    fn capacity(&self) -> f64 {
+    pub fn capacity(&self) -> f64 {
         self.air + self.wall + self.interior
     }
 
     /// Heat is constant over a sampling step, weather a straight line, and random heat acts on the air.
-    fn simulate(&self, random: &mut Random) -> Telemetry {
+    pub fn simulate(&self, world: World, random: &mut Random) -> Telemetry {
         let stride = (self.step_s / 60.0) as usize;
         let silent = self.kind == Kind::Silent;
         let rows = self.days * MINUTES_PER_DAY / stride + 1;
         let design_kw = self.ua() * 20.0;
         let (mut drift_c, mut cloud) = (0.0, 0.5);
         let (mut outdoor_c, mut sun_kw, mut heat_kw) = (Vec::new(), Vec::new(), Vec::new());
+        let mut true_sun_kw = Vec::new();
         let mut on = false;
         let hold_h = random.uniform(1.0, 4.0);
         let step_h = self.step_s / 3600.0;
@@ -121,12 +109,14 @@ impl House {
             cloud = (cloud + random.normal(0.0, 0.15 * libm::sqrt(step_h))).clamp(0.1, 1.0);
             let height = libm::sin(std::f64::consts::PI * (hour - 7.0) / 10.0);
             let day = if (7.0..17.0).contains(&hour) { height } else { 0.0 };
+            let true_day = if world == World::SunFromAnotherSide { World::other_side(hour) } else { day };
             outdoor_c.push(if silent {
                 5.0
             } else {
                 4.0 + 3.5 * libm::sin(std::f64::consts::TAU * (hour - 9.0) / 24.0) + drift_c
             });
             sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * day });
+            true_sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * true_day });
             if random.chance((step_h / hold_h).min(0.7)) {
                 on = !on;
             }
@@ -138,7 +128,26 @@ impl House {
                 0.1 * design_kw
             });
         }
-        let temperature_c = self.temperatures(random, stride, (&outdoor_c, &sun_kw, &heat_kw), design_kw);
+        let minutes = (rows - 1) * stride + 1;
+        let unmeasured = Unmeasured::new(world, minutes, self.ua(), random);
+        let inputs = (outdoor_c.as_slice(), true_sun_kw.as_slice(), heat_kw.as_slice());
+        let temperature_c = self.temperatures(random, stride, inputs, (design_kw, world, &unmeasured));
+        let temperature_c = temperature_c.into_iter().map(|value| world.sensed_c(value)).collect();
+        let meter = world.meter(random);
+        heat_kw.iter_mut().for_each(|heat| *heat *= meter);
+        let late = world.clock_rows(self.step_s, random);
+        let (outdoor_c, sun_kw) = (World::shifted(&outdoor_c, late), World::shifted(&sun_kw, late));
+        self.telemetry(temperature_c, heat_kw, outdoor_c, sun_kw)
+    }
+
+    fn telemetry(
+        &self,
+        temperature_c: Vec<f64>,
+        heat_kw: Vec<f64>,
+        outdoor_c: Vec<f64>,
+        sun_kw: Vec<f64>,
+    ) -> Telemetry {
+        let rows = temperature_c.len();
         let zone = MeasuredZone {
             name: "house".into(),
             temperature_c,
@@ -166,8 +175,9 @@ impl House {
         random: &mut Random,
         stride: usize,
         (outdoor_c, sun_kw, heat_kw): (&[f64], &[f64], &[f64]),
-        design_kw: f64,
+        (design_kw, world, unmeasured): (f64, World, &Unmeasured),
     ) -> Vec<f64> {
+        let (colour_h, mut colour) = (random.uniform(1.0, 4.0), 0.0);
         let (disturbance_kw, sensor_k) = (design_kw * random.uniform(0.01, 0.05), random.uniform(0.01, 0.05));
         let (mut air, mut wall, mut interior) = (18.0, 13.0, 18.5);
         let mut measured = Vec::with_capacity(outdoor_c.len());
@@ -182,7 +192,15 @@ impl House {
             let outdoor = outdoor_c[row] + part * (outdoor_c[next] - outdoor_c[row]);
             let sun = sun_kw[row] + part * (sun_kw[next] - sun_kw[row]);
             // White heat of `disturbance_kw` in hourly means.
-            let noise = random.normal(0.0, disturbance_kw * libm::sqrt(60.0));
+            let white = random.normal(0.0, 1.0);
+            let keep = libm::exp(-1.0 / (60.0 * colour_h));
+            colour = keep * colour + libm::sqrt(1.0 - keep * keep) * white;
+            let noise = match world {
+                World::ColouredHeat => disturbance_kw * colour,
+                _ => disturbance_kw * libm::sqrt(60.0) * white,
+            };
+            let lost = unmeasured.conductance_kw_per_k[seen.min(unmeasured.heat_kw.len() - 1)] * (outdoor - air);
+            let noise = noise + unmeasured.heat_kw[seen.min(unmeasured.heat_kw.len() - 1)] + lost;
             let on_mass = self.on_mass * self.aperture * sun;
             let gains = heat_kw[row] + (self.aperture * sun - on_mass) + noise;
             for _ in 0..SUBSTEPS {
@@ -209,117 +227,5 @@ impl House {
             wall + change(to_wall + on_wall_kw - self.outer * (wall - outdoor), self.wall),
             interior + change(to_interior + on_interior_kw, self.interior),
         ]
-    }
-}
-
-/// What one house showed of each quantity: name, truth, estimate, interval, verdict.
-struct Outcome {
-    quantity: &'static str,
-    truth: f64,
-    value: Option<f64>,
-    interval: (Option<f64>, Option<f64>),
-    confidence: Confidence,
-    states: usize,
-    /// Whether the chosen model has sun on a mass.
-    sunlit: bool,
-}
-
-fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
-    let chosen = report.models.iter().find(|model| model.chosen);
-    let states = chosen.map_or(0, |model| model.states);
-    let sunlit = chosen.is_some_and(|model| model.model.contains("sun on"));
-    let truths = [
-        ("heat capacity", house.capacity()),
-        ("conductance to outdoor", house.ua()),
-        ("aperture to the sun", house.effective_aperture()),
-    ];
-    truths
-        .into_iter()
-        .filter_map(|(name, truth)| {
-            let found = report.zones[0].physical.iter().find(|quantity| quantity.name == name)?;
-            Some(Outcome {
-                quantity: name,
-                truth,
-                value: found.value,
-                interval: found.interval,
-                confidence: found.verdict.confidence,
-                states,
-                sunlit,
-            })
-        })
-        .collect()
-}
-
-fn main() {
-    let number = |argument: usize| std::env::args().nth(argument).and_then(|text| text.parse::<u64>().ok());
-    let (houses, first) = (number(1).unwrap_or(10), number(2).unwrap_or(0));
-    let only = std::env::args().nth(3);
-    for (label, kind, name) in [
-        (1, Kind::Air, "one state"),
-        (2, Kind::Wall, "two states"),
-        (3, Kind::WallAndInterior, "three states"),
-        (4, Kind::Silent, "two states, silent"),
-        (5, Kind::SunnyWall, "two states, sun on the wall"),
-        (6, Kind::SunnyInterior, "three states, sun on the interior mass"),
-    ] {
-        if only.as_deref().is_some_and(|only| only != name) {
-            continue;
-        }
-        let count = if kind == Kind::Silent { houses / 4 } else { houses };
-        let found: Vec<Outcome> = (first..first + count)
-            .into_par_iter()
-            .flat_map_iter(|house| of_house(kind, 1000 * label + house))
-            .collect();
-        print_kind(name, &found);
-    }
-}
-
-fn of_house(kind: Kind, seed: u64) -> Vec<Outcome> {
-    let mut random = Random::new(seed, 77);
-    let house = House::random(kind, &mut random);
-    let telemetry = house.simulate(&mut random);
-    match identify(&telemetry, &IdentifySettings::default()) {
-        Ok(found) => outcomes(&house, &found.report),
-        Err(error) => {
-            println!("seed {seed}: {error}");
-            Vec::new()
-        }
-    }
-}
-
-fn print_kind(name: &str, found: &[Outcome]) {
-    let houses = found.iter().filter(|outcome| outcome.quantity == "heat capacity");
-    let states: Vec<usize> =
-        (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
-    let sunlit = houses.clone().filter(|house| house.sunlit).count();
-    println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}, sun on a mass in {sunlit}", houses.count());
-    for quantity in ["heat capacity", "conductance to outdoor", "aperture to the sun"] {
-        let of: Vec<&Outcome> = found.iter().filter(|outcome| outcome.quantity == quantity).collect();
-        let bounded: Vec<&&Outcome> =
-            of.iter().filter(|it| it.interval.0.is_some() || it.interval.1.is_some()).collect();
-        let holds = |it: &Outcome| {
-            it.interval.0.is_none_or(|low| low <= it.truth) && it.interval.1.is_none_or(|high| it.truth <= high)
-        };
-        let by_states: Vec<String> = (1..=3)
-            .map(|states| {
-                let of: Vec<&&&Outcome> = bounded.iter().filter(|it| it.states == states).collect();
-                format!("{}/{}", of.iter().filter(|it| holds(it)).count(), of.len())
-            })
-            .collect();
-        let covered = bounded.iter().filter(|it| holds(it)).count();
-        let identified: Vec<&&Outcome> = of.iter().filter(|it| it.confidence == Confidence::Identified).collect();
-        let is_off = |it: &Outcome| it.value.is_none_or(|value| (value / it.truth - 1.0).abs() > 0.25);
-        let wrong = identified.iter().filter(|it| is_off(it)).count();
-        let outside = identified.iter().filter(|it| !holds(it)).count();
-        let errors: Vec<f64> = of.iter().filter_map(|it| Some(it.value? / it.truth - 1.0)).collect();
-        let largest = errors.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()));
-        println!(
-            "  {quantity:24} {covered} of {} intervals hold the truth ({}); {} identified, of them {wrong} off by more than 25 %, \
-             {outside} outside of their interval; largest error {:.0} %",
-            bounded.len(),
-            by_states.join(", "),
-            identified.len(),
-            100.0 * largest
-        );
     }
 }
