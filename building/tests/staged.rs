@@ -36,7 +36,7 @@ fn problem(quadratic: f64, peak: Option<Peak>) -> StagedProgram {
             quadratic: vec![quadratic; inputs.len()],
             nodes: vec![(t % ZONES, -quadratic * 20.0, quadratic)],
             soft: (0..ZONES)
-                .filter(|zone| (t + zone) % 3 > 0)
+                .filter(|zone| !(t + zone).is_multiple_of(3))
                 .flat_map(|node| {
                     let (linear, quadratic) = (2.0, 1.0);
                     [(1.0, 22.0), (-1.0, -20.5)].map(|(sign, bound)| SoftBound { node, sign, bound, linear, quadratic })
