@@ -68,6 +68,8 @@ mod tests {
             requested_kw: 0.0,
             heat_kw: 0.0,
             gains_kw: 0.0,
+            sun_kw: 0.0,
+            electric_kw: 0.0,
         };
         assert_eq!(zone_colour(&zone(Some(21.0)), 21.0, 25.0), deviation_colour(0.0));
         assert_eq!(zone_colour(&zone(None), 21.0, 25.0), deviation_colour(-4.0));
