@@ -5,6 +5,7 @@
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)
 //! - [`comfort`]: the temperatures that are wanted; [`schedule`] and [`calendar`]: by zone and weekday
+//! - [`benchmark`]: the key performance indicators of BOPTEST, from the measurements of a test case
 //! - [`energy`]: what heat takes in electricity and costs in money
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
@@ -56,6 +57,7 @@
 //! # }
 //! ```
 
+pub mod benchmark;
 pub mod calendar;
 pub mod comfort;
 pub mod control;
