@@ -4,6 +4,7 @@ use interplay_building::day::ZoneFigures;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
 
+use crate::climate::plant::Benchmark;
 use crate::day::DayFigures;
 use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
 
@@ -28,6 +29,9 @@ pub struct BuildingReport {
     /// The currency of costs; none without a tariff.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub currency: Option<String>,
+    /// The indicators of the benchmark that was the plant, its own and ours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub benchmark: Option<Benchmark>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
     /// Every zone, in the order of the scenario.
@@ -55,6 +59,7 @@ impl BuildingReport {
             fallbacks: measures.fallbacks.clone(),
             weaker_feedbacks: measures.weaker_feedbacks.clone(),
             currency: measures.currency.clone(),
+            benchmark: measures.benchmark.clone(),
             iterations: measures.days.clone(),
             zone_figures: zone_figures(measures),
         }
