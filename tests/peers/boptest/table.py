@@ -26,7 +26,7 @@ AREA_M2 = 192.0
 PRICES = {"constant": "Constant", "dynamic": "Dynamic", "highly_dynamic": "HighlyDynamic"}
 # The first day of each period in 2019, whose weekdays are those of the case.
 PERIODS = {"peak_heat_day": datetime.date(2019, 1, 17), "typical_heat_day": datetime.date(2019, 4, 19)}
-# What BOPTEST published for the case's own controller (`baselines/csv`), without the columns that follow.
+# What BOPTEST published for the case's own controller (`baselines/csv/df_kpi_bestest_hydronic_heat_pump.csv`).
 PUBLISHED = {
     "peak_heat_day": {"tdis_tot": 8.381374448, "ener_tot": 3.478023746, "pele_tot": 0.018912779, "emis_tot": 0.580829966},
     "typical_heat_day": {"tdis_tot": 9.442428804, "ener_tot": 1.773582647, "pele_tot": 0.016491932, "emis_tot": 0.296188302},
@@ -34,8 +34,10 @@ PUBLISHED = {
 PUBLISHED_COST = {
     ("peak_heat_day", "constant"): 0.88167902,
     ("peak_heat_day", "dynamic"): 0.882847053,
+    ("peak_heat_day", "highly_dynamic"): 0.908760724,
     ("typical_heat_day", "constant"): 0.449603201,
     ("typical_heat_day", "dynamic"): 0.442336352,
+    ("typical_heat_day", "highly_dynamic"): 0.41267549,
 }
 # Full speed is about 11.8 kW of heat; below nine tenths of it the fan, which has one speed, costs more than it is worth.
 INPUT = '{ name = "oveHeaPumY_u", per_kw = 0.085, least_on = 0.9 }'
@@ -62,13 +64,21 @@ electricity = ["reaPHeaPum_y", "reaPFan_y", "reaPPumEmi_y"]
 
 [[building.zone]]
 name = "house"
-capacity_kj_per_k = 60000.0
+# What identify.py found from 35 days after the tenth of February, outside of both periods.
+capacity_kj_per_k = 70520.0
+solar_aperture_m2 = 28.8
 heating_limit_kw = 11.0
 cooling_limit_kw = 0.0
 
 [[building.wall]]
 between = ["house", "ambient"]
-resistance_k_per_kw = 4.2
+resistance_k_per_kw = 3.75
+
+[[building.wall]]
+between = ["house", "ambient"]
+resistance_k_per_kw = 12.36
+capacity_kj_per_k = 300000.0
+mass_position = 0.382
 
 [weather]
 kind = "epw"
@@ -217,7 +227,7 @@ def table(arguments, folder, case, url):
                     wins = all(kpis[name] < than[name] for name in ("tdis_tot", "cost_tot"))
                     better[design] = better.get(design, 0) + wins
     for (period, prices), kpis in baseline.items():
-        published = {**PUBLISHED[period], "cost_tot": PUBLISHED_COST.get((period, prices), kpis["cost_tot"])}
+        published = {**PUBLISHED[period], "cost_tot": PUBLISHED_COST[period, prices]}
         apart = max(abs(kpis[name] / value - 1) for name, value in published.items())
         print(f"its own, {period}, {prices}: at most {100 * apart:.3f} % from the published indicators")
         worst = max(worst, apart if apart > 0.01 else 0.0)
