@@ -167,6 +167,12 @@ impl BoptestPlantConfig {
         if self.case.as_ref().is_some_and(|case| !case.chars().all(word)) {
             return Some(("case".to_owned(), "is no name of letters, digits, `_` and `-`".to_owned()));
         }
+        if self.period.is_some() && self.start_day != 0 {
+            return Some((
+                "start_day".to_owned(),
+                "is stated beside `period`, which has a start of its own".to_owned(),
+            ));
+        }
         if self.zones.len() != zones {
             let problem = format!("has {} entries; wanted is one for each of the {zones} zones", self.zones.len());
             return Some(("zones".to_owned(), problem));
@@ -233,6 +239,7 @@ mod tests {
         };
         assert_eq!(fault(|_| ()), "");
         assert_eq!(fault(|config| config.zones.clear()), "zones");
+        assert_eq!(fault(|config| (config.period, config.start_day) = (Some("a".to_owned()), 3)), "start_day");
         assert_eq!(fault(|config| config.case = Some("../x".to_owned())), "case");
         assert_eq!(fault(|config| config.zones[0].inputs[0].name = "oveY".to_owned()), "zones.0.inputs.0.name");
         assert_eq!(fault(|config| config.zones[0].inputs[0].min = 2.0), "zones.0.inputs.0.min");
