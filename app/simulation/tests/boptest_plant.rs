@@ -114,7 +114,7 @@ fn scenario(config: BoptestPlantConfig) -> Scenario {
                 [[building.wall]]\nbetween = ['house', 'ambient']\nresistance_k_per_kw = 5.0\n[weather]\nkind = 'synthetic'\n\
                 [weather.climate]\nmean_c = 5.0\n[setpoints]\noccupied_c = [21.0]\n[controller]\nkind = 'pid'";
     let mut scenario = interplay_scenarios::from_text("a.toml", text, &[]).expect("a scenario");
-    scenario.building.as_mut().expect("a building").plant = BuildingPlant::Boptest(config);
+    scenario.building.as_mut().expect("a building").plant = BuildingPlant::Boptest(Box::new(config));
     scenario
 }
 

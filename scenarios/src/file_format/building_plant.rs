@@ -14,7 +14,7 @@ pub enum BuildingPlant {
     /// Another program, such as EnergyPlus, that answers each step over TCP. The network is then the controller's model only.
     Socket(SocketPlantConfig),
     /// A test case of BOPTEST behind its interface over HTTP. The network is then the controller's model only.
-    Boptest(BoptestPlantConfig),
+    Boptest(Box<BoptestPlantConfig>),
 }
 
 impl Default for BuildingPlant {
