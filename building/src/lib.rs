@@ -7,6 +7,7 @@
 //! - [`sun`]: where it stands, and its radiation on planes of any orientation
 //! - [`comfort`]: the temperatures that are wanted; [`schedule`] and [`calendar`]: by zone and weekday
 //! - [`series`]: series at equal intervals, and tables of them
+//! - [`benchmark`]: the key performance indicators of BOPTEST, from the measurements of a test case
 //! - [`energy`]: what heat takes in electricity and costs in money
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
@@ -54,6 +55,7 @@
 //! # }
 //! ```
 
+pub mod benchmark;
 pub mod calendar;
 pub mod comfort;
 pub mod control;

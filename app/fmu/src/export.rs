@@ -30,7 +30,7 @@ const MAX_WEATHER_NUMBERS: usize = 5_000_000;
 /// [`FmuError`] if the scenario has no building, if it is too large, or if this build has no library.
 pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuError> {
     let described = scenario.building.as_ref().ok_or(FmuError::NoBuilding)?;
-    if matches!(described.plant, BuildingPlant::Socket(_)) {
+    if !matches!(described.plant, BuildingPlant::Network(_)) {
         return Err(FmuError::Foreign);
     }
     let (folder, extension) = version

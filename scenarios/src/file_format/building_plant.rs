@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::boptest_plant::BoptestPlantConfig;
+
 /// What a building's heat acts on; `kind` chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
@@ -11,6 +13,8 @@ pub enum BuildingPlant {
     Network(NetworkPlantConfig),
     /// Another program, such as EnergyPlus, that answers each step over TCP. The network is then the controller's model only.
     Socket(SocketPlantConfig),
+    /// A test case of BOPTEST behind its interface over HTTP. The network is then the controller's model only.
+    Boptest(Box<BoptestPlantConfig>),
 }
 
 impl Default for BuildingPlant {

@@ -26,6 +26,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     write_whole_run(text, building)?;
     write_zones(text, building)?;
     write_exchange(text, building)?;
+    write_benchmark(text, building)?;
     for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
         writeln!(text, "  day {day} {reason}")?;
     }
@@ -33,6 +34,19 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
         writeln!(text, "  day {day}: {reason}")?;
     }
     Ok(())
+}
+
+/// The indicators of a benchmark, by its names, with ours beside its own.
+fn write_benchmark(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
+    let Some(benchmark) = &building.benchmark else { return Ok(()) };
+    let official = benchmark.official.iter().filter_map(|(name, value)| Some(format!("{name} {:.5}", (*value)?)));
+    writeln!(text, "  benchmark: {}", official.collect::<Vec<_>>().join(", "))?;
+    let Some(ours) = &benchmark.ours else { return Ok(()) };
+    writeln!(
+        text,
+        "  computed by us: thermal discomfort {:.3} K·h per zone, energy {:.4} kWh/m², cost {:.5} per m², emissions {:.5} kg/m²",
+        ours.tdis_k_h, ours.ener_kwh_per_m2, ours.cost_per_m2, ours.emis_kg_per_m2
+    )
 }
 
 /// A line for each day; of many days, the first and the last ones.

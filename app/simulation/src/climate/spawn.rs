@@ -9,7 +9,7 @@ use interplay_building::occupancy::{People, RecordedGains};
 use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario, TimetableError};
 use thiserror::Error;
 
-use super::plant::{NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
+use super::plant::{BoptestPlant, NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 use super::{Building, Equipment, Gains, Node, NodeState, Temperature};
 
 /// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
@@ -116,6 +116,11 @@ fn plant(
             let (steps_per_day, days) = (described.steps_per_day(), scenario.days());
             let told = SocketPlantStart { scenario: scenario.title.clone(), steps_per_day, days, initial_c };
             Ok(Box::new(SocketPlant::connect(config, believed.clone(), surroundings.clone(), told)?))
+        }
+        BuildingPlant::Boptest(config) => {
+            let steps = described.steps_per_day() * scenario.days();
+            let outdoor_c = surroundings.weather.ambient_steps_c(0.0, believed.step_s(), described.steps_per_day());
+            Ok(Box::new(BoptestPlant::new(config, believed.clone(), steps, &outdoor_c)))
         }
     }
 }

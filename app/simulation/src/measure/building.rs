@@ -10,6 +10,7 @@ use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
 
 use super::milestones::Today;
+use crate::climate::plant::Benchmark;
 use crate::climate::{Building, Node, Temperature};
 use crate::components::CurrentFrame;
 use crate::day::{DayAheadErrors, DayFigures, ExchangeFigures};
@@ -54,6 +55,8 @@ pub struct BuildingMeasures {
     pub zones: usize,
     /// Their names.
     pub zone_names: Vec<String>,
+    /// The indicators of a benchmark that was the plant, after its last step.
+    pub benchmark: Option<Benchmark>,
     /// What is allowed and may not have been meant, in words.
     pub remarks: Vec<String>,
     /// The model of a day, if it is small enough for what takes long.
@@ -83,6 +86,7 @@ impl BuildingMeasures {
             zones: building.targets.zones,
             zone_names: building.model.network().names()[..building.targets.zones].to_vec(),
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
+            benchmark: None,
             lifted,
             whole_run: (!building.plant.is_foreign()).then(|| (building.model.clone(), RunHistory::default())),
             spectral_radius,
@@ -190,6 +194,7 @@ pub fn measure_building(
             let day = measures.days.len();
             measures.weaker_feedbacks.push(Fallback { day, reason: why.to_string() });
         }
+        measures.benchmark = building.plant.benchmark().cloned();
         frame.figures = Some(day);
     }
 }

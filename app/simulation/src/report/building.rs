@@ -4,6 +4,7 @@ use interplay_building::day::ZoneFigures;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
 
+use crate::climate::plant::Benchmark;
 use crate::day::DayFigures;
 use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
 use crate::whole_run::WholeRun;
@@ -32,6 +33,9 @@ pub struct BuildingReport {
     /// All days beside the cheapest run with perfect foresight; none where another program is the building, or for large buildings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whole_run: Option<WholeRun>,
+    /// The indicators of the benchmark that was the plant, its own and ours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub benchmark: Option<Benchmark>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
     /// Every zone, in the order of the scenario.
@@ -60,6 +64,7 @@ impl BuildingReport {
             weaker_feedbacks: measures.weaker_feedbacks.clone(),
             currency: measures.currency.clone(),
             whole_run: measures.whole_run(),
+            benchmark: measures.benchmark.clone(),
             iterations: measures.days.clone(),
             zone_figures: zone_figures(measures),
         }

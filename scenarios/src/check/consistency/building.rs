@@ -94,11 +94,24 @@ impl Checker<'_> {
 
     /// Whether another program can be asked, and whether what is expected can be known of it.
     fn plant(&mut self, building: &BuildingConfig) {
-        let BuildingPlant::Socket(socket) = &building.plant else { return };
-        if let Some(fault) = socket.address_fault() {
-            let message = format!("`building.plant.address` is {}: {fault}", quoted(&socket.address));
-            let help = "state host and port, such as \"127.0.0.1:7878\"";
-            self.refuse("building.plant.address", "no address", message, help);
+        match &building.plant {
+            BuildingPlant::Network(_) => return,
+            BuildingPlant::Socket(socket) => {
+                if let Some(fault) = socket.address_fault() {
+                    let message = format!("`building.plant.address` is {}: {fault}", quoted(&socket.address));
+                    let help = "state host and port, such as \"127.0.0.1:7878\"";
+                    self.refuse("building.plant.address", "no address", message, help);
+                }
+            }
+            BuildingPlant::Boptest(config) => {
+                // A network that is none is refused elsewhere.
+                let zones = building.network().map_or(config.zones.len(), |network| network.zone_count());
+                if let Some((key, problem)) = config.fault(zones) {
+                    let path = format!("building.plant.{key}");
+                    let message = format!("{} {problem}", quoted(&path));
+                    self.refuse(&path, "does not fit", message, "");
+                }
+            }
         }
         if self.scenario.expect.building.is_some_and(|expect| expect.regret_at_most.is_some()) {
             let message = "the regret is not known where another program is the building: its optimum is not computed";

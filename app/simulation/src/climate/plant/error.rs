@@ -5,12 +5,17 @@ use std::ops::RangeInclusive;
 
 use thiserror::Error;
 
+use super::boptest::BoptestError;
+
 /// Temperatures of zones that a plant may answer \[°C\].
 pub const TEMPERATURES_C: RangeInclusive<f64> = -100.0..=200.0;
 
-/// Why a plant behind a socket gave no temperatures.
+/// Why a plant that is another program gave no temperatures.
 #[derive(Debug, Error)]
 pub enum PlantError {
+    /// A server of BOPTEST did not answer as agreed.
+    #[error(transparent)]
+    Boptest(#[from] BoptestError),
     /// Nobody listens, or the address is unknown.
     #[error(
         "cannot connect to the plant at {address}: {reason}; start the program that answers there before the run, or \

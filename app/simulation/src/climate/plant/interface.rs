@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use super::boptest::Benchmark;
 use super::error::PlantError;
 use crate::not_copied::NotCopied;
 
@@ -35,6 +36,11 @@ pub trait ThermalPlant: Debug + Send + Sync {
 
     /// Whether another program is the plant: the network is then a model of it, and its walls are estimated.
     fn is_foreign(&self) -> bool;
+
+    /// The indicators of a benchmark, once its last step is over.
+    fn benchmark(&self) -> Option<&Benchmark> {
+        None
+    }
 
     /// A copy in the same state.
     ///

@@ -1,12 +1,13 @@
-//! What the heat of the equipment acts on: our own network, or another program behind a socket.
+//! What the heat of the equipment acts on: our own network, or another program.
 //!
 //! ```text
 //! start: temperatures at the first midnight        step: heat, people, weather -> temperatures at the step's end
 //! ```
 //!
-//! [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
+//! The other program answers lines of JSON behind a socket, or the requests of BOPTEST. [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
 
 mod answer;
+mod boptest;
 mod error;
 mod interface;
 mod lines;
@@ -14,6 +15,7 @@ mod network;
 mod socket;
 mod walls;
 
+pub use boptest::{Benchmark, BoptestError, BoptestPlant};
 pub use error::PlantError;
 pub use interface::{StepInputs, ThermalPlant};
 pub use network::NetworkPlant;

@@ -1,0 +1,74 @@
+//! What can go wrong with a server of BOPTEST.
+
+use std::io;
+
+use thiserror::Error;
+
+/// Why BOPTEST gave no answer that can be used. `request` is a method and a path.
+#[derive(Debug, Error)]
+pub enum BoptestError {
+    /// Nobody listens, or the host is unknown.
+    #[error(
+        "cannot connect to BOPTEST at {url}: {reason}; start its server before the run, or change `building.plant.url`"
+    )]
+    Connect {
+        /// Where the server should be.
+        url: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The server did not answer in time.
+    #[error("BOPTEST gave no answer to `{request}` within {timeout_s} s; `building.plant.timeout_s` is that limit")]
+    Timeout {
+        /// The request.
+        request: String,
+        /// Longest time of an answer \[s\].
+        timeout_s: f64,
+    },
+    /// The connection broke.
+    #[error("the connection to BOPTEST broke at `{request}`: {reason}")]
+    Broken {
+        /// The request.
+        request: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The answer is too long.
+    #[error("BOPTEST's answer to `{request}` is longer than {limit} bytes")]
+    TooLong {
+        /// The request.
+        request: String,
+        /// The longest answer \[bytes\].
+        limit: usize,
+    },
+    /// The answer is not one of this interface.
+    #[error("BOPTEST's answer to `{request}` is not valid: {reason}")]
+    Invalid {
+        /// The request.
+        request: String,
+        /// What is wrong, and what would be right.
+        reason: String,
+    },
+    /// The server refused the request.
+    #[error("BOPTEST refused `{request}` with status {status}: {message}")]
+    Refused {
+        /// The request.
+        request: String,
+        /// The status of HTTP, or the one in the answer.
+        status: u16,
+        /// What the server says.
+        message: String,
+    },
+    /// A name of the scenario is not one of the case.
+    #[error("the case has no {what} `{name}`, which `{key}` names; it has {known}")]
+    UnknownName {
+        /// What kind of name.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The key of the scenario.
+        key: String,
+        /// Some of the names that there are.
+        known: String,
+    },
+}

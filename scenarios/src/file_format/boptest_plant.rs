@@ -1,0 +1,247 @@
+//! A test case of BOPTEST as the building.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+/// Where the server of BOPTEST listens, which of its tests is run, and what its signals mean to the zones of the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoptestPlantConfig {
+    /// The server, as `http://host:port`; a path may follow. There is no encryption.
+    #[schemars(example = &"http://127.0.0.1:8080")]
+    pub url: String,
+    /// The name of the test case, where the server has several; none for a server of one case.
+    #[serde(default)]
+    #[schemars(example = &"bestest_hydronic_heat_pump", length(min = 1))]
+    pub case: Option<String>,
+    /// One of the case's periods, with its start and warm-up.
+    #[serde(default)]
+    #[schemars(example = &"peak_heat_day", length(min = 1), extend("x-excludes" = ["start_day", "warmup_days"]))]
+    pub period: Option<String>,
+    /// Without `period`: the day of the year on which the run begins, 0 for the first of January.
+    #[serde(default)]
+    #[schemars(range(max = 364), example = 30, extend("x-unit" = "d"))]
+    pub start_day: usize,
+    /// Without `period`: how long the case's own controller runs before.
+    #[serde(default = "default_warmup_days")]
+    #[schemars(range(max = 364), example = 7, extend("x-unit" = "d"))]
+    pub warmup_days: usize,
+    /// The prices of electricity by which BOPTEST computes the cost.
+    #[serde(default)]
+    pub prices: BoptestPrices,
+    /// What each zone of the file is in the case, in their order.
+    #[schemars(length(min = 1, max = 1000), example = json!([{ "temperature": "reaTZon_y" }]))]
+    pub zones: Vec<BoptestZone>,
+    /// The signals by which the indicators are computed by us, too; none leaves it to BOPTEST.
+    #[serde(default)]
+    #[schemars(example = json!({ "area_m2": 192.0, "zones": ["1"] }))]
+    pub indicators: Option<BoptestIndicators>,
+    /// The longest that the server may take to accept a connection, and for each answer \[s\]; a warm-up is one answer.
+    #[serde(default = "default_timeout_s")]
+    #[schemars(range(min = 0.001, max = 86400.0), example = 600.0)]
+    pub timeout_s: f64,
+}
+
+/// Price scenarios of BOPTEST.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BoptestPrices {
+    /// One price.
+    #[default]
+    Constant,
+    /// A price by day and one by night.
+    Dynamic,
+    /// The price of a spot market.
+    HighlyDynamic,
+}
+
+impl BoptestPrices {
+    /// The word of BOPTEST's interface, and the end of the name of its price signal.
+    pub fn words(self) -> (&'static str, &'static str) {
+        match self {
+            BoptestPrices::Constant => ("constant", "Constant"),
+            BoptestPrices::Dynamic => ("dynamic", "Dynamic"),
+            BoptestPrices::HighlyDynamic => ("highly_dynamic", "HighlyDynamic"),
+        }
+    }
+}
+
+/// A zone of the file in the test case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoptestZone {
+    /// The measurement that is its temperature, in kelvin there.
+    #[schemars(example = &"reaTZon_y", length(min = 1))]
+    pub temperature: String,
+    /// The inputs that its heat overwrites; none leaves the zone to the case's own controller.
+    #[serde(default)]
+    #[schemars(length(max = 100), example = json!([{ "name": "oveHeaPumY_u", "per_kw": 0.1 }]))]
+    pub inputs: Vec<BoptestInput>,
+}
+
+/// An input of the case as a linear function of the heat of a zone, between bounds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoptestInput {
+    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it.
+    #[schemars(example = &"oveHeaPumY_u", length(min = 1))]
+    pub name: String,
+    /// Its value without heat.
+    #[serde(default)]
+    #[schemars(range(min = -1e6, max = 1e6), example = 0.0, extend("x-unit" = "unit of the input"))]
+    pub at_zero: f64,
+    /// What a kilowatt adds to it; a large number makes a switch.
+    #[schemars(range(min = -1e6, max = 1e6), example = 0.1, extend("x-unit" = "unit of the input/kW"))]
+    pub per_kw: f64,
+    /// The least value.
+    #[serde(default)]
+    #[schemars(range(min = -1e6, max = 1e6), example = 0.0, extend("x-unit" = "unit of the input"))]
+    pub min: f64,
+    /// The greatest value.
+    #[serde(default = "default_max")]
+    #[schemars(range(min = -1e6, max = 1e6), example = 1.0, extend("x-unit" = "unit of the input"))]
+    pub max: f64,
+    /// Equipment that runs badly at part load gets at least this or nothing; what is held back is made up for in later steps, so that
+    /// the mean is what the heat asks for.
+    #[serde(default)]
+    #[schemars(range(min = -1e6, max = 1e6), example = 0.8, extend("x-unit" = "unit of the input"))]
+    pub least_on: Option<f64>,
+}
+
+/// The measurements from which indicators are computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoptestIndicators {
+    /// The floor area of the case \[m²\].
+    #[schemars(range(min = 0.001, max = 1e7), example = 192.0)]
+    pub area_m2: f64,
+    /// BOPTEST's identifiers of the zones, in their order, as in `LowerSetp[1]`.
+    #[schemars(example = json_list("1"), length(min = 1, max = 1000))]
+    pub zones: Vec<String>,
+    /// Measurements of carbon dioxide, by zone in the order of `zones`.
+    #[serde(default)]
+    #[schemars(example = json_list("reaCO2RooAir_y"), length(max = 1000))]
+    pub carbon_dioxide: Vec<String>,
+    /// Measurements of electric power.
+    #[serde(default)]
+    #[schemars(example = json_list("reaPHeaPum_y"), length(max = 1000))]
+    pub electricity: Vec<String>,
+    /// Measurements of the power of gas.
+    #[serde(default)]
+    #[schemars(example = json_list("reaPBoi_y"), length(max = 1000))]
+    pub gas: Vec<String>,
+    /// Measurements of the power of district heat.
+    #[serde(default)]
+    #[schemars(example = json_list("reaPDis_y"), length(max = 1000))]
+    pub district_heat: Vec<String>,
+}
+
+fn json_list(entry: &str) -> Vec<String> {
+    vec![entry.to_owned()]
+}
+
+fn default_warmup_days() -> usize {
+    7
+}
+
+fn default_timeout_s() -> f64 {
+    600.0
+}
+
+fn default_max() -> f64 {
+    1.0
+}
+
+impl BoptestPlantConfig {
+    /// What is wrong with the settings for a building of `zones` zones: the key below `building.plant`, and what.
+    pub(crate) fn fault(&self, zones: usize) -> Option<(String, String)> {
+        let rest = self.url.strip_prefix("http://");
+        let authority = rest.and_then(|rest| rest.split('/').next()).unwrap_or_default();
+        let plain = |character: char| character.is_ascii_alphanumeric() || "-._:[]".contains(character);
+        let path = |character: char| character.is_ascii_graphic();
+        if authority.is_empty() || !authority.chars().all(plain) || !self.url.chars().all(path) {
+            return Some(("url".to_owned(), "is no address such as `http://127.0.0.1:8080`".to_owned()));
+        }
+        let word = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
+        if self.case.as_ref().is_some_and(|case| !case.chars().all(word)) {
+            return Some(("case".to_owned(), "is no name of letters, digits, `_` and `-`".to_owned()));
+        }
+        if self.period.is_some() && self.start_day != 0 {
+            return Some((
+                "start_day".to_owned(),
+                "is stated beside `period`, which has a start of its own".to_owned(),
+            ));
+        }
+        if self.zones.len() != zones {
+            let problem = format!("has {} entries; wanted is one for each of the {zones} zones", self.zones.len());
+            return Some(("zones".to_owned(), problem));
+        }
+        for (zone, settings) in self.zones.iter().enumerate() {
+            for (input, settings) in settings.inputs.iter().enumerate() {
+                let key = |last: &str| format!("zones.{zone}.inputs.{input}.{last}");
+                if !settings.name.ends_with("_u") {
+                    return Some((key("name"), "does not end in `_u`, as inputs of BOPTEST do".to_owned()));
+                }
+                if settings.min > settings.max {
+                    return Some((key("min"), format!("is above `max`, {}", settings.max)));
+                }
+            }
+        }
+        let listed = self.indicators.as_ref();
+        if listed.is_some_and(|listed| listed.zones.len() != zones) {
+            return Some(("indicators.zones".to_owned(), format!("must have one entry for each of the {zones} zones")));
+        }
+        listed
+            .filter(|listed| listed.carbon_dioxide.len() > zones)
+            .map(|_| ("indicators.carbon_dioxide".to_owned(), "has more entries than there are zones".to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn config(url: &str) -> BoptestPlantConfig {
+        let input =
+            BoptestInput { name: "oveY_u".to_owned(), at_zero: 0.0, per_kw: 0.1, min: 0.0, max: 1.0, least_on: None };
+        BoptestPlantConfig {
+            url: url.to_owned(),
+            case: None,
+            period: None,
+            start_day: 0,
+            warmup_days: 7,
+            prices: BoptestPrices::Constant,
+            zones: vec![BoptestZone { temperature: "reaT_y".to_owned(), inputs: vec![input] }],
+            indicators: None,
+            timeout_s: 1.0,
+        }
+    }
+
+    #[test]
+    fn an_address_has_a_scheme_and_a_host() {
+        for sound in ["http://127.0.0.1:8080", "http://localhost", "http://[::1]:80/api/v1"] {
+            assert_eq!(config(sound).fault(1), None, "{sound}");
+        }
+        for bad in
+            ["", "localhost:80", "https://api.boptest.net", "http://", "http:///x", "http://a b", "http://a/\r\n"]
+        {
+            assert_eq!(config(bad).fault(1).map(|(key, _)| key).as_deref(), Some("url"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_the_zones_is_named() {
+        let fault = |change: fn(&mut BoptestPlantConfig)| {
+            let mut wrong = config("http://localhost");
+            change(&mut wrong);
+            wrong.fault(1).map(|(key, _)| key).unwrap_or_default()
+        };
+        assert_eq!(fault(|_| ()), "");
+        assert_eq!(fault(|config| config.zones.clear()), "zones");
+        assert_eq!(fault(|config| (config.period, config.start_day) = (Some("a".to_owned()), 3)), "start_day");
+        assert_eq!(fault(|config| config.case = Some("../x".to_owned())), "case");
+        assert_eq!(fault(|config| config.zones[0].inputs[0].name = "oveY".to_owned()), "zones.0.inputs.0.name");
+        assert_eq!(fault(|config| config.zones[0].inputs[0].min = 2.0), "zones.0.inputs.0.min");
+    }
+}
