@@ -92,12 +92,12 @@ fn world(seed: u64) -> Result<World, Box<dyn Error>> {
         HeatPump { heating: vec![point(-10.0, 2.0), point(0.0, 2.8), point(10.0, 3.9)], cooling: Vec::new() };
     Ok(World {
         agenda: Agenda::new(setpoints, count, STEP_S, STEPS)?.supplied(Some(tariff), Some(heat_pump)),
-        surroundings: Surroundings {
-            weather: climate.weather(seed, DAYS + 1),
-            forecast: Forecast::Uncertain { level: ErrorLevel::Medium },
-            forecast_seed: seed,
-            people: Occupancy::default().people(count, seed),
-        },
+        surroundings: Surroundings::new(
+            climate.weather(seed, DAYS + 1),
+            (Forecast::Uncertain { level: ErrorLevel::Medium }, seed),
+            Occupancy::default().people(count, seed),
+            model.network(),
+        ),
         believed: model.clone(),
         model,
         steps: STEPS,

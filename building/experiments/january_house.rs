@@ -49,8 +49,8 @@ fn world(files: &[String], forecast: Forecast, deviation: Deviation) -> Result<W
     let epw = Epw::parse(&String::from_utf8_lossy(&fs::read(&files[1])?))?;
     let start_s = epw.midnight_s(1, 14).ok_or("no 14th of January")?;
     let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };
-    let Weather { ambient_c, sun_w_per_m2 } = epw.weather();
-    let weather = Weather { ambient_c: shifted(ambient_c), sun_w_per_m2: shifted(sun_w_per_m2) };
+    let Weather { ambient_c, sun_w_per_m2, .. } = epw.weather();
+    let weather = Weather { ambient_c: shifted(ambient_c), sun_w_per_m2: shifted(sun_w_per_m2), sky: None };
     let days = part::<Calendar>(&scenario, "calendar")?.days(None)?;
     let schedules: Vec<ZoneSchedule> = part(&scenario, "schedule")?;
     let names = model.network().names()[..zones.len()].to_vec();
@@ -67,7 +67,7 @@ fn world(files: &[String], forecast: Forecast, deviation: Deviation) -> Result<W
         agenda: Agenda::new(setpoints, zones.len(), STEP_S, STEPS)?
             .following(timetable)
             .supplied(Some(tariff), Some(heat_pump)),
-        surroundings: Surroundings { weather, forecast, forecast_seed: FORECAST_SEED, people },
+        surroundings: Surroundings::new(weather, (forecast, FORECAST_SEED), people, model.network()),
         believed: model.clone(),
         model,
         steps: STEPS,

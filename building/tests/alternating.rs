@@ -37,12 +37,8 @@ fn reversals(settings: IterativeSettings, factor: f64) -> (usize, Vec<ControlErr
         Setpoints { occupied_c: vec![21.0], from_h: 0.0, to_h: 24.0, input_weight: 0.05, ..Setpoints::default() };
     let targets = setpoints.targets(1, STEP_S, STEPS).expect("valid");
     let climate = Climate { mean_c: 3.0, storm_probability: 0.0, ..Climate::default() };
-    let surroundings = Surroundings {
-        weather: climate.weather(1, DAYS),
-        forecast: Forecast::Exact,
-        forecast_seed: 1,
-        people: Occupancy::default().people(1, 1),
-    };
+    let people = Occupancy::default().people(1, 1);
+    let surroundings = Surroundings::new(climate.weather(1, DAYS), (Forecast::Exact, 1), people, model.network());
     let mut controller = Controller::Iterative(settings).controller(&believed, STEPS).expect("valid");
     let mut nodes_c = vec![20.0; 2];
     let (mut heat_kw, mut remarks) = (Vec::new(), Vec::new());

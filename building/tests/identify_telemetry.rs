@@ -200,7 +200,7 @@ fn an_unknown_key_is_typed_and_located_and_the_nearest_is_named() {
     assert_eq!(error.to_string(), "home.toml:10:1: unknown key `step_m` in `time`; did you mean `step_s`?");
     let TelemetryProblem::UnknownKey { table, key, known } = *error.problem else { panic!("{error}") };
     assert_eq!((table.as_str(), key.as_str()), ("time", "step_m"));
-    assert_eq!(known, ["column", "format", "step_s", "gaps", "batch"]);
+    assert_eq!(known, ["column", "format", "zone", "step_s", "gaps", "batch"]);
     // A misspelt key is unknown before the right one is missing, wherever it stands.
     let misspelt = |from: &str, to: &str| refused(from, to).to_string();
     assert_eq!(
@@ -231,7 +231,7 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
     wanted(
         &format!("[table]\nseparator = \";\"\n\n{time}"),
         "time = 3",
-        "4:8: `time` must be a table with `column`, `format`, `step_s`, `gaps`, `batch`, not the number 3",
+        "4:8: `time` must be a table with `column`, `format`, `zone`, `step_s`, `gaps`, `batch`, not the number 3",
     );
     wanted("900.0", "\"900\"", "9:10: `time.step_s` must be a number, not the text `900`");
     wanted("\";\"", "\";;\"", "5:13: `table.separator` must be a text of one ASCII character, not the text `;;`");
@@ -245,7 +245,7 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
     wanted(
         "{ kind = \"power\", column = \"P\", unit = \"w\" }",
         "\"P\"",
-        "18:9: `zone.living.heat.0` must be a table whose `kind` is one of `power`, `supply-air`, `water`, not the text `P`",
+        "18:9: `zone.living.heat.0` must be a table whose `kind` is one of `power`, `meter`, `supply-air`, `water`, not the text `P`",
     );
     wanted("\"w\"", "1", "18:48: `zone.living.heat.0.unit` must be one of `kw`, `w`, `unknown`, not the number 1");
     let missing = refused("\nstep_s = 900.0", "").to_string();
@@ -253,7 +253,7 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
     let kind = refused("kind = \"power\", ", "").to_string();
     assert_eq!(
         kind,
-        "home.toml:18:9: `zone.living.heat.0.kind` is missing; it must be one of `power`, `supply-air`, `water`"
+        "home.toml:18:9: `zone.living.heat.0.kind` is missing; it must be one of `power`, `meter`, `supply-air`, `water`"
     );
     let problem = refused("900.0", "\"900\"").problem;
     assert!(matches!(*problem, TelemetryProblem::WrongType { wanted: ValueShape::Number, .. }), "{problem}");

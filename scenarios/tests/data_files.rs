@@ -163,7 +163,8 @@ fn gains_come_from_a_table() {
     assert!(remarks(&scenario).contains("`Kitchen`"), "{}", remarks(&scenario));
     let [zone] = scenario.gains[0].zones.as_slice() else { panic!("one zone") };
     assert!((zone.zone, zone.beside_people) == (0, false) && (zone.heat_kw.mean(7200.0, 9000.0) - 0.16).abs() < 1e-12);
-    assert_eq!(scenario.to_file().resolve().expect("what it is written as").gains, scenario.gains);
+    // A file that is written elsewhere names its table by its whole path.
+    assert_eq!(scenario.to_file().resolve().expect("what it is written as").gains[0].zones, scenario.gains[0].zones);
     folder.refused(
         &format!("{}{gains}", HOUSE.replace("iterations = 2", "iterations = 3")),
         &["gains.csv:49:1", "repeats = true"],

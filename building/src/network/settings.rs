@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::Window;
 
@@ -38,7 +39,7 @@ pub struct Zone {
     pub solar_aperture_m2: f64,
     /// Its windows, one `[[building.zone.window]]` each, by the direction that they face; the weather must say where the sun stands.
     #[serde(rename = "window", default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 1000))]
+    #[schemars(length(max = 1000), example = json!([{ "area_m2": 4.0, "facing_deg": 180.0 }]))]
     pub windows: Vec<Window>,
 }
 
@@ -96,7 +97,7 @@ pub struct Wall {
     /// Windows through which the sun falls on the stored heat of the wall, such as that of a floor, in the form of those of a zone. Only
     /// a wall with `capacity_kj_per_k` can have them.
     #[serde(rename = "window", default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 1000))]
+    #[schemars(length(max = 1000), example = json!([{ "area_m2": 4.0, "facing_deg": 180.0 }]))]
     pub windows: Vec<Window>,
 }
 

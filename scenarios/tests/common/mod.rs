@@ -31,6 +31,7 @@ impl Catalogue {
     }
 
     /// The same at the usual width.
+    #[allow(dead_code, reason = "not every file of tests loads from memory")]
     pub fn error(&mut self, name: &str, result: Result<Scenario, LoadError>, fragments: &[&str]) {
         self.add(name, result, 100, fragments);
     }

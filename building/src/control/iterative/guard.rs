@@ -17,7 +17,7 @@ use crate::discretise::Model;
 use crate::network::ModelMismatch;
 
 /// Large changes in turn up and down after which a gain is halved.
-const MOST_TURNS: usize = 4;
+const MOST_TURNS: usize = 6;
 /// A change is large above this share of the zone's heating and cooling power together.
 const LARGE_CHANGE_SHARE: f64 = 0.1;
 /// Share of the gain that is left.

@@ -82,7 +82,11 @@ impl Iterative {
         let powers_kw = limits.heating_kw.iter().zip(&limits.cooling_kw).map(|(heating, cooling)| heating + cooling);
         Ok(Self {
             settings,
-            guard: AlternationGuard::new(powers_kw),
+            // A gain that nothing certifies is driven as it is.
+            guard: match settings.stability {
+                Stability::Lmi | Stability::Linear => AlternationGuard::new(powers_kw),
+                Stability::LeastSquares | Stability::Fixed => AlternationGuard::new(powers_kw.map(|_| f64::INFINITY)),
+            },
             trouble: None,
             uncertainty: Uncertainty::new(settings.uncertainty)?,
             estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),

@@ -88,7 +88,7 @@ pub struct IterativeSettings {
     #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
     /// Share by which capacities and resistances of the model may be wrong: the gain is halved until it is stable for all of them.
-    /// With 0 nothing is checked beforehand; inputs that alternate weaken the gain in any case.
+    /// With 0 nothing is checked beforehand; inputs that alternate weaken a gain of `lmi` or `linear` in any case.
     #[schemars(range(min = 0.0, max = 2.0), extend("x-unit" = "dimensionless"))]
     pub model_error: f64,
     /// η: how likely inputs stay within their limits.
