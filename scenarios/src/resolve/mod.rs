@@ -100,9 +100,7 @@ fn read(
         metrics: registry.metrics().clone(),
     };
     measured_drivers::draw(&mut scenario.vehicles, scenario.seed);
-    if let Some(period_s) = file.planning_period_s {
-        scenario.ticks_per_plan = ticks_per_plan(period_s, scenario.step_s, tree)?;
-    }
+    scenario.ticks_per_plan = ticks_per_plan(file.planning_period_s, scenario.step_s, tree)?;
     scenario.remarks.0.extend(moved.map(|origin| ScenarioRemark(local_origin::remark(origin, tree))));
     let weather = reader.or_default("weather", file.weather)?;
     let unread = read_named_files(&mut scenario, weather, tree);
@@ -110,7 +108,8 @@ fn read(
 }
 
 /// How many ticks there are from one plan to the next.
-fn ticks_per_plan(period_s: f64, step_s: f64, tree: &TomlNode) -> Result<usize, Vec<Fault>> {
+fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result<usize, Vec<Fault>> {
+    let Some(period_s) = stated_s else { return Ok(1) };
     let ticks = (period_s / step_s).round();
     if ticks >= 1.0 && (ticks * step_s - period_s).abs() <= 1e-6 * period_s {
         return Ok(ticks as usize);
