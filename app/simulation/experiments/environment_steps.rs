@@ -4,6 +4,8 @@
 //!
 //! The agent keeps its lane and speed, and a decision lasts a second.
 
+#![allow(clippy::print_stdout, reason = "the numbers are the result")]
+
 use std::time::Instant;
 
 use interplay_simulation::environment::{Action, Environment, EnvironmentSettings};

@@ -10,12 +10,9 @@
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 
 use std::error::Error;
-use std::sync::{Arc, Mutex, PoisonError};
 
 use interplay_scenarios::{Scenario, from_text};
-use interplay_simulation::frame::Frame;
-use interplay_simulation::run::run;
-use interplay_simulation::watch::{WatchError, Watcher};
+use interplay_simulation::Simulation;
 
 /// Vehicles are counted here, as a coordinate of the world along the motorway, behind the merge \[m\].
 const COUNTED_AT_M: f64 = 440.0;
@@ -33,55 +30,37 @@ const DRIVERS: [(&str, &str); 3] = [
 ];
 
 /// What was counted behind the merge.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Debug, Default)]
 struct Counted {
     passed: usize,
     /// Sum of speeds \[m/s\].
     speeds_mps: f64,
     /// Vehicles whose time has come, and for whom there was no room at the end.
     outside: usize,
+    contacts: usize,
 }
 
-/// Counts who passes the line.
-#[derive(Clone, Default)]
-struct Line {
-    counted: Arc<Mutex<Counted>>,
-    last_m: Vec<Option<f64>>,
-    enters_s: Vec<f64>,
-}
-
-impl Watcher for Line {
-    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
-        let mut counted = self.counted.lock().unwrap_or_else(PoisonError::into_inner);
-        let now = frame.vehicles.iter().map(|vehicle| (!vehicle.is_absent).then_some(vehicle.state.x_m));
-        let now: Vec<_> = now.collect();
-        for (index, (before, after)) in self.last_m.iter().zip(&now).enumerate() {
-            let passes = matches!((before, after), (Some(a), Some(b)) if *a < COUNTED_AT_M && *b >= COUNTED_AT_M);
+/// Counts who passes the line in a run.
+fn counted(scenario: &Scenario) -> Result<Counted, Box<dyn Error>> {
+    let mut simulation = Simulation::new(scenario)?;
+    let mut found = Counted::default();
+    let mut last_m = vec![None; scenario.vehicles.len()];
+    let mut has_come = vec![false; scenario.vehicles.len()];
+    while let Some(frame) = simulation.step()? {
+        for (index, vehicle) in frame.vehicles.iter().enumerate().filter(|(_, vehicle)| !vehicle.is_absent) {
+            let now_m = vehicle.state.x_m;
+            let passes = last_m[index].is_some_and(|last_m| last_m < COUNTED_AT_M) && now_m >= COUNTED_AT_M;
             if passes && frame.time_s >= FILLS_S {
-                counted.passed += 1;
-                counted.speeds_mps += frame.vehicles[index].state.speed_mps;
+                found.passed += 1;
+                found.speeds_mps += vehicle.state.speed_mps;
             }
+            (last_m[index], has_come[index]) = (Some(now_m), true);
         }
-        let seen = |index: usize| self.last_m.get(index).is_some_and(Option::is_some);
-        let due = self
-            .enters_s
-            .iter_mut()
-            .enumerate()
-            .filter(|(index, at_s)| **at_s <= frame.time_s && now[*index].is_none() && !seen(*index));
-        counted.outside = due.count();
-        for (index, at_s) in self.enters_s.iter_mut().enumerate() {
-            // Whoever has come waits no more.
-            if now[index].is_some() {
-                *at_s = f64::INFINITY;
-            }
-        }
-        self.last_m = now;
-        Ok(())
+        let is_due = |index: &usize| scenario.vehicles[*index].stay.enters_s.unwrap_or(0.0) <= frame.time_s;
+        found.outside = (0..has_come.len()).filter(|index| !has_come[*index] && is_due(index)).count();
+        found.contacts += frame.collisions.len();
     }
-
-    fn finish(self: Box<Self>) -> Result<(), WatchError> {
-        Ok(())
-    }
+    Ok(found)
 }
 
 fn scenario(driver: &str, [lane_per_h, ramp_per_h]: [f64; 2]) -> Result<Scenario, Box<dyn Error>> {
@@ -104,15 +83,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|---|");
     for (name, driver) in DRIVERS {
         for demand in DEMANDS_PER_H {
-            let scenario = scenario(driver, demand)?;
-            let enters_s = scenario.vehicles.iter().map(|vehicle| vehicle.stay.enters_s.unwrap_or(0.0)).collect();
-            let line = Line { enters_s, ..Line::default() };
-            let report = run("merge", &scenario, vec![Box::new(line.clone())])?;
-            let counted = *line.counted.lock().unwrap_or_else(PoisonError::into_inner);
-            let behind_per_h = 3600.0 * counted.passed as f64 / COUNTED_S;
-            let mean_mps = counted.speeds_mps / counted.passed.max(1) as f64;
-            let ([lane, ramp], contacts) = (demand, report.collisions.len());
-            let outside = counted.outside;
+            let Counted { passed, speeds_mps, outside, contacts } = counted(&scenario(driver, demand)?)?;
+            let behind_per_h = 3600.0 * passed as f64 / COUNTED_S;
+            let mean_mps = speeds_mps / passed.max(1) as f64;
+            let [lane, ramp] = demand;
             println!("| {name} | {lane} | {ramp} | {behind_per_h:.0} | {mean_mps:.1} | {outside} | {contacts} |");
         }
     }

@@ -1,6 +1,6 @@
 //! Level of detail: humans who are far from the ego follow the intelligent driver model, and are humans again when they come near.
 
-use interplay_planners::{Body, Driver, Planner, State, idm};
+use interplay_planners::{Driver, Planner, State, idm};
 use interplay_scenarios::Scenario;
 
 use crate::not_copied::NotCopied;
@@ -26,11 +26,10 @@ pub struct LevelOfDetail {
 impl LevelOfDetail {
     /// That of a vehicle of a scenario; none for whoever drives in the same way everywhere.
     pub fn of(scenario: &Scenario, index: usize) -> Option<Self> {
-        let (detail, ego, vehicle) = (scenario.detail?, scenario.ego_index(), &scenario.vehicles[index]);
-        let concerned = index != ego && matches!(vehicle.driver, Driver::Human(_));
-        let far = Driver::Idm(idm_of(&vehicle.body));
-        concerned.then(|| LevelOfDetail {
-            ego,
+        let (detail, vehicle) = (scenario.detail_of(index)?, &scenario.vehicles[index]);
+        let far = Driver::Idm(idm::Settings::literature().scaled(vehicle.body.real_ratio()));
+        Some(LevelOfDetail {
+            ego: scenario.ego_index(),
             within_m: detail.within_m,
             near: vehicle.planner(),
             far: far.planner(),
@@ -64,11 +63,6 @@ impl LevelOfDetail {
         let copy = |planner: &Planner| planner.fork().ok_or_else(|| NotCopied::driver_of(name));
         Ok(LevelOfDetail { near: copy(&self.near)?, far: copy(&self.far)?, ..*self })
     }
-}
-
-/// The values of the literature, for a vehicle of this size.
-fn idm_of(body: &Body) -> idm::Settings {
-    idm::Settings::literature().scaled(body.real_ratio())
 }
 
 fn distance_m(a: &State, b: &State) -> f64 {

@@ -44,10 +44,8 @@ fn a_tick_allocates_no_more_as_time_goes_by_and_in_proportion_to_the_vehicles() 
         // Measures keep numbers of each tick: time gaps, and whatever medians are made of.
         let held_per_tick = held_more / (TICKS * vehicles) as i64;
         assert!(held_per_tick < 100, "{held_per_tick} bytes more a vehicle and tick");
-        println!(
-            "{vehicles}: {:.1} a vehicle and tick, {held_per_tick} bytes kept",
-            late as f64 / (TICKS * vehicles) as f64
-        );
+        let each = late as f64 / (TICKS * vehicles) as f64;
+        assert!(each < 160.0, "{each:.1} allocations a vehicle and tick of {vehicles}");
         late
     });
     assert!(counted[1] < counted[0] * 22 / 10, "{counted:?}");

@@ -1,6 +1,7 @@
 //! What a plan violates: the checks.
 
 use super::rectangles::overlap_m;
+use crate::predict::straight_on;
 use crate::{Agent, Body, PlanCondition, PlanViolation, Scene, State, Trajectory};
 
 /// States may differ from those that follow from the inputs by this share of the vehicle's length.
@@ -89,12 +90,10 @@ fn is_farther(x_m: f64, y_m: f64, reach_m: f64) -> bool {
 /// all others where their roads are curved.
 pub(crate) fn within_touch(scene: &Scene, plan: &Trajectory) -> Vec<Agent> {
     let may_touch = |other: &&Agent| {
-        let (sin, cos) = libm::sincos(other.state.heading_rad);
-        let reach_m = reach_m(&scene.ego, other);
+        let (place, reach_m) = (straight_on(other.state, scene.step_s), reach_m(&scene.ego, other));
         let is_near = |(stage, here): (usize, &State)| {
-            let driven_m = other.state.speed_mps * scene.step_s * stage.min(scene.horizon) as f64;
-            let [x_m, y_m] = [other.state.x_m + driven_m * cos, other.state.y_m + driven_m * sin];
-            !is_farther(here.x_m - x_m, here.y_m - y_m, reach_m)
+            let there = place(stage.min(scene.horizon));
+            !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
         };
         other.route.straight().is_none() || plan.states.iter().enumerate().any(is_near)
     };

@@ -65,12 +65,19 @@ pub fn without_plans(scene: Scene) -> Scene {
 
 /// The motion of a vehicle that keeps its present heading and speed.
 pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {
+    Trajectory {
+        states: (0..=horizon).map(straight_on(*state, step_s)).collect(),
+        inputs: vec![Input::default(); horizon],
+    }
+}
+
+/// Where a vehicle is after so many steps that keeps its present heading and speed.
+pub(crate) fn straight_on(state: State, step_s: f64) -> impl Fn(usize) -> State {
     let (sin, cos) = libm::sincos(state.heading_rad);
-    let states = (0..=horizon).map(|t| {
-        let distance = state.speed_mps * step_s * t as f64;
-        State { x_m: state.x_m + distance * cos, y_m: state.y_m + distance * sin, ..*state }
-    });
-    Trajectory { states: states.collect(), inputs: vec![Input::default(); horizon] }
+    move |steps| {
+        let distance = state.speed_mps * step_s * steps as f64;
+        State { x_m: state.x_m + distance * cos, y_m: state.y_m + distance * sin, ..state }
+    }
 }
 
 /// The motion of a vehicle that keeps its speed and its angle to the road: on a straight road [`constant_velocity`].

@@ -60,9 +60,7 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
 
 /// A level of detail that concerns nobody.
 fn idle_detail(scenario: &Scenario, tree: &TomlNode) -> Option<Fault> {
-    let ego = scenario.ego_index();
-    let mut others = scenario.vehicles.iter().enumerate().filter(|(index, _)| *index != ego);
-    let concerned = others.any(|(_, vehicle)| matches!(vehicle.driver, Driver::Human(_)));
+    let concerned = (0..scenario.vehicles.len()).any(|index| scenario.detail_of(index).is_some());
     let message =
         "`detail` changes nothing: it concerns drivers of kind `human` beside the ego, and there are none".to_owned();
     (scenario.detail.is_some() && !concerned)

@@ -167,6 +167,12 @@ impl Scenario {
         self.vehicles.len() > MOST_TOLD
     }
 
+    /// The level of detail of a vehicle: it concerns humans beside the ego; none for all others.
+    pub fn detail_of(&self, index: usize) -> Option<Detail> {
+        let is_concerned = index != self.ego_index() && matches!(self.vehicles[index].driver, Driver::Human(_));
+        self.detail.filter(|_| is_concerned)
+    }
+
     /// Index in [`Scenario::vehicles`] of the vehicle of that name.
     pub fn index_of(&self, name: &str) -> Option<usize> {
         self.vehicles.iter().position(|vehicle| vehicle.name == name)
