@@ -1,7 +1,7 @@
 //! The indicators of BOPTEST: against its own calculator, whose numbers `tests/peers/boptest/indicators.py` prints, and bad input.
 
 use interplay_building::benchmark::{
-    AirQuality, Carrier, Indicators, MeasurementError, Measurements, PowerSignal, ThermalZone, Water,
+    AirQuality, Carrier, Indicators, MeasuredRun, MeasurementError, PowerSignal, ThermalZone, Water,
 };
 
 const COUNT: usize = 4001;
@@ -30,7 +30,7 @@ fn electricity(price_per_kwh: &[f64], power_w: Vec<f64>) -> PowerSignal {
 }
 
 /// The signals of the script, with one of its price scenarios.
-fn measured(electricity_per_kwh: &[f64]) -> Measurements {
+fn measured(electricity_per_kwh: &[f64]) -> MeasuredRun {
     let mut times_s = vec![1000.0];
     for index in 1..COUNT {
         times_s.push(times_s[index - 1] + if index % 2 == 1 { 30.0 } else { 50.0 });
@@ -63,7 +63,7 @@ fn measured(electricity_per_kwh: &[f64]) -> Measurements {
             emission_kg_per_kwh: held(0.15),
         },
     ];
-    Measurements {
+    MeasuredRun {
         times_s,
         area_m2: 192.0,
         zones,
@@ -115,7 +115,7 @@ fn the_time_ratio_is_the_mean_over_decisions() {
 
 #[test]
 fn measurements_that_do_not_fit_together_are_refused() {
-    let refused = |change: fn(&mut Measurements)| {
+    let refused = |change: fn(&mut MeasuredRun)| {
         let mut wrong = measured(&held(0.25));
         change(&mut wrong);
         Indicators::compute(&wrong).expect_err("refused")

@@ -5,7 +5,7 @@ mod common;
 use common::numbers;
 use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::staged::{Input, Peak, SoftBound, Stage, StageMap, StagedProgram};
+use interplay_building::staged::{HeatInput, Peak, PlanStage, SoftBound, StageMap, StagedProgram, solve};
 use interplay_convex::{Program, Solver, SolverSettings};
 
 const ZONES: usize = 3;
@@ -23,11 +23,11 @@ fn model() -> Model {
 fn problem(quadratic: f64, peak: Option<Peak>) -> StagedProgram {
     let model = model();
     let nodes = model.network().node_count();
-    let inputs: Vec<Input> = (0..ZONES).flat_map(|zone| [1.0, -1.0].map(|sign| Input { zone, sign })).collect();
+    let inputs: Vec<HeatInput> = (0..ZONES).flat_map(|zone| [1.0, -1.0].map(|sign| HeatInput { zone, sign })).collect();
     let random = numbers(2000, 1.0);
     let stage = |t: usize| {
         let price = 0.3 + 0.2 * random[t];
-        Stage {
+        PlanStage {
             map: usize::from(t >= 6),
             drift_k: (0..nodes).map(|i| -0.25 + 0.3 * random[100 + 7 * t + i]).collect(),
             lower: vec![0.0; inputs.len()],
@@ -109,7 +109,7 @@ fn the_recursion_finds_what_an_independent_solver_finds() {
     let peak = |price| Some(Peak { price, least_kw: 0.2 });
     for (quadratic, peak) in [(0.0, None), (0.05, None), (0.0, peak(1.5)), (0.05, peak(0.0))] {
         let problem = problem(quadratic, peak);
-        let found = problem.solve(1e-9).expect("solved");
+        let found = solve(&problem, 1e-9).expect("solved");
         let wanted = independent_cost(&problem);
         let error = (found.objective - wanted).abs() / wanted.abs();
         assert!(error < 1e-6, "{quadratic} {peak:?}: {} instead of {wanted}", found.objective);
@@ -119,7 +119,7 @@ fn the_recursion_finds_what_an_independent_solver_finds() {
 /// The price of the peak lowers it, and the cost is no less than without.
 #[test]
 fn a_priced_peak_is_lower() {
-    let solved = |peak| problem(0.0, peak).solve(1e-8).expect("solved");
+    let solved = |peak| solve(&problem(0.0, peak), 1e-8).expect("solved");
     let highest_kw = |inputs: &[f64]| inputs.chunks(2 * ZONES).map(|v| 0.4 * v.iter().sum::<f64>()).fold(0.0, f64::max);
     let (free, priced) = (solved(None), solved(Some(Peak { price: 5.0, least_kw: 0.0 })));
     assert!(highest_kw(&priced.inputs) < 0.9 * highest_kw(&free.inputs));
@@ -131,7 +131,7 @@ fn a_priced_peak_is_lower() {
 #[test]
 fn no_change_of_the_inputs_pays() {
     let problem = problem(0.0, Some(Peak { price: 1.0, least_kw: 0.0 }));
-    let best = problem.solve(1e-9).expect("solved");
+    let best = solve(&problem, 1e-9).expect("solved");
     let m = problem.inputs.len();
     for (round, change) in numbers(40 * best.inputs.len(), 0.3).chunks(best.inputs.len()).enumerate() {
         let moved: Vec<f64> = (best.inputs.iter().zip(change).enumerate())
@@ -148,8 +148,8 @@ fn no_change_of_the_inputs_pays() {
 fn numbers_that_are_not_finite_and_limits_without_room_are_refused() {
     let mut wrong = problem(0.0, None);
     wrong.stages[3].linear[0] = f64::NAN;
-    assert!(wrong.solve(1e-8).is_err());
+    assert!(solve(&wrong, 1e-8).is_err());
     let mut wrong = problem(0.0, None);
     wrong.stages[3].upper[0] = 0.0;
-    assert!(wrong.solve(1e-8).is_err());
+    assert!(solve(&wrong, 1e-8).is_err());
 }

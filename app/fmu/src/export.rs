@@ -8,7 +8,7 @@ use interplay_simulation::climate::surroundings_of;
 use xxhash_rust::xxh3::xxh3_128;
 
 use crate::archive::archive;
-use crate::description::Description;
+use crate::description::{self, Description};
 use crate::error::FmuError;
 use crate::resources::{OutsideSeries, plant};
 use crate::version::FmiVersion;
@@ -52,7 +52,7 @@ pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuEr
     let numbers = plant(&model, described.initial_c, &outside);
     let guid = guid(&scenario.title, &numbers);
     let resources = format!("interplay-plant 1\nguid {guid}\n{numbers}");
-    let description = Description {
+    let described = Description {
         title: &scenario.title,
         identifier: IDENTIFIER,
         guid: &guid,
@@ -62,7 +62,7 @@ pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuEr
         stop_s: described.step_s * (steps * days) as f64,
     };
     Ok(archive(&[
-        ("modelDescription.xml".to_owned(), description.xml(version).as_bytes()),
+        ("modelDescription.xml".to_owned(), description::xml(&described, version).as_bytes()),
         (format!("binaries/{folder}/{IDENTIFIER}.{extension}"), LIBRARY),
         ("resources/plant.txt".to_owned(), resources.as_bytes()),
     ]))

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::integral::{peak, trapezoid};
-use super::measurements::{Carrier, MeasurementError, Measurements, PowerSignal};
+use super::measurements::{Carrier, MeasuredRun, MeasurementError, PowerSignal};
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
 /// Kilowatt-hours of a joule, with the digits of BOPTEST's `kpi_calculator.py` (exactly 1/3.6e6).
@@ -37,7 +37,7 @@ impl Indicators {
     ///
     /// # Errors
     /// [`MeasurementError`] if lists do not fit together or hold numbers that are not finite.
-    pub fn compute(measured: &Measurements) -> Result<Self, MeasurementError> {
+    pub fn compute(measured: &MeasuredRun) -> Result<Self, MeasurementError> {
         measured.check()?;
         Ok(Self {
             tdis_k_h: thermal_discomfort_k_h(measured),
@@ -58,7 +58,7 @@ impl Indicators {
     }
 }
 
-fn thermal_discomfort_k_h(measured: &Measurements) -> f64 {
+fn thermal_discomfort_k_h(measured: &MeasuredRun) -> f64 {
     let zone_k_s = measured.zones.iter().map(|zone| {
         trapezoid(&measured.times_s, |i| {
             (zone.lower_c[i] - zone.temperature_c[i]).max(0.0) + (zone.temperature_c[i] - zone.upper_c[i]).max(0.0)
@@ -67,7 +67,7 @@ fn thermal_discomfort_k_h(measured: &Measurements) -> f64 {
     zone_k_s.sum::<f64>() / SECONDS_PER_HOUR / measured.zones.len().max(1) as f64
 }
 
-fn air_discomfort_ppm_h(measured: &Measurements) -> f64 {
+fn air_discomfort_ppm_h(measured: &MeasuredRun) -> f64 {
     let zone_ppm_s = measured
         .air
         .iter()
@@ -76,13 +76,13 @@ fn air_discomfort_ppm_h(measured: &Measurements) -> f64 {
 }
 
 /// The energy of all signals, each instant with its weight, per floor area \[kWh/m² times the unit of the weight\].
-fn energy_sum(measured: &Measurements, weight: impl Fn(&PowerSignal, usize) -> f64) -> f64 {
+fn energy_sum(measured: &MeasuredRun, weight: impl Fn(&PowerSignal, usize) -> f64) -> f64 {
     let energy_j =
         measured.powers.iter().map(|signal| trapezoid(&measured.times_s, |i| weight(signal, i) * signal.power_w[i]));
     energy_j.sum::<f64>() * KWH_PER_J / measured.area_m2
 }
 
-fn water_cost_per_m2(measured: &Measurements) -> f64 {
+fn water_cost_per_m2(measured: &MeasuredRun) -> f64 {
     let cost = measured
         .water
         .iter()
@@ -90,7 +90,7 @@ fn water_cost_per_m2(measured: &Measurements) -> f64 {
     cost.sum::<f64>() / measured.area_m2
 }
 
-fn peak_kw_per_m2(measured: &Measurements, carrier: Carrier) -> Option<f64> {
+fn peak_kw_per_m2(measured: &MeasuredRun, carrier: Carrier) -> Option<f64> {
     let signals: Vec<&PowerSignal> = measured.powers.iter().filter(|signal| signal.carrier == carrier).collect();
     if signals.is_empty() {
         return None;

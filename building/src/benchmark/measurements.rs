@@ -59,7 +59,7 @@ pub struct Water {
 
 /// The signals of a test from its first instant to its last. Each list has a value for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Measurements {
+pub struct MeasuredRun {
     /// Times \[s\], rising; intervals may differ.
     pub times_s: Vec<f64>,
     /// Floor area of the building \[m²\].
@@ -117,7 +117,7 @@ pub enum MeasurementError {
     },
 }
 
-impl Measurements {
+impl MeasuredRun {
     /// Refuses measurements of which no indicators can be computed.
     ///
     /// # Errors

@@ -18,4 +18,4 @@ mod integral;
 mod measurements;
 
 pub use indicators::Indicators;
-pub use measurements::{AirQuality, Carrier, MeasurementError, Measurements, PowerSignal, ThermalZone, Water};
+pub use measurements::{AirQuality, Carrier, MeasuredRun, MeasurementError, PowerSignal, ThermalZone, Water};

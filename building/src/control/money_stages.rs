@@ -13,7 +13,7 @@ use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::energy::EnergySupply;
 use crate::network::Network;
-use crate::staged::{Input, SoftBound, Stage};
+use crate::staged::{HeatInput, PlanStage, SoftBound};
 
 use super::Disturbance;
 
@@ -31,11 +31,11 @@ pub(crate) struct Prices {
 }
 
 /// The equipment of a network that can heat or cool.
-pub(crate) fn inputs(network: &Network) -> Vec<Input> {
+pub(crate) fn inputs(network: &Network) -> Vec<HeatInput> {
     let limits = network.limits();
     let ways = |zone: usize| [(1.0, limits.heating_kw[zone]), (-1.0, limits.cooling_kw[zone])].map(|way| (zone, way));
     let all = (0..network.zone_count()).flat_map(ways);
-    all.filter(|(_, (_, limit_kw))| *limit_kw > 0.0).map(|(zone, (sign, _))| Input { zone, sign }).collect()
+    all.filter(|(_, (_, limit_kw))| *limit_kw > 0.0).map(|(zone, (sign, _))| HeatInput { zone, sign }).collect()
 }
 
 /// Steps that become a stage: their targets and disturbance are those from `first` on.
@@ -52,11 +52,11 @@ pub(crate) struct Span {
 /// The stage of a span of steps of `targets`, whose supply knows the outdoor temperature.
 pub(crate) fn stage(
     model: &Model,
-    inputs: &[Input],
+    inputs: &[HeatInput],
     (targets, disturbance): (&Targets, &Disturbance),
     prices: Prices,
     span: Span,
-) -> Stage {
+) -> PlanStage {
     let limits = model.network().limits();
     let steps = span.first..span.first + span.steps;
     let wanted_c = |step: usize, zone: usize| targets.reference_c[step * targets.zones + zone];
@@ -77,7 +77,7 @@ pub(crate) fn stage(
             }
         }
     }
-    Stage {
+    PlanStage {
         map: span.map,
         drift_k: drift_k(model, disturbance, steps),
         lower: vec![0.0; inputs.len()],

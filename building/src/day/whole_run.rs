@@ -14,7 +14,7 @@ use crate::comfort::Targets;
 use crate::control::{ControlError, Disturbance, money_stages};
 use crate::discretise::Model;
 use crate::energy::EnergySupply;
-use crate::staged::{Input, SoftBound, Stage, StageMap, StagedProgram, StagedSolution};
+use crate::staged::{self, HeatInput, PlanStage, SoftBound, StageMap, StagedProgram, StagedSolution};
 
 /// The most operations that the optimum of a run may take: some seconds.
 const MAX_OPERATIONS: f64 = 3e10;
@@ -81,7 +81,7 @@ impl RunHistory {
         let (targets, disturbance) = self.joined();
         let limits = model.network().limits();
         let zones = (0..targets.zones).filter(|&zone| limits.heating_kw[zone] + limits.cooling_kw[zone] > 0.0);
-        let inputs: Vec<Input> = zones.map(|zone| Input { zone, sign: 1.0 }).collect();
+        let inputs: Vec<HeatInput> = zones.map(|zone| HeatInput { zone, sign: 1.0 }).collect();
         let stage = |step: usize| {
             let entry = |zone: usize| step * targets.zones + zone;
             let of = |values: &[f64], sign: f64| inputs.iter().map(|input| sign * values[input.zone]).collect();
@@ -89,7 +89,7 @@ impl RunHistory {
                 let (weight, reference_c) = (targets.error_weight[entry(zone)], targets.reference_c[entry(zone)]);
                 (zone, -2.0 * weight * reference_c, 2.0 * weight)
             };
-            Stage {
+            PlanStage {
                 map: 0,
                 drift_k: money_stages::drift_k(model, &disturbance, step..step + 1),
                 lower: of(&limits.cooling_kw, -1.0),
@@ -142,8 +142,8 @@ impl RunHistory {
     fn solve(
         &self,
         model: &Model,
-        inputs: &[Input],
-        mut stages: Vec<Stage>,
+        inputs: &[HeatInput],
+        mut stages: Vec<PlanStage>,
         peak: Option<crate::staged::Peak>,
         end_price: Vec<f64>,
     ) -> Result<StagedSolution, ControlError> {
@@ -155,10 +155,11 @@ impl RunHistory {
             }
         }
         let (maps, initial_c) = (vec![StageMap::new(model, 1)], self.initial_c.clone());
-        Ok(StagedProgram { maps, inputs: inputs.to_vec(), initial_c, stages, peak }.solve(TOLERANCE)?)
+        let program = StagedProgram { maps, inputs: inputs.to_vec(), initial_c, stages, peak };
+        Ok(staged::solve(&program, TOLERANCE)?)
     }
 
-    fn outcome(&self, model: &Model, targets: &Targets, inputs: &[Input], solution: &StagedSolution) -> RunOptimum {
+    fn outcome(&self, model: &Model, targets: &Targets, inputs: &[HeatInput], solution: &StagedSolution) -> RunOptimum {
         let (zones, nodes) = (targets.zones, model.network().node_count());
         let mut heat_kw = vec![0.0; zones * targets.steps()];
         for (step, values) in solution.inputs.chunks_exact(inputs.len().max(1)).enumerate() {

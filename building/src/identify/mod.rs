@@ -23,6 +23,7 @@ mod free_run;
 mod identified_network;
 mod normal;
 mod physical;
+mod progress;
 mod regression;
 mod report;
 mod residual;
@@ -39,6 +40,7 @@ pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
 pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
+pub use progress::Progress;
 pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
     SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
@@ -69,9 +71,6 @@ use train_test_split::TrainTestSplit;
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     identify_with_progress(telemetry, settings, &|_| {})
 }
-
-/// What is told while an identification goes on: a few words on what is fitted next, from any thread.
-pub type Progress<'a> = dyn Fn(&str) + Sync + 'a;
 
 /// As [`identify`], which tells `progress` what it does next. Only `state-space` takes long enough to tell anything.
 ///

@@ -19,6 +19,7 @@
 mod checks;
 mod error;
 mod mismatch;
+mod openings;
 mod power_limits;
 mod presets;
 mod remarks;
@@ -30,9 +31,9 @@ use nalgebra::DMatrix;
 
 pub use error::{NetworkError, Part, Remark};
 pub use mismatch::ModelMismatch;
+use openings::Openings;
 pub use power_limits::PowerLimits;
 pub use settings::{AMBIENT, Wall, Zone};
-use sunlight::Openings;
 pub use window::Window;
 
 /// A conductance between two nodes.

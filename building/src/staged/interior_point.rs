@@ -2,8 +2,9 @@
 //! left to reduce.
 
 use super::pairs::{Direction, Groups, Pairs, PerRow};
+use super::program::{Peak, PlanStage, StagedProgram};
 use super::recursion::{Curvature, Recursion};
-use super::{Peak, StagedError, StagedProgram, StagedSolution};
+use super::solution::{StagedError, StagedSolution};
 
 /// Iterations after which the method gives up. Problems of buildings take 10 to 40.
 const MAX_ITERATIONS: u32 = 120;
@@ -26,8 +27,12 @@ struct Iterate<'a> {
     groups: Groups,
 }
 
-/// Solves a checked problem.
-pub(super) fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
+/// Solves a problem until the cost is certain to `tolerance` of itself.
+///
+/// # Errors
+/// [`StagedError`].
+pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
+    program.check()?;
     let mut iterate = Iterate::start(program);
     let scale = cost_scale(program);
     let count = iterate.groups.count().max(1) as f64;
@@ -109,7 +114,7 @@ impl<'a> Iterate<'a> {
     }
     /// The largest cost of a unit of an input or slack.
     fn gradient_scale(&self) -> f64 {
-        let of_stage = |stage: &super::Stage| {
+        let of_stage = |stage: &PlanStage| {
             let soft = stage.soft.iter().map(|soft| soft.linear);
             stage.linear.iter().map(|q| q.abs()).chain(soft).chain(stage.quadratic.iter().copied()).fold(0.0, f64::max)
         };

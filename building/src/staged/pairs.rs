@@ -1,6 +1,6 @@
 //! Slacks of inequalities with their multipliers.
 
-use super::StagedProgram;
+use super::program::StagedProgram;
 
 /// Slacks and multipliers of a group of inequalities, both positive.
 #[derive(Clone, Debug, Default)]

@@ -14,7 +14,8 @@ use super::dense::{
     add_product, cholesky, product, solve_lower, solve_lower_transposed, solve_right, subtract_square,
     symmetric_product, transposed_product,
 };
-use super::{StageMap, StagedProgram};
+use super::program::StagedProgram;
+use super::stage_map::StageMap;
 
 /// Curvature of the Newton system.
 #[derive(Debug)]

@@ -9,7 +9,8 @@
 //! R. Stewart, "Modeling daylight availability and irradiance components from direct and global irradiance", *Solar Energy* 44 (5),
 //! 1990, Table 6. Air mass after F. Kasten and A. Young, *Applied Optics* 28, 1989.
 
-use super::{Plane, SkyRadiation, SunPosition};
+use super::position::SunPosition;
+use super::radiation::SkyRadiation;
 
 /// Radiation outside of the atmosphere at the mean distance, as the coefficients were fitted with \[W/m²\].
 const SOLAR_CONSTANT_W_PER_M2: f64 = 1366.1;
@@ -29,8 +30,8 @@ const COEFFICIENTS: [[f64; 6]; 8] = [
 /// κ of the clearness, for angles in radians.
 const KAPPA: f64 = 1.041;
 
-/// Diffuse radiation on a plane while the sun is above the horizon \[W/m²\]. `incidence` is cos θ.
-pub(super) fn sky_diffuse_w_per_m2(plane: &Plane, incidence: f64, sun: &SunPosition, sky: &SkyRadiation) -> f64 {
+/// Diffuse radiation on a plane of a tilt \[°\] while the sun is above the horizon \[W/m²\]. `incidence` is cos θ.
+pub(super) fn sky_diffuse_w_per_m2(tilt_deg: f64, incidence: f64, sun: &SunPosition, sky: &SkyRadiation) -> f64 {
     let diffuse = sky.diffuse_w_per_m2;
     if diffuse <= 0.0 {
         return 0.0;
@@ -42,7 +43,7 @@ pub(super) fn sky_diffuse_w_per_m2(plane: &Plane, incidence: f64, sun: &SunPosit
     let [f11, f12, f13, f21, f22, f23] = COEFFICIENTS[CLEARNESS.partition_point(|bound| *bound <= clearness)];
     let around_sun = (f11 + f12 * brightness + f13 * zenith_rad).max(0.0);
     let at_horizon = f21 + f22 * brightness + f23 * zenith_rad;
-    let tilt_rad = plane.tilt_deg.to_radians();
+    let tilt_rad = tilt_deg.to_radians();
     let lowest = libm::cos(85.0_f64.to_radians());
     let sky_share = 0.5 * (1.0 - around_sun) * (1.0 + libm::cos(tilt_rad))
         + around_sun * incidence.max(0.0) / libm::cos(zenith_rad).max(lowest)

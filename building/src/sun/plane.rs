@@ -1,7 +1,8 @@
 //! A plane that the sun shines on.
 
-use super::SunPosition;
 use super::perez::sky_diffuse_w_per_m2;
+use super::position::SunPosition;
+use super::radiation::SkyRadiation;
 
 /// A flat surface: where it faces, and what lies before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,17 +13,6 @@ pub struct Plane {
     pub tilt_deg: f64,
     /// Share of the global radiation that the ground before it reflects.
     pub ground_reflectance: f64,
-}
-
-/// Radiation of the sun and the sky at a moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SkyRadiation {
-    /// Direct radiation on a plane towards the sun \[W/m²\].
-    pub direct_normal_w_per_m2: f64,
-    /// Diffuse radiation on a horizontal plane \[W/m²\].
-    pub diffuse_w_per_m2: f64,
-    /// Global radiation on a horizontal plane \[W/m²\].
-    pub global_w_per_m2: f64,
 }
 
 impl Plane {
@@ -43,7 +33,9 @@ impl Plane {
         if libm::cos(sun.zenith_rad) <= 0.0 {
             return 0.5 * sky.diffuse_w_per_m2 * (1.0 + cos_tilt) + ground;
         }
-        sky.direct_normal_w_per_m2 * incidence.max(0.0) + sky_diffuse_w_per_m2(self, incidence, sun, sky) + ground
+        sky.direct_normal_w_per_m2 * incidence.max(0.0)
+            + sky_diffuse_w_per_m2(self.tilt_deg, incidence, sun, sky)
+            + ground
     }
 }
 

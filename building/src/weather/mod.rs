@@ -7,6 +7,7 @@
 mod climate;
 pub mod epw;
 mod forecast;
+mod on_plane;
 mod recorded;
 mod sky;
 mod time_series;

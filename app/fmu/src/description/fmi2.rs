@@ -2,36 +2,34 @@
 
 use std::fmt::Write;
 
-use super::{Description, Variable, escaped};
+use super::unit::{Description, Variable, escaped};
 
-impl Description<'_> {
-    /// The file in FMI 2.0.
-    pub(super) fn fmi2(&self) -> String {
-        let variables = self.variables();
-        let mut lists = String::new();
-        for (reference, variable) in variables.iter().enumerate() {
-            let Variable { name, description, is_input, unit } = variable;
-            let (attributes, start) = if *is_input {
-                ("causality=\"input\" variability=\"continuous\"", " start=\"0\"")
-            } else {
-                ("causality=\"output\" variability=\"continuous\" initial=\"calculated\"", "")
-            };
-            // Writing to a text cannot fail.
-            let _ = writeln!(
-                lists,
-                "    <ScalarVariable name=\"{}\" valueReference=\"{reference}\" description=\"{}\" {attributes}>\n      \
-                 <Real unit=\"{unit}\"{start}/>\n    </ScalarVariable>",
-                escaped(name),
-                escaped(description)
-            );
-        }
-        let outputs: String = (self.zones.len() + 1..=variables.len())
-            .map(|index| format!("      <Unknown index=\"{index}\"/>\n"))
-            .collect();
-        let (title, identifier, guid, about) = (escaped(self.title), self.identifier, self.guid, self.about());
-        let (step_s, stop_s, version) = (self.step_s, self.stop_s, env!("CARGO_PKG_VERSION"));
-        format!(
-            r#"<?xml version="1.0" encoding="UTF-8"?>
+/// The file in FMI 2.0.
+pub(super) fn xml(unit: &Description<'_>) -> String {
+    let variables = unit.variables();
+    let mut lists = String::new();
+    for (reference, variable) in variables.iter().enumerate() {
+        let Variable { name, description, is_input, unit: measured_in } = variable;
+        let (attributes, start) = if *is_input {
+            ("causality=\"input\" variability=\"continuous\"", " start=\"0\"")
+        } else {
+            ("causality=\"output\" variability=\"continuous\" initial=\"calculated\"", "")
+        };
+        // Writing to a text cannot fail.
+        let _ = writeln!(
+            lists,
+            "    <ScalarVariable name=\"{}\" valueReference=\"{reference}\" description=\"{}\" {attributes}>\n      \
+             <Real unit=\"{measured_in}\"{start}/>\n    </ScalarVariable>",
+            escaped(name),
+            escaped(description)
+        );
+    }
+    let outputs: String =
+        (unit.zones.len() + 1..=variables.len()).map(|index| format!("      <Unknown index=\"{index}\"/>\n")).collect();
+    let (title, identifier, guid, about) = (escaped(unit.title), unit.identifier, unit.guid, unit.about());
+    let (step_s, stop_s, version) = (unit.step_s, unit.stop_s, env!("CARGO_PKG_VERSION"));
+    format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{title}" guid="{guid}" generationTool="Interplay {version}"
     variableNamingConvention="flat" numberOfEventIndicators="0"
     description="{about}">
@@ -57,6 +55,5 @@ impl Description<'_> {
   </ModelStructure>
 </fmiModelDescription>
 "#
-        )
-    }
+    )
 }

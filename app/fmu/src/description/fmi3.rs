@@ -2,38 +2,37 @@
 
 use std::fmt::Write;
 
-use super::{Description, Variable, escaped};
+use super::unit::{Description, Variable, escaped};
 
-impl Description<'_> {
-    /// The file in FMI 3.0. Its value references are those of FMI 2.0, and time comes last.
-    pub(super) fn fmi3(&self) -> String {
-        let variables = self.variables();
-        let mut list = String::new();
-        for (reference, variable) in variables.iter().enumerate() {
-            let Variable { name, description, is_input, unit } = variable;
-            let attributes = if *is_input {
-                "causality=\"input\" variability=\"continuous\" start=\"0\""
-            } else {
-                "causality=\"output\" variability=\"continuous\" initial=\"calculated\""
-            };
-            // Writing to a text cannot fail.
-            let _ = writeln!(
-                list,
-                "    <Float64 name=\"{}\" valueReference=\"{reference}\" description=\"{}\" unit=\"{unit}\" {attributes}/>",
-                escaped(name),
-                escaped(description)
-            );
-        }
-        let references = self.zones.len()..variables.len();
-        let outputs: String =
-            references.clone().map(|reference| format!("    <Output valueReference=\"{reference}\"/>\n")).collect();
-        let unknowns: String =
-            references.map(|reference| format!("    <InitialUnknown valueReference=\"{reference}\"/>\n")).collect();
-        let (title, identifier, guid, about) = (escaped(self.title), self.identifier, self.guid, self.about());
-        let (step_s, stop_s, version) = (self.step_s, self.stop_s, env!("CARGO_PKG_VERSION"));
-        let time = variables.len();
-        format!(
-            r#"<?xml version="1.0" encoding="UTF-8"?>
+/// The file in FMI 3.0. Its value references are those of FMI 2.0, and time comes last.
+pub(super) fn xml(unit: &Description<'_>) -> String {
+    let variables = unit.variables();
+    let mut list = String::new();
+    for (reference, variable) in variables.iter().enumerate() {
+        let Variable { name, description, is_input, unit: measured_in } = variable;
+        let attributes = if *is_input {
+            "causality=\"input\" variability=\"continuous\" start=\"0\""
+        } else {
+            "causality=\"output\" variability=\"continuous\" initial=\"calculated\""
+        };
+        // Writing to a text cannot fail.
+        let _ = writeln!(
+            list,
+            "    <Float64 name=\"{}\" valueReference=\"{reference}\" description=\"{}\" unit=\"{measured_in}\" {attributes}/>",
+            escaped(name),
+            escaped(description)
+        );
+    }
+    let references = unit.zones.len()..variables.len();
+    let outputs: String =
+        references.clone().map(|reference| format!("    <Output valueReference=\"{reference}\"/>\n")).collect();
+    let unknowns: String =
+        references.map(|reference| format!("    <InitialUnknown valueReference=\"{reference}\"/>\n")).collect();
+    let (title, identifier, guid, about) = (escaped(unit.title), unit.identifier, unit.guid, unit.about());
+    let (step_s, stop_s, version) = (unit.step_s, unit.stop_s, env!("CARGO_PKG_VERSION"));
+    let time = variables.len();
+    format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="{title}" instantiationToken="{guid}"
     generationTool="Interplay {version}" variableNamingConvention="flat"
     description="{about}">
@@ -56,6 +55,5 @@ impl Description<'_> {
 {outputs}{unknowns}  </ModelStructure>
 </fmiModelDescription>
 "#
-        )
-    }
+    )
 }

@@ -25,7 +25,7 @@ use super::optimum::check_size;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
-use crate::staged::{Input, Peak, StageMap, StagedProgram};
+use crate::staged::{HeatInput, Peak, StageMap, StagedProgram, solve};
 use kalman::Kalman;
 use learned::LearnedForecast;
 
@@ -37,7 +37,7 @@ const PLAN_TOLERANCE: f64 = 1e-5;
 pub struct Economic {
     settings: EconomicSettings,
     model: Model,
-    inputs: Vec<Input>,
+    inputs: Vec<HeatInput>,
     /// Maps of stages of 1, 2, … steps, as far as plans have them.
     maps: Vec<StageMap>,
     filter: Kalman,
@@ -98,7 +98,7 @@ impl Economic {
         }
         let spans = self.settings.spans(step, self.model.step_s());
         let program = self.program(&ahead, &expected, &spans);
-        let solution = program.solve(PLAN_TOLERANCE)?;
+        let solution = solve(&program, PLAN_TOLERANCE)?;
         self.value_end(&solution.initial_value, &ahead, &expected);
         let mut heat_kw = Vec::with_capacity(horizon * targets.zones);
         for (span, values) in spans.iter().zip(solution.inputs.chunks_exact(self.inputs.len())) {

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use thiserror::Error;
 
-use super::boptest::BoptestError;
+use super::boptest_error::BoptestError;
 
 /// Temperatures of zones that a plant may answer \[°C\].
 pub const TEMPERATURES_C: RangeInclusive<f64> = -100.0..=200.0;

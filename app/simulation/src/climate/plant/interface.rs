@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::boptest::Benchmark;
+use super::benchmark::Benchmark;
 use super::error::PlantError;
 use crate::not_copied::NotCopied;
 

@@ -7,7 +7,9 @@
 //! The other program answers lines of JSON behind a socket, or the requests of BOPTEST. [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
 
 mod answer;
+mod benchmark;
 mod boptest;
+mod boptest_error;
 mod error;
 mod interface;
 mod lines;
@@ -15,7 +17,9 @@ mod network;
 mod socket;
 mod walls;
 
-pub use boptest::{Benchmark, BoptestError, BoptestPlant};
+pub use benchmark::Benchmark;
+pub use boptest::BoptestPlant;
+pub use boptest_error::BoptestError;
 pub use error::PlantError;
 pub use interface::{StepInputs, ThermalPlant};
 pub use network::NetworkPlant;

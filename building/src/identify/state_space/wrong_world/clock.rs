@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::World;
+use super::world::World;
 use crate::identify::state_space::likelihood::Observations;
 
 /// Shifts that are tried \[h\].

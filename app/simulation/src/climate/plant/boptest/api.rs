@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 
-use super::error::BoptestError;
 use super::http::Server;
+use crate::climate::plant::boptest_error::BoptestError;
 
 /// How much of a message of the server an error shows \[characters\].
 const MAX_SHOWN_CHARACTERS: usize = 300;

@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-use super::error::BoptestError;
+use crate::climate::plant::boptest_error::BoptestError;
 
 /// The longest answer \[bytes\]: the results of a year in steps of 30 s take about a tenth.
 const MAX_ANSWER_BYTES: usize = 512 * 1024 * 1024;

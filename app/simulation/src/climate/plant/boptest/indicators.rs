@@ -2,36 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use interplay_building::benchmark::{AirQuality, Carrier, Indicators, Measurements, PowerSignal, ThermalZone};
+use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun, PowerSignal, ThermalZone};
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
-use serde::Serialize;
 use serde_json::json;
 
 use super::api::{Signals, Test, series};
-use super::error::BoptestError;
+use crate::climate::plant::boptest_error::BoptestError;
 
 /// Interval at which prices and limits are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.
 const INTERVAL_S: f64 = 900.0;
-
-/// The indicators of a test that is over.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Benchmark {
-    /// What BOPTEST computed, by its names; an indicator that the case does not have is `null`.
-    pub official: BTreeMap<String, Option<f64>>,
-    /// What we computed from the same measurements; none without `building.plant.indicators`.
-    pub ours: Option<Indicators>,
-    /// Mean share of a step that passed between an answer and the next request. By the clock.
-    pub time_ratio: Option<f64>,
-}
-
-impl Benchmark {
-    /// Puts the indicators together. `control` is how long each decision took, and the length of a step \[s\].
-    pub fn new(official: &Signals, ours: Option<Indicators>, control: (&[f64], f64)) -> Self {
-        let official = official.iter().map(|(name, value)| (name.clone(), value.as_f64())).collect();
-        let time_ratio = Indicators::computational_time_ratio(control.0, control.1);
-        Self { official, ours, time_ratio }
-    }
-}
 
 /// Prices, emission factors and limits of a test, which its forecast knows without error. Each is held until the next time.
 #[derive(Debug)]
@@ -128,7 +107,7 @@ impl Known {
             }
         }
         let (zones, air) = (zones.collect::<Result<_, BoptestError>>()?, air.collect::<Result<_, BoptestError>>()?);
-        let measured = Measurements { area_m2: listed.area_m2, zones, air, powers, water: Vec::new(), times_s };
+        let measured = MeasuredRun { area_m2: listed.area_m2, zones, air, powers, water: Vec::new(), times_s };
         Indicators::compute(&measured).map_err(|error| invalid(&error.to_string()))
     }
 

@@ -8,11 +8,8 @@
 //! its indicators are read, and computed again from what it measured. `docs/foreign-plants.md` describes the settings.
 
 mod api;
-mod error;
 mod http;
 mod indicators;
 mod plant;
 
-pub use error::BoptestError;
-pub use indicators::Benchmark;
 pub use plant::BoptestPlant;

@@ -6,12 +6,13 @@ use interplay_building::discretise::Model;
 use interplay_scenarios::{BoptestInput, BoptestPlantConfig, BoptestZone};
 use serde_json::{Value, json};
 
+use super::super::benchmark::Benchmark;
+use super::super::boptest_error::BoptestError;
 use super::super::error::{PlantError, TEMPERATURES_C};
 use super::super::interface::{StepInputs, ThermalPlant};
 use super::super::walls;
 use super::api::{Signals, Test, number};
-use super::error::BoptestError;
-use super::indicators::{Benchmark, Known};
+use super::indicators::Known;
 use crate::not_copied::NotCopied;
 
 const DAY_S: f64 = 86_400.0;
@@ -138,7 +139,8 @@ impl BoptestPlant {
             Some(known) => Some(known.compute(&self.config, test)?),
             None => None,
         };
-        self.benchmark = Some(Benchmark::new(&official, ours, (&self.control_s, self.believed.step_s())));
+        let named = official.iter().map(|(name, value)| (name.clone(), value.as_f64())).collect();
+        self.benchmark = Some(Benchmark::new(named, ours, (&self.control_s, self.believed.step_s())));
         Ok(())
     }
 }

@@ -1,0 +1,93 @@
+//! What is described, whichever version of FMI it is described in.
+
+use interplay_building::network::PowerLimits;
+
+/// What is described.
+#[derive(Clone, Debug)]
+pub(crate) struct Description<'a> {
+    /// The title of the scenario.
+    pub title: &'a str,
+    /// The name of the library.
+    pub identifier: &'a str,
+    /// The identity, which the resources repeat.
+    pub guid: &'a str,
+    /// The names of the zones.
+    pub zones: &'a [String],
+    /// What the equipment of each zone can give.
+    pub limits: &'a PowerLimits,
+    /// Time from one step to the next \[s\].
+    pub step_s: f64,
+    /// End of the weather \[s\].
+    pub stop_s: f64,
+}
+
+/// A variable that both versions have.
+pub(super) struct Variable {
+    pub name: String,
+    pub description: String,
+    /// Heat, which is zero until it is set; all others are outputs.
+    pub is_input: bool,
+    pub unit: &'static str,
+}
+
+impl Description<'_> {
+    /// What the unit is, for people.
+    pub(super) fn about(&self) -> String {
+        let step_s = self.step_s;
+        format!(
+            "A thermal network with its weather. Heat is held between steps; steps are whole multiples of {step_s} s."
+        )
+    }
+
+    /// The variables in the order of their value references (`library/instance.rs`).
+    pub(super) fn variables(&self) -> Vec<Variable> {
+        let PowerLimits { heating_kw, cooling_kw } = self.limits;
+        let heat = |(index, zone): (usize, &String)| Variable {
+            name: format!("{zone}.heat"),
+            description: format!(
+                "Heat of the equipment of {zone}, at most {} kW; negative when it cools, at most {} kW",
+                heating_kw[index], cooling_kw[index]
+            ),
+            is_input: true,
+            unit: "kW",
+        };
+        let temperature = |zone: &String| Variable {
+            name: format!("{zone}.temperature"),
+            description: format!("Temperature of {zone}"),
+            is_input: false,
+            unit: "degC",
+        };
+        let gains = |zone: &String| Variable {
+            name: format!("{zone}.gains"),
+            description: format!("Heat of people, machines and sun in {zone}, until the next step"),
+            is_input: false,
+            unit: "kW",
+        };
+        let outdoor = Variable {
+            name: "outdoor temperature".to_owned(),
+            description: "Temperature outdoors, until the next step".to_owned(),
+            is_input: false,
+            unit: "degC",
+        };
+        let heats = self.zones.iter().enumerate().map(heat);
+        let temperatures = self.zones.iter().map(temperature);
+        heats.chain(temperatures).chain(self.zones.iter().map(gains)).chain([outdoor]).collect()
+    }
+}
+
+/// A text within an attribute. Characters that XML does not allow become question marks.
+pub(super) fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\u{FFFE}' | '\u{FFFF}' => safe.push('?'),
+            _ if character.is_control() => safe.push('?'),
+            _ => safe.push(character),
+        }
+    }
+    safe
+}

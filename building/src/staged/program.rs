@@ -1,0 +1,125 @@
+//! An optimal control problem of stages.
+
+use super::solution::StagedError;
+use super::stage_map::{HeatInput, StageMap};
+
+/// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftBound {
+    /// The node.
+    pub node: usize,
+    /// 1 for an upper bound, −1 for a lower one.
+    pub sign: f64,
+    /// The bound \[°C\], times the sign.
+    pub bound: f64,
+    /// Cost of a kelvin beyond it.
+    pub linear: f64,
+    /// Twice the cost of a squared kelvin beyond it.
+    pub quadratic: f64,
+}
+
+/// A stage: inputs that are held for some steps, and the temperatures at its end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanStage {
+    /// Index of its map among [`StagedProgram::maps`].
+    pub map: usize,
+    /// What weather and gains add to the temperatures \[K\], of each node.
+    pub drift_k: Vec<f64>,
+    /// Least value of each input \[kW\].
+    pub lower: Vec<f64>,
+    /// Largest value of each input \[kW\]; above the least one.
+    pub upper: Vec<f64>,
+    /// Cost of a unit of each input.
+    pub linear: Vec<f64>,
+    /// Twice the cost of a squared unit of each input.
+    pub quadratic: Vec<f64>,
+    /// Costs of the temperatures at the end: node, linear cost, twice the quadratic one.
+    pub nodes: Vec<(usize, f64, f64)>,
+    /// Soft bounds of the temperatures at the end.
+    pub soft: Vec<SoftBound>,
+    /// Power that a unit of each input takes \[kW\]; empty without a peak.
+    pub power: Vec<f64>,
+}
+
+/// The highest power of all stages, which has a price.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Cost of a kilowatt.
+    pub price: f64,
+    /// The least value: a peak that has been reached before \[kW\].
+    pub least_kw: f64,
+}
+
+/// An optimal control problem of stages.
+#[derive(Clone, Debug)]
+pub struct StagedProgram {
+    /// Maps of the stages.
+    pub maps: Vec<StageMap>,
+    /// The inputs, the same in all stages.
+    pub inputs: Vec<HeatInput>,
+    /// Temperatures at the start \[°C\], of each node.
+    pub initial_c: Vec<f64>,
+    /// The stages.
+    pub stages: Vec<PlanStage>,
+    /// The peak, where it has a price.
+    pub peak: Option<Peak>,
+}
+
+impl StagedProgram {
+    /// The cost of inputs, with the least slack and peak that they allow.
+    ///
+    /// # Panics
+    /// When there are not as many inputs as in the stages.
+    pub fn evaluate(&self, inputs: &[f64]) -> f64 {
+        let m = self.inputs.len();
+        let states_c = self.states(inputs);
+        let mut cost = 0.0;
+        let mut peak_kw = self.peak.map_or(0.0, |peak| peak.least_kw);
+        for (t, (stage, x)) in self.stages.iter().zip(states_c.chunks_exact(self.initial_c.len())).enumerate() {
+            let v = &inputs[t * m..(t + 1) * m];
+            for (j, v) in v.iter().enumerate() {
+                cost += stage.linear[j] * v + 0.5 * stage.quadratic[j] * v * v;
+            }
+            cost += stage.nodes.iter().map(|(i, g, q)| g * x[*i] + 0.5 * q * x[*i] * x[*i]).sum::<f64>();
+            for soft in &stage.soft {
+                let slack_k = (soft.sign * x[soft.node] - soft.bound).max(0.0);
+                cost += soft.linear * slack_k + 0.5 * soft.quadratic * slack_k * slack_k;
+            }
+            peak_kw = peak_kw.max(stage.power.iter().zip(v).map(|(power, v)| power * v).sum());
+        }
+        cost + self.peak.map_or(0.0, |peak| peak.price * peak_kw)
+    }
+
+    /// Temperatures at the ends of the stages under these inputs \[°C\].
+    ///
+    /// # Panics
+    /// When there are not as many inputs as in the stages.
+    pub fn states(&self, inputs: &[f64]) -> Vec<f64> {
+        let m = self.inputs.len();
+        let mut x = self.initial_c.clone();
+        let mut states_c = Vec::with_capacity(self.stages.len() * x.len());
+        for (t, stage) in self.stages.iter().enumerate() {
+            x = self.maps[stage.map].advance(&self.inputs, &x, &inputs[t * m..(t + 1) * m]);
+            x.iter_mut().zip(&stage.drift_k).for_each(|(x, drift)| *x += drift);
+            states_c.extend_from_slice(&x);
+        }
+        states_c
+    }
+
+    pub(super) fn check(&self) -> Result<(), StagedError> {
+        let finite = |series: &[f64]| series.iter().all(|value| value.is_finite());
+        if !finite(&self.initial_c) {
+            return Err(StagedError::Malformed { stage: 0 });
+        }
+        for (stage, described) in self.stages.iter().enumerate() {
+            let PlanStage { drift_k, lower, upper, linear, quadratic, power, soft, .. } = described;
+            let series = [drift_k, lower, upper, linear, quadratic, power];
+            let room = lower.iter().zip(upper).all(|(lower, upper)| lower < upper);
+            let soft = soft.iter().all(|soft| (soft.bound + soft.linear + soft.quadratic).is_finite());
+            if !(series.iter().all(|series| finite(series)) && room && soft) {
+                return Err(StagedError::Malformed { stage });
+            }
+        }
+        Ok(())
+    }
+}
