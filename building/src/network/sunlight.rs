@@ -4,11 +4,6 @@ use super::Network;
 use crate::sun::Plane;
 
 impl Network {
-    /// How many nodes get heat of people, machines or sun: the zones, or all nodes where the sun falls on a wall that stores heat.
-    pub fn gain_count(&self) -> usize {
-        if self.openings.any_from(self.zone_count) { self.node_count() } else { self.zone_count }
-    }
-
     /// Whether the sun warms anything.
     pub fn has_sun(&self) -> bool {
         self.openings.any_from(0)
