@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+export INTERPLAY_COMMIT="${INTERPLAY_COMMIT:-$(git rev-parse --short=12 HEAD 2> /dev/null || echo unknown)}"
 [[ -n ${INTERPLAY_BINARY:-} ]] || cargo build --release --locked
 binary=${INTERPLAY_BINARY:-target/release/interplay}
 version=$("$binary" --version | cut -d' ' -f2)

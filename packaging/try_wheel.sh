@@ -11,6 +11,7 @@ if [[ -z $maturin ]]; then
     echo "skipped: no maturin here; \`pip install maturin\` brings it, MATURIN=PATH names one"
     exit 0
 fi
+export INTERPLAY_COMMIT="${INTERPLAY_COMMIT:-$(git rev-parse --short=12 HEAD 2> /dev/null || echo unknown)}"
 # Taken into the wheel where it is there: see python/pyproject.toml.
 python3 packaging/third_party.py python > python/THIRD-PARTY.md
 "$maturin" build --release -m python/Cargo.toml --out "$folder/wheels" ${MATURIN_FLAGS:-}

@@ -25,11 +25,17 @@ const SOURCES: [&str; 9] = [
 const DIGEST_BYTES: usize = 8;
 
 fn main() -> io::Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    // Read when it runs: this program may have been built for another folder.
+    let package = std::env::var("CARGO_MANIFEST_DIR").map_err(io::Error::other)?;
+    let root = Path::new(&package).join("../..");
     let mut digest = Sha256::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={}", root.join(source).display());
-        for file in files(&root.join(source))? {
+        let files = files(&root.join(source))?;
+        if files.is_empty() {
+            return Err(io::Error::other(format!("there is no `{source}` in {}", root.display())));
+        }
+        for file in files {
             let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
             let content = fs::read(&file)?;
             digest.update(format!("{name}\n{}\n", content.len()));

@@ -23,5 +23,6 @@ done
 # One day says all of these.
 make building-epw-weather building/epw-weather --set iterations=1
 make building-model-predictive building/model-predictive --set iterations=1
+make building-economic-mpc building/economic-mpc --set iterations=1
 make building-clairvoyant building/model-predictive --set iterations=1 --set 'controller={kind="clairvoyant"}' \
     --set 'title="Four rooms, clairvoyant"'

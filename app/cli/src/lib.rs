@@ -19,6 +19,7 @@ mod process;
 use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
+use std::sync::LazyLock;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
@@ -30,9 +31,15 @@ use commands::{
     schema, suite, sweep, view, why,
 };
 
+/// The version and the commit it was built from, which packages name in the environment variable `INTERPLAY_COMMIT`.
+static VERSION: LazyLock<String> = LazyLock::new(|| {
+    let commit = option_env!("INTERPLAY_COMMIT").unwrap_or("unknown");
+    format!("{} (commit {commit})", env!("CARGO_PKG_VERSION"))
+});
+
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
 #[derive(Debug, Parser)]
-#[command(name = "interplay", version, max_term_width = 100)]
+#[command(name = "interplay", version = VERSION.as_str(), max_term_width = 100)]
 #[command(after_help = "Without a command: interplay run lane-change/front-nice.\n\n\
     Exit codes: 0 all well, 1 an expectation failed, 2 bad input, 3 a run could not be finished.")]
 struct Interplay {
@@ -71,7 +78,14 @@ pub fn main() -> ExitCode {
 /// The same with the kinds of drivers and the metrics of a registry: the whole command for a crate with drivers or metrics of its
 /// own.
 pub fn main_with(registry: &Registry) -> ExitCode {
-    exit_code(registry, std::env::args_os()).into()
+    process::limits::writing_too_much_is_an_error();
+    let ending = process::limits::on_a_thread_of_its_own(|| exit_code(registry, std::env::args_os()));
+    ending
+        .unwrap_or_else(|reason| {
+            output::print_error(&format!("cannot start a thread: {reason}; `ulimit -u` says how many a user may have"));
+            ExitStatus::Unfinished as u8
+        })
+        .into()
 }
 
 /// Does what arguments say, the first of which is the program's name, with what a registry has: the whole command inside another program.

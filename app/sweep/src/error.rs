@@ -43,6 +43,17 @@ pub enum SweepError {
         /// Why it is none.
         reason: serde_json::Error,
     },
+    /// A line of a journal is not as it was written.
+    #[error("{}:{line}: the row is damaged: its checksum is another", path.display())]
+    Damaged {
+        /// Which journal.
+        path: PathBuf,
+        /// Which line, from 1.
+        line: usize,
+    },
+    /// The system has no threads for it.
+    #[error("{0}")]
+    Threads(String),
     /// Somebody else works on the shard.
     #[error("`{}` is in use: another process works on this shard", .0.display())]
     InUse(PathBuf),
@@ -60,7 +71,10 @@ pub enum SweepError {
 impl SweepError {
     /// Whether the input is to blame, and not the machine.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, SweepError::Refused(_) | SweepError::Journal { .. } | SweepError::Input(_))
+        matches!(
+            self,
+            SweepError::Refused(_) | SweepError::Journal { .. } | SweepError::Damaged { .. } | SweepError::Input(_)
+        )
     }
 
     pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> SweepError + 'a {

@@ -1,8 +1,8 @@
 //! The journals of a folder: one line a run, appended when it is done.
 //!
 //! A line is written at once, so a process that is killed leaves at most the last one torn. A torn line has no end; it is ignored,
-//! and cut off before anything is appended. Everything else in a journal stays as it is for ever: rows of other plans and versions
-//! too.
+//! and cut off before anything is appended. A line that is not as it was written, as its checksum says, is as if it were not there,
+//! and named. Everything else in a journal stays as it is for ever: rows of other plans and versions too.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -14,9 +14,11 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::SweepError;
+use crate::journal_line::{JournalLine, judged, line_of};
 use crate::key::RunKey;
 use crate::row::SweepRow;
 use crate::shard::Shard;
+use crate::version::program_version;
 
 /// How names of journals begin and end.
 const PREFIX: &str = "journal";
@@ -75,8 +77,7 @@ impl Journal {
     /// Appends a row.
     pub fn append(&mut self, row: &SweepRow) -> Result<(), SweepError> {
         let failed = |reason: io::Error| SweepError::file("write to", &self.path)(reason);
-        let mut line = serde_json::to_string(row).map_err(|reason| failed(reason.into()))?;
-        line.push('\n');
+        let line = line_of(&serde_json::to_string(row).map_err(|reason| failed(reason.into()))?);
         self.file.write_all(line.as_bytes()).map_err(failed)?;
         if self.synced.elapsed() >= SYNC_INTERVAL {
             self.file.sync_data().map_err(failed)?;
@@ -108,12 +109,19 @@ fn length_of_whole_lines(file: &mut File) -> io::Result<u64> {
     Ok(0)
 }
 
-/// All rows of a journal; a torn last line is ignored.
+/// All rows of a journal, also those that older versions wrote without a checksum; a torn last line is ignored.
+///
+/// # Errors
+/// A line that is damaged, or no row: nobody can make it again.
 pub(crate) fn read_rows(path: &Path) -> Result<Vec<SweepRow>, SweepError> {
     let text = fs::read_to_string(path).map_err(SweepError::file("read", path))?;
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     let lines = whole.lines().enumerate().filter(|(_, line)| !line.is_empty());
-    lines.map(|(index, line)| parsed(path, index + 1, line.as_bytes())).collect()
+    let row = |(index, line): (usize, &str)| match judged(line.as_bytes()) {
+        JournalLine::Damaged => Err(SweepError::Damaged { path: path.to_owned(), line: index + 1 }),
+        JournalLine::Sound | JournalLine::Unchecked => parsed(path, index + 1, line.as_bytes()),
+    };
+    lines.map(row).collect()
 }
 
 /// What a line of a journal says.
@@ -134,23 +142,37 @@ struct LinePlace {
 pub(crate) struct JournalIndex {
     journals: Vec<PathBuf>,
     places: HashMap<RunKey, LinePlace>,
+    /// Lines that are not as they were written, or no rows: journal and line, from 1.
+    damaged: Vec<(PathBuf, usize)>,
 }
 
 /// What of a line says which run it is.
 #[derive(Deserialize)]
 struct Keyed {
     key: RunKey,
+    version: String,
+}
+
+/// The run of a line; nothing within it for a row that an older version wrote without a checksum, and that no plan asks for any
+/// more; `None` for a damaged line.
+fn key_of(line: &[u8]) -> Option<Option<RunKey>> {
+    let keyed: Option<Keyed> = serde_json::from_slice(line).ok();
+    match (judged(line), keyed) {
+        (JournalLine::Sound, Some(keyed)) => Some(Some(keyed.key)),
+        (JournalLine::Unchecked, Some(keyed)) if keyed.version != program_version() => Some(None),
+        _ => None,
+    }
 }
 
 impl JournalIndex {
     /// No journal.
     pub fn empty() -> JournalIndex {
-        JournalIndex { journals: Vec::new(), places: HashMap::new() }
+        JournalIndex { journals: Vec::new(), places: HashMap::new(), damaged: Vec::new() }
     }
 
     /// Reads all journals of a folder. It takes some 60 bytes a run.
     pub fn read(folder: &Path) -> Result<JournalIndex, SweepError> {
-        let mut index = JournalIndex { journals: journals(folder)?, places: HashMap::new() };
+        let mut index = JournalIndex { journals: journals(folder)?, places: HashMap::new(), damaged: Vec::new() };
         for journal in 0..index.journals.len() {
             index.read_journal(journal)?;
         }
@@ -170,13 +192,24 @@ impl JournalIndex {
                 return Ok(());
             }
             if text.len() > 1 {
-                let keyed: Keyed = parsed(&path, line, &text)?;
-                let place = LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
-                self.places.entry(keyed.key).or_insert(place);
+                match key_of(&text) {
+                    Some(Some(key)) => {
+                        let place =
+                            LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
+                        self.places.entry(key).or_insert(place);
+                    }
+                    Some(None) => {}
+                    None => self.damaged.push((path.clone(), line)),
+                }
             }
             start += length as u64;
             line += 1;
         }
+    }
+
+    /// Lines that are not as they were written, or no rows: journal and line, from 1. Their runs are not there.
+    pub fn damaged(&self) -> &[(PathBuf, usize)] {
+        &self.damaged
     }
 
     /// Whether a run is there.
@@ -253,12 +286,26 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_line_is_located() {
+    fn a_line_that_is_not_as_it_was_written_is_named_and_not_taken() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("journal-2-of-3.jsonl");
-        fs::write(&path, format!("{}\n{{\"key\": 1}}\n", serde_json::to_string(&row("one")).expect("JSON")))
-            .expect("written");
-        let error = JournalIndex::read(folder.path()).err().expect("damaged").to_string();
-        assert!(error.contains("journal-2-of-3.jsonl:2: this is no row"), "{error}");
+        let [one, two] = ["one", "two"].map(|name| line_of(&serde_json::to_string(&row(name)).expect("JSON")));
+        let unchecked = serde_json::to_string(&row("three")).expect("JSON");
+        fs::write(&path, format!("{}{{\"key\": 1}}\n{two}{unchecked}\n", one.replace("0.3", "9.3"))).expect("written");
+        let index = JournalIndex::read(folder.path()).expect("read");
+        assert_eq!(index.damaged(), [(path.clone(), 1), (path, 2)]);
+        assert!(index.holds(RunKey::of_parts(&["two"])) && index.places.len() == 1);
+    }
+
+    #[test]
+    fn a_damaged_row_that_nobody_can_make_again_is_an_error() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("people.jsonl");
+        let line = line_of(&serde_json::to_string(&row("one")).expect("JSON"));
+        fs::write(&path, &line).expect("written");
+        assert_eq!(read_rows(&path).expect("sound"), [row("one")]);
+        fs::write(&path, line.replace("0.3", "9.3")).expect("written");
+        let error = read_rows(&path).expect_err("damaged").to_string();
+        assert!(error.contains("people.jsonl:1: "), "{error}");
     }
 }

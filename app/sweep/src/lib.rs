@@ -41,6 +41,7 @@ pub mod compare;
 mod detectors;
 mod error;
 mod journal;
+mod journal_line;
 mod key;
 mod measure;
 mod merge;

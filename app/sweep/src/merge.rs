@@ -18,6 +18,8 @@ pub struct MergedSweep {
     pub rows: usize,
     /// How many shards there were.
     pub shards: u32,
+    /// How many rows the table had that was there before, if there was one.
+    pub replaced: Option<usize>,
 }
 
 /// Merges the tables of all shards in a folder into `target`, by default `runs.parquet` beside them. A folder without shards
@@ -33,6 +35,7 @@ pub fn merge(folder: &Path, target: Option<&Path>, timings: bool) -> Result<Merg
     if let Some(source) = sources.iter().find(|source| is_same(source, &target)) {
         return Err(SweepError::Input(format!("`{}` is what would be merged; choose another file", source.display())));
     }
+    let replaced = if target.exists() { Some(row_count(&target)?) } else { None };
     let readers = sources.iter().map(|path| TableReader::open(path)).collect::<Result<Vec<TableReader>, _>>()?;
     let Some(first) = readers.first() else { return Err(SweepError::Input("there is nothing to merge".to_owned())) };
     let schema = first.schema()?;
@@ -54,7 +57,18 @@ pub fn merge(folder: &Path, target: Option<&Path>, timings: bool) -> Result<Merg
     let plan = first.about(PLAN_NOTE).unwrap_or_default();
     let about = [(PLAN_NOTE, plan), (SHARD_NOTE, Shard::WHOLE.to_string())];
     let rows = merge_tables(readers, schema, &target, &about)?;
-    Ok(MergedSweep { table: target, rows, shards: sources.len() as u32 })
+    Ok(MergedSweep { table: target, rows, shards: sources.len() as u32, replaced })
+}
+
+/// How many rows there are in a table that would be replaced.
+///
+/// # Errors
+/// A file that is no table of runs: it would be lost.
+fn row_count(target: &Path) -> Result<usize, SweepError> {
+    let table = RowTable::read(target, &["key".to_owned()]).ok().filter(|table| !table.columns.is_empty());
+    table.map(|table| table.row_count).ok_or_else(|| {
+        SweepError::Input(format!("`{}` is there and no table of runs; choose another file", target.display()))
+    })
 }
 
 fn is_same(source: &Path, target: &Path) -> bool {
@@ -90,10 +104,14 @@ fn sources(folder: &Path) -> Result<Vec<PathBuf>, SweepError> {
                 ))),
             }
         }
-        several => Err(SweepError::Input(format!(
-            "there are shards of {several:?} in `{}`; remove the tables of all but one division",
-            folder.display()
-        ))),
+        several => {
+            let divisions: Vec<String> = several.iter().map(|count| format!("of {count}")).collect();
+            Err(SweepError::Input(format!(
+                "there are shards {} in `{}`; remove the tables of all but one division",
+                divisions.join(" and "),
+                folder.display()
+            )))
+        }
     }
 }
 

@@ -59,6 +59,8 @@ pub struct SweepOutcome {
     pub made: u64,
     /// How many rows have no result.
     pub unfinished: usize,
+    /// Lines of journals that were not as they were written, so that their runs were made again: journal and line, from 1.
+    pub damaged: Vec<(PathBuf, usize)>,
 }
 
 /// The rows of a shard.
@@ -87,6 +89,7 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     refuse_two_of_a_name(plan)?;
     let known = if folder.exists() { JournalIndex::read(folder)? } else { JournalIndex::empty() };
     let part = Part::of(plan, shard, &known, options.checked)?;
+    let damaged = known.damaged().to_vec();
     drop(known);
     make_folder(folder, plan)?;
     let journal = Mutex::new(Journal::open(&path_of(folder, shard))?);
@@ -106,7 +109,7 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.sync()?;
     let (rows, unfinished) = write_table(plan, shard, (folder, &JournalIndex::read(folder)?), &part.runs)?;
-    Ok(SweepOutcome { table: table_path(folder, shard), rows, made: part.to_make.len() as u64, unfinished })
+    Ok(SweepOutcome { table: table_path(folder, shard), rows, made: part.to_make.len() as u64, unfinished, damaged })
 }
 
 /// Checks the runs of a shard as [`sweep`] does before it makes the first, all as if none were there; `checked` is called after

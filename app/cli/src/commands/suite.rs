@@ -122,7 +122,7 @@ impl Suite {
                 }
             }
         }
-        found
+        files::with_names_of_their_own(found)
     }
 
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.

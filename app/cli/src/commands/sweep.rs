@@ -188,7 +188,7 @@ pub(crate) fn folder_of_plan(above: &str, name: &str) -> PathBuf {
 /// The threads in which a plan is run.
 fn pool_for(plan: &SweepPlan, jobs: Option<NonZeroUsize>) -> Result<ThreadPool, SweepError> {
     let pool = pool(jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
-    pool.map_err(|error| SweepError::Input(error.to_string()))
+    pool.map_err(|error| SweepError::Threads(error.to_string()))
 }
 
 fn make_rows(
@@ -254,7 +254,13 @@ fn counted(plan: &SweepPlan) -> String {
 
 /// Says where the rows are; of a whole plan, also what they tell.
 fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path, registry: &Registry) -> ExitStatus {
-    let SweepOutcome { table, rows, made, unfinished } = outcome;
+    let SweepOutcome { table, rows, made, unfinished, damaged } = outcome;
+    for (journal, line) in damaged {
+        print_error(&format!(
+            "{}:{line}: this row was not as it was written; its run was made again",
+            journal.display()
+        ));
+    }
     let told = printed(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
     if *unfinished > 0 {
         print_error(&format!("{} could not be finished: see the column `error`", runs(*unfinished as u64)));
@@ -273,7 +279,10 @@ fn merged(folder: &Path, to: Option<&Path>, timings: bool) -> ExitStatus {
         Ok(merged) => {
             let table = merged.table.display();
             let rows = format!("{} of {} in {table}\n", runs(merged.rows as u64), shards(merged.shards));
-            printed(&format!("{rows}next: interplay compare {}\n", folder.display()))
+            let replaced = merged.replaced.map_or_else(String::new, |before| {
+                format!("the table that was there, of {}, is replaced\n", runs(before as u64))
+            });
+            printed(&format!("{rows}{replaced}next: interplay compare {}\n", folder.display()))
         }
         Err(error) => gave_up(error),
     }

@@ -1,7 +1,8 @@
 //! The scenarios that an argument stands for, and what their runs are called.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use interplay_scenarios::{Override, Registry, embedded, files_below};
 use thiserror::Error;
@@ -47,6 +48,34 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
         Ok(ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: scenario.to_owned() })
     };
     found.into_iter().map(named).collect()
+}
+
+/// The same scenarios, those of one name with as much of their paths before it as tells them apart: `team-a/merge`, `team-b/merge`.
+pub(crate) fn with_names_of_their_own(mut found: Vec<ScenarioArgument>) -> Vec<ScenarioArgument> {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    found.iter().for_each(|scenario| *counts.entry(scenario.name.clone()).or_default() += 1);
+    let longest = found.iter().map(|scenario| parts(&scenario.scenario).len()).max().unwrap_or(0);
+    for (name, _) in counts.into_iter().filter(|(_, count)| *count > 1) {
+        let alike: Vec<usize> = (0..found.len()).filter(|at| found[*at].name == name).collect();
+        let last = |at: usize, kept: usize| {
+            let parts = parts(&found[at].scenario);
+            parts[parts.len().saturating_sub(kept)..].join("/")
+        };
+        let names = (1..=longest).map(|kept| alike.iter().map(|at| last(*at, kept)).collect::<Vec<String>>());
+        let are_different = |names: &Vec<String>| names.iter().collect::<BTreeSet<_>>().len() == names.len();
+        // One file given twice keeps its name.
+        if let Some(names) = names.into_iter().find(are_different) {
+            alike.into_iter().zip(names).for_each(|(at, name)| found[at].name = name);
+        }
+    }
+    found
+}
+
+/// The folders and the name of a file, without its extension and what leads out of a folder.
+fn parts(path: &str) -> Vec<String> {
+    let plain = Path::new(path).with_extension("");
+    let normal = plain.components().filter(|part| matches!(part, Component::Normal(_)));
+    normal.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
 }
 
 /// A file of which one of the scenarios is made, changed by `overrides`, that writing to `output` would destroy.
@@ -105,6 +134,22 @@ mod tests {
         ] {
             assert_eq!(short_name(scenario), name, "{scenario}");
         }
+    }
+
+    #[test]
+    fn files_of_one_name_from_several_folders_have_names_of_their_own() {
+        let found = |paths: &[&str]| -> Vec<String> {
+            let of = |path: &&str| ScenarioArgument { name: short_name(path), scenario: (*path).to_owned() };
+            let named = with_names_of_their_own(paths.iter().map(of).collect());
+            named.into_iter().map(|scenario| scenario.name).collect()
+        };
+        assert_eq!(
+            found(&["../team-a/merge.toml", "team-b/merge.toml", "x.toml"]),
+            ["team-a/merge", "team-b/merge", "x"]
+        );
+        assert_eq!(found(&["a/c/merge.toml", "b/c/merge.toml"]), ["a/c/merge", "b/c/merge"]);
+        assert_eq!(found(&["merge.toml", "a/merge.toml"]), ["merge", "a/merge"]);
+        assert_eq!(found(&["merge.toml", "merge.toml"]), ["merge", "merge"]);
     }
 
     #[test]

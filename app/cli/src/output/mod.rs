@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use std::io::{self, ErrorKind, Write};
 
 use interplay_scenarios::{Scenario, is_plain};
+use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
 use crate::output::error::CommandError;
@@ -58,38 +59,34 @@ pub(crate) fn print_error(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }
 
-/// A text without what makes a terminal do anything but show it in colours: a title or a cell of a table may hold anything.
+/// A text without what a terminal obeys instead of showing it: a title or a cell of a table may hold anything.
 ///
-/// Line ends, tabs and sequences that choose a colour stay; any other character that is not plain becomes its escape, such as `\u{7}`.
+/// Line ends and tabs stay; any other character that is not plain becomes its escape, such as `\u{7}`.
 fn harmless(text: &str) -> Cow<'_, str> {
     if text.chars().all(is_plain) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(letter) = rest.chars().next() {
-        let length = colour_length(rest).unwrap_or(letter.len_utf8());
-        let (part, after) = rest.split_at(length);
-        if length > letter.len_utf8() || is_plain(letter) {
-            shown.push_str(part);
+    for letter in text.chars() {
+        if is_plain(letter) {
+            shown.push(letter);
         } else {
             shown.extend(letter.escape_unicode());
         }
-        rest = after;
     }
     Cow::Owned(shown)
 }
 
-/// Length of the sequence at the begin of a text that chooses a colour, if there is one: `ESC [ digits ; … m`.
-fn colour_length(text: &str) -> Option<usize> {
-    let parameters = text.strip_prefix("\u{1b}[")?;
-    let end = parameters.find(|letter: char| !letter.is_ascii_digit() && letter != ';')?;
-    parameters[end..].starts_with('m').then_some("\u{1b}[".len() + end + 1)
-}
-
-/// Says what is wrong with a file, with the place underlined.
+/// Says what is wrong with a file, with the place underlined; in colours only where none of the texts in it has any of its own.
 pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
-    print_error(format!("{:?}", miette::Report::new(error)).trim_end());
+    let mut plain = String::new();
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
+    let is_written = handler.render_report(&mut plain, &error).is_ok();
+    if is_written && plain.chars().all(is_plain) {
+        let _ = writeln!(io::stderr().lock(), "{}", format!("{:?}", miette::Report::new(error)).trim_end());
+    } else {
+        print_error(plain.trim_end());
+    }
 }
 
 /// One JSON document; an error calls it `what`.
@@ -115,13 +112,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_terminal_shows_a_text_and_obeys_only_its_colours() {
+    fn a_terminal_shows_a_text_and_obeys_none() {
         assert_eq!(harmless("a\tb\nc"), "a\tb\nc");
-        assert_eq!(harmless("\u{1b}[1;31mred\u{1b}[0m"), "\u{1b}[1;31mred\u{1b}[0m");
+        assert_eq!(harmless("\u{1b}[1;31mred"), "\\u{1b}[1;31mred");
         assert_eq!(harmless("\u{1b}]0;title\u{7}"), "\\u{1b}]0;title\\u{7}");
-        assert_eq!(harmless("\u{1b}[2Jgone\r"), "\\u{1b}[2Jgone\\u{d}");
+        assert_eq!(harmless("gone\r\u{9b}31m"), "gone\\u{d}\\u{9b}31m");
         assert_eq!(harmless("a\u{202e}b"), "a\\u{202e}b");
-        assert_eq!(harmless("\u{9b}31m\u{1b}[31"), "\\u{9b}31m\\u{1b}[31");
     }
 
     #[test]

@@ -24,9 +24,48 @@ pub(super) fn lines(header: &[(&str, Align)], rows: impl IntoIterator<Item = Vec
     table.lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
+/// The lines of a table that is no wider than `width`, if its columns allow it: those that find no place follow below, each time after
+/// the first column, with an empty line between.
+pub(super) fn lines_within(width: usize, header: &[(&str, Align)], rows: &[Vec<String>]) -> Vec<String> {
+    const GAP: usize = 2;
+    let widths: Vec<usize> = (0..header.len())
+        .map(|at| {
+            let words = rows.iter().filter_map(|row| row.get(at)).map(String::as_str).chain([header[at].0]);
+            GAP + words.map(|word| word.chars().count()).max().unwrap_or(0)
+        })
+        .collect();
+    let mut parts: Vec<Vec<usize>> = vec![vec![0]];
+    let mut used = widths.first().copied().unwrap_or(0);
+    for (at, column) in widths.iter().enumerate().skip(1) {
+        let part = parts.last_mut().filter(|part| part.len() == 1 || used + column <= width + GAP);
+        if let Some(part) = part {
+            part.push(at);
+            used += column;
+        } else {
+            parts.push(vec![0, at]);
+            used = widths[0] + column;
+        }
+    }
+    let part_lines = parts.iter().map(|part| {
+        let header: Vec<(&str, Align)> = part.iter().map(|at| header[*at]).collect();
+        lines(&header, rows.iter().map(|row| part.iter().filter_map(|at| row.get(*at).cloned()).collect()))
+    });
+    part_lines.collect::<Vec<_>>().join(&String::new())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_that_find_no_place_follow_below() {
+        let header = ["who", "first", "second", "third"].map(|title| (title, Align::Left));
+        let rows = [["a", "1", "2", "3"].map(str::to_owned).to_vec()];
+        let found = lines_within(19, &header, &rows);
+        assert_eq!(found, ["who  first  second", "a    1      2", "", "who  third", "a    3"]);
+        assert_eq!(lines_within(80, &header, &rows), lines(&header, rows.iter().cloned()));
+        assert_eq!(lines_within(3, &header[..2], &rows), ["who  first", "a    1"]);
+    }
 
     #[test]
     fn columns_are_as_wide_as_their_widest_word() {

@@ -3,11 +3,12 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use parquet::basic::Type as PhysicalType;
+use parquet::basic::{LogicalType, Type as PhysicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
 
 use super::{RowTable, TableColumn};
 use crate::column::{ColumnKind, TableSchema};
@@ -35,6 +36,8 @@ impl TableReader {
         let columns = self.reader.metadata().file_metadata().schema_descr().columns();
         let kinds = columns.iter().map(|column| {
             let kind = match column.physical_type() {
+                // A column in which nothing was ever stated: other programs give it this type.
+                PhysicalType::INT32 if is_null(column) => ColumnKind::Text,
                 PhysicalType::BOOLEAN => ColumnKind::Flag,
                 PhysicalType::INT64 => ColumnKind::Count,
                 PhysicalType::DOUBLE => ColumnKind::Number,
@@ -80,6 +83,11 @@ impl TableReader {
     }
 }
 
+/// Whether a column holds nothing but missing values by its type.
+fn is_null(column: &ColumnDescriptor) -> bool {
+    column.logical_type_ref() == Some(&LogicalType::Unknown)
+}
+
 fn read_column(column: ColumnReader, rows: usize) -> Result<TableColumn, ParquetError> {
     let text = |bytes: ByteArray| String::from_utf8_lossy(bytes.data()).into_owned();
     match column {
@@ -88,6 +96,9 @@ fn read_column(column: ColumnReader, rows: usize) -> Result<TableColumn, Parquet
             Ok(TableColumn::Counts(values(reader, rows, |value: i64| value.cast_unsigned())?))
         }
         ColumnReader::DoubleColumnReader(reader) => Ok(TableColumn::Numbers(values(reader, rows, |value| value)?)),
+        ColumnReader::Int32ColumnReader(reader) => {
+            Ok(TableColumn::Texts(values(reader, rows, |value: i32| value.to_string())?))
+        }
         ColumnReader::ByteArrayColumnReader(reader) => Ok(TableColumn::Texts(values(reader, rows, text)?)),
         _ => Err(ParquetError::General("a column of an unknown type".to_owned())),
     }

@@ -3,7 +3,10 @@
 use interplay_sweep::compare::{Comparison, PairedDifference, VersionComparison};
 
 use super::rows::{TextRows, differences, figures, heading, version_name, versus};
-use crate::report::columns::{Align, lines};
+use crate::report::columns::{Align, lines_within};
+
+/// Characters of a line after its indentation: a terminal of 100 shows it whole.
+const WIDTH: usize = 98;
 
 /// The figures of every planner as text, and below each group its differences from the baseline.
 pub fn comparison(comparison: &Comparison) -> String {
@@ -42,5 +45,6 @@ pub fn version_comparison(comparison: &VersionComparison) -> String {
 
 fn indented((header, rows): &TextRows) -> String {
     let header: Vec<(&str, Align)> = header.iter().map(|title| (title.as_str(), Align::Left)).collect();
-    lines(&header, rows.iter().cloned()).into_iter().map(|line| format!("  {line}\n")).collect()
+    let lines = lines_within(WIDTH, &header, rows);
+    lines.into_iter().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("  {line}\n") }).collect()
 }

@@ -6,7 +6,7 @@ use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
 use serde_json::json;
 
-use super::api::{Signals, Test, series};
+use super::api::{Test, series};
 use crate::climate::plant::boptest_error::BoptestError;
 
 /// Interval at which prices and limits are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.

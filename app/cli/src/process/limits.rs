@@ -1,0 +1,46 @@
+//! What the system's limits do to a command: exit code 3 with a reason, and no signal that ends the process.
+
+use std::io;
+use std::thread;
+
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+
+/// Stack of the thread that does the work \[bytes\], whatever `ulimit -s` leaves to the first one.
+const STACK_BYTES: usize = 16 << 20;
+
+/// Does work on a thread with a stack of its own, once the threads that it may share are there.
+///
+/// # Errors
+/// The system's reason, if it has no such threads.
+pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> io::Result<T> {
+    // Beforehand, for rayon panics where it cannot start them later. Whoever has built them already is no error.
+    if let Err(reason) = ThreadPoolBuilder::new().build_global()
+        && !is_there_already(&reason)
+    {
+        return Err(io::Error::other(reason));
+    }
+    thread::scope(|scope| {
+        let worker = thread::Builder::new().name("main work".to_owned()).stack_size(STACK_BYTES);
+        let worker = worker.spawn_scoped(scope, work)?;
+        // A panic goes on as it would have without this thread.
+        Ok(worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
+}
+
+fn is_there_already(reason: &ThreadPoolBuildError) -> bool {
+    std::error::Error::source(reason).is_none()
+}
+
+/// Writing more than `ulimit -f` allows fails as on a full disk, and does not end the process.
+#[cfg(unix)]
+pub(crate) fn writing_too_much_is_an_error() {
+    #![expect(unsafe_code, reason = "there is no other way to ignore a signal")]
+    // SAFETY: the arguments are constants of the system, and no other thread runs yet.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
+}
+
+/// There is no such signal here.
+#[cfg(not(unix))]
+pub(crate) fn writing_too_much_is_an_error() {}
