@@ -48,12 +48,12 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay identify dutch3/", "the measurements are not part of this repository"),
 ];
 
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// Path from the root and text of every document for users.
-fn documents() -> Vec<(String, String)> {
+pub(crate) fn documents() -> Vec<(String, String)> {
     let pages = fs::read_dir(root().join("docs")).expect("the book");
     let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
     let mut names: Vec<String> = pages.filter(|name| name.ends_with(".md")).collect();
@@ -88,13 +88,13 @@ fn inline_code(text: &str) -> Vec<String> {
 }
 
 /// A folder in which `interplay` is the command under test, and the samples lie where a clone has them.
-struct Shell {
+pub(crate) struct Shell {
     folder: PathBuf,
 }
 
 impl Shell {
     #[cfg(unix)]
-    fn new(name: &str) -> Shell {
+    pub(crate) fn new(name: &str) -> Shell {
         let folder = scratch(name);
         fs::create_dir(folder.join("bin")).expect("a scratch folder");
         std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_interplay-under-test"), folder.join("bin/interplay"))
@@ -107,6 +107,11 @@ impl Shell {
     }
 
     fn run(&self, line: &str) {
+        self.said(line);
+    }
+
+    /// Runs a line; what it says on its standard output.
+    pub(crate) fn said(&self, line: &str) -> String {
         let (line, expected) = line.split_once(" # exit code ").unwrap_or((line, "0"));
         let path = format!("{}:/bin:/usr/bin", self.folder.join("bin").display());
         let mut shell = Command::new("sh");
@@ -114,6 +119,14 @@ impl Shell {
         let output = output.expect("there is a shell");
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code().map(|code| code.to_string()).as_deref(), Some(expected), "{line}\n{said}");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    }
+
+    /// Writes all blocks of a text that are files.
+    pub(crate) fn write_all(&self, text: &str) {
+        for (_, block) in blocks(text).into_iter().filter(|(language, _)| ["toml", "xml"].contains(language)) {
+            self.write(&block);
+        }
     }
 
     /// Writes a block that is a file; says its name.

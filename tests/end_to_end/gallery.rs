@@ -10,10 +10,10 @@ use interplay_scenarios::{Override, Registry, Scenario, embedded, load};
 const MOST_BYTES: u64 = 15_000_000;
 
 /// An animation: its file, and the scenario that it shows.
-struct Entry {
-    file: String,
+pub(crate) struct Entry {
+    pub file: String,
     family: String,
-    scenario: Scenario,
+    pub scenario: Scenario,
 }
 
 fn docs() -> PathBuf {
@@ -25,7 +25,7 @@ fn read(path: &Path) -> String {
 }
 
 /// The entries of the gallery: a line with the arguments of `interplay run`, and below it the picture.
-fn entries() -> Vec<Entry> {
+pub(crate) fn entries() -> Vec<Entry> {
     let text = read(&docs().join("gallery.md"));
     let mut command = None;
     let mut entries = Vec::new();

@@ -1,7 +1,7 @@
 //! `interplay check`
 
 use clap::Args;
-use interplay_scenarios::{Registry, Scenario};
+use interplay_scenarios::{Override, Registry, Scenario};
 
 use crate::flag_values::files;
 use crate::output::exit_status::ExitStatus;
@@ -9,21 +9,31 @@ use crate::output::{print_error, print_load_error, printed};
 
 /// Check scenario files without running them; every error is located.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/")]
+#[command(after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/\n  interplay check my.toml --planner nash --set horizon_steps=40")]
 pub(crate) struct Check {
     /// Scenario files, names of embedded scenarios, or folders that are searched for .toml files
     #[arg(value_name = "FILE|DIR", required = true)]
     paths: Vec<String>,
+
+    /// Who drives the ego instead of each scenario's choice
+    #[arg(long, value_name = "KIND")]
+    planner: Option<String>,
+
+    /// Change a value of each scenario, as `interplay run` does; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
 }
 
 impl Check {
     pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        let planner = self.planner.iter().cloned().map(Override::Planner);
+        let overrides: Vec<Override> = planner.chain(self.sets.iter().cloned().map(Override::Set)).collect();
         let mut ending = ExitStatus::Well;
         for path in &self.paths {
             match files::find(path) {
                 Ok(found) => {
                     for file in found.into_iter().map(|found| found.scenario) {
-                        match registry.load(&file, &[]) {
+                        match registry.load(&file, &overrides) {
                             Ok(scenario) => ending = ending.max(printed(&approved(&file, &scenario))),
                             Err(error) => {
                                 print_load_error(error);

@@ -178,7 +178,7 @@ impl Pictures for BuildingPictures<'_> {
         self.draw_plan(&mut canvas, step, at.fract());
         self.draw_outdoors(&mut canvas, steps, hour);
         self.draw_indoors(&mut canvas, steps, hour);
-        let key = "solid: so far   dashed: forecast, wanted";
+        let key = "solid: so far   dashed: forecast; lowest and highest wanted";
         canvas.text([INDOORS_PX[2], HEIGHT_PX - 10.0], Align::Right, SMALL_PX, key, DARK_WORDS);
         canvas.line(&[[0.0, TITLE_PX], [WIDTH_PX, TITLE_PX]], 1.0, LineEnd::Flat, BAR);
         Some(canvas.into_rgb())

@@ -280,7 +280,7 @@ fn key(run: &DrivingRun, moments: &[Moment]) -> String {
     [
         (seen.iter().enumerate().any(is_ribbon), "band: plan"),
         (seen.iter().any(|seen| !seen.branches.is_empty()), "lines: what it may do instead"),
-        (seen.iter().any(|seen| !seen.proposals.is_empty()), "dots: what it asks for"),
+        (seen.iter().any(|seen| !seen.proposals.is_empty()), "dots: what it asks for or expects of another"),
     ]
     .into_iter()
     .filter(|(is_drawn, _)| *is_drawn)
@@ -368,7 +368,7 @@ mod tests {
             DrivingPictures::from_run(&recorded).expect("vehicles").key
         };
         assert_eq!(key("roundabout/nice"), "band: plan");
-        assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for");
+        assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for or expects of another");
         assert_eq!(key("ramp-merge/contingency"), "band: plan   lines: what it may do instead");
     }
 

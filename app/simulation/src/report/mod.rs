@@ -41,6 +41,7 @@ impl Report {
             scenario: name.to_owned(),
             passed: true,
             seed: scenario.seed,
+            remarks: scenario.remarks.iter().map(|remark| remark.to_string()).collect(),
             simulated_s: ended_early_s.unwrap_or_else(|| simulated_s(scenario)),
             ended_early_s,
             wall_s,

@@ -21,6 +21,9 @@ pub struct Report {
     pub passed: bool,
     /// The seed of the run.
     pub seed: u64,
+    /// What of the scenario and its files is allowed and may not have been meant, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// Simulated time \[s\].
     pub simulated_s: f64,
     /// When the run was ended before the scenario was over \[s\]; expectations are then judged by what happened until then.

@@ -21,8 +21,10 @@ pub struct PairedDifference {
     /// Who has the better place: touches nobody where the other does, or is nearer to the front. Going first where that is
     /// possible is no failure, and going second is none either.
     pub place: Split,
-    /// Who reaches the goal sooner, of pairs in which both reach it.
+    /// Who reaches the goal sooner; who never reaches it is later than whoever does.
     pub time: Split,
+    /// Pairs in which one alone reaches the goal: they count for `time`, and have no delay.
+    pub censored: usize,
     /// How much later the first reaches its goal \[s\]: mean over these pairs; none without any.
     pub delay_s: Option<f64>,
     /// Its bootstrap interval at 95 % \[s\].
@@ -80,8 +82,9 @@ impl PairedDifference {
         let succeeded = pairs.iter().filter(|(one, other)| succeeds(one) && succeeds(other));
         let time_s = |record: &RunRecord| record.number("completed_s");
         let delays_s: Vec<f64> = succeeded.filter_map(|(one, other)| Some(time_s(one)? - time_s(other)?)).collect();
-        let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count();
-        let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count();
+        let success = split(&|one, other| succeeds(one) && !succeeds(other));
+        let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count() + success.wins;
+        let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count() + success.losses;
         let delay = mean_interval(&delays_s, stream);
         let metrics = compared.splits.iter().map(|metric| MetricSplit {
             key: metric.key,
@@ -90,9 +93,10 @@ impl PairedDifference {
         });
         PairedDifference {
             pairs: pairs.len(),
-            success: split(&|one, other| succeeds(one) && !succeeds(other)),
+            success,
             place: split(&is_ahead),
             time: Split::of(sooner, later),
+            censored: success.wins + success.losses,
             delay_s: delay.map(|(mean, _)| mean),
             delay_interval_s: delay.map(|(_, interval)| interval),
             delay_median_s: median(delays_s),

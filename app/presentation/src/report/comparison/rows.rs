@@ -80,7 +80,7 @@ fn difference_columns<'a>() -> [RowColumn<(&'a str, &'a PairedDifference)>; 11] 
         ("p (Holm)", |(_, one)| probability(&one.success)),
         ("place: ahead / behind", |(_, one)| split(&one.place)),
         ("p (Holm)", |(_, one)| probability(&one.place)),
-        ("sooner / later", |(_, one)| split(&one.time)),
+        ("sooner / later (one alone arrives)", |(_, one)| format!("{} ({})", split(&one.time), one.censored)),
         ("p (Holm)", |(_, one)| probability(&one.time)),
         ("later by s (95 %), median", |(_, one)| delay(one)),
         ("brakes hard: only the baseline / only this", |(_, one)| split(&one.metrics.get("hard_braking"))),
