@@ -38,6 +38,7 @@ enum Quantity {
     Plans,
     Steps,
     Design,
+    Time,
     Recording,
 }
 
@@ -47,6 +48,7 @@ fn exceeded(scenario: &Scenario, cost: &RunCost) -> Vec<Excess> {
         (Quantity::Plans, cost.plans, limits.plans),
         (Quantity::Steps, cost.steps, limits.steps),
         (Quantity::Design, cost.design_gop.ceil() as u64, limits.design_gop),
+        (Quantity::Time, cost.processor_s.ceil() as u64, limits.processor_s),
         (Quantity::Recording, cost.recorded_mb.ceil() as u64, limits.recorded_mb),
     ];
     let over = all.into_iter().filter(|(_, found, limit)| found > limit);
@@ -62,6 +64,7 @@ impl std::fmt::Display for Excess {
             Quantity::Design => {
                 write!(f, "days that take about {found} thousand million operations to design, more than {limit}")
             }
+            Quantity::Time => write!(f, "work of about {found} s for a processor, more than {limit} s"),
             Quantity::Recording => write!(f, "a recording of about {found} MB, more than {limit} MB"),
         }
     }
@@ -74,6 +77,7 @@ impl Excess {
             Quantity::Plans => "plans",
             Quantity::Steps => "steps",
             Quantity::Design => "design_gop",
+            Quantity::Time => "processor_s",
             Quantity::Recording => "recorded_mb",
         };
         format!("`budget = {{ {key} = {} }}`", self.found)
@@ -111,6 +115,10 @@ impl Excess {
                 let remedy = "lengthen `building.step_s`, state fewer zones, or take another `controller.kind`";
                 (if short { "building.step_s" } else { "building" }, remedy.to_owned())
             }
+            Quantity::Time if building_steps(scenario) > 0 && scenario.vehicles.is_empty() => fewer_days(),
+            Quantity::Time => shorter(
+                "lower `horizon_steps`, take a planner that is quicker (`interplay check --planner` says), do without `passing_orders = \"global\"`",
+            ),
             Quantity::Recording if building_steps(scenario) as f64 > scenario.tick_count() as f64 => fewer_days(),
             Quantity::Recording => shorter("lower `horizon_steps`"),
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::plan_time::plan_time_s;
 use crate::file_format::plant::Plant;
 use crate::scenario::{MOST_TOLD, Scenario, Vehicle};
 
@@ -21,6 +22,10 @@ const PLOTTED_ZONES_OF_MANY: usize = 4;
 const BYTES_PER_PLOTTED_ZONE: f64 = 50e3;
 const BYTES_PER_PLOTTED_ZONE_STEP: f64 = 150.0;
 
+/// Time of a step, and of an operation of a design \[s\].
+const SECONDS_PER_STEP: f64 = 2e-7;
+const SECONDS_PER_OPERATION: f64 = 1e-9;
+
 /// So many others are near a vehicle in dense traffic.
 const MOST_NEAR: u64 = 80;
 
@@ -35,6 +40,8 @@ pub struct RunCost {
     pub records: u64,
     /// Operations of the designs of the building's days, in thousands of millions.
     pub design_gop: f64,
+    /// Time of one core of the reference machine, with all plans, steps and designs \[s\].
+    pub processor_s: f64,
     /// Size of the recording \[MB\].
     pub recorded_mb: f64,
 }
@@ -56,6 +63,12 @@ impl RunCost {
         let operations =
             scenario.controller().operations_per_day(zones as f64, steps_per_day as f64) * scenario.days() as f64;
         let zone_steps = building_steps.saturating_mul(zones as u64);
+        let planning_s: f64 = scenario
+            .vehicles
+            .iter()
+            .map(|vehicle| plans_of(scenario, vehicle) as f64 * plan_time_s(scenario, vehicle))
+            .sum();
+        let steps = ticks.saturating_mul(sub_steps).saturating_mul(bodies_and_pairs).saturating_add(zone_steps);
         let bytes = EMPTY_RECORDING_BYTES
             + vehicles_bytes(scenario, plans, ticks)
             + building_steps as f64 * BYTES_PER_BUILDING_STEP
@@ -63,9 +76,10 @@ impl RunCost {
             + plots_bytes(zones, building_steps);
         RunCost {
             plans,
-            steps: ticks.saturating_mul(sub_steps).saturating_mul(bodies_and_pairs).saturating_add(zone_steps),
+            steps,
             records: ticks + building_steps,
             design_gop: operations / 1e9,
+            processor_s: planning_s + steps as f64 * SECONDS_PER_STEP + operations * SECONDS_PER_OPERATION,
             recorded_mb: bytes / 1e6,
         }
     }
@@ -76,6 +90,7 @@ impl RunCost {
             plans: self.plans.saturating_add(other.plans),
             steps: self.steps.saturating_add(other.steps),
             design_gop: self.design_gop + other.design_gop,
+            processor_s: self.processor_s + other.processor_s,
             ..self
         }
     }
@@ -122,6 +137,10 @@ impl fmt::Display for RunCost {
         if self.design_gop >= 0.05 {
             write!(f, "{:.1} thousand million operations of design, ", self.design_gop)?;
         }
-        write!(f, "{} records in about {:.1} MB", self.records, self.recorded_mb)
+        write!(f, "{} records in about {:.1} MB, ", self.records, self.recorded_mb)?;
+        match self.processor_s {
+            short if short < 10.0 => write!(f, "about {short:.1} s of a processor"),
+            long => write!(f, "about {long:.0} s of a processor"),
+        }
     }
 }

@@ -5,6 +5,7 @@
 
 mod check;
 mod cost;
+mod plan_time;
 
 pub use cost::RunCost;
 

@@ -16,6 +16,9 @@ pub struct BudgetLimits {
     /// The most operations that the designs of the building's days may take, about, in thousands of millions.
     #[schemars(range(min = 1))]
     pub design_gop: u64,
+    /// The longest that it may take, about, on one core of the reference machine \[s\].
+    #[schemars(range(min = 1))]
+    pub processor_s: u64,
     /// The largest recording, about \[MB\].
     #[schemars(range(min = 1))]
     pub recorded_mb: u64,
@@ -23,6 +26,6 @@ pub struct BudgetLimits {
 
 impl Default for BudgetLimits {
     fn default() -> Self {
-        BudgetLimits { plans: 200_000, steps: 20_000_000, design_gop: 200, recorded_mb: 500 }
+        BudgetLimits { plans: 200_000, steps: 20_000_000, design_gop: 200, processor_s: 1800, recorded_mb: 500 }
     }
 }

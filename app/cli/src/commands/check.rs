@@ -9,7 +9,9 @@ use crate::output::{print_error, print_load_error, printed};
 
 /// Check scenario files without running them; every error is located.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/\n  interplay check my.toml --planner nash --set horizon_steps=40")]
+#[command(
+    after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/\n  interplay check my.toml --planner nash --set horizon_steps=40"
+)]
 pub(crate) struct Check {
     /// Scenario files, names of embedded scenarios, or folders that are searched for .toml files
     #[arg(value_name = "FILE|DIR", required = true)]
