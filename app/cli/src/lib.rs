@@ -26,8 +26,8 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::exit_status::ExitStatus;
 use commands::{
-    check, compare, completions, export_fmu, fit, identify, import, list, man, new, play, predict, reproduce, run,
-    schema, suite, sweep, view, why,
+    check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
+    run, schema, suite, sweep, view, why,
 };
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
@@ -59,6 +59,9 @@ enum Command {
     Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
     ExportFmu(export_fmu::ExportFmu),
+    /// Run a functional mock-up unit for a run of ours; runs start it by themselves
+    #[command(hide = true)]
+    FmuHost(fmu_host::FmuHost),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -117,6 +120,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
         Some(Command::ExportFmu(command)) => command.execute(registry),
+        Some(Command::FmuHost(command)) => command.execute(),
         Some(Command::Completions(asked)) => asked.execute(command),
         Some(Command::Man(asked)) => asked.execute(command),
     }
