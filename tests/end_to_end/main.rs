@@ -67,4 +67,5 @@ mod sweeps;
 mod traffic;
 mod trajectories;
 mod unharmed;
+mod unit_plants;
 mod unsuited;
