@@ -12,7 +12,7 @@ use libloading::{Library as Loaded, Symbol};
 
 type Component = *mut c_void;
 type Status = c_int;
-type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char);
+type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char, *const c_char);
 
 /// `fmi2CoSimulation`.
 const CO_SIMULATION: c_int = 1;
@@ -34,15 +34,31 @@ struct Callbacks {
 /// The last message of the unit, which explains a status.
 static LAST_MESSAGE: Mutex<String> = Mutex::new(String::new());
 
-/// Keeps a message. The standard has more arguments, those of a format; a callee in C that ignores them may leave them out.
-unsafe extern "C" fn log(_: *mut c_void, _: *const c_char, _: Status, _: *const c_char, message: *const c_char) {
+/// The format of a message that is one text.
+const ONE_TEXT: &CStr = c"%s";
+
+/// Keeps a message. In the standard its format is followed by any number of arguments, which Rust cannot declare for a function of its own.
+/// On Linux with x86-64, where alone units are run, the first of them is passed where a sixth fixed argument would be; it is looked at only
+/// where the format says that it is a text. Other formats are kept as they are.
+unsafe extern "C" fn log(
+    _: *mut c_void,
+    _: *const c_char,
+    _: Status,
+    _: *const c_char,
+    message: *const c_char,
+    first: *const c_char,
+) {
     if message.is_null() {
         return;
     }
     // SAFETY: messages are texts that end with a zero (FMI 2.0.4, section 2.1.5).
-    let text = unsafe { CStr::from_ptr(message) }.to_string_lossy().trim().to_owned();
+    let mut text = unsafe { CStr::from_ptr(message) };
+    if text == ONE_TEXT && !first.is_null() {
+        // SAFETY: the format promises a text that ends with a zero.
+        text = unsafe { CStr::from_ptr(first) };
+    }
     if let Ok(mut last) = LAST_MESSAGE.lock() {
-        *last = text;
+        *last = text.to_string_lossy().trim().to_owned();
     }
 }
 

@@ -133,7 +133,7 @@ impl RunHistory {
         let dearest = prices.iter().fold(0.0, |dearest: f64, price| dearest.max(price.abs()));
         let capacities = model.network().capacities_kj_per_k().iter();
         let end_price = capacities.map(|capacity| END_FACTOR * dearest * capacity / 3600.0).collect();
-        let peak = plan_prices.has_peak.then_some(crate::staged::Peak { price: demand_per_kw, least_kw: 0.0 });
+        let peak = plan_prices.has_peak.then_some(staged::Peak { price: demand_per_kw, least_kw: 0.0 });
         let solution = self.solve(model, &inputs, stages, peak, end_price)?;
         Ok(self.outcome(model, &targets, &inputs, &solution))
     }
@@ -144,7 +144,7 @@ impl RunHistory {
         model: &Model,
         inputs: &[HeatInput],
         mut stages: Vec<PlanStage>,
-        peak: Option<crate::staged::Peak>,
+        peak: Option<staged::Peak>,
         end_price: Vec<f64>,
     ) -> Result<StagedSolution, ControlError> {
         if let Some(last) = stages.last_mut() {
