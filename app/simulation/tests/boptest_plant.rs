@@ -217,8 +217,7 @@ fn designs_that_learn_and_that_count_money_run_on_the_case() {
         let (url, _) = server(sound);
         let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
         let text = format!("controller.kind=\"{kind}\"");
-        let mut scenario = scenario_with(BoptestPlantConfig { forecast: Some(forecast), ..config(url) }, &text);
-        scenario.iterations = 1;
+        let scenario = scenario_with(BoptestPlantConfig { forecast: Some(forecast), ..config(url) }, &text);
         let mut simulation = Simulation::new(&scenario).expect(kind);
         while simulation.step().expect(kind).is_some() {}
         let building = simulation.finish().expect(kind).building.expect("a building");
