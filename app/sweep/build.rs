@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 /// What decides results, from the root of the repository.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "Cargo.lock",
     "common/src",
     "convex/src",
     "planners/src",
     "building/src",
     "scenarios/src",
+    "app/fmu_host/src",
     "app/simulation/src",
     "app/sweep/src/measure",
     "app/sweep/src/row.rs",

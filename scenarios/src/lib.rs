@@ -83,6 +83,7 @@ pub use commonroad::{
     import_commonroad_file, is_commonroad, recorded_traffic_in_commonroad,
 };
 pub use error::{Fault, LoadError};
+pub use file_format::boptest_forecast::BoptestForecast;
 pub use file_format::boptest_plant::{BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone};
 pub use file_format::budget_limits::BudgetLimits;
 pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};

@@ -68,4 +68,5 @@ mod sweeps;
 mod traffic;
 mod trajectories;
 mod unharmed;
+mod unit_plants;
 mod unsuited;

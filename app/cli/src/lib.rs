@@ -27,8 +27,8 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::exit_status::ExitStatus;
 use commands::{
-    check, compare, completions, export_fmu, fit, identify, import, list, man, new, play, predict, reproduce, run,
-    schema, suite, sweep, view, why,
+    check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
+    run, schema, suite, sweep, view, why,
 };
 
 /// The version and the commit it was built from, which packages name in the environment variable `INTERPLAY_COMMIT`.
@@ -66,6 +66,9 @@ enum Command {
     Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
     ExportFmu(export_fmu::ExportFmu),
+    /// Run a functional mock-up unit for a run of ours; runs start it by themselves
+    #[command(hide = true)]
+    FmuHost(fmu_host::FmuHost),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -131,6 +134,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
         Some(Command::ExportFmu(command)) => command.execute(registry),
+        Some(Command::FmuHost(command)) => command.execute(),
         Some(Command::Completions(asked)) => asked.execute(command),
         Some(Command::Man(asked)) => asked.execute(command),
     }

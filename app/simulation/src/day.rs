@@ -5,6 +5,7 @@ use interplay_building::day::{Day, KeyFigures};
 use interplay_building::discretise::Model;
 use serde::Serialize;
 
+use crate::climate::plant::Metered;
 use crate::worst_zones::WorstZones;
 
 /// The key figures of a day; their serialisation is part of the output contract.
@@ -28,6 +29,9 @@ pub struct DayFigures {
     /// How well the day was known beforehand, where another program is the building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub day_ahead: Option<DayAheadErrors>,
+    /// What the meter of electricity counted, where another program is the building and has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metered: Option<Metered>,
     /// How zones that plan together came to their plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exchange: Option<ExchangeFigures>,

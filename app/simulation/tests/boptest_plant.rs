@@ -8,7 +8,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use interplay_scenarios::{
-    BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone, BuildingPlant, Scenario,
+    BoptestForecast, BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone, BuildingPlant,
+    Scenario,
 };
 use interplay_simulation::Simulation;
 use interplay_simulation::report::Report;
@@ -66,6 +67,7 @@ fn sound(request: &str, body: &Value) -> Option<(u16, String)> {
         "GET /inputs/1f-2" => json!({ "oveY_u": {}, "oveY_activate": {} }),
         "GET /measurements/1f-2" => json!({ "reaT_y": {}, "reaP_y": {} }),
         "PUT /scenario/1f-2" => json!({ "electricity_price": "dynamic", "time_period": state }),
+        "PUT /forecast/1f-2" if body["point_names"][0] == "TDryBul" => foretold(body),
         "PUT /forecast/1f-2" => json!({
             "time": [86_400.0, 172_800.0],
             "LowerSetp[1]": [294.15, 294.15],
@@ -85,11 +87,33 @@ fn sound(request: &str, body: &Value) -> Option<(u16, String)> {
     Some((200, json!({ "status": 200, "message": "done", "payload": payload }).to_string()))
 }
 
+/// Two days of the case: -3 °C outdoors, a sun of 100 W/m², people who give 200 W and are away from 8 to 18 o'clock, and electricity that is
+/// dear from 12 o'clock on.
+fn foretold(body: &Value) -> Value {
+    assert_eq!((&body["horizon"], &body["interval"]), (&json!(172_800.0), &json!(900.0)));
+    let hours: Vec<f64> = (0..=192).map(|quarter| f64::from(quarter % 96) / 4.0).collect();
+    let by_hour = |value: &dyn Fn(f64) -> f64| hours.iter().map(|hour| value(*hour)).collect::<Vec<f64>>();
+    let is_away = |hour: f64| (8.0..18.0).contains(&hour);
+    json!({
+        "time": (0..=192).map(|quarter| 86_400.0 + 900.0 * f64::from(quarter)).collect::<Vec<f64>>(),
+        "TDryBul": by_hour(&|_| 270.15),
+        "HGloHor": by_hour(&|_| 100.0),
+        "LowerSetp[1]": by_hour(&|hour| if is_away(hour) { 288.15 } else { 294.15 }),
+        "UpperSetp[1]": by_hour(&|hour| if is_away(hour) { 303.15 } else { 297.15 }),
+        "InternalGainsCon[1]": by_hour(&|hour| if is_away(hour) { 0.0 } else { 150.0 }),
+        "InternalGainsRad[1]": by_hour(&|hour| if is_away(hour) { 0.0 } else { 50.0 }),
+        "PriceElectricPowerDynamic": by_hour(&|hour| if hour < 12.0 { 0.1 } else { 0.3 }),
+        "EmissionsElectricPower": by_hour(&|_| 0.167),
+    })
+}
+
 fn config(url: String) -> BoptestPlantConfig {
     let input =
         BoptestInput { name: "oveY_u".to_owned(), at_zero: 0.0, per_kw: 0.1, min: 0.0, max: 1.0, least_on: None };
     BoptestPlantConfig {
-        url,
+        url: Some(url),
+        fmu: None,
+        sampling_s: 30.0,
         case: Some("a-case".to_owned()),
         period: Some("a_period".to_owned()),
         start_day: 0,
@@ -104,16 +128,23 @@ fn config(url: String) -> BoptestPlantConfig {
             gas: Vec::new(),
             district_heat: Vec::new(),
         }),
+        forecast: None,
         timeout_s: 5.0,
     }
 }
 
 /// A day of one zone at the server.
 fn scenario(config: BoptestPlantConfig) -> Scenario {
+    scenario_with(config, "controller.kind=\"pid\"")
+}
+
+/// The same with a controller.
+fn scenario_with(config: BoptestPlantConfig, controller: &str) -> Scenario {
     let text = "title = 'A'\nshows = 'B'\niterations = 1\n[[building.zone]]\nname = 'house'\nheating_limit_kw = 8.0\n\
                 [[building.wall]]\nbetween = ['house', 'ambient']\nresistance_k_per_kw = 5.0\n[weather]\nkind = 'synthetic'\n\
-                [weather.climate]\nmean_c = 5.0\n[setpoints]\noccupied_c = [21.0]\n[controller]\nkind = 'pid'";
-    let mut scenario = interplay_scenarios::from_text("a.toml", text, &[]).expect("a scenario");
+                [weather.climate]\nmean_c = 5.0\n[setpoints]\noccupied_c = [21.0]\n";
+    let text = format!("{controller}\n{text}");
+    let mut scenario = interplay_scenarios::from_text("a.toml", &text, &[]).expect("a scenario");
     scenario.building.as_mut().expect("a building").plant = BuildingPlant::Boptest(Box::new(config));
     scenario
 }
@@ -152,6 +183,46 @@ fn heat_becomes_inputs_and_measurements_become_indicators() {
     }
     assert!(advances[24]["oveY_u"].as_f64().expect("a number") > 0.0, "a cold zone is heated");
     assert_eq!(asked.last().map(|(request, _)| request.as_str()), Some("PUT /stop/1f-2"));
+}
+
+#[test]
+fn forecasts_prices_and_bounds_are_those_of_the_case() {
+    let (url, _) = server(sound);
+    let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
+    let mut scenario = scenario(BoptestPlantConfig { forecast: Some(forecast), ..config(url) });
+    scenario.building.as_mut().expect("a building").zones[0].solar_aperture_m2 = 2.0;
+    let mut simulation = Simulation::new(&scenario).expect("a simulation");
+    let mut steps = Vec::new();
+    while let Some(frame) = simulation.step().expect("a step") {
+        steps.push(frame.building.clone().expect("a building"));
+    }
+    let step = |hour: usize| &steps[2 * hour];
+    assert_eq!((step(3).ambient_c, step(3).forecast_c, step(3).sun_w_per_m2), (-3.0, -3.0, 100.0));
+    assert!((step(3).zones[0].gains_kw - 0.4).abs() < 1e-12 && (step(10).zones[0].gains_kw - 0.2).abs() < 1e-12);
+    assert_eq!((step(3).zones[0].reference_c, step(3).zones[0].band_k), (Some(22.5), Some(1.5)));
+    assert_eq!((step(10).zones[0].reference_c, step(10).zones[0].band_k), (None, None));
+    assert_eq!((step(3).price_per_kwh, step(13).price_per_kwh), (Some(0.1), Some(0.3)));
+    let building = simulation.finish().expect("a report").building.expect("a building");
+    let metered = building.iterations[0].metered.expect("a meter");
+    assert!(
+        (metered.electric_kwh - 23.04).abs() < 1e-4 && (metered.electric_peak_kw - 0.96).abs() < 1e-9,
+        "{metered:?}"
+    );
+    assert!((metered.electric_cost - 23.04 * 0.25).abs() < 1e-4, "{metered:?}");
+}
+
+#[test]
+fn designs_that_learn_and_that_count_money_run_on_the_case() {
+    for kind in ["economic-mpc", "model-predictive", "iterative", "concurrent"] {
+        let (url, _) = server(sound);
+        let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
+        let text = format!("controller.kind=\"{kind}\"");
+        let scenario = scenario_with(BoptestPlantConfig { forecast: Some(forecast), ..config(url) }, &text);
+        let mut simulation = Simulation::new(&scenario).expect(kind);
+        while simulation.step().expect(kind).is_some() {}
+        let building = simulation.finish().expect(kind).building.expect("a building");
+        assert!(building.benchmark.is_some(), "{kind}");
+    }
 }
 
 #[test]

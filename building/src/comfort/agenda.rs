@@ -1,5 +1,6 @@
 //! What is wanted on each day of a run, and what heat costs on it.
 
+use super::bounds::ComfortBounds;
 use super::targets::{Setpoints, SetpointsError, Targets};
 use crate::energy::{EnergySupply, HeatPump, Tariff};
 use crate::schedule::{Timetable, ZoneSchedule};
@@ -11,6 +12,7 @@ pub struct Agenda {
     common: Targets,
     setpoints: Setpoints,
     timetable: Timetable,
+    bounds: Option<ComfortBounds>,
     tariff: Option<Tariff>,
     heat_pump: Option<HeatPump>,
     step_s: f64,
@@ -23,7 +25,8 @@ impl Agenda {
     /// [`SetpointsError`].
     pub fn new(setpoints: Setpoints, zones: usize, step_s: f64, steps: usize) -> Result<Self, SetpointsError> {
         let common = setpoints.targets(zones, step_s, steps)?;
-        Ok(Self { common, setpoints, timetable: Timetable::default(), tariff: None, heat_pump: None, step_s })
+        let timetable = Timetable::default();
+        Ok(Self { common, setpoints, timetable, bounds: None, tariff: None, heat_pump: None, step_s })
     }
 
     /// These targets with the schedules of a timetable.
@@ -38,10 +41,23 @@ impl Agenda {
         Self { tariff, heat_pump, ..self }
     }
 
+    /// These targets within the bounds of another program, which take the place of schedules.
+    #[must_use]
+    pub fn bounded(self, bounds: ComfortBounds) -> Self {
+        Self { bounds: Some(bounds), ..self }
+    }
+
+    /// These targets with the prices of a checked tariff, and the heat pump that they had.
+    #[must_use]
+    pub fn priced(self, tariff: Tariff) -> Self {
+        Self { tariff: Some(tariff), ..self }
+    }
+
     /// The targets of day `day`, counted from zero; they know those of the next day where days differ.
     pub fn of_day(&self, day: usize) -> Targets {
         let mut targets = self.alone(day);
-        if self.timetable.days_differ() || self.tariff.as_ref().is_some_and(Tariff::days_differ) {
+        let bounded = self.bounds.is_some();
+        if bounded || self.timetable.days_differ() || self.tariff.as_ref().is_some_and(Tariff::days_differ) {
             targets.tomorrow = Some(Box::new(self.alone(day + 1)));
         }
         targets
@@ -58,6 +74,9 @@ impl Agenda {
             if let Some(schedule) = self.timetable.look_up(zone, day) {
                 self.follow(&mut targets, zone, schedule);
             }
+        }
+        if let Some(bounds) = &self.bounds {
+            bounds.write(&mut targets, day, self.step_s, &self.setpoints);
         }
         let price_per_kwh = self.tariff.as_ref().map(|tariff| tariff.day_per_kwh(day, self.step_s, targets.steps()));
         let weighs = self.setpoints.weigh_energy;

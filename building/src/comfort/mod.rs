@@ -1,8 +1,10 @@
 //! Wanted temperatures ([`Setpoints`]), their values at the steps of a day ([`Targets`]), and those of every day of a run
-//! ([`Agenda`]).
+//! ([`Agenda`]), with the bounds that another program may state ([`ComfortBounds`]).
 
 mod agenda;
+mod bounds;
 mod targets;
 
 pub use agenda::Agenda;
+pub use bounds::{ComfortBounds, ZoneBounds};
 pub use targets::{Setpoints, SetpointsError, Targets};

@@ -64,22 +64,19 @@ impl Surroundings {
     /// where the weather ends before.
     pub fn outlook(&self, model: &Model, steps: usize, day: usize) -> Option<Disturbance> {
         let (step_s, from_s) = (model.step_s(), (day + 1) as f64 * DAY_S);
+        let scheduled_kw = self.people.scheduled_kw(day + 1, step_s, steps);
+        let people_kw = self.recorded.forecast_kw(scheduled_kw, day + 1, model.network().zone_count(), step_s);
         if !self.weather.covers(from_s + DAY_S) {
             return None;
         }
         if self.forecast == Forecast::Persistence {
             return Some(self.forecast(model, steps, day)).map(|forecast| Disturbance {
-                gains_kw: self.with_sun(
-                    self.people.scheduled_kw(day + 1, step_s, steps),
-                    model,
-                    steps,
-                    from_s - 2.0 * DAY_S,
-                ),
+                gains_kw: self.with_sun(people_kw, model, steps, from_s - 2.0 * DAY_S),
                 ..forecast
             });
         }
         let ambient_c = self.forecast.ambient_steps_c(&self.weather, self.forecast_seed, day, step_s, 2 * steps);
-        let gains_kw = self.with_sun(self.people.scheduled_kw(day + 1, step_s, steps), model, steps, from_s);
+        let gains_kw = self.with_sun(people_kw, model, steps, from_s);
         Some(Disturbance { ambient_c: ambient_c[steps..].to_vec(), gains_kw })
     }
 

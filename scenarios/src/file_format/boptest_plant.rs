@@ -4,14 +4,28 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// Where the server of BOPTEST listens, which of its tests is run, and what its signals mean to the zones of the file.
+use super::boptest_forecast::BoptestForecast;
+
+/// Where the test case of BOPTEST is, which of its tests is run, and what its signals mean to the zones of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestPlantConfig {
     /// The server, as `http://host:port`; a path may follow. There is no encryption.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"http://127.0.0.1:8080")]
-    pub url: String,
-    /// The name of the test case, where the server has several; none for a server of one case.
+    pub url: Option<String>,
+    /// In place of a server: the case as a functional mock-up unit of FMI 2.0 for co-simulation with a library for Linux on x86-64, which
+    /// `interplay` runs in a process of its own. The path is relative to the scenario or plan that states it, and in a flag to the
+    /// current folder. There are no indicators of BOPTEST then, only ours.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"wrapped.fmu", length(min = 1), extend("x-excludes" = ["url"]))]
+    pub fmu: Option<String>,
+    /// With `fmu`: how often its measurements are taken, at the ends of as many communication steps \[s\]. A step of the building is a
+    /// whole number of these.
+    #[serde(default = "default_sampling_s")]
+    #[schemars(range(min = 0.001, max = 86400.0), example = 30.0)]
+    pub sampling_s: f64,
+    /// The name of the test case, where the server has several; none for a server of one case. A name for the reader with `fmu`.
     #[serde(default)]
     #[schemars(example = &"bestest_hydronic_heat_pump", length(min = 1))]
     pub case: Option<String>,
@@ -37,6 +51,10 @@ pub struct BoptestPlantConfig {
     #[serde(default)]
     #[schemars(example = json!({ "area_m2": 192.0, "zones": ["1"] }))]
     pub indicators: Option<BoptestIndicators>,
+    /// What controllers are told beforehand by the case; none leaves weather, people, wanted temperatures and prices to the file.
+    #[serde(default)]
+    #[schemars(example = json!({ "zones": ["1"] }))]
+    pub forecast: Option<BoptestForecast>,
     /// The longest that the server may take to accept a connection, and for each answer \[s\]; a warm-up is one answer.
     #[serde(default = "default_timeout_s")]
     #[schemars(range(min = 0.001, max = 86400.0), example = 600.0)]
@@ -84,7 +102,8 @@ pub struct BoptestZone {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestInput {
-    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it.
+    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it. An FMU that is no case of BOPTEST may
+    /// have inputs with other endings and without activation.
     #[schemars(example = &"oveHeaPumY_u", length(min = 1))]
     pub name: String,
     /// Its value without heat.
@@ -116,7 +135,7 @@ pub struct BoptestIndicators {
     /// The floor area of the case \[m²\].
     #[schemars(range(min = 0.001, max = 1e7), example = 192.0)]
     pub area_m2: f64,
-    /// BOPTEST's identifiers of the zones, in their order, as in `LowerSetp[1]`.
+    /// BOPTEST's identifiers of the zones, in their order, as in `LowerSetp[1]`; an empty one for a zone that the case does not judge.
     #[schemars(example = json_list("1"), length(min = 1, max = 1000))]
     pub zones: Vec<String>,
     /// Measurements of carbon dioxide, by zone in the order of `zones`.
@@ -149,6 +168,11 @@ fn default_timeout_s() -> f64 {
     600.0
 }
 
+/// That of BOPTEST's measurements.
+fn default_sampling_s() -> f64 {
+    30.0
+}
+
 fn default_max() -> f64 {
     1.0
 }
@@ -156,12 +180,40 @@ fn default_max() -> f64 {
 impl BoptestPlantConfig {
     /// What is wrong with the settings for a building of `zones` zones: the key below `building.plant`, and what.
     pub(crate) fn fault(&self, zones: usize) -> Option<(String, String)> {
-        let rest = self.url.strip_prefix("http://");
-        let authority = rest.and_then(|rest| rest.split('/').next()).unwrap_or_default();
-        let plain = |character: char| character.is_ascii_alphanumeric() || "-._:[]".contains(character);
-        let path = |character: char| character.is_ascii_graphic();
-        if authority.is_empty() || !authority.chars().all(plain) || !self.url.chars().all(path) {
-            return Some(("url".to_owned(), "is no address such as `http://127.0.0.1:8080`".to_owned()));
+        if let Some(fault) = self.fault_of_source() {
+            return Some(fault);
+        }
+        if self.zones.len() != zones {
+            let problem = format!("has {} entries; wanted is one for each of the {zones} zones", self.zones.len());
+            return Some(("zones".to_owned(), problem));
+        }
+        for (zone, settings) in self.zones.iter().enumerate() {
+            for (input, settings) in settings.inputs.iter().enumerate() {
+                let key = |last: &str| format!("zones.{zone}.inputs.{input}.{last}");
+                if self.fmu.is_none() && !settings.name.ends_with("_u") {
+                    return Some((key("name"), "does not end in `_u`, as inputs of BOPTEST do".to_owned()));
+                }
+                if settings.min > settings.max {
+                    return Some((key("min"), format!("is above `max`, {}", settings.max)));
+                }
+            }
+        }
+        self.fault_of_signals(zones)
+    }
+
+    /// What is wrong with the address or the file, and with the time of the test.
+    fn fault_of_source(&self) -> Option<(String, String)> {
+        match (&self.url, &self.fmu) {
+            (Some(url), None) => {
+                let authority = url.strip_prefix("http://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
+                let plain = |character: char| character.is_ascii_alphanumeric() || "-._:[]".contains(character);
+                let path = |character: char| character.is_ascii_graphic();
+                if authority.is_empty() || !authority.chars().all(plain) || !url.chars().all(path) {
+                    return Some(("url".to_owned(), "is no address such as `http://127.0.0.1:8080`".to_owned()));
+                }
+            }
+            (None, Some(_)) => {}
+            _ => return Some(("url".to_owned(), "or `building.plant.fmu` must be stated, and not both".to_owned())),
         }
         let word = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
         if self.case.as_ref().is_some_and(|case| !case.chars().all(word)) {
@@ -173,28 +225,31 @@ impl BoptestPlantConfig {
                 "is stated beside `period`, which has a start of its own".to_owned(),
             ));
         }
-        if self.zones.len() != zones {
-            let problem = format!("has {} entries; wanted is one for each of the {zones} zones", self.zones.len());
-            return Some(("zones".to_owned(), problem));
-        }
-        for (zone, settings) in self.zones.iter().enumerate() {
-            for (input, settings) in settings.inputs.iter().enumerate() {
-                let key = |last: &str| format!("zones.{zone}.inputs.{input}.{last}");
-                if !settings.name.ends_with("_u") {
-                    return Some((key("name"), "does not end in `_u`, as inputs of BOPTEST do".to_owned()));
-                }
-                if settings.min > settings.max {
-                    return Some((key("min"), format!("is above `max`, {}", settings.max)));
-                }
+        None
+    }
+
+    /// What is wrong with the signals of indicators and forecasts.
+    fn fault_of_signals(&self, zones: usize) -> Option<(String, String)> {
+        let wanted = || format!("must have one entry for each of the {zones} zones");
+        if let Some(listed) = &self.indicators {
+            if listed.zones.len() != zones {
+                return Some(("indicators.zones".to_owned(), wanted()));
+            }
+            if listed.zones.iter().all(String::is_empty) {
+                return Some(("indicators.zones".to_owned(), "names no zone that the case judges".to_owned()));
+            }
+            if listed.carbon_dioxide.len() > zones {
+                return Some((
+                    "indicators.carbon_dioxide".to_owned(),
+                    "has more entries than there are zones".to_owned(),
+                ));
             }
         }
-        let listed = self.indicators.as_ref();
-        if listed.is_some_and(|listed| listed.zones.len() != zones) {
-            return Some(("indicators.zones".to_owned(), format!("must have one entry for each of the {zones} zones")));
+        let foretold = self.forecast.as_ref()?;
+        if !foretold.zones.is_empty() && foretold.zones.len() != zones {
+            return Some(("forecast.zones".to_owned(), wanted()));
         }
-        listed
-            .filter(|listed| listed.carbon_dioxide.len() > zones)
-            .map(|_| ("indicators.carbon_dioxide".to_owned(), "has more entries than there are zones".to_owned()))
+        None
     }
 }
 
@@ -206,7 +261,9 @@ mod tests {
         let input =
             BoptestInput { name: "oveY_u".to_owned(), at_zero: 0.0, per_kw: 0.1, min: 0.0, max: 1.0, least_on: None };
         BoptestPlantConfig {
-            url: url.to_owned(),
+            url: Some(url.to_owned()),
+            fmu: None,
+            sampling_s: 30.0,
             case: None,
             period: None,
             start_day: 0,
@@ -214,6 +271,7 @@ mod tests {
             prices: BoptestPrices::Constant,
             zones: vec![BoptestZone { temperature: "reaT_y".to_owned(), inputs: vec![input] }],
             indicators: None,
+            forecast: None,
             timeout_s: 1.0,
         }
     }
@@ -239,9 +297,15 @@ mod tests {
         };
         assert_eq!(fault(|_| ()), "");
         assert_eq!(fault(|config| config.zones.clear()), "zones");
+        assert_eq!(fault(|config| config.url = None), "url");
+        assert_eq!(fault(|config| config.fmu = Some("a.fmu".to_owned())), "url");
         assert_eq!(fault(|config| (config.period, config.start_day) = (Some("a".to_owned()), 3)), "start_day");
         assert_eq!(fault(|config| config.case = Some("../x".to_owned())), "case");
         assert_eq!(fault(|config| config.zones[0].inputs[0].name = "oveY".to_owned()), "zones.0.inputs.0.name");
         assert_eq!(fault(|config| config.zones[0].inputs[0].min = 2.0), "zones.0.inputs.0.min");
+        let two = || BoptestForecast { zones: vec!["1".to_owned(), String::new()], ..BoptestForecast::default() };
+        let mut wrong = config("http://localhost");
+        wrong.forecast = Some(two());
+        assert_eq!(wrong.fault(1).map(|(key, _)| key).as_deref(), Some("forecast.zones"));
     }
 }

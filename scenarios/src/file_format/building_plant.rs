@@ -13,7 +13,7 @@ pub enum BuildingPlant {
     Network(NetworkPlantConfig),
     /// Another program, such as EnergyPlus, that answers each step over TCP. The network is then the controller's model only.
     Socket(SocketPlantConfig),
-    /// A test case of BOPTEST behind its interface over HTTP. The network is then the controller's model only.
+    /// A test case of BOPTEST, behind its interface over HTTP or as an FMU. The network is then the controller's model only.
     Boptest(Box<BoptestPlantConfig>),
 }
 

@@ -1,5 +1,6 @@
 //! The file format: what each table of a scenario file may state.
 
+pub(crate) mod boptest_forecast;
 pub(crate) mod boptest_plant;
 pub(crate) mod budget_limits;
 pub(crate) mod building;

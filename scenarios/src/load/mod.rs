@@ -348,27 +348,27 @@ pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     }
 }
 
-/// Where a scenario names files: its weather, its prices, its gains, and the records of its vehicles.
+/// An entry of a table; none of anything else.
+fn entry_of<'a>(node: &'a mut TomlNode, key: &str) -> Option<&'a mut TomlNode> {
+    match &mut node.value {
+        TomlValue::Table(table) => table.get_mut(key).map(|entry| &mut entry.node),
+        _ => None,
+    }
+}
+
+/// Where a scenario names files: its weather, its prices, its gains, the unit that is its building, and the records of its vehicles.
 fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
     let mut found = Vec::new();
-    let file = |node| match node {
-        &mut TomlNode { value: TomlValue::Table(ref mut table), .. } => {
-            table.get_mut("file").map(|entry| &mut entry.node)
-        }
-        _ => None,
-    };
     for (key, entry) in root {
         match (key.as_str(), &mut entry.node) {
-            ("weather" | "tariff", node) => found.extend(file(node)),
+            ("weather" | "tariff", node) => found.extend(entry_of(node, "file")),
+            ("building", node) => found.extend(entry_of(node, "plant").and_then(|plant| entry_of(plant, "fmu"))),
             ("gains", TomlNode { value: TomlValue::Array(tables), .. }) => {
-                found.extend(tables.iter_mut().filter_map(file))
+                found.extend(tables.iter_mut().filter_map(|table| entry_of(table, "file")))
             }
             ("vehicle", TomlNode { value: TomlValue::Array(vehicles), .. }) => {
-                let drivers = vehicles.iter_mut().filter_map(|vehicle| match &mut vehicle.value {
-                    TomlValue::Table(vehicle) => vehicle.get_mut("driver").map(|entry| &mut entry.node),
-                    _ => None,
-                });
-                found.extend(drivers.filter_map(file));
+                let drivers = vehicles.iter_mut().filter_map(|vehicle| entry_of(vehicle, "driver"));
+                found.extend(drivers.filter_map(|driver| entry_of(driver, "file")));
             }
             _ => {}
         }

@@ -7,6 +7,7 @@ pub(crate) mod placement;
 pub(crate) mod records;
 mod series_file;
 pub(crate) mod tariff_file;
+mod unit_file;
 pub(crate) mod weather_file;
 
 use serde::de::DeserializeOwned;
@@ -15,6 +16,7 @@ use interplay_planners::Driver;
 
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
+use crate::file_format::building_plant::BuildingPlant;
 use crate::file_format::gains::GainsConfig;
 use crate::file_format::scenario_file::{ScenarioFile, defaults};
 use crate::file_format::stated::Stated;
@@ -147,6 +149,14 @@ fn with_named_files(
             scenario.remarks.0.extend(remarks);
         }
         Err(fault) => unread.push(fault),
+    }
+    if let Some(BuildingPlant::Boptest(plant)) = scenario.building.as_mut().map(|building| &mut building.plant)
+        && let Some(fmu) = &mut plant.fmu
+    {
+        match unit_file::find(fmu, tree) {
+            Ok(found) => *fmu = found,
+            Err(fault) => unread.push(fault),
+        }
     }
     match scenario.tariff.as_ref().map(|tariff| tariff_file::read(tariff, &scenario, tree)).transpose() {
         Ok(tariff) => scenario.tariff = tariff,

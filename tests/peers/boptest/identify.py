@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds the network of table.py: heats the heat pump's test case by chance for 35 days and fits two temperatures to a free run.
+"""Finds the network and the COP of table.py: heats the heat pump's test case by chance for 35 days and fits two temperatures to a free run.
 
     python tests/peers/boptest/identify.py --boptest FOLDER --fmu FILE.fmu
 
@@ -49,6 +49,20 @@ def excited(case):
     return np.column_stack([heat_kw, ends[:, 1:], people_kw])
 
 
+def performance(case):
+    """Heat by the electricity of compressor, fan and pump while the compressor runs at full speed, by outdoor temperature [°C]."""
+    import numpy as np
+
+    names = ("reaQHeaPumCon_y", "reaPHeaPum_y", "reaPFan_y", "reaPPumEmi_y", "reaHeaPumY_y", "weaSta_reaWeaTDryBul_y")
+    heat_w, *powers_w, speed, outdoor_k = (np.array(case.y_store[name]) for name in names)
+    found = []
+    for least_c, most_c in ((-6, 0), (0, 4), (4, 8), (8, 12), (12, 16)):
+        chosen = (speed > 0.99) & (outdoor_k >= least_c + 273.15) & (outdoor_k < most_c + 273.15)
+        if chosen.any():
+            found.append(((least_c + most_c) / 2, heat_w[chosen].sum() / sum(power_w[chosen].sum() for power_w in powers_w)))
+    return found
+
+
 def fit(rows):
     """The parameters of the least squares, and the root mean square error of the free run [K]."""
     import numpy as np
@@ -91,9 +105,11 @@ def main():
 
     case = TestCase()
     logging.disable(logging.CRITICAL)
-    found, error_k = fit(excited(case))
+    rows = excited(case)
+    found, error_k = fit(rows)
     names = ("zone [kJ/K]", "mass [kJ/K]", "zone to mass [K/kW]", "zone to outdoor", "mass to outdoor", "aperture [m²]")
     print(", ".join(f"{name} {value:.5g}" for name, value in zip(names, found)))
+    print("COP at full speed: " + ", ".join(f"{cop:.2f} at {outdoor_c:.0f} °C" for outdoor_c, cop in performance(case)))
     print(f"free run of {DAYS} days: root mean square error {error_k:.3f} K")
 
 

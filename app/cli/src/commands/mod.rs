@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod export_fmu;
 pub(crate) mod fit;
+pub(crate) mod fmu_host;
 pub(crate) mod identify;
 pub(crate) mod import;
 pub(crate) mod list;

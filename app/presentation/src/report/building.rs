@@ -40,7 +40,10 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
 fn write_benchmark(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let Some(benchmark) = &building.benchmark else { return Ok(()) };
     let official = benchmark.official.iter().filter_map(|(name, value)| Some(format!("{name} {:.5}", (*value)?)));
-    writeln!(text, "  benchmark: {}", official.collect::<Vec<_>>().join(", "))?;
+    let official: Vec<String> = official.collect();
+    if !official.is_empty() {
+        writeln!(text, "  benchmark: {}", official.join(", "))?;
+    }
     let Some(ours) = &benchmark.ours else { return Ok(()) };
     writeln!(
         text,

@@ -62,7 +62,8 @@ impl ClimateState {
         let surroundings = surroundings_of(scenario, &network);
         let controller = scenario.controller().controller(&believed, steps)?;
         let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
-        let nodes = plant.start()?.into_iter().enumerate().map(|(index, initial_c)| NodeState {
+        let started_c = plant.start()?;
+        let nodes = started_c.into_iter().enumerate().map(|(index, initial_c)| NodeState {
             node: Node { index },
             temperature: Temperature(initial_c),
             zone: (index < zones).then_some((Equipment { requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0))),
@@ -72,6 +73,10 @@ impl ClimateState {
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
         let agenda = Agenda::new(setpoints, zones, described.step_s, steps)?;
         let agenda = agenda.following(timetable).supplied(scenario.tariff.clone(), scenario.heat_pump.clone());
+        let (agenda, surroundings) = match plant.foreseen() {
+            Some(foreseen) => (foreseen.wanted(agenda), foreseen.around(surroundings)),
+            None => (agenda, surroundings),
+        };
         let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
         let building = Building {
             targets: agenda.of_day(0),

@@ -148,6 +148,7 @@ impl BuildingMeasures {
             spectral_radius: design.spectral_radius.or(self.spectral_radius),
             fallback: design.fallback.is_some(),
             day_ahead: foreign.then(|| DayAheadErrors::compute(today, &building.believed)),
+            metered: building.plant.metered(),
             exchange: design.exchange.as_ref().and_then(ExchangeFigures::sum_up),
             design_s: *design_s,
         }

@@ -8,6 +8,7 @@ use interplay_building::network::{Network, NetworkError, Part};
 
 use super::zones;
 use crate::error::{Fault, quoted};
+use crate::file_format::boptest_plant::BoptestPlantConfig;
 use crate::file_format::building::{BuildingConfig, DAY_S};
 use crate::file_format::building_plant::BuildingPlant;
 use crate::json_schema::{Concern, SchemaNode};
@@ -103,20 +104,53 @@ impl Checker<'_> {
                     self.refuse("building.plant.address", "no address", message, help);
                 }
             }
-            BuildingPlant::Boptest(config) => {
-                // A network that is none is refused elsewhere.
-                let zones = building.network().map_or(config.zones.len(), |network| network.zone_count());
-                if let Some((key, problem)) = config.fault(zones) {
-                    let path = format!("building.plant.{key}");
-                    let message = format!("{} {problem}", quoted(&path));
-                    self.refuse(&path, "does not fit", message, "");
-                }
-            }
+            BuildingPlant::Boptest(config) => self.boptest(building, config),
         }
         if self.scenario.expect.building.is_some_and(|expect| expect.regret_at_most.is_some()) {
             let message = "the regret is not known where another program is the building: its optimum is not computed";
             let help = "leave it out, or compare with a run of `controller.kind = \"clairvoyant\"`";
             self.refuse("expect.building.regret_at_most", "not known", message.to_owned(), help);
+        }
+    }
+
+    /// Whether a test case of BOPTEST fits the zones, and whether what it foretells is stated in the file, too.
+    fn boptest(&mut self, building: &BuildingConfig, config: &BoptestPlantConfig) {
+        // A network that is none is refused elsewhere.
+        let network = building.network().ok();
+        let zones = network.as_ref().map_or(config.zones.len(), Network::zone_count);
+        if let Some((key, problem)) = config.fault(zones) {
+            let path = format!("building.plant.{key}");
+            let message = format!("{} {problem}", quoted(&path));
+            self.refuse(&path, "does not fit", message, "");
+        }
+        let samples = building.step_s / config.sampling_s;
+        if config.fmu.is_some() && (samples < 0.5 || (samples - samples.round()).abs() > 1e-9) {
+            let message = format!(
+                "`building.step_s` ({}) is no whole number of `building.plant.sampling_s` ({})",
+                building.step_s, config.sampling_s
+            );
+            self.refuse(
+                "building.plant.sampling_s",
+                "no divisor",
+                message,
+                "choose 30, 60 or `building.step_s`, for example",
+            );
+        }
+        let Some(foretold) = &config.forecast else { return };
+        if foretold.tariff && self.scenario.tariff.is_some() {
+            let message = "prices are stated twice: here, and by `building.plant.forecast`".to_owned();
+            self.refuse(
+                "tariff",
+                "not used",
+                message,
+                "leave it out, or state `building.plant.forecast.tariff = false`",
+            );
+        }
+        if network.is_some_and(|network| !network.window_planes().is_empty()) {
+            let message =
+                "windows need the sun by its direction, and the forecast of a case has that on a horizontal plane only";
+            let help = "state `solar_aperture_m2` of the zones in place of windows";
+            self.refuse("building.plant.forecast", "no direction", message.to_owned(), help);
         }
     }
 

@@ -1,12 +1,22 @@
-//! What can go wrong with a server of BOPTEST.
+//! What can go wrong with a test case of BOPTEST.
 
 use std::io;
 
+use interplay_fmu_host::HostError;
 use thiserror::Error;
 
 /// Why BOPTEST gave no answer that can be used. `request` is a method and a path.
 #[derive(Debug, Error)]
 pub enum BoptestError {
+    /// The case is an FMU, and its process or its files failed.
+    #[error(transparent)]
+    Unit(#[from] HostError),
+    /// The case is an FMU that does not have what is asked for.
+    #[error("the FMU does not serve as a test case: {reason}")]
+    Case {
+        /// What is missing or wrong.
+        reason: String,
+    },
     /// Nobody listens, or the host is unknown.
     #[error(
         "cannot connect to BOPTEST at {url}: {reason}; start its server before the run, or change `building.plant.url`"

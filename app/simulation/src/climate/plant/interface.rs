@@ -2,8 +2,9 @@
 
 use std::fmt::Debug;
 
-use super::benchmark::Benchmark;
+use super::benchmark::{Benchmark, Metered};
 use super::error::PlantError;
+use super::foreseen::Foreseen;
 use crate::not_copied::NotCopied;
 
 /// The inputs of a building in one step, all held for the step. Lists have one number per zone, unless they say
@@ -36,6 +37,16 @@ pub trait ThermalPlant: Debug + Send + Sync {
 
     /// Whether another program is the plant: the network is then a model of it, and its walls are estimated.
     fn is_foreign(&self) -> bool;
+
+    /// What the plant knows beforehand of the whole run, after its start; it takes the place of what the scenario states.
+    fn foreseen(&self) -> Option<&Foreseen> {
+        None
+    }
+
+    /// What the meter of electricity counted on the last day that is over.
+    fn metered(&self) -> Option<Metered> {
+        None
+    }
 
     /// The indicators of a benchmark, once its last step is over.
     fn benchmark(&self) -> Option<&Benchmark> {

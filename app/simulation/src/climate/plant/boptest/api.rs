@@ -1,9 +1,10 @@
-//! The requests of BOPTEST's interface, as plain calls.
+//! A server of BOPTEST: its requests over HTTP.
 
 use std::time::Duration;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+use super::bench::{Bench, Signals};
 use super::http::Server;
 use crate::climate::plant::boptest_error::BoptestError;
 
@@ -17,9 +18,6 @@ pub struct Test {
     /// `/` and the identifier of the test; empty where the server has one case only.
     suffix: String,
 }
-
-/// Numbers by name.
-pub type Signals = Map<String, Value>;
 
 impl Test {
     /// Begins a test: of the case of that name, or of the only one at the server.
@@ -47,29 +45,6 @@ impl Test {
         Ok(test)
     }
 
-    /// Asks the test. `name` is the first part of the path.
-    ///
-    /// # Errors
-    /// As [`Test::select`].
-    pub fn ask(&self, method: &str, name: &str, body: Option<&Value>) -> Result<Signals, BoptestError> {
-        let path = format!("/{name}{}", self.suffix);
-        match self.call(method, &path, body)? {
-            Value::Object(signals) => Ok(signals),
-            other => Err(BoptestError::Invalid {
-                request: format!("{method} {path}"),
-                reason: format!("it is {}; wanted is an object", shown(&other.to_string())),
-            }),
-        }
-    }
-
-    /// Ends the test, so that its server can serve another one. Only servers of several cases know of this.
-    pub fn stop(&self) {
-        if !self.suffix.is_empty() {
-            // The run is over, whatever the server says.
-            let _ = self.call("PUT", &format!("/stop{}", self.suffix), None);
-        }
-    }
-
     /// The payload of an answer: what stands in `payload`, or all of it.
     fn call(&self, method: &str, path: &str, body: Option<&Value>) -> Result<Value, BoptestError> {
         let request = || format!("{method} {path}");
@@ -94,31 +69,27 @@ impl Test {
     }
 }
 
+impl Bench for Test {
+    fn ask(&mut self, method: &str, name: &str, body: Option<&Value>) -> Result<Signals, BoptestError> {
+        let path = format!("/{name}{}", self.suffix);
+        match self.call(method, &path, body)? {
+            Value::Object(signals) => Ok(signals),
+            other => Err(BoptestError::Invalid {
+                request: format!("{method} {path}"),
+                reason: format!("it is {}; wanted is an object", shown(&other.to_string())),
+            }),
+        }
+    }
+
+    /// Only servers of several cases know of this: it lets the server serve another one.
+    fn stop(&mut self) {
+        if !self.suffix.is_empty() {
+            // The run is over, whatever the server says.
+            let _ = self.call("PUT", &format!("/stop{}", self.suffix), None);
+        }
+    }
+}
+
 fn shown(text: &str) -> String {
     text.chars().take(MAX_SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
-}
-
-/// A finite number of some signals.
-///
-/// # Errors
-/// [`BoptestError::Invalid`].
-pub fn number(request: &str, signals: &Signals, name: &str) -> Result<f64, BoptestError> {
-    let found = signals.get(name).and_then(Value::as_f64).filter(|value| value.is_finite());
-    found.ok_or_else(|| BoptestError::Invalid {
-        request: request.to_owned(),
-        reason: format!("it has no number `{name}`"),
-    })
-}
-
-/// A list of finite numbers of some signals.
-///
-/// # Errors
-/// [`BoptestError::Invalid`].
-pub fn series(request: &str, signals: &Signals, name: &str) -> Result<Vec<f64>, BoptestError> {
-    let list = signals.get(name).and_then(Value::as_array);
-    let numbers = list.and_then(|list| list.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>());
-    numbers.filter(|numbers| numbers.iter().all(|value| value.is_finite())).ok_or_else(|| BoptestError::Invalid {
-        request: request.to_owned(),
-        reason: format!("it has no list of numbers `{name}`"),
-    })
 }

@@ -1,24 +1,22 @@
 //! The indicators of a test: BOPTEST's own, and ours from what it measured.
 
-use std::collections::BTreeMap;
-
 use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun, PowerSignal, ThermalZone};
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
 use serde_json::json;
 
-use super::api::{Test, series};
+use super::bench::{Bench, series};
+use super::forecast::KnownSeries;
+use crate::climate::plant::benchmark::Metered;
 use crate::climate::plant::boptest_error::BoptestError;
 
-/// Interval at which prices and limits are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.
-const INTERVAL_S: f64 = 900.0;
+const RESULTS: &str = "PUT /results";
 
 /// Prices, emission factors and limits of a test, which its forecast knows without error. Each is held until the next time.
 #[derive(Debug)]
 pub struct Known {
     start_s: f64,
     end_s: f64,
-    times_s: Vec<f64>,
-    series: BTreeMap<String, Vec<f64>>,
+    series: KnownSeries,
     price_of_electricity: String,
 }
 
@@ -30,15 +28,16 @@ impl Known {
     pub fn ask(
         listed: &BoptestIndicators,
         prices: BoptestPrices,
-        test: &Test,
+        test: &mut dyn Bench,
         (start_s, horizon_s): (f64, f64),
     ) -> Result<Self, BoptestError> {
         let price_of_electricity = format!("PriceElectricPower{}", prices.words().1);
         let mut names = Vec::new();
-        for zone in &listed.zones {
+        for zone in listed.zones.iter().filter(|zone| !zone.is_empty()) {
             names.extend([format!("LowerSetp[{zone}]"), format!("UpperSetp[{zone}]")]);
         }
-        names.extend(listed.zones.iter().take(listed.carbon_dioxide.len()).map(|zone| format!("UpperCO2[{zone}]")));
+        let aired = listed.zones.iter().take(listed.carbon_dioxide.len()).filter(|zone| !zone.is_empty());
+        names.extend(aired.map(|zone| format!("UpperCO2[{zone}]")));
         for (signals, price, emission) in [
             (&listed.electricity, price_of_electricity.as_str(), "EmissionsElectricPower"),
             (&listed.gas, "PriceGasPower", "EmissionsGasPower"),
@@ -48,36 +47,59 @@ impl Known {
                 names.extend([price.to_owned(), emission.to_owned()]);
             }
         }
-        let body = json!({ "point_names": names, "horizon": horizon_s, "interval": INTERVAL_S });
-        let answer = test.ask("PUT", "forecast", Some(&body))?;
-        let request = "PUT /forecast";
-        let times_s = series(request, &answer, "time")?;
-        let all = names.into_iter().map(|name| {
-            let values = series(request, &answer, &name)?;
-            if values.len() != times_s.len() || values.is_empty() {
-                let reason = format!("`{name}` has {} values for {} times", values.len(), times_s.len());
-                return Err(BoptestError::Invalid { request: request.to_owned(), reason });
-            }
-            Ok((name, values))
-        });
-        let series = all.collect::<Result<_, _>>()?;
-        Ok(Self { start_s, end_s: start_s + horizon_s, times_s, series, price_of_electricity })
+        let series = KnownSeries::ask(test, names, horizon_s)?;
+        Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
+    }
+
+    /// What the meter of electricity counted from one time to another \[s\]; none where no electricity is measured.
+    ///
+    /// # Errors
+    /// [`BoptestError`].
+    pub fn metered(
+        &self,
+        config: &BoptestPlantConfig,
+        test: &mut dyn Bench,
+        (from_s, to_s): (f64, f64),
+    ) -> Result<Option<Metered>, BoptestError> {
+        let Some(listed) = config.indicators.as_ref().filter(|listed| !listed.electricity.is_empty()) else {
+            return Ok(None);
+        };
+        let body = json!({ "point_names": listed.electricity, "start_time": from_s, "final_time": to_s });
+        let answer = test.ask("PUT", "results", Some(&body))?;
+        let times_s = series(RESULTS, &answer, "time")?;
+        let price_per_kwh = self.held(&self.price_of_electricity, &times_s);
+        let emission_kg_per_kwh = self.held("EmissionsElectricPower", &times_s);
+        let power = |name: &String| {
+            let (price_per_kwh, emission_kg_per_kwh) = (price_per_kwh.clone(), emission_kg_per_kwh.clone());
+            let power_w = series(RESULTS, &answer, name)?;
+            Ok(PowerSignal { carrier: Carrier::Electricity, power_w, price_per_kwh, emission_kg_per_kwh })
+        };
+        let powers = listed.electricity.iter().map(power).collect::<Result<_, BoptestError>>()?;
+        // Of a square metre, so that figures per area are those of the building.
+        let measured = MeasuredRun { area_m2: 1.0, powers, times_s, ..MeasuredRun::default() };
+        let figures = Indicators::compute(&measured).map_err(|error| invalid(&error.to_string()))?;
+        Ok(Some(Metered {
+            electric_kwh: figures.ener_kwh_per_m2,
+            electric_peak_kw: figures.pele_kw_per_m2.unwrap_or_default(),
+            electric_cost: figures.cost_per_m2,
+        }))
     }
 
     /// The indicators of the test, from its results.
     ///
     /// # Errors
     /// [`BoptestError`].
-    pub fn compute(&self, config: &BoptestPlantConfig, test: &Test) -> Result<Indicators, BoptestError> {
+    pub fn compute(&self, config: &BoptestPlantConfig, test: &mut dyn Bench) -> Result<Indicators, BoptestError> {
         let Some(listed) = &config.indicators else { return Err(invalid("`building.plant.indicators` is missing")) };
         let temperatures = config.zones.iter().map(|zone| &zone.temperature);
         let powers = listed.electricity.iter().chain(&listed.gas).chain(&listed.district_heat);
         let names: Vec<&String> = temperatures.chain(&listed.carbon_dioxide).chain(powers).collect();
         let body = json!({ "point_names": names, "start_time": self.start_s, "final_time": self.end_s });
         let answer = test.ask("PUT", "results", Some(&body))?;
-        let results = |name: &str| series("PUT /results", &answer, name);
+        let results = |name: &str| series(RESULTS, &answer, name);
         let times_s = results("time")?;
-        let zones = config.zones.iter().zip(&listed.zones).map(|(zone, name)| {
+        let judged = config.zones.iter().zip(&listed.zones).filter(|(_, name)| !name.is_empty());
+        let zones = judged.map(|(zone, name)| {
             // Both the temperature and its limits are in kelvin; only differences count.
             Ok(ThermalZone {
                 temperature_c: results(&zone.temperature)?,
@@ -85,7 +107,8 @@ impl Known {
                 upper_c: self.held(&format!("UpperSetp[{name}]"), &times_s),
             })
         });
-        let air = listed.carbon_dioxide.iter().zip(&listed.zones).map(|(measurement, zone)| {
+        let aired = listed.carbon_dioxide.iter().zip(&listed.zones).filter(|(_, zone)| !zone.is_empty());
+        let air = aired.map(|(measurement, zone)| {
             let limit_ppm = self.held(&format!("UpperCO2[{zone}]"), &times_s);
             Ok(AirQuality { concentration_ppm: results(measurement)?, limit_ppm })
         });
@@ -113,9 +136,9 @@ impl Known {
 
     /// A series at some times; before its first time and without any it is its first value, or zero.
     fn held(&self, name: &str, times_s: &[f64]) -> Vec<f64> {
-        let Some(values) = self.series.get(name) else { return vec![0.0; times_s.len()] };
+        let Some(values) = self.series.by_name.get(name) else { return vec![0.0; times_s.len()] };
         let at = |time_s: &f64| {
-            let after = self.times_s.partition_point(|known_s| *known_s <= *time_s + 1e-6);
+            let after = self.series.times_s.partition_point(|known_s| *known_s <= *time_s + 1e-6);
             values.get(after.saturating_sub(1)).copied().unwrap_or_default()
         };
         times_s.iter().map(at).collect()
@@ -123,5 +146,5 @@ impl Known {
 }
 
 fn invalid(reason: &str) -> BoptestError {
-    BoptestError::Invalid { request: "PUT /results".to_owned(), reason: reason.to_owned() }
+    BoptestError::Invalid { request: RESULTS.to_owned(), reason: reason.to_owned() }
 }

@@ -1,23 +1,27 @@
 //! The plant: heat becomes inputs of the case, and its measurements become temperatures of zones.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use interplay_building::discretise::Model;
+use interplay_fmu_host::HostProgram;
 use interplay_scenarios::{BoptestInput, BoptestPlantConfig, BoptestZone};
 use serde_json::{Value, json};
 
-use super::super::benchmark::Benchmark;
+use super::super::benchmark::{Benchmark, Metered};
 use super::super::boptest_error::BoptestError;
 use super::super::error::{PlantError, TEMPERATURES_C};
+use super::super::foreseen::Foreseen;
 use super::super::interface::{StepInputs, ThermalPlant};
 use super::super::walls;
-use super::api::{Signals, Test, number};
+use super::api::Test;
+use super::bench::{Bench, Signals, number};
+use super::fmu::FmuBench;
+use super::forecast::{ZERO_CELSIUS_K, foresee};
 use super::indicators::Known;
 use crate::not_copied::NotCopied;
 
 const DAY_S: f64 = 86_400.0;
-/// 0 °C \[K\].
-const ZERO_CELSIUS_K: f64 = 273.15;
 /// How many names of the case an error lists.
 const SHOWN_NAMES: usize = 12;
 
@@ -28,10 +32,15 @@ pub struct BoptestPlant {
     believed: Model,
     /// Number of steps of the run.
     steps: usize,
+    steps_per_day: usize,
     /// Mean outdoor temperature of the first day, for walls that nobody measures \[°C\].
     mean_outdoor_c: f64,
-    test: Option<Test>,
+    test: Option<Box<dyn Bench>>,
     known: Option<Known>,
+    foreseen: Option<Foreseen>,
+    /// When the first step begins \[s\].
+    start_s: f64,
+    metered: Option<Metered>,
     /// When the last answer came, and how long the decisions after each of them took \[s\].
     answered: Option<Instant>,
     control_s: Vec<f64>,
@@ -44,14 +53,38 @@ impl BoptestPlant {
     /// A plant that connects when the run begins and has `steps` steps. `outdoor_c` is that of the first day \[°C\].
     pub fn new(config: &BoptestPlantConfig, believed: Model, steps: usize, outdoor_c: &[f64]) -> Self {
         let mean_outdoor_c = outdoor_c.iter().sum::<f64>() / outdoor_c.len().max(1) as f64;
-        let (test, known, answered, benchmark) = (None, None, None, None);
+        let steps_per_day = ((DAY_S / believed.step_s()).round() as usize).max(1);
         let held_back = vec![0.0; config.zones.iter().map(|zone| zone.inputs.len()).sum()];
-        let (config, control_s) = (config.clone(), Vec::new());
-        Self { config, believed, steps, mean_outdoor_c, test, known, answered, control_s, benchmark, held_back }
+        Self {
+            config: config.clone(),
+            believed,
+            steps,
+            steps_per_day,
+            mean_outdoor_c,
+            test: None,
+            known: None,
+            foreseen: None,
+            start_s: 0.0,
+            metered: None,
+            answered: None,
+            control_s: Vec::new(),
+            benchmark: None,
+            held_back,
+        }
+    }
+
+    /// Where the case runs: at a server, or as an FMU on this machine.
+    fn bench(&self) -> Result<Box<dyn Bench>, BoptestError> {
+        if let Some(fmu) = &self.config.fmu {
+            return Ok(Box::new(FmuBench::start(Path::new(fmu), &self.config, &HostProgram::default())?));
+        }
+        let timeout = Duration::try_from_secs_f64(self.config.timeout_s).unwrap_or(Duration::MAX);
+        let url = self.config.url.as_deref().unwrap_or_default();
+        Ok(Box::new(Test::select(url, self.config.case.as_deref(), timeout)?))
     }
 
     /// Begins the test: the measurements at the first midnight.
-    fn begin(&self, test: &Test) -> Result<(&'static str, Signals), BoptestError> {
+    fn begin(&self, test: &mut dyn Bench) -> Result<(&'static str, Signals), BoptestError> {
         let step_s = self.believed.step_s();
         test.ask("PUT", "step", Some(&json!({ "step": step_s })))?;
         let (price, _) = self.config.prices.words();
@@ -74,7 +107,7 @@ impl BoptestPlant {
     }
 
     /// Refuses names of the scenario that the case does not have.
-    fn check_names(&self, test: &Test) -> Result<(), BoptestError> {
+    fn check_names(&self, test: &mut dyn Bench) -> Result<(), BoptestError> {
         let (inputs, measurements) = (test.ask("GET", "inputs", None)?, test.ask("GET", "measurements", None)?);
         let found = |what, names: &Signals, name: &str, key: String| {
             if names.contains_key(name) {
@@ -125,15 +158,28 @@ impl BoptestPlant {
                 let wanted = input_value(input, *heat_kw);
                 let value = held_back.next().map_or(wanted, |held_back| in_pulses(input, wanted, held_back));
                 body.insert(input.name.clone(), json!(value));
-                let stem = input.name.strip_suffix("_u").unwrap_or(&input.name);
-                body.insert(format!("{stem}_activate"), json!(1));
+                if let Some(stem) = input.name.strip_suffix("_u") {
+                    body.insert(format!("{stem}_activate"), json!(1));
+                }
             }
         }
         Value::Object(body)
     }
 
+    /// Reads the meter at the end of a day, and the indicators at the end of the test.
+    fn end_of_step(&mut self, step: usize, test: &mut dyn Bench) -> Result<(), BoptestError> {
+        if (step + 1).is_multiple_of(self.steps_per_day) {
+            let end_s = self.start_s + (step + 1) as f64 * self.believed.step_s();
+            self.metered = match &self.known {
+                Some(known) => known.metered(&self.config, test, (end_s - DAY_S, end_s))?,
+                None => None,
+            };
+        }
+        if step + 1 == self.steps { self.finish(test) } else { Ok(()) }
+    }
+
     /// Reads the indicators of the test that is over.
-    fn finish(&mut self, test: &Test) -> Result<(), BoptestError> {
+    fn finish(&mut self, test: &mut dyn Bench) -> Result<(), BoptestError> {
         let official = test.ask("GET", "kpi", None)?;
         let ours = match &self.known {
             Some(known) => Some(known.compute(&self.config, test)?),
@@ -168,16 +214,23 @@ fn in_pulses(input: &BoptestInput, wanted: f64, held_back: &mut f64) -> f64 {
 
 impl ThermalPlant for BoptestPlant {
     fn start(&mut self) -> Result<Vec<f64>, PlantError> {
-        let timeout = Duration::try_from_secs_f64(self.config.timeout_s).unwrap_or(Duration::MAX);
-        let test = Test::select(&self.config.url, self.config.case.as_deref(), timeout)?;
-        self.check_names(&test)?;
-        let (request, signals) = self.begin(&test)?;
+        let mut bench = self.bench()?;
+        let test = &mut *bench;
+        self.check_names(test)?;
+        let (request, signals) = self.begin(test)?;
         let zones_c = self.zones_c(request, &signals)?;
+        let horizon_s = self.believed.step_s() * self.steps as f64;
         if let Some(listed) = &self.config.indicators {
-            let (start_s, horizon_s) = (number(request, &signals, "time")?, self.believed.step_s() * self.steps as f64);
-            self.known = Some(Known::ask(listed, self.config.prices, &test, (start_s, horizon_s))?);
+            self.start_s = number(request, &signals, "time")?;
+            self.known = Some(Known::ask(listed, self.config.prices, test, (self.start_s, horizon_s))?);
         }
-        self.test = Some(test);
+        if let Some(settings) = &self.config.forecast {
+            let foreseen = foresee(settings, self.config.prices, test, horizon_s + DAY_S)?;
+            let outdoor_c = foreseen.weather.ambient_steps_c(0.0, self.believed.step_s(), self.steps_per_day);
+            self.mean_outdoor_c = outdoor_c.iter().sum::<f64>() / outdoor_c.len().max(1) as f64;
+            self.foreseen = Some(foreseen);
+        }
+        self.test = Some(bench);
         self.answered = Some(Instant::now());
         Ok(walls::at_rest_c(self.believed.network(), &zones_c, self.mean_outdoor_c))
     }
@@ -188,7 +241,7 @@ impl ThermalPlant for BoptestPlant {
         if let Some((zone, _)) = names.iter().zip(heat_kw).find(|(_, heat)| !heat.is_finite()) {
             return Err(PlantError::NotFinite { question: format!("step {step}"), zone: zone.clone() });
         }
-        let Some(test) = self.test.take() else {
+        let Some(mut test) = self.test.take() else {
             return Err(PlantError::Closed { question: format!("step {step}") });
         };
         if let Some(answered) = self.answered {
@@ -198,10 +251,9 @@ impl ThermalPlant for BoptestPlant {
         let answer = test.ask("POST", "advance", Some(&body));
         self.answered = Some(Instant::now());
         let zones_c = answer.and_then(|signals| self.zones_c("POST /advance", &signals));
-        let last = step + 1 == self.steps;
         let ended = match &zones_c {
-            Ok(_) if last => self.finish(&test),
-            _ => Ok(()),
+            Ok(_) => self.end_of_step(step, &mut *test),
+            Err(_) => Ok(()),
         };
         self.test = Some(test);
         let zones_c = zones_c?;
@@ -215,19 +267,27 @@ impl ThermalPlant for BoptestPlant {
         true
     }
 
+    fn foreseen(&self) -> Option<&Foreseen> {
+        self.foreseen.as_ref()
+    }
+
+    fn metered(&self) -> Option<Metered> {
+        self.metered
+    }
+
     fn benchmark(&self) -> Option<&Benchmark> {
         self.benchmark.as_ref()
     }
 
     fn fork(&self) -> Result<Box<dyn ThermalPlant>, NotCopied> {
-        let why = "its state is in a server of BOPTEST".to_owned();
+        let why = "its state is in another program, a server of BOPTEST or an FMU".to_owned();
         Err(NotCopied { who: "the plant of the building".to_owned(), why })
     }
 }
 
 impl Drop for BoptestPlant {
     fn drop(&mut self) {
-        if let Some(test) = &self.test {
+        if let Some(test) = &mut self.test {
             test.stop();
         }
     }

@@ -1,0 +1,77 @@
+//! What can go wrong with a unit.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a unit cannot be run, or does not run on.
+#[derive(Debug, Error)]
+pub enum HostError {
+    /// The file cannot be read.
+    #[error("cannot read the FMU {}: {reason}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The file is no archive.
+    #[error("{} is no FMU: {reason}", path.display())]
+    Archive {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The description is not that of a unit which this program can run.
+    #[error("cannot run the FMU {}: {reason}", path.display())]
+    Description {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The files of the unit cannot be put anywhere.
+    #[error("cannot unpack the FMU: {reason}")]
+    Unpack {
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The program that calls the unit cannot be started.
+    #[error(
+        "cannot start `{program}`, which runs FMUs: {reason}; `interplay` must be found there or in the search path"
+    )]
+    Start {
+        /// The program.
+        program: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The process has ended.
+    #[error("the FMU crashed at `{question}`: its process ended with {how}{said}")]
+    Crashed {
+        /// What was asked.
+        question: String,
+        /// The exit code or the signal.
+        how: String,
+        /// The last line that it wrote to the standard error, or nothing.
+        said: String,
+    },
+    /// The process did not answer in time.
+    #[error("the FMU gave no answer to `{question}` within {timeout_s} s; `building.plant.timeout_s` is that limit")]
+    Timeout {
+        /// What was asked.
+        question: String,
+        /// Longest time of an answer \[s\].
+        timeout_s: f64,
+    },
+    /// The unit or its library refused.
+    #[error("the FMU failed at `{question}`: {reason}")]
+    Failed {
+        /// What was asked.
+        question: String,
+        /// What it says.
+        reason: String,
+    },
+}

@@ -1,0 +1,187 @@
+//! The parent's side: the process that calls the unit, with a deadline for each answer.
+
+use std::env;
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use crate::error::HostError;
+use crate::protocol::{Answer, Request, Values};
+use crate::unit::Unit;
+
+/// How long a process that has closed its output may take to end.
+const ENDING: Duration = Duration::from_secs(2);
+const ENDING_POLL: Duration = Duration::from_millis(5);
+/// How much of a wrong answer an error shows \[characters\].
+const SHOWN_CHARACTERS: usize = 120;
+/// The name of the command line.
+const PROGRAM: &str = "interplay";
+
+/// The program that is started for a unit: it gets the library, the identity and the folder of resources as its last arguments, and
+/// calls [`serve`](crate::serve) with them.
+#[derive(Clone, Debug)]
+pub struct HostProgram {
+    /// The program.
+    pub program: OsString,
+    /// Its first arguments.
+    pub arguments: Vec<OsString>,
+}
+
+impl Default for HostProgram {
+    /// `interplay fmu-host`: this program if it is `interplay`, and otherwise the one in the search path.
+    fn default() -> Self {
+        let this = env::current_exe().ok().filter(|path| path.file_stem().is_some_and(|stem| stem == PROGRAM));
+        let program = this.map_or_else(|| OsString::from(PROGRAM), OsString::from);
+        Self { program, arguments: vec![OsString::from("fmu-host")] }
+    }
+}
+
+/// A process that calls a unit.
+#[derive(Debug)]
+pub struct Host {
+    child: Child,
+    input: Option<ChildStdin>,
+    lines: Mutex<Receiver<String>>,
+    /// The last line of the standard error.
+    said: Arc<Mutex<String>>,
+    timeout: Duration,
+}
+
+impl Host {
+    /// Starts the process, which loads the library and makes an instance.
+    ///
+    /// # Errors
+    /// [`HostError`].
+    pub fn start(program: &HostProgram, unit: &Unit, timeout: Duration) -> Result<Self, HostError> {
+        let started = Command::new(&program.program)
+            .args(&program.arguments)
+            .arg(unit.library())
+            .arg(&unit.description().guid)
+            .arg(format!("file://{}", unit.resources().display()))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn();
+        let named = || program.program.to_string_lossy().into_owned();
+        let mut child = started.map_err(|reason| HostError::Start { program: named(), reason })?;
+        let (sender, lines) = mpsc::channel();
+        let said = Arc::new(Mutex::new(String::new()));
+        if let Some(output) = child.stdout.take() {
+            thread::spawn(move || {
+                let lines = BufReader::new(output).lines().map_while(Result::ok);
+                lines.map(|line| sender.send(line)).take_while(Result::is_ok).count()
+            });
+        }
+        if let Some(output) = child.stderr.take() {
+            let said = Arc::clone(&said);
+            thread::spawn(move || {
+                for line in BufReader::new(output).lines().map_while(Result::ok).filter(|line| !line.trim().is_empty())
+                {
+                    if let Ok(mut said) = said.lock() {
+                        *said = line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
+                    }
+                }
+            });
+        }
+        let input = child.stdin.take();
+        let mut host = Self { child, input, lines: Mutex::new(lines), said, timeout };
+        host.answer("instantiate")?;
+        Ok(host)
+    }
+
+    /// Asks, and waits for the answer: numbers and texts; none of either for requests that only act.
+    ///
+    /// # Errors
+    /// [`HostError`] if the unit fails, the process ends, or no answer comes in time.
+    pub fn ask(&mut self, request: &Request) -> Result<Values, HostError> {
+        let question = request.word();
+        let line = serde_json::to_string(request).map_err(|error| failed(question, error.to_string()))?;
+        let sent = self.input.as_mut().map(|input| input.write_all(format!("{line}\n").as_bytes()));
+        if !matches!(sent, Some(Ok(()))) {
+            return Err(self.crashed(question));
+        }
+        self.answer(question)
+    }
+
+    fn answer(&mut self, question: &str) -> Result<Values, HostError> {
+        let received = match self.lines.get_mut() {
+            Ok(lines) => lines.recv_timeout(self.timeout),
+            Err(_) => Err(RecvTimeoutError::Disconnected),
+        };
+        let line = match received {
+            Ok(line) => line,
+            Err(RecvTimeoutError::Disconnected) => return Err(self.crashed(question)),
+            Err(RecvTimeoutError::Timeout) => {
+                self.kill();
+                let timeout_s = self.timeout.as_secs_f64();
+                return Err(HostError::Timeout { question: question.to_owned(), timeout_s });
+            }
+        };
+        match serde_json::from_str(&line) {
+            Ok(Answer::Done) => Ok(Values::default()),
+            Ok(Answer::Values(values)) => Ok(values),
+            Ok(Answer::Failed { reason }) => Err(failed(question, reason)),
+            Err(_) => {
+                let shown: String = line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
+                Err(failed(question, format!("its process answers `{shown}`")))
+            }
+        }
+    }
+
+    /// The process is gone, or soon.
+    fn crashed(&mut self, question: &str) -> HostError {
+        let mut waited = Duration::ZERO;
+        let status = loop {
+            match self.child.try_wait() {
+                Ok(None) if waited < ENDING => thread::sleep(ENDING_POLL),
+                Ok(status) => break status,
+                Err(_) => break None,
+            }
+            waited += ENDING_POLL;
+        };
+        let said = self.said.lock().map(|said| said.clone()).unwrap_or_default();
+        let said = if said.is_empty() { said } else { format!(", after it wrote `{said}`") };
+        HostError::Crashed {
+            question: question.to_owned(),
+            how: status.map_or_else(|| "no status".to_owned(), ended),
+            said,
+        }
+    }
+
+    fn kill(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        // Without its input the process ends by itself; a unit that hangs does not.
+        self.input = None;
+        self.kill();
+    }
+}
+
+fn failed(question: &str, reason: String) -> HostError {
+    HostError::Failed { question: question.to_owned(), reason }
+}
+
+#[cfg(unix)]
+fn ended(status: ExitStatus) -> String {
+    use std::os::unix::process::ExitStatusExt;
+    match (status.code(), status.signal()) {
+        (Some(code), _) => format!("exit code {code}"),
+        (None, Some(signal)) => format!("signal {signal}"),
+        (None, None) => "no status".to_owned(),
+    }
+}
+
+#[cfg(not(unix))]
+fn ended(status: ExitStatus) -> String {
+    status.code().map_or_else(|| "no status".to_owned(), |code| format!("exit code {code}"))
+}

@@ -1,0 +1,104 @@
+//! Whatever the process of a unit does is an answer or an error in time. Shells stand in for the process: no unit is needed to crash.
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use interplay_fmu_host::{Host, HostError, HostProgram, Request, Unit};
+
+const DESCRIPTION: &str = r#"<fmiModelDescription fmiVersion="2.0" guid="{1}"><CoSimulation modelIdentifier="case"/>
+    <ModelVariables/></fmiModelDescription>"#;
+
+/// An archive whose files are stored as they are.
+fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
+    let long = |number: usize| (number as u32).to_le_bytes();
+    let short = |number: usize| (number as u16).to_le_bytes();
+    for (name, content) in files {
+        let start = bytes.len();
+        let sizes = [long(content.len()), long(content.len())].concat();
+        bytes.extend(b"PK\x03\x04");
+        bytes.extend([0; 14]);
+        bytes.extend([&sizes[..], &short(name.len()), &[0; 2], name.as_bytes(), content].concat());
+        directory.extend(b"PK\x01\x02");
+        directory.extend([0; 16]);
+        directory.extend([&sizes[..], &short(name.len()), &[0; 12], &long(start), name.as_bytes()].concat());
+    }
+    let start = bytes.len();
+    let count = short(files.len());
+    bytes.extend([&directory[..], b"PK\x05\x06", &[0; 4], &count, &count].concat());
+    bytes.extend([&long(directory.len())[..], &long(start), &[0; 2]].concat());
+    bytes
+}
+
+fn unit(folder: &Path, files: &[(&str, &[u8])]) -> Result<Unit, HostError> {
+    let path = folder.join("case.fmu");
+    fs::write(&path, archive(files)).expect("written");
+    Unit::open(&path)
+}
+
+fn sound(folder: &Path) -> Unit {
+    let files = [("modelDescription.xml", DESCRIPTION.as_bytes()), ("binaries/linux64/case.so", b"no library")];
+    unit(folder, &files).expect("a unit")
+}
+
+fn shell(script: &str) -> HostProgram {
+    HostProgram { program: "sh".into(), arguments: vec!["-c".into(), script.into()] }
+}
+
+#[test]
+fn crashes_and_wrong_answers_are_errors() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let unit = sound(folder.path());
+    let done = r#"echo '{"answer":"done"}'; read line; "#;
+    for (script, said) in [
+        (
+            "echo 'no such symbol' >&2; exit 7".to_owned(),
+            "`instantiate`: its process ended with exit code 7, after it wrote `no such symbol`",
+        ),
+        ("kill -SEGV $$".to_owned(), "signal 11"),
+        (format!("{done} kill -SEGV $$"), "`initialize`: its process ended with signal 11"),
+        (format!("{done} echo hello"), "answers `hello`"),
+        (format!(r#"{done} echo '{{"answer":"failed","reason":"the solver stopped"}}'"#), "the solver stopped"),
+    ] {
+        let asked = Host::start(&shell(&script), &unit, Duration::from_secs(20))
+            .and_then(|mut host| host.ask(&Request::Initialize { start_s: 0.0 }));
+        let error = asked.map(|_| ()).expect_err(&script).to_string();
+        assert!(error.contains(said), "{script}: {error}");
+    }
+    let missing = HostProgram { program: "/no/such/program".into(), arguments: Vec::new() };
+    let error = Host::start(&missing, &unit, Duration::from_secs(1)).map(|_| ()).expect_err("nothing there");
+    assert!(matches!(error, HostError::Start { .. }), "{error}");
+}
+
+#[test]
+fn a_unit_that_hangs_is_ended_in_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let unit = sound(folder.path());
+    let began = Instant::now();
+    let script = r#"echo '{"answer":"done"}'; exec sleep 600"#;
+    let mut host = Host::start(&shell(script), &unit, Duration::from_millis(300)).expect("it starts");
+    let error = host.ask(&Request::Reset).map(|_| ()).expect_err("it hangs");
+    assert!(
+        matches!(&error, HostError::Timeout { question, timeout_s } if question == "reset" && *timeout_s == 0.3),
+        "{error}"
+    );
+    drop(host);
+    assert!(began.elapsed() < Duration::from_secs(20));
+}
+
+#[test]
+fn files_that_are_no_unit_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let description = ("modelDescription.xml", DESCRIPTION.as_bytes());
+    let refused = |files: &[(&str, &[u8])]| unit(folder.path(), files).map(|_| ()).expect_err("refused").to_string();
+    assert!(refused(&[]).contains("no `modelDescription.xml`"));
+    let windows = refused(&[description, ("binaries/win64/case.dll", b"")]);
+    assert!(windows.contains("no `binaries/linux64/case.so`") && windows.contains("win64"), "{windows}");
+    let outside = [description, ("binaries/linux64/case.so", b""), ("../outside", b"x")];
+    assert!(refused(&outside).contains("would lie elsewhere"));
+    assert!(!folder.path().parent().expect("a parent").join("outside").exists());
+    let error = Unit::open(&folder.path().join("missing.fmu")).map(|_| ()).expect_err("missing");
+    assert!(matches!(error, HostError::Read { .. }), "{error}");
+}

@@ -1,0 +1,47 @@
+//! Where a test case runs: the requests that a plant makes of it.
+
+use std::fmt::Debug;
+
+use serde_json::{Map, Value};
+
+use crate::climate::plant::boptest_error::BoptestError;
+
+/// Numbers by name.
+pub type Signals = Map<String, Value>;
+
+/// A test case that answers the requests of BOPTEST's interface: a server, or an FMU of ours to run.
+pub trait Bench: Debug + Send + Sync {
+    /// Asks the test. `name` is the first part of the path, such as `advance`.
+    ///
+    /// # Errors
+    /// [`BoptestError`] if the test does not answer as agreed.
+    fn ask(&mut self, method: &str, name: &str, body: Option<&Value>) -> Result<Signals, BoptestError>;
+
+    /// Ends the test.
+    fn stop(&mut self) {}
+}
+
+/// A finite number of some signals.
+///
+/// # Errors
+/// [`BoptestError::Invalid`].
+pub fn number(request: &str, signals: &Signals, name: &str) -> Result<f64, BoptestError> {
+    let found = signals.get(name).and_then(Value::as_f64).filter(|value| value.is_finite());
+    found.ok_or_else(|| BoptestError::Invalid {
+        request: request.to_owned(),
+        reason: format!("it has no number `{name}`"),
+    })
+}
+
+/// A list of finite numbers of some signals.
+///
+/// # Errors
+/// [`BoptestError::Invalid`].
+pub fn series(request: &str, signals: &Signals, name: &str) -> Result<Vec<f64>, BoptestError> {
+    let list = signals.get(name).and_then(Value::as_array);
+    let numbers = list.and_then(|list| list.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>());
+    numbers.filter(|numbers| numbers.iter().all(|value| value.is_finite())).ok_or_else(|| BoptestError::Invalid {
+        request: request.to_owned(),
+        reason: format!("it has no list of numbers `{name}`"),
+    })
+}
