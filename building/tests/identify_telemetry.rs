@@ -138,10 +138,10 @@ fn a_text_in_a_number_column_is_located() {
 
 #[test]
 fn a_gap_in_time_is_located_and_may_be_split() {
-    let expected = "home.csv:4:1: `2026-02-01 01:00:00` is 4500 s after the row before, and the sampling time is 900 s: there is \
+    let expected = "home.csv:4:1: `2026-02-01 02:00:00` is 8100 s after the row before, and the sampling time is 900 s: there is \
                     a gap, or the sampling time is another; add the missing rows, correct `time.step_s`, or set `time.gaps = \
                     \"split\"` to start anew after each gap";
-    assert_eq!(message("2026-02-01 00:00:00", "2026-02-01 01:00:00"), expected);
+    assert_eq!(message("2026-02-01 00:00:00", "2026-02-01 02:00:00"), expected);
     assert!(message("2026-02-01 00:00:00", "2026-01-31 23:45:00").contains("one time stands twice"));
     assert!(message("2026-02-01 00:00:00", "2026-01-30 00:00:00").contains("time goes backwards"));
 

@@ -81,3 +81,48 @@ fn whole_days_are_weather_for_a_scenario() {
     assert!(recorded.csv.starts_with("time_s,outdoor_c\n36000,10\n39600,11\n"), "{}", &recorded.csv[..40]);
     assert!(!recorded.are_means && !recorded.has_other_sun);
 }
+
+const DATED: &str =
+    "\n\nt;in;out;E\n2026-07-06T00:00:00Z;20;5;1\n2026-07-06T03:00:00+02:00;21;5;2\n2026-07-06T02:00:00Z;20;5;3\n";
+
+#[test]
+fn z_is_an_offset_of_nothing() {
+    let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S%z");
+    let telemetry = read(&mapping, DATED).expect("three hours");
+    assert_eq!(telemetry.time_s, [0.0, 3600.0, 7200.0]);
+}
+
+#[test]
+fn an_offset_that_the_format_lacks_is_named() {
+    let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S");
+    let error = read(&mapping, DATED).expect_err("the format has no offset").to_string();
+    assert!(error.contains("it has an offset from UTC: set `time.format` to `%Y-%m-%dT%H:%M:%S%z`"), "{error}");
+}
+
+#[test]
+fn a_change_of_clocks_is_named() {
+    let even = MAPPING.replace("zone = \"Europe/Zurich\"\n", "");
+    let spring = "\n\nt;in;out;E\n29.03.2026 01:00;20;5;1\n29.03.2026 03:00;21;5;2\n";
+    for table in [TABLE, spring] {
+        let error = read(&even, table).expect_err("an hour too much or too little").to_string();
+        assert!(error.contains("`time.zone`") && error.contains("`%z`"), "{error}");
+    }
+    let error = read(&even, &spring.replace("03:00", "05:00")).expect_err("three hours are missing").to_string();
+    assert!(error.contains("add the missing rows") && !error.contains("time.zone"), "{error}");
+}
+
+#[test]
+fn all_faults_of_a_mapping_are_told_at_once() {
+    let spoilt = MAPPING
+        .replace("step_s = 3600.0", "step_s = -1.0")
+        .replace("skip_rows = 2", "skip_rows = \"two\"")
+        .replace("temperature = \"in\"", "temprature = \"in\"")
+        .replace("unit = \"kwh\"", "unit = \"kw\"");
+    let error = Mapping::parse("home.toml", &spoilt).expect_err("four faults");
+    let shown = error.to_string();
+    let lines: Vec<&str> = shown.lines().collect();
+    assert_eq!((lines.len(), error.others.len()), (4, 3), "{shown}");
+    let words = ["home.toml:3:", "home.toml:10:", "home.toml:14:", "home.toml:15:"];
+    assert!(lines.iter().zip(words).all(|(line, word)| line.starts_with(word)), "{shown}");
+    assert!(lines[2].contains("`temprature`") && !shown.contains("is missing"), "{shown}");
+}

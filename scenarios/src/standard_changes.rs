@@ -12,7 +12,9 @@ use serde_json::Value as Json;
 
 use crate::error::LoadError;
 use crate::json_schema::SchemaNode;
+use crate::load;
 use crate::read::overrides::Override;
+use crate::read::tree::{TomlNode, TomlValue};
 use crate::registry::Registry;
 use crate::scenario::{Scenario, Vehicle};
 
@@ -49,14 +51,19 @@ impl Registry {
         scenario: &Scenario,
         overrides: &[Override],
     ) -> Result<Vec<StandardChange>, LoadError> {
+        let changed_tree = load::changed_tree(self, name_or_path, overrides)?;
         let stated = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).flat_map(|vehicle| {
             let plain = self.plain_driver(name_or_path, vehicle, overrides);
-            changes(vehicle, plain.as_ref(), self.complete())
+            let kind = kind_to_state(vehicle, &changed_tree);
+            let changes = changes(vehicle, plain.as_ref(), self.complete()).into_iter();
+            changes.map(move |(factor, change, set)| (factor, change, kind.iter().cloned().chain([set]).collect()))
         });
-        let changed = stated.map(|(factor, change, set)| {
-            let more = ["counterfactual=[]", &set].map(|set| Override::Set(set.to_owned()));
-            let scenario = self.load(name_or_path, &[overrides, &more].concat())?;
-            Ok(StandardChange { factor, change, sets: vec![set], scenario })
+        let changed = stated.map(|(factor, change, sets): (String, String, Vec<String>)| {
+            let without_counterfactuals = Override::Set("counterfactual=[]".to_owned());
+            let more = [without_counterfactuals].into_iter().chain(sets.iter().cloned().map(Override::Set));
+            let overrides: Vec<Override> = overrides.iter().cloned().chain(more).collect();
+            let scenario = self.load(name_or_path, &overrides)?;
+            Ok(StandardChange { factor, change, sets, scenario })
         });
         changed.collect()
     }
@@ -80,6 +87,14 @@ impl Registry {
         let plain = self.load(name_or_path, &[overrides, &sets.map(Override::Set)].concat()).ok()?;
         plain.vehicle(name).map(|vehicle| vehicle.driver.clone())
     }
+}
+
+/// The argument of `--set` that states the kind of a driver whose table the file leaves out: no key of it can be set without.
+fn kind_to_state(vehicle: &Vehicle, tree: &TomlNode) -> Option<String> {
+    let Some(TomlValue::Array(stated)) = tree.at("vehicle").map(|vehicles| &vehicles.value) else { return None };
+    let is_it = |node: &&TomlNode| node.at("name").and_then(TomlNode::text) == Some(&vehicle.name);
+    let lacks_table = stated.iter().find(is_it).is_some_and(|node| node.at("driver").is_none());
+    lacks_table.then(|| format!("vehicle.{}.driver.kind=\"{}\"", vehicle.name, vehicle.driver.kind()))
 }
 
 /// Factor, change, and the argument of `--set`.

@@ -221,3 +221,17 @@ fn standard_changes_fit_every_authored_scenario() {
         }
     }
 }
+
+#[test]
+fn a_driver_without_a_table_is_varied() {
+    let text = "title = 'a'\nshows = 'b'\nscale = 'full'\n[[vehicle]]\nname = 'car'\nstart = { lane = 0, along_m = 1.0, speed_mps = 3.0 }\n";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("mine.toml").to_string_lossy().into_owned();
+    std::fs::write(&path, text).expect("a writable folder");
+    let scenario = load(&path, &[]).expect("a human by default");
+    let changes = Registry::standard().standard_changes(&path, &scenario, &[]).expect("they fit");
+    let style = changes.iter().find(|one| one.factor == "car's style").expect("a style");
+    assert_eq!(style.sets, ["vehicle.car.driver.kind=\"human\"", "vehicle.car.driver.style=\"tough\""]);
+    assert!(changes.iter().any(|one| one.factor == "car's late reaction"));
+    assert!(changes.iter().all(|one| one.scenario.vehicles[0] != scenario.vehicles[0]));
+}

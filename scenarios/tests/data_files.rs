@@ -186,3 +186,18 @@ fn windows_are_checked_like_other_settings() {
     );
     folder.refused(&thin, &["stores no heat", "capacity_kj_per_k"]);
 }
+
+#[test]
+fn prices_by_the_megawatt_hour_are_remarked_upon() {
+    let folder = Folder::new();
+    let remarks_of = |price: &str| {
+        folder.write(
+            "prices.csv",
+            &format!("hour,price_per_kwh\n{}", (0..48).map(|hour| format!("{hour},{price}\n")).collect::<String>()),
+        );
+        remarks(&folder.load(&format!("{HOUSE}[tariff]\nfile = 'prices.csv'\n")).expect("prices"))
+    };
+    let said = remarks_of("380");
+    assert!(said.contains("line 2: the price is 380 per kWh: is it per MWh?"), "{said}");
+    assert!(!remarks_of("0.38").contains("MWh"));
+}

@@ -296,3 +296,22 @@ fn angles_are_degrees() {
     let error = from_text("size.toml", &both, &[]).expect_err("one or the other");
     assert!(error.faults()[0].message().contains("states both"), "{:?}", error.faults());
 }
+
+#[test]
+fn who_does_not_look_ahead_needs_no_longer_plans() {
+    let said = |driver: &str| {
+        let scenario = with_car("scale = 'full'\nhorizon_steps = 10", &format!("start.speed_mps = 32\n{driver}"));
+        remarks(&scenario).iter().any(|remark| remark.contains("to stop from"))
+    };
+    assert!(said("") && said("driver = { kind = 'negotiation' }"));
+    for kind in ["scripted", "idm"] {
+        assert!(!said(&format!("driver = {{ kind = '{kind}' }}")), "{kind}");
+    }
+}
+
+#[test]
+fn numbers_of_remarks_are_rounded() {
+    let road = "scale = 'full'\nroad = { kind = 'lanes', lane_width_m = 7.934806511272042 }";
+    let said = remarks(&with_car(road, "class = 'scale-car'\nstart.speed_mps = 0.123456789012")).join("\n");
+    assert!(said.contains("on lanes of 7.935 m") && !said.contains("934806"), "{said}");
+}

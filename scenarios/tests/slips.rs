@@ -86,3 +86,74 @@ fn one_bracket_instead_of_two_is_told_so() {
         assert_eq!(hint(&fault), "of each one of several, write `[[vehicle]]`");
     }
 }
+
+/// The messages of a file with these lines below its head, in the order of the text.
+fn messages(lines: &str) -> Vec<String> {
+    faults(&format!("title = \"a\"\nshows = \"b\"\n{lines}"), &[])
+        .iter()
+        .map(|fault| fault.message().to_owned())
+        .collect()
+}
+
+fn all_are_told(lines: &str, words: &[&str]) {
+    let found = messages(lines);
+    let are_told = found.len() == words.len() && found.iter().zip(words).all(|(message, word)| message.contains(word));
+    assert!(are_told, "{words:?} in {found:#?}");
+}
+
+#[test]
+fn a_wrong_start_does_not_hide_a_wrong_goal() {
+    let car = |start: &str, goal: &str| {
+        format!(
+            "[[vehicle]]\nname = \"car\"\nstart = {{ {start}, along_m = 1.0, speed_mps = 0.5 }}\ngoal = {{ lane = {goal} }}\n"
+        )
+    };
+    all_are_told(&car("lane = 7", "8"), &["car.start.lane` is 7", "car.goal.lane` is 8"]);
+    all_are_told(&car("lane = 7", "\"west\""), &["car.start.lane` is 7", "`vehicle.car.goal.lane` names lane `west`"]);
+    let network = "[road]\nkind = \"crossing\"\n";
+    let on_network = |start: &str, goal: &str| format!("{network}{}", car(start, goal));
+    let lanes = on_network("lane = \"nowhere\"", "\"elsewhere\"");
+    all_are_told(&lanes, &["start.lane` names lane `nowhere`", "goal.lane` names lane `elsewhere`"]);
+    let beyond = on_network("lane = \"west-in\"", "\"elsewhere\"").replace("along_m = 1.0", "along_m = 1e4");
+    all_are_told(&beyond, &["start.along_m` (10000) is not on lane", "goal.lane` names lane `elsewhere`"]);
+}
+
+#[test]
+fn faults_of_vehicles_do_not_hide_others() {
+    let lines = "step_s = 2.0\nduration_s = 1.0\nplanning_period_s = 3.0\n[weather]\nkind = \"epw\"\nfile = \"nowhere.epw\"\n\
+        [[vehicle]]\nname = \"car\"\nstart = { lane = 7, along_m = 1.0, speed_mps = 0.5 }\n[[counterfactual]]\nname = \"slower\"\n\
+        set = { \"vehicle.lorry.start.speed_mps\" = 0.1 }\n";
+    let found = messages(lines);
+    for words in ["shorter than one step", "no whole number of times", "nowhere.epw", "car.start.lane` is 7", "lorry"] {
+        assert!(found.iter().any(|message| message.contains(words)), "{words} in {found:#?}");
+    }
+    assert!(found.iter().any(|message| message.starts_with("in the counterfactual `slower`")), "{found:#?}");
+}
+
+/// A car with this script.
+fn scripted(orders: &str) -> String {
+    format!(
+        "duration_s = 9.0\n[[vehicle]]\nname = \"car\"\nstart = {{ lane = 0, along_m = 1.0, speed_mps = 0.5 }}\n\
+         driver = {{ kind = \"scripted\", script = [{orders}] }}\n"
+    )
+}
+
+#[test]
+fn a_script_says_something_in_the_order_of_time() {
+    all_are_told(&scripted(""), &["the script of vehicle `car` has no orders"]);
+    all_are_told(&scripted("{ from_s = 1.0 }"), &["order 0 of vehicle `car` says neither how fast nor where to drive"]);
+    let late = "{ from_s = 3.0, speed_mps = 0.4 }, { from_s = 1.0, lateral_m = 0.2 }";
+    all_are_told(&scripted(late), &["order 1 of vehicle `car` begins at 1 s, before order 0 above it, at 3 s"]);
+    let fault = only(&format!("title = \"a\"\nshows = \"b\"\n{}", scripted(late)), &[]);
+    assert_eq!(fault.line_and_column(), Some((7, 87)), "{fault:?}");
+    let sound = "{ from_s = 1.0, lateral_m = 0.2 }, { from_s = 1.0, speed_mps = 0.4 }";
+    let of_script =
+        |orders: &str| from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(orders)), &[]);
+    let scenario = of_script(sound).expect("a script");
+    // Whoever has no script states none, and is written so.
+    let idle = Override::Set("vehicle.car.driver={ kind = \"scripted\" }".to_owned());
+    let idle = from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(sound)), &[idle]);
+    for scenario in [scenario, idle.expect("no script")] {
+        assert!(scenario.to_file().resolve().is_ok());
+    }
+}

@@ -99,7 +99,7 @@ fn lanes() {
     case("loop", ("right_of_way", "successors = [\"bend\"]\nright_of_way"), &["bad.toml:26:15", "does not touch"]);
     case("no_line", ("start = { x_m = 0.0, y_m = 0.0, heading_deg = 0.0 }\n", ""), &["has no start", "or `points`"]);
     case("one_point", ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5]]"), &["bad.toml:17:10", "has one point"]);
-    case("same_points", ("[60.0, 3.5]]", "[60.0, 3.5], [60.0, 3.5]]"), &["bad.toml:17:10", "no line"]);
+    case("same_points", ("[60.0, 3.5]]", "[60.0, 3.5], [60.0, 3.5]]"), &["bad.toml:17:36", "points 1 and 2"]);
     case("no_turn", ("turn_deg = -90.0", "turn_deg = 0.0"), &["bad.toml:24:46", "turns by 0"]);
     case("wrong_type", ("width_m = 3.5", "width_m = \"wide\""), &["must be a number or a list, not"]);
     case("unknown_word", ("\"yield\"", "\"give-way\""), &["bad.toml:26:16", "`all-way-stop`"]);
@@ -269,4 +269,38 @@ fn names_on_parallel_lanes() {
     case("goal", ("1.0 }\n", "1.0 }\ngoal = { lane = \"right\" }\n"), &["bad.toml:6:17", "counted from the right"]);
     case("route", ("1.0 }\n", "1.0 }\nroute = [\"right\"]\n"), &["bad.toml:6:", "leave it out"]);
     insta::assert_snapshot!("names_on_parallel_lanes", errors.0);
+}
+
+fn refused(road: (&str, &str), words: &[&str]) {
+    let error = from_text("bad.toml", &GOOD.replace(road.0, road.1), &[]).expect_err("no road");
+    let shown = common::rendered(&error, 2000);
+    assert!(words.iter().all(|word| shown.contains(word)), "{words:?} in\n{shown}");
+}
+
+#[test]
+fn a_width_of_zero_is_named_before_the_length_that_it_allows() {
+    let widths = ("[[0.0, 3.5], [60.0, 3.0]]", "[[0.0, 0.0], [60.0, 0.0]]");
+    refused(widths, &["bad.toml:18:18", "a lane has the width 0 m", "widths are at least 0.001 m"]);
+}
+
+#[test]
+fn points_that_double_back_are_told_where() {
+    let points = ("[60.0, 3.5]]", "[60.0, 3.5], [10.0, 3.5], [-5.0, 3.5]]");
+    refused(points, &["bad.toml:17:23", "the line turns back at point 1"]);
+}
+
+/// Lanes of a millimetre would be compared at millions of places before the cars turn out not to fit.
+#[test]
+fn cars_on_lanes_of_a_millimetre_are_refused_at_once() {
+    let car = |name: &str, lane: &str| {
+        format!("[[vehicle]]\nname = \"{name}\"\nstart = {{ lane = \"{lane}\", along_m = 5.0, speed_mps = 9.0 }}\n")
+    };
+    let road = "kind = \"narrow-passage\"\npassage_width_m = 3.2\npassage_m = 5000.0\nlane_width_m = 0.001";
+    let cars = [car("one", "west-in"), car("other", "east-in")].concat();
+    let begun = std::time::Instant::now();
+    let error = from_text("bad.toml", &format!("title = \"a\"\nshows = \"b\"\n[road]\n{road}\n{cars}"), &[]);
+    let error = error.expect_err("the cars do not fit");
+    let too_wide = error.faults().iter().filter(|fault| fault.message().contains("wide, but lane")).count();
+    assert_eq!(too_wide, 2, "{error:?}");
+    assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
 }

@@ -36,6 +36,18 @@ pub enum IdentifyError {
         /// Largest number of zones.
         most: usize,
     },
+    /// The temperature of a zone has one value in all rows that are fitted: the sensor is stuck, and nothing follows from it.
+    #[error(
+        "the temperature of zone `{zone}` never changes: it is {value_c} °C in all {rows} rows that are fitted; check its sensor, and the column that `zone.{zone}.temperature` names"
+    )]
+    ConstantTemperature {
+        /// Name of the zone.
+        zone: String,
+        /// The temperature \[°C\].
+        value_c: f64,
+        /// Number of rows that have a temperature.
+        rows: usize,
+    },
     /// A temperature is missing, which only the method `state-space` allows.
     #[error("a temperature of zone `{zone}` is missing: set `gaps = \"split\"`, or use the method `state-space`")]
     MissingTemperature {

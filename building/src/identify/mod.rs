@@ -66,7 +66,8 @@ use train_test_split::TrainTestSplit;
 /// Identifies every zone of the telemetry.
 ///
 /// # Errors
-/// [`IdentifyError`] for a setting out of range, a zone without anything to identify, or too few rows. A parameter that the
+/// [`IdentifyError`] for a setting out of range, a zone without anything to identify or whose temperature never changes, or too few
+/// rows. A parameter that the
 /// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     identify_with_progress(telemetry, settings, &|_| {})
@@ -82,6 +83,8 @@ pub fn identify_with_progress(
     progress: &Progress<'_>,
 ) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
+    let split = TrainTestSplit::new(telemetry, settings);
+    refuse_constant_temperatures(telemetry, &split.train)?;
     if settings.method == Estimator::StateSpace {
         return state_space::identify(telemetry, settings, progress);
     }
@@ -89,7 +92,6 @@ pub fn identify_with_progress(
     if let Some(zone) = telemetry.zones.iter().find(is_incomplete) {
         return Err(IdentifyError::MissingTemperature { zone: zone.name.clone() });
     }
-    let split = TrainTestSplit::new(telemetry, settings);
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
         .collect::<Result<Vec<_>, _>>()?;
@@ -98,6 +100,22 @@ pub fn identify_with_progress(
     let report = findings.report();
     let network = Err("only the method `state-space` makes a network of what it finds".into());
     Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start), network })
+}
+
+/// Refuses a zone whose temperature has one value in all rows that are trained on.
+fn refuse_constant_temperatures(telemetry: &Telemetry, train: &[Range<usize>]) -> Result<(), IdentifyError> {
+    for zone in &telemetry.zones {
+        let trained = train.iter().flat_map(|rows| &zone.temperature_c[rows.clone()]).filter(|value| !value.is_nan());
+        let values: Vec<f64> = trained.copied().collect();
+        if let [first, others @ ..] = values.as_slice()
+            && !others.is_empty()
+            && others.iter().all(|value| value == first)
+        {
+            let (zone, value_c) = (zone.name.clone(), *first);
+            return Err(IdentifyError::ConstantTemperature { zone, value_c, rows: values.len() });
+        }
+    }
+    Ok(())
 }
 
 /// Estimates a zone's coefficients and models the residuals.

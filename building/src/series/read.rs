@@ -6,6 +6,7 @@
 //! `NaN` are missing.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
+use interplay_common::cell::shown_cell;
 use jiff::civil::Date;
 
 use super::error::SeriesError;
@@ -65,16 +66,14 @@ impl SeriesTable {
         let mut columns: Vec<SeriesColumn> =
             header.iter().skip(1).map(|title| SeriesColumn { title: title.to_owned(), values: Vec::new() }).collect();
         if columns.is_empty() {
-            return Err(SeriesError::new(
-                before + 1,
-                format!("the header `{header_line}` names no series beside the times"),
-            ));
+            return Err(SeriesError::new(before + 1, "the header names no series beside the times"));
         }
         for (row, line) in rows.iter().zip(&row_lines) {
             for (index, column) in columns.iter_mut().enumerate() {
                 let cell = row.get(index + 1).unwrap_or_default();
                 let title = &column.title;
-                let problem = || SeriesError::new(*line, format!("`{title}` is `{cell}`, not a number"));
+                let problem =
+                    || SeriesError::new(*line, format!("{} is {}, not a number", shown_cell(title), shown_cell(cell)));
                 column.values.push(number(cell, separator).ok_or_else(problem)?);
             }
         }
@@ -146,14 +145,16 @@ fn times(form: TimeForm, rows: &[StringRecord], lines: &[usize]) -> Result<Vec<R
     let mut times: Vec<RowTime> = Vec::with_capacity(rows.len());
     for (row, line) in rows.iter().zip(lines) {
         let text = row.get(0).unwrap_or_default();
-        let wrong = || SeriesError::new(*line, format!("the time is `{text}`; it must be {}", form.wanted()));
+        let wrong =
+            || SeriesError::new(*line, format!("the time is {}; it must be {}", shown_cell(text), form.wanted()));
         let time = form.read(text).ok_or_else(wrong)?;
         if let Some(before) = times.last() {
             let (wanted_s, found_s) = (interval_s(&times), time.elapsed_s - before.elapsed_s);
             let wanted_s = if times.len() < 2 { found_s } else { wanted_s };
             if found_s <= 0.0 || (found_s - wanted_s).abs() > MAX_JITTER * wanted_s {
                 let problem = format!(
-                    "the time `{text}` is {} after that of the row above; rows must follow each other every {}",
+                    "the time {} is {} after that of the row above; rows must follow each other every {}",
+                    shown_cell(text),
                     duration(found_s),
                     duration(wanted_s.abs())
                 );

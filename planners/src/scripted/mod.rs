@@ -21,6 +21,8 @@ use crate::{Input, Plan, PlanError, Scene};
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// The orders, each with the time at which it begins.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
     pub script: Vec<Order>,
 }
 

@@ -15,6 +15,7 @@ use crate::scenario::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::swept_width;
 use crate::scenario::{Scenario, Vehicle};
+use crate::text::readable::readable;
 
 /// The widest lane, as a multiple of the width of a vehicle without a class \[-\]: a car of 1.8 m on a road of 6 m.
 const MAX_LANE_PER_BODY: f64 = 3.5;
@@ -104,7 +105,9 @@ fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, Strin
     let [length_m, width_m] = covered_m(&vehicle.body, &worst.body);
     let SafetyEllipse { along_m, across_m } = vehicle.safety;
     let message = format!(
-        "outside its safety ellipse (`along_m` = {along_m}, `across_m` = {across_m}) vehicle {} may still touch {}",
+        "outside its safety ellipse (`along_m` = {}, `across_m` = {}) vehicle {} may still touch {}",
+        readable(along_m),
+        readable(across_m),
         quoted(&vehicle.name),
         quoted(&worst.name)
     );
@@ -135,7 +138,9 @@ fn proportion(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)
     let may_be_another_size = matches!(vehicle.class, None | Some(VehicleClass::ScaleCar));
     if may_be_another_size && lane_m > MAX_LANE_PER_BODY * width_m {
         let message = format!(
-            "vehicle {name} is {width_m} m wide, on lanes of {lane_m} m, {} times its width",
+            "vehicle {name} is {} m wide, on lanes of {} m, {} times its width",
+            readable(width_m),
+            readable(lane_m),
             (lane_m / width_m).round()
         );
         let help = if vehicle.class.is_some() {
@@ -147,6 +152,7 @@ fn proportion(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)
     }
     let most_m = MAX_BODY_PER_LANE * lane_m;
     (width_m > most_m).then(|| {
+        let [width_m, lane_m] = [width_m, lane_m].map(readable);
         let message = format!("vehicle {name} is {width_m} m wide and nearly fills its lane of {lane_m} m");
         (message, format!("up to {} m leaves it room to steer; `road.{key}` widens the lane", down(most_m)))
     })
@@ -189,17 +195,22 @@ fn askew(vehicle: &Vehicle) -> Option<(String, String)> {
     })
 }
 
-/// Whether plans end before the vehicle could stop from its speed at the start, or from the one that it wants.
+/// Whether plans end before the vehicle could stop from its speed at the start, or from the one that it wants. Drivers that do not
+/// look ahead, or do what is written whatever comes, gain nothing by longer plans.
 fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
+    if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::Recorded(_) | Driver::Inputs(_)) {
+        return None;
+    }
     let horizon_s = scenario.planning_period_s() * scenario.horizon_steps as f64;
     let fastest_mps = vehicle.goal.speed_mps.unwrap_or(0.0).max(vehicle.start.speed_mps);
     let stop_s = fastest_mps / -vehicle.limits.acceleration_min_mps2;
     (horizon_s < stop_s).then(|| {
         let message = format!(
-            "plans reach {} s ahead, but vehicle {} needs {} s to stop from {fastest_mps} m/s",
+            "plans reach {} s ahead, but vehicle {} needs {} s to stop from {} m/s",
             down(horizon_s),
             quoted(&vehicle.name),
-            up(stop_s)
+            up(stop_s),
+            readable(fastest_mps)
         );
         let key = if scenario.ticks_per_plan > 1 { "planning_period_s" } else { "step_s" };
         let steps = (stop_s / scenario.planning_period_s()).ceil();
@@ -210,12 +221,26 @@ fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, Stri
     })
 }
 
-/// Up to hundredths.
+/// Up to hundredths; zero has no sign.
 fn up(number: f64) -> f64 {
-    (100.0 * number - 1e-6).ceil() / 100.0
+    (100.0 * number - 1e-6).ceil() / 100.0 + 0.0
 }
 
-/// Down to hundredths.
+/// Down to hundredths; zero has no sign.
 fn down(number: f64) -> f64 {
-    (100.0 * number + 1e-6).floor() / 100.0
+    (100.0 * number + 1e-6).floor() / 100.0 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{down, up};
+
+    #[test]
+    fn bounds_are_rounded_to_the_safe_side_and_zero_has_no_sign() {
+        assert_eq!((up(0.1201), down(0.1299)), (0.13, 0.12));
+        assert_eq!((up(0.12), down(0.12)), (0.12, 0.12));
+        for zero in [up(0.0), up(-0.0), down(0.0), down(-0.0)] {
+            assert_eq!(zero.to_string(), "0");
+        }
+    }
 }

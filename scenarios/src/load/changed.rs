@@ -9,6 +9,7 @@ use crate::error::{Document, Fault, Place};
 use crate::json_schema::SchemaNode;
 use crate::read::overrides::{lay_paths, lay_planner};
 use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
+use crate::registry::Registry;
 
 /// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
 const RANK: usize = 0;
@@ -42,6 +43,24 @@ pub(crate) fn tree(of: &TomlNode, stated: &Table, schema: SchemaNode) -> Result<
         root.insert("expect".to_owned(), without_comparisons(expect.clone(), schema));
     }
     Ok(TomlNode { place: of.place.clone(), value: TomlValue::Table(root) })
+}
+
+/// What is wrong with the counterfactuals of a scenario that cannot be run itself: what they state themselves, and nothing of what the
+/// scenario states.
+pub(super) fn faults(registry: &Registry, of: &TomlNode) -> Vec<Fault> {
+    let Some(TomlValue::Array(stated)) = of.at("counterfactual").map(|node| &node.value) else { return Vec::new() };
+    let mut own = Vec::new();
+    for node in stated {
+        let (Some(table), file) = (node.table(), &node.place.document.name) else { continue };
+        let run = tree(of, table, registry.complete()).and_then(|changed| super::assemble(registry, &changed));
+        let is_own = |fault: &Fault| {
+            fault.place().is_some_and(|place| place.document.rank == RANK && place.document.name == *file)
+        };
+        let name = node.label().unwrap_or_default();
+        let found = run.err().into_iter().flatten().filter(is_own);
+        own.extend(found.map(|fault| fault.in_counterfactual(name)));
+    }
+    own
 }
 
 /// A fault if `set` changes what is no condition of a run.

@@ -1,5 +1,6 @@
 //! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
 
+mod chain;
 mod changed;
 
 use std::fs;
@@ -8,17 +9,17 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json};
 
+use self::chain::{NamedBy, blamed_on, extended, read_link};
 use crate::budget;
 use crate::check::{consistency, shape};
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
 use crate::defaults::{expand, with_defaults};
-use crate::error::{Document, Fault, LoadError, Place, quoted};
+use crate::error::{Document, Fault, LoadError, Place};
 use crate::file_format::counterfactual::CounterfactualConfig;
 use crate::file_format::scenario_file::ScenarioFile;
 use crate::flows::with_flows;
 use crate::json_schema::SchemaNode;
 use crate::read::degrees;
-use crate::read::merge::merge_tables;
 use crate::read::overrides::Override;
 use crate::read::source::Source;
 use crate::read::tree::{self, Table, TomlNode, TomlValue};
@@ -28,9 +29,6 @@ use crate::resolve::resolve;
 use crate::resolve::weather_file::is_embedded_weather;
 use crate::scenario::remark::ScenarioRemark;
 use crate::scenario::{Counterfactual, Scenario};
-
-/// How many files may extend one another.
-const MAX_CHAIN_LENGTH: usize = 16;
 
 /// How errors call a scenario without title.
 const UNTITLED: &str = "without title";
@@ -155,8 +153,26 @@ impl Imported {
 
 /// The tree of a scenario, `extends` resolved, unchecked.
 pub(crate) fn tree(registry: &Registry, name_or_path: &str) -> Result<TomlNode, LoadError> {
-    let read = read_chain(&Source::find(name_or_path)?, registry.complete());
-    read.map_err(|faults| LoadError::new(name_or_path, faults))
+    let source = Source::find(name_or_path)?;
+    let read = read_link(&source, NamedBy::Command, &mut Vec::new(), registry.complete());
+    read.map_err(|(_, faults)| LoadError::new(name_or_path, faults))
+}
+
+/// The same, changed by `overrides` in their order.
+pub(crate) fn changed_tree(
+    registry: &Registry,
+    name_or_path: &str,
+    overrides: &[Override],
+) -> Result<TomlNode, LoadError> {
+    let mut tree = tree(registry, name_or_path)?;
+    apply(overrides, &mut tree, registry.complete()).map_err(|faults| LoadError::new(name_or_path, faults))?;
+    Ok(tree)
+}
+
+/// The same of a source that a plan names at `place`, which is to blame for a file that is no scenario.
+pub(crate) fn tree_named_at(registry: &Registry, source: &str, place: &Place) -> Result<TomlNode, Vec<Fault>> {
+    let source = Source::find(source).map_err(|error| error.faults().to_vec())?;
+    read_link(&source, NamedBy::File, &mut Vec::new(), registry.complete()).map_err(|refusal| blamed_on(place, refusal))
 }
 
 /// A tree laid over what it extends; `name` is the path from which that starts.
@@ -188,7 +204,8 @@ fn finish(registry: &Registry, name: &str, mut tree: TomlNode, overrides: &[Over
     let refused = |faults| LoadError::new(name, faults);
     let as_written = tree.clone();
     apply(overrides, &mut tree, registry.complete()).map_err(refused)?;
-    let mut scenario = assemble(registry, &tree).map_err(refused)?;
+    let assembled = assemble(registry, &tree);
+    let mut scenario = assembled.map_err(|faults| refused([faults, changed::faults(registry, &tree)].concat()))?;
     let as_written = Some(&as_written).filter(|_| !overrides.is_empty());
     add_counterfactuals(registry, &mut scenario, &tree, as_written).map_err(refused)?;
     let faults = budget::check_all(&scenario, &tree);
@@ -258,75 +275,6 @@ fn add_counterfactuals(
             Ok(scenario_run) => scenario.counterfactuals.push(Counterfactual { stated, scenario: scenario_run }),
             Err(reason) => scenario.left_out.push([stated.name, reason]),
         }
-    }
-    Ok(())
-}
-
-/// Reads a source and all that it extends.
-fn read_chain(source: &Source, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
-    read_link(source, &mut Vec::new(), schema).map_err(|(_, faults)| faults)
-}
-
-/// Whether the faults are about opening the source itself, so that whoever refers to it is to blame.
-type Refusal = (bool, Vec<Fault>);
-
-fn read_link(source: &Source, chain: &mut Vec<Source>, schema: SchemaNode) -> Result<TomlNode, Refusal> {
-    chain.push(source.clone());
-    if let Source::File(path) = source
-        && is_commonroad(path)
-    {
-        let imported = import_file(path, &ImportOptions::default());
-        return imported.map(Imported::into_tree).map_err(|fault| (fault.file().is_none(), vec![fault]));
-    }
-    let (document, text) = source.read(chain.len()).map_err(|fault| (fault.file().is_none(), vec![fault]))?;
-    let node = tree::parse(&document, &text).map_err(|faults| (false, faults))?;
-    extended(source, node, chain, schema).map_err(|faults| (false, faults))
-}
-
-/// The tree laid over the one that it extends, if it extends any.
-fn extended(
-    source: &Source,
-    mut node: TomlNode,
-    chain: &mut Vec<Source>,
-    schema: SchemaNode,
-) -> Result<TomlNode, Vec<Fault>> {
-    let TomlValue::Table(table) = &mut node.value else { return Ok(node) };
-    let Some(extends) = table.remove("extends") else { return Ok(node) };
-    let place = &extends.node.place;
-    let blame = |fault: Fault| vec![fault.moved_to(place)];
-    let Some(target) = extends.node.text() else {
-        let message = "`extends` must be a text: the path of a file or the name of an embedded scenario";
-        return Err(vec![Fault::at(place, "not a text", message)]);
-    };
-    let parent = source.parent(target).map_err(blame)?;
-    refuse_cycle(&parent, chain, place).map_err(|fault| vec![fault])?;
-    let below = read_link(&parent, chain, schema).map_err(|(to_blame, faults)| {
-        let moved = |fault: Fault| if to_blame { fault.moved_to(place) } else { fault };
-        faults.into_iter().map(moved).collect::<Vec<_>>()
-    })?;
-    if let (TomlValue::Table(under), TomlValue::Table(over)) = (below.value, &mut node.value) {
-        *over = merge_tables(Some(schema), inherited(under), std::mem::take(over));
-    }
-    Ok(node)
-}
-
-/// What a file takes over from the one that it extends: all but the figure, since a variant is another picture, and the
-/// counterfactuals, which say what that one's outcome is owed to.
-fn inherited(mut under: Table) -> Table {
-    under.remove("figure");
-    under.remove("counterfactual");
-    under
-}
-
-fn refuse_cycle(parent: &Source, chain: &[Source], place: &Place) -> Result<(), Fault> {
-    let names = || chain.iter().chain([parent]).map(Source::name).collect::<Vec<_>>().join(" -> ");
-    if chain.iter().any(|link| link.identity() == parent.identity()) {
-        let message = format!("{} extends itself: {}", quoted(&parent.title()), names());
-        return Err(Fault::at(place, "back to the beginning", message));
-    }
-    if chain.len() >= MAX_CHAIN_LENGTH {
-        let message = format!("more than {MAX_CHAIN_LENGTH} files extend one another");
-        return Err(Fault::at(place, "one too many", message));
     }
     Ok(())
 }

@@ -10,9 +10,12 @@ pub(crate) mod tariff_file;
 mod unit_file;
 pub(crate) mod weather_file;
 
+use std::sync::Arc;
+
 use serde::de::DeserializeOwned;
 
 use interplay_planners::Driver;
+use interplay_planners::road::network::RoadNetwork;
 
 use crate::check::{consistency, remarks};
 use crate::error::Fault;
@@ -25,6 +28,7 @@ use crate::file_format::weather::{WeatherConfig, WeatherSource};
 use crate::read::tree::TomlNode;
 use crate::registry::Registry;
 use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
+use crate::road::Road;
 use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::{Scenario, Stay, Vehicle};
 use crate::text::readable::readable;
@@ -40,9 +44,14 @@ pub(crate) fn resolve(
     tree: &TomlNode,
     known_roads: &KnownRoads,
 ) -> Result<Scenario, Vec<Fault>> {
-    let (scenario, mut unread) = read(registry, file, tree, known_roads)?;
-    let mut faults = consistency::check(&scenario, tree, registry.complete());
-    faults.append(&mut unread);
+    let ReadScenario { scenario, is_placed, mut faults } = read(registry, file, tree, known_roads)?;
+    if is_placed {
+        faults.extend(consistency::check(&scenario, tree, registry.complete()));
+    } else {
+        // Without its vehicles no more can be said of it.
+        faults.extend(consistency::check_times(&scenario, tree));
+        return Err(faults);
+    }
     let remarks = remarks::collect(&scenario, tree, registry.complete());
     if !faults.is_empty() {
         return Err(faults);
@@ -51,22 +60,57 @@ pub(crate) fn resolve(
     Ok(Scenario { remarks, ..scenario })
 }
 
-/// The same, unchecked; and what is wrong with the files that it names, in whose place it has defaults.
+/// A scenario as far as it could be read.
+struct ReadScenario {
+    /// Unchecked. In the place of what could not be read it has defaults.
+    scenario: Scenario,
+    /// Whether its vehicles are on its road; without, it has none.
+    is_placed: bool,
+    /// What could not be read.
+    faults: Vec<Fault>,
+}
+
+/// The road of a scenario, and who is on it.
+#[derive(Default)]
+struct PlacedVehicles {
+    road: Road,
+    network: Option<Arc<RoadNetwork>>,
+    vehicles: Vec<Vehicle>,
+    /// What is said where everything was moved near the origin.
+    moved: Option<Fault>,
+}
+
+impl Reader<'_> {
+    /// Builds the road and places vehicles and obstacles on it.
+    fn placed(&self, file: &mut ScenarioFile, known_roads: &KnownRoads) -> Result<PlacedVehicles, Vec<Fault>> {
+        let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
+        let mut road = self.or_default("road", file.road.take())?;
+        records::read(&mut file.vehicles, self.tree)?;
+        let origin = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
+        let schema = self.registry.complete();
+        let Placed { network, starts } =
+            place(&file.vehicles, (&road, &file.lights, written), (self.tree, schema), known_roads)?;
+        let mut vehicles = self.vehicles(std::mem::take(&mut file.vehicles), starts)?;
+        vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (self.tree, &vehicles))?);
+        let moved = origin.map(|origin| local_origin::remark(origin, self.tree));
+        Ok(PlacedVehicles { road, network, vehicles, moved })
+    }
+}
+
+/// The same, unchecked; and what is wrong with its vehicles, and with the files that it names.
 fn read(
     registry: &Registry,
     mut file: ScenarioFile,
     tree: &TomlNode,
     known_roads: &KnownRoads,
-) -> Result<(Scenario, Vec<Fault>), Vec<Fault>> {
+) -> Result<ReadScenario, Vec<Fault>> {
     let reader = Reader { registry, tree };
-    let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
-    let mut road = reader.or_default("road", file.road)?;
-    records::read(&mut file.vehicles, tree)?;
-    let moved = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
-    let Placed { network, starts } =
-        place(&file.vehicles, (&road, &file.lights, written), (tree, registry.complete()), known_roads)?;
-    let mut vehicles = reader.vehicles(file.vehicles, starts)?;
-    vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (tree, &vehicles))?);
+    let (placed, mut faults) = match reader.placed(&mut file, known_roads) {
+        Ok(placed) => (Some(placed), Vec::new()),
+        Err(faults) => (None, faults),
+    };
+    let is_placed = placed.is_some();
+    let PlacedVehicles { road, network, vehicles, moved } = placed.unwrap_or_default();
     let mut scenario = Scenario {
         vehicles,
         road,
@@ -106,14 +150,19 @@ fn read(
         metrics: registry.metrics().clone(),
     };
     measured_drivers::draw(&mut scenario.vehicles, scenario.seed);
-    scenario.ticks_per_plan = ticks_per_plan(file.planning_period_s, scenario.step_s, tree)?;
-    scenario.remarks.0.extend(moved.map(|origin| ScenarioRemark(local_origin::remark(origin, tree))));
+    match ticks_per_plan(file.planning_period_s, scenario.step_s, tree) {
+        Ok(ticks) => scenario.ticks_per_plan = ticks,
+        Err(fault) => faults.push(fault),
+    }
+    scenario.remarks.0.extend(moved.map(ScenarioRemark));
     let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
-    Ok(with_named_files(scenario, named, tree))
+    let (scenario, unread) = with_named_files(scenario, named, tree);
+    faults.extend(unread);
+    Ok(ReadScenario { scenario, is_placed, faults })
 }
 
 /// How many ticks there are from one plan to the next.
-fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result<usize, Vec<Fault>> {
+fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result<usize, Fault> {
     let Some(period_s) = stated_s else { return Ok(1) };
     let ticks = (period_s / step_s).round();
     if ticks >= 1.0 && (ticks * step_s - period_s).abs() <= 1e-6 * period_s {
@@ -125,7 +174,7 @@ fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result
         readable(step_s)
     );
     let help = format!("{} works", readable(step_s * ticks.max(1.0)));
-    Err(vec![Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help)])
+    Err(Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help))
 }
 
 /// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
@@ -159,7 +208,11 @@ fn with_named_files(
         }
     }
     match scenario.tariff.as_ref().map(|tariff| tariff_file::read(tariff, &scenario, tree)).transpose() {
-        Ok(tariff) => scenario.tariff = tariff,
+        Ok(read) => {
+            let (tariff, remark) = read.unzip();
+            scenario.tariff = tariff;
+            scenario.remarks.0.extend(remark.flatten().map(ScenarioRemark));
+        }
         Err(fault) => unread.push(fault),
     }
     for (index, stated) in gains.into_iter().enumerate() {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use interplay_common::cell::shown_cell;
 use interplay_common::spelling::listed;
 use serde_json::{Value as Json, json};
 
@@ -12,7 +13,7 @@ use crate::error::{Fault, quoted};
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::read::regular_file::read_regular;
 use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::line_of;
+use crate::read::text_line::line_without_text;
 use crate::read::tree::TomlNode;
 
 /// The largest table that is read; a hundred vehicles over ten minutes in steps of 0.1 s take less \[bytes\].
@@ -83,7 +84,7 @@ fn rows(
                     "the first line is `{ID_COLUMN},{}`, then there is a row for each moment",
                     COLUMNS.join(",")
                 );
-                Fault::at(&line_of(&title, &text, line, RANK), "this line", message).help(help)
+                Fault::at(&line_without_text(&title, line, RANK), "this line", message).help(help)
             })?);
             tables.insert(path.clone(), Arc::clone(&records));
             records
@@ -126,8 +127,7 @@ pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
         for ((number, place), name) in numbers.iter_mut().zip(places).zip(COLUMNS) {
             let value: Option<f64> = cells[place].parse().ok();
             *number = value.filter(|value| value.abs() <= MAX_NUMBER).ok_or_else(|| {
-                let shown: String = cells[place].chars().take(40).collect();
-                (line, format!("`{name}` is `{shown}`, which is no number up to {MAX_NUMBER:.0}"))
+                (line, format!("`{name}` is {}, which is no number up to {MAX_NUMBER:.0}", shown_cell(cells[place])))
             })?;
         }
         let rows = records.entry(id.map_or_else(String::new, |id| cells[id].to_owned())).or_default();

@@ -7,7 +7,7 @@ use crate::error::{Fault, Place, quoted};
 use crate::file_format::building::DAY_S;
 use crate::read::regular_file::read_regular;
 use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::line_of;
+use crate::read::text_line::{line_of, line_without_text};
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
 
@@ -60,16 +60,21 @@ impl SeriesFile {
             lines: Vec::new(),
         };
         let mut file = Self { title, found, table: empty, text, rank, what };
-        file.table = SeriesTable::parse(&file.text).map_err(|error| file.fault(&error))?;
+        file.table = SeriesTable::parse(&file.text)
+            .map_err(|error| file.refused(&error, &line_without_text(&file.title, error.line, rank)))?;
         Ok(file)
     }
 
     /// What is wrong with the table, at its line.
     pub fn fault(&self, error: &SeriesError) -> Fault {
+        self.refused(error, &self.line(error.line))
+    }
+
+    fn refused(&self, error: &SeriesError, place: &Place) -> Fault {
         let message = format!("{} is no {}: line {}: {}", quoted(&self.title), self.what, error.line, error.problem);
         let help = "the first line names the columns, the first of them `hour`, `time_s` or one of dates; then come rows at \
                     equal intervals";
-        Fault::at(&self.line(error.line), "this line", message).help(help)
+        Fault::at(place, "this line", message).help(help)
     }
 
     /// A remark on a line of the table.

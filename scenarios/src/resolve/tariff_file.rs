@@ -8,19 +8,22 @@ use crate::error::Fault;
 use crate::file_format::building::DAY_S;
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
+use crate::text::readable::readable;
 
 /// The most prices, as of a list in the scenario.
 const MAX_PRICES: usize = 100_000;
 /// The largest price, as of a list in the scenario \[currency/kWh\].
 const MAX_PRICE_PER_KWH: f64 = 1000.0;
+/// Prices above this are remarked upon: they are probably by the megawatt-hour \[currency/kWh\].
+const MAX_USUAL_PRICE_PER_KWH: f64 = 5.0;
 /// Errors in prices are listed after those in the scenario.
 const RANK: usize = 1001;
 /// The title of the prices; a table with one series may call it otherwise.
 const PRICE: &str = "price_per_kwh";
 
-/// The tariff with the prices of the table that it names, if it names one.
-pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Result<Tariff, Fault> {
-    let Some(name) = &tariff.file else { return Ok(tariff.clone()) };
+/// The tariff with the prices of the table that it names, if it names one; and a remark on prices that are unusually high.
+pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Result<(Tariff, Option<Fault>), Fault> {
+    let Some(name) = &tariff.file else { return Ok((tariff.clone(), None)) };
     let file = SeriesFile::read(name, "tariff.file", tree, ("table of prices", RANK))?;
     let refused = |line: usize, problem: String| Err(file.fault(&SeriesError { line, problem }));
     let column = match (file.table.column(PRICE), file.table.columns.as_slice()) {
@@ -46,9 +49,18 @@ pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Res
     let prices_per_kwh = from_first_midnight(&file, column, scenario)?;
     let interval_s = file.table.interval_s;
     if (60.0..=DAY_S).contains(&interval_s) {
-        return Ok(Tariff { prices_per_kwh, interval_s, file: None, ..tariff.clone() });
+        let read = Tariff { prices_per_kwh, interval_s, file: None, ..tariff.clone() };
+        return Ok((read, unusual(&file, column)));
     }
     refused(file.table.header_line, format!("the rows are {interval_s} s apart; 60 s to a day work"))
+}
+
+/// A remark on the first price that is unusually high.
+fn unusual(file: &SeriesFile, column: &SeriesColumn) -> Option<Fault> {
+    let row = column.values.iter().position(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
+    let problem = format!("the price is {} per kWh: is it per MWh?", readable(column.values[row]));
+    let remark = file.remark(&SeriesError { line: file.table.lines[row], problem });
+    Some(remark.help(format!("`{PRICE}` is a price per kilowatt-hour; divide prices per megawatt-hour by 1000")))
 }
 
 /// The prices from the first midnight of the run on.

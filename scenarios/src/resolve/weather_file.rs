@@ -14,7 +14,7 @@ use crate::file_format::building_plant::BuildingPlant;
 use crate::file_format::weather::{CsvWeather, EpwFile, EpwWeather};
 use crate::read::regular_file::read_regular;
 use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::line_of;
+use crate::read::text_line::{line_of, line_without_text};
 use crate::read::tree::TomlNode;
 use crate::scenario::Scenario;
 use crate::scenario::remark::ScenarioRemark;
@@ -35,7 +35,7 @@ pub(crate) fn read(
 ) -> Result<(EpwWeather, Vec<ScenarioRemark>), Fault> {
     let (place, file, days) = (tree.place_of("weather.file"), &stated, scenario.days());
     let EpwText { title, found, text } = text_of(&file.file, place)?;
-    let epw = Epw::parse(&text).map_err(|error| located(&title, &text, error.line, &error.problem.to_string()))?;
+    let epw = Epw::parse(&text).map_err(|error| located(&title, error.line, &error.problem.to_string()))?;
     let Some(start_s) = file.start_s(&epw) else {
         let (month, day) = (file.month.unwrap_or(1), file.day.unwrap_or(1));
         let message = format!("{} has no day {day} of month {month}", quoted(&title));
@@ -145,9 +145,9 @@ fn unusable(title: &str, text: &str, error: &EpwError) -> Fault {
 }
 
 /// A fault in a line of an EPW file, counted from 1.
-fn located(title: &str, text: &str, line: usize, fault: &str) -> Fault {
+fn located(title: &str, line: usize, fault: &str) -> Fault {
     let message = format!("{} is no whole EPW file: line {line}: {fault}", quoted(title));
     let help =
         "`weather.file` must name an EPW file as EnergyPlus reads it: 8 lines of header, then a row for each interval";
-    Fault::at(&line_of(title, text, line, RANK), "this line", message).help(help)
+    Fault::at(&line_without_text(title, line, RANK), "this line", message).help(help)
 }

@@ -1,7 +1,9 @@
 //! The narrowest lane that a vehicle drives on.
 
 use interplay_planners::road::network::{Lane, RoadNetwork, RouteLeg};
+use interplay_planners::{Route, State};
 
+use crate::road::Road;
 use crate::scenario::{Scenario, Vehicle};
 
 /// The narrowest place of the lanes on the way of a vehicle, from its start on.
@@ -18,17 +20,25 @@ pub(crate) struct NarrowestLane {
 /// The narrowest place of the lanes on the way of a vehicle, from its start on. Where it changes lanes, one of them may begin or
 /// end in a point: of a lane that it leaves in this way only the begin of its part counts, and of one that it enters, the end.
 pub(crate) fn narrowest_lane(scenario: &Scenario, vehicle: &Vehicle) -> NarrowestLane {
-    let found = scenario.network.as_ref().and_then(|network| on_network(network, vehicle));
+    narrowest_lane_of((&scenario.road, scenario.network.as_deref()), (&vehicle.start, &vehicle.route))
+}
+
+/// The same of a road with its network, if it has one, and a vehicle of which no more is known than its start and its route.
+pub(crate) fn narrowest_lane_of(
+    (road, network): (&Road, Option<&RoadNetwork>),
+    (start, route): (&State, &Route),
+) -> NarrowestLane {
+    let found = network.and_then(|network| on_network(network, start, route));
     let (width_m, place) =
-        found.map_or((scenario.road.lane_width_m(), None), |(lane, along_m, width_m)| (width_m, Some((lane, along_m))));
+        found.map_or((road.lane_width_m(), None), |(lane, along_m, width_m)| (width_m, Some((lane, along_m))));
     let lane = place.as_ref().map_or("", |(lane, _)| lane);
-    NarrowestLane { width_m, key: scenario.road.width_key(lane), place }
+    NarrowestLane { width_m, key: road.width_key(lane), place }
 }
 
 /// The lane, the place on it and its width there \[m\].
-fn on_network(network: &RoadNetwork, vehicle: &Vehicle) -> Option<(String, f64, f64)> {
-    let legs = &vehicle.route.legs;
-    let start_m = vehicle.route.along(vehicle.start.position());
+fn on_network(network: &RoadNetwork, start: &State, route: &Route) -> Option<(String, f64, f64)> {
+    let legs = &route.legs;
+    let start_m = route.along(start.position());
     let places = legs.iter().enumerate().filter(|(_, leg)| leg.to_m > start_m).flat_map(|(index, leg)| {
         let before = index.checked_sub(1).and_then(|before| legs.get(before)).filter(|before| before.to_m > start_m);
         let is_entered = before.is_some_and(|before| !follows(network, before, leg));

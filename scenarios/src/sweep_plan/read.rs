@@ -197,8 +197,8 @@ fn changes(tree: &TomlNode, settings: DrawSettings, schema: SchemaNode) -> Resul
     Ok(Arm::changing("everywhere", set, vary))
 }
 
-/// The scenarios of a plan. Two of one name are refused.
-fn scenarios(tree: &TomlNode, folder: &Path) -> Result<Vec<NamedScenario>, Vec<Fault>> {
+/// The scenarios of a plan, and where each is named. Two of one name are refused.
+fn scenarios<'a>(tree: &'a TomlNode, folder: &Path) -> Result<Vec<(NamedScenario, &'a Place)>, Vec<Fault>> {
     let Some(TomlValue::Array(items)) = tree.at("scenario").map(|node| &node.value) else { return Ok(Vec::new()) };
     let (mut found, mut faults) = (BTreeMap::new(), Vec::new());
     let mut order = Vec::new();
@@ -214,7 +214,7 @@ fn scenarios(tree: &TomlNode, folder: &Path) -> Result<Vec<NamedScenario>, Vec<F
                         };
                         faults.push(Fault::at(&node.place, "the second", message));
                     }
-                    order.push(named);
+                    order.push((named, &node.place));
                 }
             }
             Err(fault) => faults.push(fault),
@@ -263,11 +263,11 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
 /// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
 fn planned(
     registry: &Registry,
-    named: NamedScenario,
+    (named, place): (NamedScenario, &Place),
     jitter: Option<(StartJitter, &Place)>,
     with_counterfactuals: bool,
 ) -> Result<PlannedScenario, Vec<Fault>> {
-    let mut tree = load::tree(registry, &named.source).map_err(|error| error.faults().to_vec())?;
+    let mut tree = load::tree_named_at(registry, &named.source, place)?;
     let counterfactuals = if with_counterfactuals { counterfactuals(registry, &tree)? } else { Vec::new() };
     if let TomlValue::Table(root) = &mut tree.value {
         root.remove("counterfactual");

@@ -157,6 +157,14 @@ pub(super) fn logarithm(
     Some((libm::log(value), (0..theta.len()).map(derivative).collect()))
 }
 
+/// The eigenvalues and eigenvectors of a symmetric matrix, which may have no rows: every parameter is held by a bound then.
+fn eigen_of(matrix: DMatrix<f64>) -> SymmetricEigen<f64, nalgebra::Dyn> {
+    if matrix.is_empty() {
+        return SymmetricEigen { eigenvalues: DVector::zeros(0), eigenvectors: matrix };
+    }
+    SymmetricEigen::new(matrix)
+}
+
 /// The covariance of the estimate, and what it says of a function of the parameters.
 pub(super) struct Precision {
     free: Vec<usize>,
@@ -181,12 +189,12 @@ impl Precision {
         let scaled = DMatrix::from_fn(free.len(), free.len(), |a, b| {
             evaluation.information[(free[a], free[b])] / (scale[a] * scale[b])
         });
-        Self { free, at_bound, scale, eigen: SymmetricEigen::new(scaled) }
+        Self { free, at_bound, scale, eigen: eigen_of(scaled) }
     }
 
     /// Standard error of a function with this gradient; infinite where the data do not determine it.
     pub fn standard_error(&self, gradient: &[f64]) -> f64 {
-        if self.at_bound.iter().any(|&j| gradient[j].abs() > DEPENDENCE) {
+        if self.free.is_empty() || self.at_bound.iter().any(|&j| gradient[j].abs() > DEPENDENCE) {
             return f64::INFINITY;
         }
         let (along, undetermined) = self.along(gradient);

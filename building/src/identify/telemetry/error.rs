@@ -6,14 +6,15 @@ use interplay_common::bounds::Bound;
 use interplay_common::setting::{SettingError, SettingKey};
 use interplay_common::spelling::suggestion;
 
+use super::time_text::format_with_offset;
 use super::value_shape::ValueShape;
 
 /// A mapping or a table that cannot be read.
 ///
-/// Shown as `file:line:column: what is wrong; what would work`. Line and column count from 1, the column in characters; both
-/// are `None` when no text is to blame (an empty file).
+/// Shown as `file:line:column: what is wrong; what would work`, a line for each problem. Line and column count from 1, the column in
+/// characters; both are `None` when no text is to blame (an empty file).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{file}{}: {problem}; {}", Located(.place), .problem.remedy())]
+#[error("{file}{}: {problem}; {}{}", Located(.place), .problem.remedy(), Others(.others))]
 pub struct TelemetryError {
     /// The name of the file, as the caller gave it.
     pub file: String,
@@ -21,11 +22,19 @@ pub struct TelemetryError {
     pub place: Option<(usize, usize)>,
     /// What is wrong.
     pub problem: Box<TelemetryProblem>,
+    /// What else is wrong, in the order of the text.
+    pub others: Vec<TelemetryError>,
 }
 
 impl TelemetryError {
     pub(super) fn new(file: &str, place: Option<(usize, usize)>, problem: TelemetryProblem) -> Self {
-        Self { file: file.into(), place, problem: Box::new(problem) }
+        Self { file: file.into(), place, problem: Box::new(problem), others: Vec::new() }
+    }
+
+    /// One error of several; `None` where there are none.
+    pub(super) fn of_all(mut all: Vec<Self>) -> Option<Self> {
+        let others = all.split_off(all.len().min(1));
+        all.pop().map(|first| Self { others, ..first })
     }
 }
 
@@ -174,6 +183,8 @@ pub enum TelemetryProblem {
         elapsed_s: f64,
         /// The sampling time \[s\].
         step_s: f64,
+        /// Whether clocks that are put forward or back would explain it: it is wrong by an hour, and nothing is said of the clocks.
+        is_hour_of_clocks: bool,
     },
     /// A value is missing where the mapping wants every row complete.
     #[error("column `{column}` has no value here (`{text}`)")]
@@ -225,12 +236,20 @@ impl TelemetryProblem {
             Self::Number { .. } => {
                 "write a number like 21.5 (`table.decimal` sets the decimal sign), or list the text in `table.missing`".into()
             }
-            Self::Time { .. } => "set `time.format` to the form of the column, for example `%Y-%m-%d %H:%M:%S`".into(),
+            Self::Time { text, format, .. } => match format_with_offset(format, text) {
+                Some(format) => format!("it has an offset from UTC: set `time.format` to `{format}`, in place of a `time.zone`"),
+                None => "set `time.format` to the form of the column, for example `%Y-%m-%d %H:%M:%S`".into(),
+            },
             Self::NoSuchHour { .. } => {
                 "leave `time.zone` out if these clocks are not put forward and back, or correct it".into()
             }
             Self::CounterFalls { .. } => {
                 "begin another recording where a meter was changed (`time.batch`), or state `reading` if rows are no counts".into()
+            }
+            Self::Gap { is_hour_of_clocks: true, .. } => {
+                "state `time.zone` if clocks are put forward or back here, or write times with an offset (`%z` in `time.format`); or add \
+                 the missing rows, or set `time.gaps = \"split\"` to start anew after each gap"
+                    .into()
             }
             Self::Gap { .. } => {
                 "add the missing rows, correct `time.step_s`, or set `time.gaps = \"split\"` to start anew after each gap".into()
@@ -266,6 +285,15 @@ fn kind_of_gap(elapsed_s: f64) -> &'static str {
         elapsed if elapsed < 0.0 => "time goes backwards",
         0.0 => "one time stands twice",
         _ => "there is a gap, or the sampling time is another",
+    }
+}
+
+/// Writes the other errors below the first.
+struct Others<'a>(&'a [TelemetryError]);
+
+impl fmt::Display for Others<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|error| write!(f, "\n{error}"))
     }
 }
 

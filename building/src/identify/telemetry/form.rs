@@ -15,17 +15,30 @@ use super::value_shape::ValueShape;
 
 /// Holds a document to the schema of `T`.
 ///
-/// # Errors
-/// The first problem in the order of the text, and the byte at which it is written. A missing key comes last: it often is one
-/// of the unknown keys, misspelt.
-pub(super) fn check<T: JsonSchema>(document: &Spanned<DeTable<'_>>) -> Result<(), (usize, TelemetryProblem)> {
+/// Returns the problems in the order of the text, each with the byte at which it is written. A key that is missing beside an unknown one
+/// is not told: probably it is that one, misspelt.
+pub(super) fn check<T: JsonSchema>(document: &Spanned<DeTable<'_>>) -> Vec<(usize, TelemetryProblem)> {
     let root = SchemaGenerator::default().into_root_schema_for::<T>().to_value();
     let mut checker = Checker { problems: Vec::new() };
     checker.table(document.span().start, document.get_ref(), Schema::new(&root, &root), &SettingKey::default());
-    let order = |(offset, problem): &(usize, TelemetryProblem)| {
-        (matches!(problem, TelemetryProblem::MissingKey { .. }), *offset)
-    };
-    checker.problems.into_iter().min_by_key(order).map_or(Ok(()), Err)
+    let mut problems = checker.problems;
+    let with_unknown_keys: Vec<SettingKey> = problems.iter().filter_map(|(_, problem)| unknown_in(problem)).collect();
+    problems.retain(|(_, problem)| match problem {
+        TelemetryProblem::MissingKey { key, .. } => !with_unknown_keys.iter().any(|table| is_key_of(key, table)),
+        _ => true,
+    });
+    problems.sort_by_key(|(offset, _)| *offset);
+    problems
+}
+
+/// The table in which a key is unknown.
+fn unknown_in(problem: &TelemetryProblem) -> Option<SettingKey> {
+    if let TelemetryProblem::UnknownKey { table, .. } = problem { Some(table.clone()) } else { None }
+}
+
+/// Whether a key stands in a table itself.
+fn is_key_of(key: &SettingKey, table: &SettingKey) -> bool {
+    key.as_str().rsplit_once('.').map_or("", |(table, _)| table) == table.as_str()
 }
 
 /// The byte at which the value of a key such as `zone.0.heat.1.factor` is written; `None` if the document does not state it.

@@ -240,11 +240,19 @@ pub struct SolarColumn {
     pub hold: Hold,
 }
 
+impl TimeAxis {
+    /// Whether times are dates, and not numbers.
+    pub(super) fn has_dates(&self) -> bool {
+        !["seconds", "hours"].contains(&self.format.as_str())
+    }
+}
+
 impl Mapping {
     /// Reads a mapping; `file` is its name for messages.
     ///
     /// # Errors
-    /// [`TelemetryError`], with line and column, when the text is not TOML of this form, or a value makes no sense.
+    /// [`TelemetryError`], with line and column, when the text is not TOML of this form, or a value makes no sense. Everything that is
+    /// wrong with the form is told at once.
     pub fn parse(file: &str, text: &str) -> Result<Self, TelemetryError> {
         let refused = |offset: Option<usize>, problem| {
             TelemetryError::new(file, offset.map(|offset| line_and_column(text, offset)), problem)
@@ -254,7 +262,11 @@ impl Mapping {
             refused(error.span().map(|span| span.start), TelemetryProblem::Syntax { reason })
         };
         let document = DeTable::parse(text).map_err(unreadable)?;
-        form::check::<Self>(&document).map_err(|(offset, problem)| refused(Some(offset), problem))?;
+        let faults = form::check::<Self>(&document);
+        let faults = faults.into_iter().map(|(offset, problem)| refused(Some(offset), problem)).collect();
+        if let Some(error) = TelemetryError::of_all(faults) {
+            return Err(error);
+        }
         let mapping: Self = toml::from_str(text).map_err(unreadable)?;
         mapping.check().map_err(|(keys, problem)| {
             let stated = keys.iter().find_map(|key| form::place_of(document.get_ref(), key.as_str()));
@@ -297,8 +309,7 @@ impl Mapping {
             let (word, known) = (name.clone(), NamedZone::names());
             return Err((vec![key.clone()], TelemetryProblem::UnknownWord { key, word, known }));
         }
-        let is_of_dates = self.time.column.is_some() && !["seconds", "hours"].contains(&self.time.format.as_str());
-        if is_of_dates && !self.time.format.contains("%z") {
+        if self.time.column.is_some() && self.time.has_dates() && !self.time.format.contains("%z") {
             return Ok(());
         }
         let wanted = "left out, or beside a `time.column` of dates without an offset";

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use super::error::{TelemetryError, TelemetryProblem};
-use super::mapping::{Gaps, HeatColumns, Mapping, MeterReading, ZoneColumns};
+use super::mapping::{Gaps, HeatColumns, Mapping, MeterReading, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 use super::table::{Column, Row, Table, TableTime};
+use super::time_text::OFFSET;
 use super::time_zone::NamedZone;
 use super::units::PowerUnit;
 
@@ -112,7 +113,7 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
             Some((then_s, batch)) if batch == recording => {
                 let on_time = is_step(now_s - then_s, axis.step_s);
                 if let (false, Gaps::Refuse, Some(column)) = (on_time, axis.gaps, time) {
-                    return Err(table.at(row, column, gap(table.text(row, column), now_s - then_s, axis.step_s)));
+                    return Err(table.at(row, column, gap(table.text(row, column), now_s - then_s, axis)));
                 }
                 on_time
             }
@@ -150,8 +151,11 @@ fn is_step(elapsed_s: f64, step_s: f64) -> bool {
     (elapsed_s - step_s).abs() <= 0.1 * step_s
 }
 
-fn gap(text: &str, elapsed_s: f64, step_s: f64) -> TelemetryProblem {
-    TelemetryProblem::Gap { text: text.into(), elapsed_s, step_s }
+fn gap(text: &str, elapsed_s: f64, axis: &TimeAxis) -> TelemetryProblem {
+    let is_of_clocks = axis.zone.is_none() && axis.has_dates() && !axis.format.contains(OFFSET);
+    let is_hour = [3600.0, -3600.0].iter().any(|change_s| is_step(elapsed_s - change_s, axis.step_s));
+    let is_hour_of_clocks = is_of_clocks && is_hour;
+    TelemetryProblem::Gap { text: text.into(), elapsed_s, step_s: axis.step_s, is_hour_of_clocks }
 }
 
 /// Whether every wanted field has a value; an error where one has none and may not.

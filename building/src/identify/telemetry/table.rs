@@ -6,6 +6,7 @@ use jiff::fmt::strtime::BrokenDownTime;
 use super::error::{TelemetryError, TelemetryProblem};
 use super::mapping::{Mapping, TimeAxis};
 use super::table_form::{DecimalSign, TableForm};
+use super::time_text;
 use super::time_zone::{NamedZone, seconds_since_1970};
 
 /// A table of text; every row has as many fields as the header.
@@ -164,12 +165,7 @@ impl<'a> Table<'a> {
             let number = text.parse().ok().filter(|time: &f64| time.is_finite());
             number.map(|number| TableTime { elapsed_s: number * unit_s, offset_s: 0.0 })
         };
-        // One letter for both ways to write an offset.
-        let parsed = || {
-            BrokenDownTime::parse(format, text)
-                .or_else(|_| BrokenDownTime::parse(format.replace("%z", "%:z"), text))
-                .ok()
-        };
+        let parsed = || time_text::parsed(format, text);
         let time = match (format, clock) {
             ("seconds", _) => number(1.0),
             ("hours", _) => number(3600.0),

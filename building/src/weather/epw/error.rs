@@ -1,5 +1,7 @@
 //! What can be wrong with an EPW file, and where.
 
+use interplay_common::cell::shown_cell;
+
 use super::calendar::Stamp;
 
 /// Why a file is no complete EPW file.
@@ -16,11 +18,8 @@ pub struct EpwError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EpwProblem {
     /// The file does not begin like an EPW file.
-    #[error("an EPW file begins with `LOCATION,`; this begins with `{found}`")]
-    NotEpw {
-        /// The beginning of the line.
-        found: String,
-    },
+    #[error("an EPW file begins with `LOCATION,`, and this does not")]
+    NotEpw,
     /// The header ends early.
     #[error("the file ends before its `{wanted}` line")]
     HeaderCut {
@@ -28,7 +27,7 @@ pub enum EpwProblem {
         wanted: &'static str,
     },
     /// A field of the header cannot be read.
-    #[error("{field} is `{found}`; it should be {wanted}")]
+    #[error("{field} is {}; it should be {wanted}", shown_cell(found))]
     Header {
         /// The field.
         field: &'static str,
@@ -48,7 +47,7 @@ pub enum EpwProblem {
         wanted: usize,
     },
     /// A column holds no number.
-    #[error("column {column}, {field}, is `{found}`, not a number")]
+    #[error("column {column}, {field}, is {}, not a number", shown_cell(found))]
     NotANumber {
         /// Position of the column, from one.
         column: usize,

@@ -48,8 +48,7 @@ impl Header {
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
         let (_, first_line) = lines.next().unwrap_or((1, ""));
         if !begins(first_line, "LOCATION") {
-            let found = first_line.chars().take(40).collect();
-            return Err(EpwError { line: 1, problem: EpwProblem::NotEpw { found } });
+            return Err(EpwError { line: 1, problem: EpwProblem::NotEpw });
         }
         let location = location(&Fields::of(1, first_line))?;
         // Only header lines begin with a letter: the periods cannot be looked for among the rows.

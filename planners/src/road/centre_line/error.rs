@@ -49,7 +49,7 @@ pub enum CentreLineError {
     #[error("a centre line needs at least two distinct points")]
     TooFewPoints,
     /// A line is turned by so much, or so sharply, that its arc length cannot be computed.
-    #[error("the curve has a cusp or a corner near ({x_m:.3} m, {y_m:.3} m)")]
+    #[error("the curve has a cusp or a corner near ({:.3} m, {:.3} m)", to_millimetres(*.x_m), to_millimetres(*.y_m))]
     Cusp {
         /// Coordinate of the cusp \[m\].
         x_m: f64,
@@ -70,4 +70,20 @@ pub enum CentreLineError {
         /// End of the section \[m\].
         to_m: f64,
     },
+}
+
+/// A coordinate in whole millimetres, and zero without a sign \[m\].
+fn to_millimetres(coordinate_m: f64) -> f64 {
+    (1000.0 * coordinate_m).round() / 1000.0 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CentreLineError;
+
+    #[test]
+    fn a_cusp_at_the_origin_has_no_sign() {
+        let error = CentreLineError::Cusp { x_m: -1e-9, y_m: -0.0 };
+        assert_eq!(error.to_string(), "the curve has a cusp or a corner near (0.000 m, 0.000 m)");
+    }
 }

@@ -26,6 +26,9 @@ const TOUCHING_RATIO: f64 = 0.01;
 /// Distance of the places that are compared, by the width of the narrowest lane.
 const SPACING_RATIO: f64 = 0.2;
 
+/// Most places of a route that are compared: roads of ordinary lanes have fewer on 10 km.
+const MAX_PLACES: f64 = 20_000.0;
+
 /// How many points of a cross-section are compared before the one nearest to the other route is refined.
 const POINTS_ACROSS: usize = 9;
 
@@ -39,8 +42,8 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 ///
 /// The lanes that the centre lines follow are compared, not the neighbouring lanes of the strips: vehicles on lanes side by
 /// side do not conflict. Where both routes are on the same lane, they follow each other, and there is no conflict. Places a
-/// fifth of a lane width apart are compared, so an overlap that is shorter may be missed; the ends of the others are exact to
-/// [`CONFLICT_TOLERANCE_RATIO`] lane widths. Both routes need ends; others have no conflicts.
+/// fifth of a lane width apart are compared, at most [`MAX_PLACES`] of a route, so an overlap that is shorter may be missed; the
+/// ends of the others are exact to [`CONFLICT_TOLERANCE_RATIO`] lane widths. Both routes need ends; others have no conflicts.
 pub fn conflicts(a: &Route, b: &Route) -> Vec<Conflict> {
     if !(a.end_m().is_finite() && b.end_m().is_finite()) {
         return Vec::new();
@@ -77,6 +80,11 @@ fn narrowest_m(a: &Route, b: &Route) -> f64 {
     narrowest(a).min(narrowest(b))
 }
 
+/// The largest distance of the places of a route that are compared \[m\].
+fn spacing_m(own: &Route, narrowest_m: f64) -> f64 {
+    (SPACING_RATIO * narrowest_m).max(own.end_m() / MAX_PLACES)
+}
+
 /// A part of a route on the lanes of another one, and about where that is on the other one \[m\].
 struct Overlap {
     own_m: [f64; 2],
@@ -98,7 +106,7 @@ fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 /// The parts of `own` that lie on the lanes of `other`, without those on a lane that both follow.
 fn overlaps(own: &Route, other: &Route) -> Vec<Overlap> {
     let narrowest_m = narrowest_m(own, other);
-    let (spacing_m, tolerance_m) = (SPACING_RATIO * narrowest_m, CONFLICT_TOLERANCE_RATIO * narrowest_m);
+    let (spacing_m, tolerance_m) = (spacing_m(own, narrowest_m), CONFLICT_TOLERANCE_RATIO * narrowest_m);
     let widest_half_m = other.half_width.extremes(0.0, other.end_m())[1];
     let pair = RoutePair { own, other, widest_half_m };
     let count = (own.end_m() / spacing_m).ceil().max(1.0) as usize;

@@ -1,6 +1,7 @@
 //! The check of what vehicles are told to do: scripts, triggers, and when they are on the road.
 
 use interplay_planners::Driver;
+use interplay_planners::scripted::Order;
 use interplay_planners::trigger::Trigger;
 
 use super::checker::Checker;
@@ -16,9 +17,20 @@ impl Checker<'_> {
     /// A script is checked like a goal: speeds, accelerations, places, and orders that never begin or contradict each other.
     pub(super) fn script(&mut self, index: usize, vehicle: &Vehicle) {
         let Driver::Scripted(settings) = &vehicle.driver else { return };
+        let stated = format!("vehicle.{index}.driver.script");
+        if settings.script.is_empty() && self.tree.at(&stated).is_some() {
+            let message = format!("the script of vehicle {} has no orders", quoted(&vehicle.name));
+            self.refuse(
+                &stated,
+                "empty",
+                message,
+                "leave it out: without a script a vehicle keeps its speed and its place",
+            );
+        }
         for (number, order) in settings.script.iter().enumerate() {
-            let path = format!("vehicle.{index}.driver.script.{number}");
+            let path = format!("{stated}.{number}");
             let shown = |key: &str| format!("`vehicle.{}.driver.script.{number}.{key}`", vehicle.name);
+            self.script_order(vehicle, (&settings.script, number), &path);
             if let Some(speed_mps) = order.speed_mps {
                 self.script_speed(vehicle, speed_mps, (&format!("{path}.speed_mps"), &shown("speed_mps")));
             }
@@ -30,19 +42,37 @@ impl Checker<'_> {
                 let help = format!("the run takes {} s", readable(self.scenario.duration_s));
                 self.refuse(&format!("{path}.from_s"), "never begins", message, &help);
             }
-            let same = settings.script[..number].iter().position(|earlier| {
-                let rules_the_same = (earlier.speed_mps.is_some() && order.speed_mps.is_some())
-                    || (earlier.lateral_m.is_some() && order.lateral_m.is_some());
-                earlier.from_s == order.from_s && earlier.when == order.when && rules_the_same
-            });
-            if let Some(earlier) = same {
-                let message =
-                    format!("orders {earlier} and {number} of vehicle {} begin at one time", quoted(&vehicle.name));
-                self.refuse(&path, "at the same time", message, "let one of them begin later, or leave it out");
-            }
             if let Some(when) = &order.when {
                 self.trigger(when, &format!("{path}.when"), &shown("when"));
             }
+        }
+    }
+
+    /// An order says something, after those above it and not at the time of one of them that rules the same.
+    fn script_order(&mut self, vehicle: &Vehicle, (script, number): (&[Order], usize), path: &str) {
+        let (order, name) = (&script[number], quoted(&vehicle.name));
+        if order.speed_mps.is_none() && order.lateral_m.is_none() {
+            let message = format!("order {number} of vehicle {name} says neither how fast nor where to drive");
+            self.refuse(path, "changes nothing", message, "state `speed_mps`, `lateral_m` or both");
+        }
+        let above = || script[..number].iter().enumerate().filter(|(_, earlier)| earlier.when == order.when);
+        let same = above().find(|(_, earlier)| {
+            let rules_the_same = (earlier.speed_mps.is_some() && order.speed_mps.is_some())
+                || (earlier.lateral_m.is_some() && order.lateral_m.is_some());
+            earlier.from_s == order.from_s && rules_the_same
+        });
+        if let Some((earlier, _)) = same {
+            let message = format!("orders {earlier} and {number} of vehicle {name} begin at one time");
+            self.refuse(path, "at the same time", message, "let one of them begin later, or leave it out");
+        }
+        if let Some((earlier, later)) = above().find(|(_, earlier)| earlier.from_s > order.from_s) {
+            let message = format!(
+                "order {number} of vehicle {name} begins at {} s, before order {earlier} above it, at {} s",
+                readable(order.from_s),
+                readable(later.from_s)
+            );
+            let help = "write the orders in the order of their times: the one that begins last rules";
+            self.refuse(&format!("{path}.from_s"), "out of order", message, help);
         }
     }
 

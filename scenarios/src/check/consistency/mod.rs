@@ -67,6 +67,13 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
     checker.faults
 }
 
+/// What is wrong with the times of a scenario, whose vehicles may have no places.
+pub(crate) fn check_times(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+    let mut checker = Checker::new(scenario, tree);
+    checker.times();
+    checker.faults
+}
+
 impl Checker<'_> {
     fn times(&mut self) {
         let Scenario { duration_s, step_s, .. } = *self.scenario;

@@ -10,8 +10,8 @@ mod written;
 
 use std::sync::Arc;
 
-use interplay_planners::Route;
 use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::{Body, Route};
 
 use crate::check::consistency::curve_faults;
 use crate::error::Fault;
@@ -19,7 +19,9 @@ use crate::file_format::light::LightConfig;
 use crate::file_format::vehicle_config::VehicleConfig;
 use crate::json_schema::SchemaNode;
 use crate::read::tree::TomlNode;
+use crate::resolve::records::KIND;
 use crate::road::{Branch, Road};
+use crate::scenario::narrowest_lane::narrowest_lane_of;
 use known_roads::KnownNetwork;
 pub(crate) use known_roads::KnownRoads;
 pub(crate) use obstacles::obstacles;
@@ -57,7 +59,7 @@ pub(crate) fn place(
         let written = VehicleAsWritten { stated: vehicle, index, tree, schema };
         let route = if vehicle.road == Branch::Main { &main } else { &cross };
         let found = match (recorded::start(&written), &network, route) {
-            (Err(fault), ..) => Err(fault),
+            (Err(fault), ..) => Err(vec![fault]),
             (Ok(Some((record, state))), Some(network), _) => {
                 Ok(recorded::place(&record, state, &vehicle.route, network))
             }
@@ -69,7 +71,7 @@ pub(crate) fn place(
         };
         match found {
             Ok(start) => starts.push(start),
-            Err(fault) => faults.push(fault),
+            Err(found) => faults.extend(found),
         }
     }
     if !faults.is_empty() {
@@ -80,12 +82,27 @@ pub(crate) fn place(
         let fault = Fault::at(tree.place_of("light"), "no lanes with names", message);
         return Err(vec![fault.help("state the road as a `network`, or one of the junctions")]);
     }
-    if let Some(network) = &network {
+    if let Some(network) = network.as_ref().filter(|network| bodies_fit(vehicles, &starts, (road, network))) {
         // On a network the routes know where they meet.
         let (states, routes): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
         starts = states.into_iter().zip(in_one_set(routes, network)).collect();
     }
     Ok(Placed { network: network.map(|known| Arc::clone(&known.network)), starts })
+}
+
+/// Whether the bodies of all vehicles fit their lanes. Those that do not are refused by the checks that follow, so where their
+/// routes meet is not computed: on lanes that are far narrower than any body it takes minutes.
+fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], (road, network): (&Road, &KnownNetwork)) -> bool {
+    let is_refused = |(vehicle, (state, route)): (&VehicleConfig, &Start)| {
+        // A record lies where it was recorded, beside its lane or not.
+        let kind = vehicle.driver.as_ref().and_then(|driver| driver.get("kind"));
+        if kind.is_some_and(|kind| kind == KIND) {
+            return false;
+        }
+        let body: Body = vehicle.body.clone().and_then(|body| body.settings().ok()).unwrap_or_default();
+        body.width_m > narrowest_lane_of((road, Some(&network.network)), (state, route)).width_m
+    };
+    !vehicles.iter().zip(starts).any(is_refused)
 }
 
 /// The routes, so that those along lanes know where they meet. Strips beside the lanes belong to no set.

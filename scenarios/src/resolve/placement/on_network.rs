@@ -22,20 +22,14 @@ const MAX_NAMES: usize = 12;
 /// The state of a vehicle at its start, and its route from the begin of the lane there.
 ///
 /// # Errors
-/// For a start that is on no lane, and where no route leads to the goal.
-pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Fault> {
+/// For a start that is on no lane, and where no route leads to the goal; all of them.
+pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Vec<Fault>> {
     let user = written.stated.class.map_or(LaneUser::Car, VehicleClass::lane_user);
     let vehicle = NetworkVehicle { written, known, user, open: known.open_to(user) };
     if written.stated.start.is_in_lane() {
-        let lane = vehicle.start_lane()?;
-        let along_m = vehicle.along_m(lane)?;
-        let offset_m = written.offset_within(lane.half_width_m(along_m))?;
-        let [x_m, y_m] = lane.centre.position(along_m, offset_m);
-        let heading_rad = lane.centre.at(along_m).heading_rad + written.stated.start.heading_error_rad();
-        let state = State { x_m, y_m, heading_rad, speed_mps: written.stated.start.speed_mps };
-        return Ok(vehicle.on_route(state, along_m, vehicle.route(lane)?));
+        return vehicle.in_lane();
     }
-    vehicle.in_world()
+    vehicle.in_world().map_err(|fault| vehicle.with_goal(fault))
 }
 
 struct NetworkVehicle<'a> {
@@ -48,6 +42,30 @@ struct NetworkVehicle<'a> {
 }
 
 impl NetworkVehicle<'_> {
+    /// A start in a lane. What is wrong with the place in the lane and with the way from there is told together.
+    fn in_lane(&self) -> Result<Start, Vec<Fault>> {
+        let lane = self.start_lane().map_err(|fault| self.with_goal(fault))?;
+        let stated = &self.written.stated.start;
+        let place = self.along_m(lane).and_then(|along_m| {
+            let offset_m = self.written.offset_within(lane.half_width_m(along_m))?;
+            let [x_m, y_m] = lane.centre.position(along_m, offset_m);
+            let heading_rad = lane.centre.at(along_m).heading_rad + stated.heading_error_rad();
+            Ok((State { x_m, y_m, heading_rad, speed_mps: stated.speed_mps }, along_m))
+        });
+        match (place, self.route(lane)) {
+            (Ok((state, along_m)), Ok(route)) => Ok(self.on_route(state, along_m, route)),
+            (place, route) => Err(place.err().into_iter().chain(route.err()).collect()),
+        }
+    }
+
+    /// A fault of the start, and with it that of a goal on no lane.
+    fn with_goal(&self, start: Fault) -> Vec<Fault> {
+        let goal = self.written.stated.goal.lane.as_ref().and_then(|goal| self.known("goal.lane", goal).err());
+        let is_new = |goal: &Fault| goal.message() != start.message();
+        let goal = goal.filter(is_new);
+        [start].into_iter().chain(goal).collect()
+    }
+
     /// The lane in which the vehicle starts, as it is named.
     fn start_lane(&self) -> Result<&Lane, Fault> {
         let stated = self.written.stated.start.lane.as_ref().ok_or_else(|| self.written.missing("lane"))?;

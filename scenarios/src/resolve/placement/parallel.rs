@@ -13,20 +13,26 @@ use crate::road::Road;
 /// The state of a vehicle at its start.
 ///
 /// # Errors
-/// For a start that is no place, and for lanes with names.
-pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Route>) -> Result<Start, Fault> {
-    if let Some(LaneReference::Name(name)) = &written.stated.goal.lane {
-        return Err(no_names(written, "goal.lane", name, road));
-    }
-    if let Some(name) = written.stated.route.first() {
-        return Err(no_names(written, "route", name, road));
-    }
-    let state = if written.stated.start.is_in_lane() {
-        in_lane(written, road, route)?
-    } else {
-        in_world(written, road, route)?
+/// For a start that is no place, and for lanes with names; all of them.
+pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Route>) -> Result<Start, Vec<Fault>> {
+    let state =
+        if written.stated.start.is_in_lane() { in_lane(written, road, route) } else { in_world(written, road, route) };
+    let goal = match &written.stated.goal.lane {
+        Some(LaneReference::Name(name)) => Some(no_names(written, "goal.lane", name, road)),
+        // Of a vehicle that has a place, the goal is checked with all else.
+        Some(LaneReference::Number(lane)) if state.is_err() => {
+            let refused = no_such_lane(&format!("{}.goal.lane", written.shown()), *lane, road);
+            refused.map(|(message, help)| written.fault("goal.lane", "no such lane", message).help(help))
+        }
+        _ => None,
     };
-    Ok((state, Arc::clone(route)))
+    let along = written.stated.route.first().map(|name| no_names(written, "route", name, road));
+    let faults: Vec<Fault> = goal.into_iter().chain(along).collect();
+    match state {
+        Ok(state) if faults.is_empty() => Ok((state, Arc::clone(route))),
+        Ok(_) => Err(faults),
+        Err(fault) => Err([vec![fault], faults].concat()),
+    }
 }
 
 fn no_names(written: &VehicleAsWritten<'_>, key: &str, name: &str, road: &Road) -> Fault {

@@ -47,10 +47,39 @@ fn unstated(lane: &LaneConfig, key: &str, path: &str) -> RoadFault {
 }
 
 fn of_points(lane: &LaneConfig, path: &str) -> Result<CentreLine, RoadFault> {
-    smooth_points(&lane.points, lane.tolerance_m).and_then(|points| CentreLine::through(&points)).map_err(|error| {
-        let message = format!("the points of lane {} are no line: {error}", quoted(&lane.name));
-        RoadFault::new(format!("{path}.points"), "no line", message).help("no two neighbouring points may be the same")
-    })
+    let line = smooth_points(&lane.points, lane.tolerance_m).and_then(|points| CentreLine::through(&points));
+    line.map_err(|error| points_fault(&error, lane, path))
+}
+
+/// Why points are no line: two are the same, or the line turns back at one of them. Points are counted from 0.
+fn points_fault(error: &CentreLineError, lane: &LaneConfig, path: &str) -> RoadFault {
+    let of_lane = format!("lane {}", quoted(&lane.name));
+    if let Some(point) = lane.points.windows(2).position(|pair| pair[0] == pair[1]) {
+        let (path, message) = (
+            format!("{path}.points.{}", point + 1),
+            format!("the points {point} and {} of {of_lane} are the same", point + 1),
+        );
+        return RoadFault::new(path, "again", message).help("leave one of them out");
+    }
+    if let Some(point) = turning_point(&lane.points).filter(|_| matches!(error, CentreLineError::Cusp { .. })) {
+        let message = format!("the points of {of_lane} are no line: the line turns back at point {point}");
+        return RoadFault::new(format!("{path}.points.{point}"), "turns back", message)
+            .help("points follow each other in the direction of driving; a bend takes several points");
+    }
+    let message = format!("the points of {of_lane} are no line: {error}");
+    RoadFault::new(format!("{path}.points"), "no line", message).help("a smooth line must lead through the points")
+}
+
+/// The point at which the line through the points turns most, if it turns back there: by more than a right angle.
+fn turning_point(points: &[[f64; 2]]) -> Option<usize> {
+    let turn_rad = |triple: &[[f64; 2]]| {
+        let [before, after] = [0, 1].map(|at| [0, 1].map(|axis| triple[at + 1][axis] - triple[at][axis]));
+        let (cross, dot) = (before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
+        libm::atan2(cross, dot).abs()
+    };
+    let turns = points.windows(3).map(turn_rad).enumerate();
+    let (index, most_rad) = turns.max_by(|one, other| one.1.total_cmp(&other.1))?;
+    (most_rad > std::f64::consts::FRAC_PI_2).then_some(index + 1)
 }
 
 fn of_pieces(lane: &LaneConfig, start: &LanePlaceConfig, path: &str) -> Result<CentreLine, RoadFault> {

@@ -38,10 +38,12 @@ impl LaneNetwork {
 
 /// The lane that a table states; `path` is that of the table below `road`.
 fn lane(stated: &LaneConfig, path: &str) -> Result<Lane, RoadFault> {
+    // The longest line that a lane may have follows from its width, so what is wrong with that is said first.
+    let width = stated.width_m.profile(path)?;
     Ok(Lane {
         name: stated.name.clone(),
         centre: geometry::centre(stated, path)?,
-        width: stated.width_m.profile(path)?,
+        width,
         successors: stated.successors.clone(),
         left: stated.left.as_ref().map(NeighbourConfig::neighbour),
         right: stated.right.as_ref().map(NeighbourConfig::neighbour),

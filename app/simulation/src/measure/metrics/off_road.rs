@@ -6,8 +6,9 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration};
 use crate::measure::metric::{Metric, VehicleMoment};
 use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 
-/// Shorter distances beyond an edge are treated as zero: rounding, and the tolerance of planners that drive along the edge \[m\].
-const ROUNDING_M: f64 = 1e-6;
+/// Shorter distances beyond an edge are treated as zero: planners that drive along the edge keep to it by some micrometres, and no
+/// road is marked to a millimetre \[m\].
+const ROUNDING_M: f64 = 1e-3;
 /// A vehicle leaves the road if a corner of it comes this far beyond an edge, in widths of its body: 5 cm of a car.
 const OFF_ROAD_WIDTHS: f64 = 0.03;
 
@@ -81,7 +82,9 @@ mod tests {
         let at = |across_m: f64, turn_rad: f64| beyond("lane-change/front-nice", 3.0, across_m, turn_rad);
         let on_the_road = (peak(0.0, None), 0.0);
         assert_eq!((at(0.095, 0.0), at(0.4, 0.3)), (on_the_road.clone(), on_the_road.clone()));
-        assert_eq!(at(0.095 - 1e-9, 0.0), on_the_road, "a rounding error is not off the road");
+        for beyond_m in [1e-9, 2.6e-6, 0.9e-3] {
+            assert_eq!(at(0.095 - beyond_m, 0.0), on_the_road, "{beyond_m} m: a millimetre is on the road");
+        }
         for (across_m, turn_rad, wanted_m) in [(0.05, 0.0, 0.045), (0.70, 0.0, 0.055), (0.74, 0.5, 0.0)] {
             let (sin, cos) = libm::sincos(turn_rad);
             let wanted_m = if turn_rad == 0.0 { wanted_m } else { 0.21 * sin + 0.095 * cos };
