@@ -13,11 +13,11 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
 use interplay_sweep::{DetectorWriter, SeriesWriter, SweepError, TableFile, TrajectoryWriter};
-use thiserror::Error;
 
 use crate::flag_values::export_file::ExportFile;
 use crate::flag_values::files::short_name;
 use crate::flag_values::run_outputs::RunOutputs;
+use crate::flag_values::values;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::program::this_program;
@@ -50,7 +50,7 @@ pub(crate) struct Run {
     sets: Vec<String>,
 
     /// Seed of all random numbers
-    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::seed, allow_negative_numbers = true)]
     seed: Option<u64>,
 
     /// Where the recording goes [default: recordings/NAME.rrd]
@@ -78,6 +78,10 @@ pub(crate) struct Run {
     /// Draw a moving picture of the run, seen from above: .gif, .webp, .png (a filmstrip), or .mp4 (through ffmpeg)
     #[arg(long, value_name = "FILE")]
     animate: Option<AnimationFile>,
+
+    /// Until when the moving picture shows the run [s] [default: until all is settled that is expected]
+    #[arg(long, value_name = "SECONDS", value_parser = values::time, requires = "animate", allow_negative_numbers = true)]
+    animate_until: Option<f64>,
 
     /// Write what every vehicle did at every tick as a table: .csv or .parquet
     #[arg(long, value_name = "FILE")]
@@ -271,7 +275,8 @@ impl Run {
                 print_error(&format!("{what} in {}", file.path().display()));
             }
         }
-        Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
+        let recorded = RecordedRun::to_draw(scenario, frame_log.frames(), report);
+        Ok(RecordedRun { command: self.words(), shown_until_s: self.animate_until, ..recorded })
     }
 
     /// Draws the page, if that is asked for.
@@ -351,19 +356,9 @@ fn print_remarks(scenario: &Scenario) {
     }
 }
 
-/// A text that is no seed.
-#[derive(Debug, Error)]
-#[error("a seed is a whole number from 0 to {}", u64::MAX)]
-struct SeedError;
-
 /// What `--planner` does, with the kinds of drivers that a scenario may name.
 pub(crate) fn planner_help(registry: &Registry) -> String {
     format!("Who drives the ego instead of the scenario's choice: {}", registry.driver_kinds().join(", "))
-}
-
-/// A seed as it is written on the command line.
-fn seed(text: &str) -> Result<u64, SeedError> {
-    text.parse().map_err(|_| SeedError)
 }
 
 #[cfg(test)]

@@ -10,6 +10,14 @@ pub(crate) fn count<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse().map_err(|_| "write a whole number of at least 1".to_owned())
 }
 
+/// A seed as it is written on the command line.
+///
+/// # Errors
+/// What would work, if the text is no such number.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
 /// A time since the beginning of a run \[s\].
 ///
 /// # Errors

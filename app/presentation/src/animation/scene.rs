@@ -54,6 +54,8 @@ pub struct DrivingRun<'a> {
     requests: Vec<Requests>,
     /// Where every vehicle ended, and when \[s\].
     end: (f64, Vec<State>),
+    /// Until when it is to be shown, if that is stated \[s\].
+    until_s: Option<f64>,
 }
 
 impl<'a> DrivingRun<'a> {
@@ -76,13 +78,19 @@ impl<'a> DrivingRun<'a> {
             Some(requests.clone())
         };
         let requests = frames.iter().scan(Requests::default(), asked).collect();
-        Some(DrivingRun { scenario, colours, frames, requests, end })
+        Some(DrivingRun { scenario, colours, frames, requests, end, until_s: recorded.shown_until_s })
     }
 
     /// What bounds the time that is shown.
     pub fn times(&self) -> RunTimes {
         let time_ratio = self.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
-        RunTimes { ego: self.scenario.ego_index(), end_s: self.end_s(), settled_s: self.settled_s(), time_ratio }
+        RunTimes {
+            ego: self.scenario.ego_index(),
+            end_s: self.end_s(),
+            settled_s: self.settled_s(),
+            until_s: self.until_s,
+            time_ratio,
+        }
     }
 
     /// The time at which the run ends \[s\].

@@ -39,6 +39,8 @@ pub struct RunTimes {
     pub end_s: f64,
     /// When the ego has passed everybody with whom it dealt \[s\]; none if it deals with nobody, or to the end.
     pub settled_s: Option<f64>,
+    /// Until when the run is to be shown, whatever happens \[s\].
+    pub until_s: Option<f64>,
     /// What times at 1/10 scale are multiplied with.
     pub time_ratio: f64,
 }
@@ -76,7 +78,10 @@ fn usual_rate(end_s: f64) -> f64 {
 
 /// When a picture of a run ends: a while after everything has happened, or with the run.
 fn last_s(report: &Report, times: &RunTimes) -> f64 {
-    let RunTimes { ego, end_s, settled_s, time_ratio } = *times;
+    let RunTimes { ego, end_s, settled_s, until_s, time_ratio } = *times;
+    if let Some(until_s) = until_s {
+        return until_s.min(end_s);
+    }
     let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
     let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
     let all: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
@@ -88,6 +93,12 @@ fn last_s(report: &Report, times: &RunTimes) -> f64 {
     };
     let settled = settled_s.map(|at| at + AFTER_ORDERS_S);
     let reached = reached.into_iter().chain(settled).reduce(f64::min);
+    // Not before whoever is expected to reach its goal has done so.
+    let expected = report.vehicles.iter().filter(|vehicle| {
+        report.expectations.iter().any(|expectation| expectation.what == format!("completes.{}", vehicle.name))
+    });
+    let expected_s = expected.filter_map(|vehicle| vehicle.completed_s).map(|at| at + AFTER_GOALS_S * time_ratio);
+    let reached = reached.map(|reached| expected_s.fold(reached, f64::max));
     let everything = match (reached, collided) {
         (Some(reached), Some(collided)) => Some(reached.max(collided)),
         (reached, collided) => reached.or(collided),
@@ -107,7 +118,7 @@ mod tests {
     }
 
     fn times(end_s: f64, settled_s: Option<f64>) -> RunTimes {
-        RunTimes { ego: 0, end_s, settled_s, time_ratio: 1.0 }
+        RunTimes { ego: 0, end_s, settled_s, until_s: None, time_ratio: 1.0 }
     }
 
     #[test]
@@ -128,8 +139,11 @@ mod tests {
         let report = report("intersection/nice");
         let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
         let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
-        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
+        let ego_s = report.vehicles[0].completed_s.expect("it is expected to");
+        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S).max(ego_s + AFTER_GOALS_S);
         assert!((last(moments(&report, &times(7.0, None))) - expected_s).abs() < 1e-9);
+        let until = RunTimes { until_s: Some(1.0), ..times(7.0, None) };
+        assert_eq!(last(moments(&report, &until)), 1.0, "as it was asked for");
         let unfinished = Report { vehicles: Vec::new(), ..report };
         assert_eq!(last(moments(&unfinished, &times(7.0, None))), 7.0);
         assert_eq!(last(moments(&unfinished, &times(7.0, Some(1.5)))), 1.5 + AFTER_ORDERS_S);

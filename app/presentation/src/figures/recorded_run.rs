@@ -43,6 +43,8 @@ pub struct RecordedRun {
     pub frames: Vec<Frame>,
     /// The report of the run.
     pub report: Report,
+    /// Until when a moving picture shows it \[s\]; by default until everything has happened.
+    pub shown_until_s: Option<f64>,
 }
 
 impl RunSpec {
@@ -62,7 +64,7 @@ impl RunSpec {
 impl RecordedRun {
     /// A run that is only to be drawn: without label and command.
     pub fn to_draw(scenario: Scenario, frames: Vec<Frame>, report: Report) -> RecordedRun {
-        RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report }
+        RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report, shown_until_s: None }
     }
 
     /// Runs a scenario, called `name` in the report, and keeps what is seen.
@@ -72,7 +74,14 @@ impl RecordedRun {
     pub fn record(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
         let frame_log = FrameLog::default();
         let report = run(name, &scenario, vec![Box::new(frame_log.clone())])?;
-        Ok(RecordedRun { label: label.to_owned(), command, scenario, frames: frame_log.frames(), report })
+        Ok(RecordedRun {
+            label: label.to_owned(),
+            command,
+            scenario,
+            frames: frame_log.frames(),
+            report,
+            shown_until_s: None,
+        })
     }
 }
 
