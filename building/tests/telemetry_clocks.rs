@@ -31,7 +31,7 @@ fn read(mapping: &str, table: &str) -> Result<Telemetry, TelemetryError> {
 #[test]
 fn the_hour_that_comes_twice_is_no_gap() {
     let telemetry = read(MAPPING, TABLE).expect("regular in time");
-    assert_eq!(telemetry.segments, [0..8]);
+    assert_eq!(telemetry.segments, std::slice::from_ref(&(0..8)));
     let hours: Vec<f64> = telemetry.time_s.iter().map(|time_s| time_s / 3600.0).collect();
     assert_eq!(hours, [23.0, 24.0, 25.0, 26.0, 27.0, 28.0, 29.0, 30.0]);
     let even = MAPPING.replace("zone = \"Europe/Zurich\"\n", "");

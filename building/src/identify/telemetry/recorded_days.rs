@@ -117,10 +117,14 @@ mod tests {
             hours.iter().cloned().flatten().map(|hour| 3600.0 * hour as f64).collect()
         };
         // From 10:00 of the first day to 10:00 of the fifth.
-        assert_eq!(longest_stretch(&hours(&[10..107]), 3600.0), Some(1..4));
+        assert_eq!(longest_stretch(&hours(std::slice::from_ref(&(10..107))), 3600.0), Some(1..4));
         assert_eq!(longest_stretch(&hours(&[10..55, 61..107]), 3600.0), Some(1..4), "six hours are bridged");
         assert_eq!(longest_stretch(&hours(&[10..55, 63..107]), 3600.0), Some(1..2));
-        assert_eq!(longest_stretch(&hours(&[10..40]), 3600.0), None);
-        assert_eq!(longest_stretch(&hours(&[0..24]), 3600.0), Some(0..1), "to the last step of the day");
+        assert_eq!(longest_stretch(&hours(std::slice::from_ref(&(10..40))), 3600.0), None);
+        assert_eq!(
+            longest_stretch(&hours(std::slice::from_ref(&(0..24))), 3600.0),
+            Some(0..1),
+            "to the last step of the day"
+        );
     }
 }
