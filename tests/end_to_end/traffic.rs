@@ -169,7 +169,9 @@ fn off_road_m(film: &Film, index: usize) -> f64 {
     let vehicle = &film.scenario.vehicles[index];
     let seen = moments(film);
     let points = seen.iter().flat_map(|states| corners(&vehicle.body, &states[index]));
-    points.map(|corner| beyond_m(&film.scenario.road, vehicle, corner)).fold(0.0, f64::max)
+    let beyond_m = points.map(|corner| beyond_m(&film.scenario.road, vehicle, corner)).fold(0.0, f64::max);
+    // A millimetre is on the road, and an obstacle beside it breaks no rule.
+    if beyond_m <= 1e-3 || vehicle.obstacle.is_some() { 0.0 } else { beyond_m }
 }
 
 #[test]

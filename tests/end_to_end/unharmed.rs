@@ -197,7 +197,10 @@ fn what_cannot_be_finished_is_refused_before_it_begins() {
     assert!(outcome.stderr.contains("more than 20000000"), "{}", outcome.stderr);
     assert!(!folder.join("recordings").exists(), "nothing was begun");
     let outcome = interplay(&folder, &["check", "mine.toml"]);
-    assert_eq!(outcome.stdout, "ok  mine.toml\n    makes 120 plans, 240 steps, 40 records in about 0.6 MB\n");
+    assert_eq!(
+        outcome.stdout,
+        "ok  mine.toml\n    makes 120 plans, 240 steps, 40 records in about 0.6 MB, about 0.1 s of a processor\n"
+    );
 }
 
 /// Planners failed on lanes of 50 m, and two vehicles touched on lanes of 1000 m.

@@ -18,6 +18,10 @@ const UNIT: &str = "extends = 'room.toml'\n[building.plant]\nkind = 'boptest'\nf
     timeout_s = 60.0\n[[building.plant.zones]]\ntemperature = 'room.temperature'\n\
     inputs = [{ name = 'room.heat', per_kw = 1.0, max = 100.0 }]\n";
 
+/// A measurement that the unit does not have.
+const NO_SUCH_NAME: &str = "building.plant.zones=[{ temperature = 'rom.temperature', \
+    inputs = [{ name = 'room.heat', per_kw = 1.0, max = 100.0 }] }]";
+
 fn run(folder: &Path, file: &str, more: &[&str]) -> Outcome {
     interplay(folder, &[&["run", file, "--no-record", "--json"], more].concat())
 }
@@ -57,7 +61,7 @@ fn a_unit_that_cannot_run_ends_the_run_with_a_reason() {
     assert!(missing.stderr.contains("there is no file"), "{missing:?}");
     let both = run(&folder, "unit.toml", &["--set", "building.plant.url='http://127.0.0.1:1'"]);
     assert_eq!(both.code, Some(2), "{both:?}");
-    let unknown = run(&folder, "unit.toml", &["--set", "building.plant.zones.0.temperature='rom.temperature'"]);
+    let unknown = run(&folder, "unit.toml", &["--set", NO_SUCH_NAME]);
     assert_eq!(unknown.code, Some(3), "{unknown:?}");
     assert!(unknown.stderr.contains("room.temperature"), "{unknown:?}");
     // A unit refuses communication steps that are no whole steps of its own.

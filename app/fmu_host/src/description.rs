@@ -10,12 +10,12 @@ pub struct Description {
     /// The name of its library, without its ending.
     pub library: String,
     /// Its inputs and outputs.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<UnitVariable>,
 }
 
 /// An input or an output of a unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Variable {
+pub struct UnitVariable {
     /// Its name.
     pub name: String,
     /// The number by which its library knows it.
@@ -75,7 +75,7 @@ impl Description {
     }
 }
 
-fn variable(node: Node<'_, '_>) -> Option<Variable> {
+fn variable(node: Node<'_, '_>) -> Option<UnitVariable> {
     let causality = match node.attribute("causality")? {
         "input" => Causality::Input,
         "output" => Causality::Output,
@@ -87,7 +87,7 @@ fn variable(node: Node<'_, '_>) -> Option<Variable> {
         "Boolean" => VariableKind::Boolean,
         _ => return None,
     };
-    Some(Variable {
+    Some(UnitVariable {
         name: node.attribute("name")?.to_owned(),
         reference: node.attribute("valueReference")?.parse().ok()?,
         causality,

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::error::HostError;
-use crate::protocol::{Answer, Request, Values};
+use crate::protocol::{HostAnswer, Request, Values};
 use crate::unit::Unit;
 
 /// How long a process that has closed its output may take to end.
@@ -34,7 +34,9 @@ pub struct HostProgram {
 impl Default for HostProgram {
     /// `interplay fmu-host`: this program if it is `interplay`, and otherwise the one in the search path.
     fn default() -> Self {
-        let this = env::current_exe().ok().filter(|path| path.file_stem().is_some_and(|stem| stem == PROGRAM));
+        let this = env::current_exe()
+            .ok()
+            .filter(|path| path.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with(PROGRAM)));
         let program = this.map_or_else(|| OsString::from(PROGRAM), OsString::from);
         Self { program, arguments: vec![OsString::from("fmu-host")] }
     }
@@ -122,9 +124,9 @@ impl Host {
             }
         };
         match serde_json::from_str(&line) {
-            Ok(Answer::Done) => Ok(Values::default()),
-            Ok(Answer::Values(values)) => Ok(values),
-            Ok(Answer::Failed { reason }) => Err(failed(question, reason)),
+            Ok(HostAnswer::Done) => Ok(Values::default()),
+            Ok(HostAnswer::Values(values)) => Ok(values),
+            Ok(HostAnswer::Failed { reason }) => Err(failed(question, reason)),
             Err(_) => {
                 let shown: String = line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
                 Err(failed(question, format!("its process answers `{shown}`")))

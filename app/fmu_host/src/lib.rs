@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Unit::open: archive -> description          Host::start -> child process: serve -> library -> the unit's functions
-//!                                             Host::ask   -> Request, a line -> Answer, a line
+//!                                             Host::ask   -> Request, a line -> HostAnswer, a line
 //! ```
 //!
 //! The functions of a unit are foreign code: they may crash, hang, or write to the standard output. So they are called by a child process,
@@ -22,9 +22,9 @@ mod serve;
 mod standard_output;
 mod unit;
 
-pub use description::{Causality, Description, Variable, VariableKind};
+pub use description::{Causality, Description, UnitVariable, VariableKind};
 pub use error::HostError;
 pub use host::{Host, HostProgram};
-pub use protocol::{Answer, Request, Values};
+pub use protocol::{HostAnswer, Request, Values};
 pub use serve::serve;
 pub use unit::Unit;

@@ -63,7 +63,7 @@ impl Request {
 /// What the process answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "answer", rename_all = "kebab-case")]
-pub enum Answer {
+pub enum HostAnswer {
     /// It is done. Also the first line of all, when the unit has been instantiated.
     Done,
     /// What was read.

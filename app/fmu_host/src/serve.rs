@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Write};
 use std::path::Path;
 
 use crate::library::Instance;
-use crate::protocol::{Answer, Request, Values};
+use crate::protocol::{HostAnswer, Request, Values};
 use crate::standard_output;
 
 /// Loads a library, makes an instance of the unit, and answers requests from the standard input until it is asked to end or its input ends.
@@ -16,18 +16,18 @@ pub fn serve(library: &Path, guid: &str, resources: &str) -> io::Result<()> {
     let mut output = standard_output::taken()?;
     let instance = match Instance::new(library, guid, resources) {
         Ok(instance) => instance,
-        Err(reason) => return answer(&mut output, &Answer::Failed { reason }),
+        Err(reason) => return answer(&mut output, &HostAnswer::Failed { reason }),
     };
-    answer(&mut output, &Answer::Done)?;
+    answer(&mut output, &HostAnswer::Done)?;
     for line in io::stdin().lock().lines() {
         let request = match serde_json::from_str(&line?) {
             Ok(request) => request,
             Err(error) => {
-                answer(&mut output, &Answer::Failed { reason: format!("it is no request: {error}") })?;
+                answer(&mut output, &HostAnswer::Failed { reason: format!("it is no request: {error}") })?;
                 continue;
             }
         };
-        answer(&mut output, &handle(&instance, &request).unwrap_or_else(|reason| Answer::Failed { reason }))?;
+        answer(&mut output, &handle(&instance, &request).unwrap_or_else(|reason| HostAnswer::Failed { reason }))?;
         if request == Request::End {
             break;
         }
@@ -35,20 +35,20 @@ pub fn serve(library: &Path, guid: &str, resources: &str) -> io::Result<()> {
     Ok(())
 }
 
-fn answer(output: &mut impl Write, answer: &Answer) -> io::Result<()> {
+fn answer(output: &mut impl Write, answer: &HostAnswer) -> io::Result<()> {
     let mut line = serde_json::to_string(answer)?;
     line.push('\n');
     output.write_all(line.as_bytes())
 }
 
-fn handle(instance: &Instance, request: &Request) -> Result<Answer, String> {
+fn handle(instance: &Instance, request: &Request) -> Result<HostAnswer, String> {
     let finite = |values: Vec<f64>| values.into_iter().map(|value| value.is_finite().then_some(value)).collect();
     match request {
         Request::Initialize { start_s } => instance.initialize(*start_s)?,
         Request::Set { reals, booleans } => instance.set(reals, booleans)?,
         Request::Get { reals, booleans, strings } => {
             let rows = vec![finite(instance.numbers(reals, booleans)?)];
-            return Ok(Answer::Values(Values { rows, strings: instance.strings(strings)? }));
+            return Ok(HostAnswer::Values(Values { rows, strings: instance.strings(strings)? }));
         }
         Request::Steps { from_s, step_s, count, reals, booleans } => {
             let mut rows = Vec::with_capacity(*count);
@@ -56,10 +56,10 @@ fn handle(instance: &Instance, request: &Request) -> Result<Answer, String> {
                 instance.step(from_s + step as f64 * step_s, *step_s)?;
                 rows.push(finite(instance.numbers(reals, booleans)?));
             }
-            return Ok(Answer::Values(Values { rows, strings: Vec::new() }));
+            return Ok(HostAnswer::Values(Values { rows, strings: Vec::new() }));
         }
         Request::Reset => instance.reset()?,
         Request::End => instance.terminate()?,
     }
-    Ok(Answer::Done)
+    Ok(HostAnswer::Done)
 }

@@ -5,8 +5,18 @@ use interplay_building::day::{Day, KeyFigures};
 use interplay_building::discretise::Model;
 use serde::Serialize;
 
-use crate::climate::plant::Metered;
 use crate::worst_zones::WorstZones;
+
+/// What a meter of electricity counted on a day; its serialisation is part of the output contract.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Metered {
+    /// Electricity \[kWh\].
+    pub electric_kwh: f64,
+    /// Highest electric power, averaged as BOPTEST does \[kW\].
+    pub electric_peak_kw: f64,
+    /// What the electricity cost \[currency\].
+    pub electric_cost: f64,
+}
 
 /// The key figures of a day; their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

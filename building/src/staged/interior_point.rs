@@ -13,6 +13,8 @@ const STEP_SHARE: f64 = 0.995;
 /// Limits of the slack of soft bounds at the start \[K\].
 const LEAST_FIRST_SLACK_K: f64 = 0.01;
 const MOST_FIRST_SLACK_K: f64 = 10.0;
+/// The cost of inputs is taken for at least this share of that of a kelvin beyond all soft bounds.
+const LEAST_SCALE_SHARE: f64 = 1e-6;
 /// A shorter step is no progress.
 const LEAST_STEP: f64 = 1e-8;
 /// How much larger than the accepted one the gap may be where rounding ends the iterations.
@@ -309,7 +311,9 @@ fn cost_scale(program: &StagedProgram) -> f64 {
             scale += stage.linear[j].abs() * reach + stage.quadratic[j] * reach * reach;
         }
     }
-    scale.max(1e-9)
+    // Where heat costs next to nothing, discomfort says what is much.
+    let discomfort: f64 = program.stages.iter().flat_map(|stage| &stage.soft).map(|soft| soft.linear).sum();
+    scale.max(LEAST_SCALE_SHARE * discomfort).max(1e-9)
 }
 
 /// The slack of a soft bound at the start \[K\], so that its product with half of its cost is `product`.

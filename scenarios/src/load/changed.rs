@@ -10,6 +10,7 @@ use crate::json_schema::SchemaNode;
 use crate::read::overrides::{lay_paths, lay_planner};
 use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
 use crate::registry::Registry;
+use crate::scenario::Scenario;
 
 /// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
 const RANK: usize = 0;
@@ -46,13 +47,17 @@ pub(crate) fn tree(of: &TomlNode, stated: &Table, schema: SchemaNode) -> Result<
 }
 
 /// What is wrong with the counterfactuals of a scenario that cannot be run itself: what they state themselves, and nothing of what the
-/// scenario states.
-pub(super) fn faults(registry: &Registry, of: &TomlNode) -> Vec<Fault> {
+/// scenario states. `assemble` makes a scenario of a tree.
+pub(super) fn faults(
+    registry: &Registry,
+    of: &TomlNode,
+    assemble: impl Fn(&TomlNode) -> Result<Scenario, Vec<Fault>>,
+) -> Vec<Fault> {
     let Some(TomlValue::Array(stated)) = of.at("counterfactual").map(|node| &node.value) else { return Vec::new() };
     let mut own = Vec::new();
     for node in stated {
         let (Some(table), file) = (node.table(), &node.place.document.name) else { continue };
-        let run = tree(of, table, registry.complete()).and_then(|changed| super::assemble(registry, &changed));
+        let run = tree(of, table, registry.complete()).and_then(|changed| assemble(&changed));
         let is_own = |fault: &Fault| {
             fault.place().is_some_and(|place| place.document.rank == RANK && place.document.name == *file)
         };

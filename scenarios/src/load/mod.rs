@@ -205,7 +205,9 @@ fn finish(registry: &Registry, name: &str, mut tree: TomlNode, overrides: &[Over
     let as_written = tree.clone();
     apply(overrides, &mut tree, registry.complete()).map_err(refused)?;
     let assembled = assemble(registry, &tree);
-    let mut scenario = assembled.map_err(|faults| refused([faults, changed::faults(registry, &tree)].concat()))?;
+    let mut scenario = assembled.map_err(|faults| {
+        refused([faults, changed::faults(registry, &tree, |tree| assemble(registry, tree))].concat())
+    })?;
     let as_written = Some(&as_written).filter(|_| !overrides.is_empty());
     add_counterfactuals(registry, &mut scenario, &tree, as_written).map_err(refused)?;
     let faults = budget::check_all(&scenario, &tree);

@@ -105,10 +105,8 @@ fn read(
     known_roads: &KnownRoads,
 ) -> Result<ReadScenario, Vec<Fault>> {
     let reader = Reader { registry, tree };
-    let (placed, mut faults) = match reader.placed(&mut file, known_roads) {
-        Ok(placed) => (Some(placed), Vec::new()),
-        Err(faults) => (None, faults),
-    };
+    let mut faults = Vec::new();
+    let placed = reader.placed(&mut file, known_roads).map_err(|found| faults = found).ok();
     let is_placed = placed.is_some();
     let PlacedVehicles { road, network, vehicles, moved } = placed.unwrap_or_default();
     let mut scenario = Scenario {
@@ -150,10 +148,8 @@ fn read(
         metrics: registry.metrics().clone(),
     };
     measured_drivers::draw(&mut scenario.vehicles, scenario.seed);
-    match ticks_per_plan(file.planning_period_s, scenario.step_s, tree) {
-        Ok(ticks) => scenario.ticks_per_plan = ticks,
-        Err(fault) => faults.push(fault),
-    }
+    let ticks = ticks_per_plan(file.planning_period_s, scenario.step_s, tree).map_err(|fault| faults.push(fault));
+    scenario.ticks_per_plan = ticks.unwrap_or(1);
     scenario.remarks.0.extend(moved.map(ScenarioRemark));
     let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
     let (scenario, unread) = with_named_files(scenario, named, tree);

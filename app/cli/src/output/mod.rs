@@ -89,6 +89,16 @@ pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
     }
 }
 
+/// Says what is wrong with the arguments; in colours only where none of them has any of its own.
+pub(crate) fn print_usage_error(said: &clap::Error) {
+    let plain = said.render().to_string();
+    if plain.chars().all(is_plain) {
+        let _ = said.print();
+    } else {
+        print_error(plain.trim_end());
+    }
+}
+
 /// One JSON document; an error calls it `what`.
 pub(crate) fn json(what: &'static str, value: &impl Serialize) -> Result<String, CommandError> {
     let text = serde_json::to_string_pretty(value);

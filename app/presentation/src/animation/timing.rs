@@ -89,16 +89,16 @@ fn last_s(report: &Report, times: &RunTimes) -> f64 {
     let ego_s = report.vehicles.get(ego).and_then(|ego| ego.completed_s).map(|at| at + AFTER_EGO_S * time_ratio);
     let reached = match (all_s, ego_s) {
         (Some(all_s), Some(ego_s)) => Some(all_s.min(ego_s)),
-        (all_s, ego_s) => ego_s.or(all_s),
+        // An ego without a task has its own business, whoever else has arrived.
+        (all_s, ego_s) => ego_s.or(all_s.filter(|_| report.vehicles.get(ego).is_none_or(|ego| ego.has_task))),
     };
     let settled = settled_s.map(|at| at + AFTER_ORDERS_S);
     let reached = reached.into_iter().chain(settled).reduce(f64::min);
-    // Not before whoever is expected to reach its goal has done so.
-    let expected = report.vehicles.iter().filter(|vehicle| {
-        report.expectations.iter().any(|expectation| expectation.what == format!("completes.{}", vehicle.name))
-    });
-    let expected_s = expected.filter_map(|vehicle| vehicle.completed_s).map(|at| at + AFTER_GOALS_S * time_ratio);
-    let reached = reached.map(|reached| expected_s.fold(reached, f64::max));
+    // Not before who yields to whom is settled, where that is expected.
+    let yields = report.expectations.iter().any(|expectation| expectation.what.starts_with("yields"));
+    let crossed = report.right_of_way.iter().filter_map(|passage| passage.second_s).filter(|_| yields);
+    let crossed = crossed.map(|at| at + AFTER_GOALS_S * time_ratio);
+    let reached = reached.map(|reached| crossed.fold(reached, f64::max));
     let everything = match (reached, collided) {
         (Some(reached), Some(collided)) => Some(reached.max(collided)),
         (reached, collided) => reached.or(collided),
@@ -139,8 +139,7 @@ mod tests {
         let report = report("intersection/nice");
         let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
         let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
-        let ego_s = report.vehicles[0].completed_s.expect("it is expected to");
-        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S).max(ego_s + AFTER_GOALS_S);
+        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
         assert!((last(moments(&report, &times(7.0, None))) - expected_s).abs() < 1e-9);
         let until = RunTimes { until_s: Some(1.0), ..times(7.0, None) };
         assert_eq!(last(moments(&report, &until)), 1.0, "as it was asked for");

@@ -25,7 +25,17 @@ impl TableReader {
     pub fn open(path: &Path) -> Result<TableReader, SweepError> {
         let file = File::open(path).map_err(SweepError::file("read", path))?;
         let reader = SerializedFileReader::new(file).map_err(SweepError::table("read", path))?;
-        Ok(TableReader { path: path.to_owned(), reader })
+        let reader = TableReader { path: path.to_owned(), reader };
+        if reader.has_places() { Ok(reader) } else { Err(reader.strange("it is damaged")) }
+    }
+
+    /// Whether all columns have a place and a size: the library ends the process at a damaged file where they are negative.
+    fn has_places(&self) -> bool {
+        let groups = self.reader.metadata().row_groups().iter();
+        groups.flat_map(|group| group.columns()).all(|column| {
+            let places = [column.data_page_offset(), column.compressed_size(), column.num_values()];
+            places.into_iter().chain(column.dictionary_page_offset()).all(|number| number >= 0)
+        })
     }
 
     /// The columns.

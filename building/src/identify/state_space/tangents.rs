@@ -104,8 +104,10 @@ impl Tangents {
         for (parameter, model) in models.iter().enumerate() {
             let sampled = model.sampled(step_s)?;
             let put = |array: &mut [f64], numbers: &mut dyn Iterator<Item = &Number>| {
-                array[parameter..]
+                // Skipped and not sliced: a record of single rows has no arrows at all.
+                array
                     .iter_mut()
+                    .skip(parameter)
                     .step_by(count)
                     .zip(numbers)
                     .for_each(|(slot, it)| *slot = derivative(*it));

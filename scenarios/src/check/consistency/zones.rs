@@ -17,7 +17,7 @@ pub(super) fn check(scenario: &Scenario, tree: &TomlNode, network: &Network) -> 
     checker.calendar();
     checker.timetable();
     checker.energy();
-    checker.windows(network);
+    checker.sunlit_windows(network);
     checker.expected_zones(&network.names()[..network.zone_count()]);
     checker.faults
 }
@@ -76,7 +76,7 @@ impl Checker<'_> {
     }
 
     /// Whether the weather says where the sun stands, if windows ask for it.
-    fn windows(&mut self, network: &Network) {
+    fn sunlit_windows(&mut self, network: &Network) {
         let WeatherSource::Csv(weather) = &self.scenario.weather else { return };
         if network.window_planes().is_empty() || weather.weather.sky.is_some() {
             return;

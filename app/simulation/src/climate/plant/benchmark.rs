@@ -5,17 +5,6 @@ use std::collections::BTreeMap;
 use interplay_building::benchmark::Indicators;
 use serde::Serialize;
 
-/// What a meter of electricity counted on a day; its serialisation is part of the output contract.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Metered {
-    /// Electricity \[kWh\].
-    pub electric_kwh: f64,
-    /// Highest electric power, averaged as BOPTEST does \[kW\].
-    pub electric_peak_kw: f64,
-    /// What the electricity cost \[currency\].
-    pub electric_cost: f64,
-}
-
 /// The indicators of a test that is over.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Benchmark {

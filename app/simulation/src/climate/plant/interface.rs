@@ -2,9 +2,10 @@
 
 use std::fmt::Debug;
 
-use super::benchmark::{Benchmark, Metered};
+use super::benchmark::Benchmark;
 use super::error::PlantError;
 use super::foreseen::Foreseen;
+use crate::day::Metered;
 use crate::not_copied::NotCopied;
 
 /// The inputs of a building in one step, all held for the step. Lists have one number per zone, unless they say

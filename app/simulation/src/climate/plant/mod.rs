@@ -18,7 +18,7 @@ mod network;
 mod socket;
 mod walls;
 
-pub use benchmark::{Benchmark, Metered};
+pub use benchmark::Benchmark;
 pub use boptest::BoptestPlant;
 pub use boptest_error::BoptestError;
 pub use error::PlantError;

@@ -37,6 +37,10 @@ const LEAVES_ROAD: VehicleMetric = VehicleMetric::new(
 /// The largest distance of a corner beyond the edge of the route's strip that is beside the corner; 0 if none is beyond it \[m\].
 fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
     let VehicleMoment { vehicle, state, along_m, .. } = moment;
+    if vehicle.obstacle.is_some() {
+        // A parked car at the kerb breaks no rule.
+        return Some(0.0);
+    }
     let (sin, cos) = libm::sincos(state.heading_rad);
     let beyond_m = vehicle.body.local_corners().map(|[ahead, left]| {
         let corner = [state.x_m + ahead * cos - left * sin, state.y_m + ahead * sin + left * cos];

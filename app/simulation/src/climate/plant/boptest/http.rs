@@ -27,6 +27,8 @@ pub struct Answer {
     pub status: u16,
     /// The body.
     pub body: Vec<u8>,
+    /// Whether the head stated how long the body is, and so long it is.
+    is_whole: bool,
 }
 
 impl Server {
@@ -83,7 +85,7 @@ impl Server {
     }
 }
 
-/// Everything until the server closes the connection, or one byte more than is allowed.
+/// Everything until the stated length or until the server closes the connection, or one byte more than is allowed.
 fn receive(stream: &mut TcpStream, deadline: Instant) -> io::Result<Vec<u8>> {
     let mut received = Vec::new();
     let mut buffer = [0; 64 * 1024];
@@ -95,7 +97,13 @@ fn receive(stream: &mut TcpStream, deadline: Instant) -> io::Result<Vec<u8>> {
         stream.set_read_timeout(Some(left))?;
         match stream.read(&mut buffer) {
             Ok(0) => break,
-            Ok(count) => received.extend_from_slice(&buffer[..count]),
+            Ok(count) => {
+                received.extend_from_slice(&buffer[..count]);
+                // A server may keep the connection although it is asked not to.
+                if parse(&received).is_ok_and(|answer| answer.is_whole) {
+                    break;
+                }
+            }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
@@ -117,13 +125,15 @@ fn parse(received: &[u8]) -> Result<Answer, &'static str> {
     let body = received[end + 4..].to_vec();
     let lengths = lines.filter_map(|line| line.split_once(':'));
     let mut lengths = lengths.filter(|(name, _)| name.eq_ignore_ascii_case("content-length"));
-    if let Some((_, length)) = lengths.next() {
+    let stated = lengths.next();
+    let is_whole = stated.is_some();
+    if let Some((_, length)) = stated {
         let length: usize = length.trim().parse().map_err(|_| "its length is no number")?;
         if body.len() != length {
             return Err("it ends before its stated length, or goes on after it");
         }
     }
-    Ok(Answer { status, body })
+    Ok(Answer { status, body, is_whole })
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ use serde_json::json;
 
 use super::bench::{Bench, series};
 use super::forecast::KnownSeries;
-use crate::climate::plant::benchmark::Metered;
 use crate::climate::plant::boptest_error::BoptestError;
+use crate::day::Metered;
 
 const RESULTS: &str = "PUT /results";
 

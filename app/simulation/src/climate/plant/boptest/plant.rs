@@ -8,7 +8,7 @@ use interplay_fmu_host::HostProgram;
 use interplay_scenarios::{BoptestInput, BoptestPlantConfig, BoptestZone};
 use serde_json::{Value, json};
 
-use super::super::benchmark::{Benchmark, Metered};
+use super::super::benchmark::Benchmark;
 use super::super::boptest_error::BoptestError;
 use super::super::error::{PlantError, TEMPERATURES_C};
 use super::super::foreseen::Foreseen;
@@ -19,6 +19,7 @@ use super::bench::{Bench, Signals, number};
 use super::fmu::FmuBench;
 use super::forecast::{ZERO_CELSIUS_K, foresee};
 use super::indicators::Known;
+use crate::day::Metered;
 use crate::not_copied::NotCopied;
 
 const DAY_S: f64 = 86_400.0;

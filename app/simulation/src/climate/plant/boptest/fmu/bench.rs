@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use interplay_fmu_host::{Causality, Host, HostProgram, Request, Unit, Variable, VariableKind};
+use interplay_fmu_host::{Causality, Host, HostProgram, Request, Unit, UnitVariable, VariableKind};
 use interplay_scenarios::BoptestPlantConfig;
 use serde_json::{Map, Value, json};
 
@@ -25,9 +25,9 @@ pub struct FmuBench {
     /// Its files; they are removed when it is dropped, after the process.
     unit: Unit,
     data: CaseData,
-    inputs: Vec<Variable>,
+    inputs: Vec<UnitVariable>,
     /// Measurements: numbers first, then booleans.
-    outputs: Vec<Variable>,
+    outputs: Vec<UnitVariable>,
     /// How often measurements are taken \[s\].
     sampling_s: f64,
     step_s: f64,
@@ -156,7 +156,7 @@ impl FmuBench {
         Ok((day - DAYS_BEFORE).max(0.0) * DAY_S)
     }
 
-    fn names(&self, variables: &[Variable]) -> Signals {
+    fn names(&self, variables: &[UnitVariable]) -> Signals {
         variables.iter().map(|variable| (variable.name.clone(), json!({}))).collect()
     }
 
@@ -229,7 +229,7 @@ impl Bench for FmuBench {
     }
 }
 
-fn is_celsius(output: &Variable) -> bool {
+fn is_celsius(output: &UnitVariable) -> bool {
     output.unit.as_deref() == Some("degC")
 }
 
