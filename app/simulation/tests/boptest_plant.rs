@@ -225,9 +225,12 @@ fn designs_that_learn_and_that_count_money_run_on_the_case() {
     }
 }
 
+/// What a server does wrong: when, what, the status and body that it answers with, and what is said then.
+type Lie<'a> = (&'a str, &'a str, Option<(u16, &'a str)>, &'a str);
+
 #[test]
 fn whatever_a_server_does_wrong_is_an_error() {
-    let wrong: [(&str, &str, Option<(u16, &str)>, &str); 10] = [
+    let wrong: [Lie<'_>; 10] = [
         ("POST /testcases/a-case/select", "refused", Some((404, r#"{"message":"no such case"}"#)), "no such case"),
         ("POST /testcases/a-case/select", "without identifier", Some((200, "{}")), "no `testid`"),
         ("GET /inputs/1f-2", "other inputs", Some((200, r#"{"payload":{"oveZ_u":{}}}"#)), "zones.0.inputs.0.name"),
