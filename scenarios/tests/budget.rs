@@ -42,7 +42,9 @@ fn a_plan_at_every_step_costs_by_its_horizon() {
     let building = |horizon_h: u32| {
         cost(&format!("[building]\n[controller]\nkind = 'model-predictive'\nhorizon_h = {horizon_h}\n")).design_gop
     };
-    assert!((building(24) / building(12) - 8.0).abs() < 1e-9 && building(12) > 0.0);
+    // With the cube of the horizon, and for small plans hardly at all.
+    let [ratio, small] = [building(24) / building(12), building(2) / building(1)];
+    assert!((1.3..8.0).contains(&ratio) && (1.0..1.1).contains(&small), "{ratio} {small}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! I(plane) = I_beam max(0, cos θ) + D(plane) + ρ G (1 − cos β)/2
 //! ```
 //!
-//! with the direct normal radiation I_beam, the angle of incidence θ, the diffuse radiation of the sky D ([`perez`]), the
+//! with the direct normal radiation I_beam, the angle of incidence θ, the diffuse radiation of the sky D (`perez`), the
 //! reflectance ρ of the ground, the global horizontal radiation G, and the tilt β of the plane. Angles of the sun are true ones,
 //! without refraction; azimuths are clockwise from north.
 

@@ -7,7 +7,7 @@
 //!
 //! (Rawlings, Mayne and Diehl, *Model Predictive Control*, 2017, section 2.8.) `p` is the price of electricity with that of its
 //! emissions, `P_max` the highest electric power of the run, whose price ϖ is the demand charge. The state is estimated by a Kalman
-//! filter ([`kalman`]), the disturbance is the forecast with what was learned of its errors ([`learned`]).
+//! filter (`kalman`), the disturbance is the forecast with what was learned of its errors (`learned`).
 //!
 //! π values the heat that is left at the end of the horizon: it is the multiplier of the state at the start of the last plan, so
 //! that a day ahead heat is worth as much as now. Without it every plan would end with a cold building. It is kept within the dearest

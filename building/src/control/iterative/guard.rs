@@ -6,7 +6,7 @@
 //! jumps between its limits. The certificate cannot see that. Two checks can:
 //!
 //! - [`worst_radius`] is the largest spectral radius over capacities and resistances that are wrong by a stated share;
-//! - [`AlternationGuard`] watches the feedback's part of the heat, and halves the gain of a zone after [`MOST_TURNS`] large changes in
+//! - `AlternationGuard` watches the feedback's part of the heat, and halves the gain of a zone after `MOST_TURNS` large changes in
 //!   turn up and down. Forecast errors do not alternate from step to step; an eigenvalue below zero does.
 
 use nalgebra::DMatrix;
