@@ -212,7 +212,7 @@ impl ControllerKind for EconomicSettings {
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
         // About 15 iterations, with some dense products of nodes by nodes at each stage; walls are as many as zones.
         let stages = self.spans(0, 86_400.0 / steps).len() as f64;
-        steps * stages * 15.0 * ((2.0 * zones).powi(3) + 5000.0)
+        steps * stages * 15.0 * (0.2 * (2.0 * zones).powi(3) + 5000.0)
     }
 }
 
