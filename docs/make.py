@@ -45,7 +45,7 @@ def table_in(output, heading):
     if heading not in lines:
         return None
     first = lines.index(heading)
-    rows = [line for line in lines[first:]]
+    rows = lines[first:]
     end = next((at for at, line in enumerate(rows) if not line.startswith("|")), len(rows))
     return "\n".join(rows[:end])
 

@@ -4,9 +4,10 @@
 //! time = base · (1 + slope · others) · stages / 30 · (people) · (inference) · (global search)
 //! ```
 //!
-//! The numbers are those of 500 random runs: an authored scenario, another planner in two of three, another horizon in two of three. They
-//! hold on one core of the reference machine, a server of 2024 at 2.9 GHz; 94 % of the runs take between a third of the time and three
-//! times as long. `tests/peers/plan_times.py` measures them again.
+//! The times and slopes were fitted to 324 random runs (an authored scenario, often with another planner or horizon) on one core of the
+//! reference machine, an AMD EPYC at 2.6 GHz; 94 % of those took between a third of the time and three times as long. The factors for
+//! people, inference and a global search were set afterwards, by the runs that were farthest off and by five runs with such a search.
+//! `tests/peers/plan_times.py` compares all of it with other runs.
 
 use interplay_planners::predict::Prediction;
 
