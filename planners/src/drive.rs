@@ -8,7 +8,7 @@ use crate::diagnostic::Explanation;
 use crate::input_record::InputRecord;
 use crate::predict::Prediction;
 use crate::record::Record;
-use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
+use crate::{DriverSettingError, Goal, Plan, PlanError, PlanTime, Scene};
 
 /// The settings of one kind of driver, with all that is known of such a driver before it plans.
 ///
@@ -53,6 +53,11 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// Whether its plans branch: then its [`Outlook`] has what each of the others may do.
     fn branches(&self) -> bool {
         false
+    }
+
+    /// How long a plan of it takes, roughly, for budgets of scenarios. People, and whoever infers, are counted besides.
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::UNKNOWN
     }
 
     /// Whether the driver plans before those who rely on knowing its plan. Its plans are then never refused: they are what the

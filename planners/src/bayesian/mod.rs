@@ -31,7 +31,7 @@ use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
-use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
+use crate::{Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory};
 use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_CHANGE, OWN_CHANGE};
 
 /// The planner of Bayesian persuasion (chapter 7) with its beliefs and its last plan.
@@ -67,6 +67,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Bayesian::new(*self))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 0.32e-3, share_of_each_other: 0.05 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

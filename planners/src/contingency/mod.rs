@@ -29,7 +29,7 @@ use crate::receding_horizon;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
-use crate::{Diagnostic, Goal, Input, Plan, PlanBranch, PlanError, Scene, Trajectory};
+use crate::{Diagnostic, Goal, Input, Plan, PlanBranch, PlanError, PlanTime, Scene, Trajectory};
 use diagnostics::{FUTURES, LIKELIEST, SHARED_STEPS};
 
 /// The contingency planner, whose plan branches into one continuation a future, with its last plan.
@@ -77,6 +77,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Contingency::new(*self))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 0.1e-3, share_of_each_other: 6.0 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

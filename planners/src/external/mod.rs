@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::{Plan, PlanError, Scene};
+use crate::{Plan, PlanError, PlanTime, Scene};
 
 /// A driver whose inputs come from outside; it has no settings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +22,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(External)
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<Prediction> {

@@ -36,7 +36,7 @@ use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
-use crate::{Agent, Axes, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
+use crate::{Agent, Axes, Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory, conservative};
 use best_response::{MAX_INTENTION, MIN_INTENTION};
 use diagnostics as reported;
 use equilibrium::{GameSolution, leader_follower, nash, solution};
@@ -110,6 +110,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Game::new(*self))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 0.42e-3, share_of_each_other: 0.4 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

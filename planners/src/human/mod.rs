@@ -76,7 +76,7 @@ use crate::right_of_way::ArrivalMemory;
 use crate::road_rules::Obstacle;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
-use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
+use crate::{Agent, Input, Plan, PlanError, PlanTime, SafetyEllipse, Scene, Trajectory};
 use sighting::{Decision, Perception};
 
 /// The very first guess brakes with this share of the strongest braking.
@@ -143,6 +143,10 @@ impl DriverKind for Settings {
 
     fn description(&self) -> String {
         format!("{}, {}", self.kind(), self.manner())
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 0.27e-3, share_of_each_other: 0.09 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

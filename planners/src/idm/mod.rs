@@ -22,7 +22,7 @@ use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
 use crate::road::network::ConflictKind;
 use crate::road_rules::Obstacle;
-use crate::{Agent, Plan, PlanError, PlanEvent, Scene};
+use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
 use motion::Motion;
 
@@ -66,6 +66,10 @@ impl DriverKind for Settings {
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {
         &diagnostics::EXPLANATION
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<crate::predict::Prediction> {

@@ -5,11 +5,11 @@
 
 pub use crate::input_record::{InputRecord as Settings, WheelHandOver};
 
-use crate::DriverSettingError;
 use crate::drive::{Drive, DriverKind};
 use crate::external::External;
 use crate::input_record::{InputRecord, WHEEL_KINDS};
 use crate::predict::Prediction;
+use crate::{DriverSettingError, PlanTime};
 
 impl DriverKind for InputRecord {
     fn kind(&self) -> &'static str {
@@ -18,6 +18,10 @@ impl DriverKind for InputRecord {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(External)
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<Prediction> {

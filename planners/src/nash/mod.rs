@@ -27,7 +27,7 @@ use crate::receding_horizon;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
-use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, Proposal, Scene, Trajectory};
+use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, PlanTime, Proposal, Scene, Trajectory};
 use diagnostics::{DEVIATION_GAIN, EGO_COST, PLAYERS};
 use players::{SeenSpeeds, players};
 use refusals::Refusals;
@@ -81,6 +81,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Nash::new(*self))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 1.4e-3, share_of_each_other: 0.34 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

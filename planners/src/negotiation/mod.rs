@@ -40,7 +40,7 @@ use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanEventKind, Proposal, Scene};
+use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanEventKind, PlanTime, Proposal, Scene};
 use concession::Concession;
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
@@ -85,6 +85,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Negotiation::new(*self))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime { alone_s: 1.0e-3, share_of_each_other: 0.27 }.searching(self.passing_orders)
     }
 
     fn explanation(&self) -> &'static crate::diagnostic::Explanation {

@@ -21,7 +21,7 @@ use crate::plan::{PlanEvent, PlanEventKind};
 use crate::predict::{Prediction, steadily_along};
 pub use crate::record::{Record, RecordFault, next_to};
 use crate::steering::steer;
-use crate::{DriverSettingError, Input, Plan, PlanError, Scene, Trajectory};
+use crate::{DriverSettingError, Input, Plan, PlanError, PlanTime, Scene, Trajectory};
 
 /// The settings of a recorded driver: what was recorded.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,6 +56,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Recorded { record: self.record(), hands_over: self.hands_over.clone(), successor: None })
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<Prediction> {

@@ -14,7 +14,7 @@ use crate::drive::{Drive, DriverKind, settings_of};
 use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
 use crate::trigger::{Trigger, TriggerMemory};
-use crate::{Input, Plan, PlanError, Scene};
+use crate::{Input, Plan, PlanError, PlanTime, Scene};
 
 /// The settings of a scripted driver: what to do, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,6 +59,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Scripted::new(self.clone()))
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<Prediction> {

@@ -21,7 +21,7 @@ use crate::predict::Prediction;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::steering::{admissible, roll_out, steer};
 use crate::trigger::TriggerMemory;
-use crate::{Agent, Input, Plan, PlanError, PlanEvent, Scene};
+use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use settings::Caution;
 
 /// How hard somebody on foot changes the speed at most, as a share of what it can.
@@ -40,6 +40,10 @@ impl DriverKind for Settings {
 
     fn driver(&self) -> Box<dyn Drive> {
         Box::new(Walker { settings: self.clone(), trigger: TriggerMemory::default(), waits_for: None })
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
     }
 
     fn prediction(&self) -> Option<Prediction> {
