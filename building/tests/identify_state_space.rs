@@ -5,7 +5,8 @@ mod common;
 use common::house::{House, WALL_HOUSE};
 use interplay_building::discretise::Model;
 use interplay_building::identify::{
-    Confidence, Gaps, IdentificationReport, IdentifyError, IdentifySettings, Mapping, Quantity, Telemetry, identify,
+    Confidence, Gaps, IdentificationReport, IdentifyError, IdentifySettings, Mapping, Quantity, Telemetry,
+    expected_processor_s, identify,
 };
 use interplay_building::network::{AMBIENT, Network};
 
@@ -121,6 +122,19 @@ fn too_little_to_go_by_is_an_error() {
     telemetry.segments = std::iter::once(0..20).collect();
     let error = identify(&telemetry, &IdentifySettings::default()).expect_err("20 rows are too few");
     assert!(matches!(error, IdentifyError::TooFewRows { .. }), "{error}");
+}
+
+#[test]
+fn what_would_take_too_long_is_refused_before_it_begins() {
+    let house: House = WALL_HOUSE;
+    let telemetry = house.simulate(900.0, 4, 6);
+    let settings = IdentifySettings { processor_s: 0.5, ..IdentifySettings::default() };
+    let expected_s = expected_processor_s(&telemetry, &settings);
+    assert!((0.5..5.0).contains(&expected_s), "{expected_s}");
+    let error = identify(&telemetry, &settings).expect_err("half a second is little");
+    assert!(matches!(error, IdentifyError::TooMuchWork { .. }), "{error}");
+    let fewer = IdentifySettings { most_states: 1, ..settings };
+    assert!(expected_processor_s(&telemetry, &fewer) < 0.5 * expected_s);
 }
 
 const MEASURED: &str = "\

@@ -26,6 +26,16 @@ pub enum IdentifyError {
         /// The number of rows that is needed.
         wanted: usize,
     },
+    /// The search among models would take too long.
+    #[error(
+        "it would take about {expected_s:.0} s of a processor, more than {limit_s} s: lengthen `time.step_s`, lower `most_states`, leave kinds out of `hidden`, identify fewer zones together, or allow it with `processor_s`"
+    )]
+    TooMuchWork {
+        /// Time that is expected \[s\].
+        expected_s: f64,
+        /// Time that is allowed \[s\].
+        limit_s: f64,
+    },
     /// There are more zones than a filter can hold.
     #[error(
         "{zones} zones are too many: at most {most} can be identified together; identify groups of zones, with the others as boundaries"

@@ -20,6 +20,7 @@ mod error;
 mod estimate;
 mod findings;
 mod free_run;
+mod heat_units;
 mod identified_network;
 mod normal;
 mod physical;
@@ -73,6 +74,15 @@ pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Id
     identify_with_progress(telemetry, settings, &|_| {})
 }
 
+/// Processor time of [`identify`] on one core of the reference machine, to about a factor of three \[s\]; nothing worth a word but by
+/// `state-space`.
+pub fn expected_processor_s(telemetry: &Telemetry, settings: &IdentifySettings) -> f64 {
+    match settings.method {
+        Estimator::StateSpace => state_space::expected_processor_s(telemetry, settings),
+        Estimator::Semiparametric | Estimator::PredictionError => 0.0,
+    }
+}
+
 /// As [`identify`], which tells `progress` what it does next. Only `state-space` takes long enough to tell anything.
 ///
 /// # Errors
@@ -83,6 +93,16 @@ pub fn identify_with_progress(
     progress: &Progress<'_>,
 ) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
+    let mut found = by_method(telemetry, settings, progress)?;
+    found.report.warnings.extend(heat_units::remarks(telemetry));
+    Ok(found)
+}
+
+fn by_method(
+    telemetry: &Telemetry,
+    settings: &IdentifySettings,
+    progress: &Progress<'_>,
+) -> Result<Identification, IdentifyError> {
     let split = TrainTestSplit::new(telemetry, settings);
     refuse_constant_temperatures(telemetry, &split.train)?;
     if settings.method == Estimator::StateSpace {

@@ -39,6 +39,9 @@ pub struct IdentifySettings {
     /// The first this many days are trained on and the others tested; all are trained on if it is left out.
     #[schemars(range(min = 0.001, max = 100000.0))]
     pub train_days: Option<f64>,
+    /// The most time of one core that the search of `state-space` may take, as far as that is known beforehand \[s\].
+    #[schemars(range(min = 0.001, max = 10000000.0))]
+    pub processor_s: f64,
 }
 
 impl Default for IdentifySettings {
@@ -53,6 +56,7 @@ impl Default for IdentifySettings {
             harmonics: 3,
             horizon_h: 24.0,
             train_days: None,
+            processor_s: 3600.0,
         }
     }
 }

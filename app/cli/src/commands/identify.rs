@@ -6,7 +6,8 @@ use std::time::Instant;
 
 use clap::Args;
 use interplay_building::identify::{
-    Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, identify_with_progress,
+    Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, expected_processor_s,
+    identify_with_progress,
 };
 use interplay_presentation::{plot, report, shell};
 use interplay_scenarios::{Fault, read_regular};
@@ -150,6 +151,10 @@ impl Identify {
             mapping.identify.train_days = Some(days_to_train(&telemetry));
         }
         let begun = Instant::now();
+        let expected_s = expected_processor_s(&telemetry, &mapping.identify);
+        if (TOLD_S..=mapping.identify.processor_s).contains(&expected_s) {
+            print_error(&format!("this takes about {expected_s:.0} s of a processor"));
+        }
         // A short fit ends before anyone wonders.
         let progress = |words: &str| {
             let seconds = begun.elapsed().as_secs();
@@ -162,6 +167,7 @@ impl Identify {
                 // These are said by the mapping; the table is not to blame.
                 IdentifyError::Setting(_)
                 | IdentifyError::NothingToIdentify { .. }
+                | IdentifyError::TooMuchWork { .. }
                 | IdentifyError::TooManyZones { .. } => {
                     InputError::Identify { name: mapping_file.display().to_string(), reason }
                 }
@@ -196,6 +202,8 @@ struct ScenarioTexts {
     weather: Option<(PathBuf, String)>,
 }
 
+/// How long a fit takes is told beforehand from here on \[s\].
+const TOLD_S: f64 = 10.0;
 /// Seconds after which a fit tells what it does.
 const SILENT_S: u64 = 5;
 /// The share of the days that is trained on to validate.

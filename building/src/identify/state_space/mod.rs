@@ -21,6 +21,7 @@ mod network_run;
 mod observations;
 mod parameters;
 mod preparation;
+mod processor_time;
 mod profile;
 mod quantities;
 mod sandwich;
@@ -47,10 +48,18 @@ use super::{IdentifyError, IdentifySettings, Progress};
 /// At least this many rows are needed for each parameter of the smallest model.
 const ROWS_PER_PARAMETER: usize = 10;
 
+/// Processor time of [`identify`], roughly \[s\].
+pub(super) fn expected_processor_s(record: &Telemetry, settings: &IdentifySettings) -> f64 {
+    let prepared = Prepared::new(record);
+    let split = TrainTestSplit::new(&prepared.telemetry, settings);
+    let rows = split.train.iter().map(Range::len).sum();
+    processor_time::processor_s(&prepared.telemetry, settings, rows)
+}
+
 /// Identifies all zones of the telemetry together.
 ///
 /// # Errors
-/// [`IdentifyError`] for too many zones, too few rows, a zone that nothing acts on, and values that are not finite.
+/// [`IdentifyError`] for too many zones, too few rows, too much work, a zone that nothing acts on, and values that are not finite.
 pub(super) fn identify(
     record: &Telemetry,
     settings: &IdentifySettings,
@@ -72,6 +81,10 @@ pub(super) fn identify(
     let wanted = ROWS_PER_PARAMETER * parameters;
     if rows < wanted {
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
+    }
+    let expected_s = processor_time::processor_s(telemetry, settings, rows);
+    if expected_s > settings.processor_s {
+        return Err(IdentifyError::TooMuchWork { expected_s, limit_s: settings.processor_s });
     }
     let choice = selection::choose(telemetry, &train, settings, progress).ok_or(IdentifyError::NotFinite)?;
     progress("how certain each number is");
