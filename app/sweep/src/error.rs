@@ -73,7 +73,11 @@ impl SweepError {
     pub fn is_bad_input(&self) -> bool {
         matches!(
             self,
-            SweepError::Refused(_) | SweepError::Journal { .. } | SweepError::Damaged { .. } | SweepError::Input(_)
+            SweepError::Refused(_)
+                | SweepError::Journal { .. }
+                | SweepError::Damaged { .. }
+                | SweepError::Input(_)
+                | SweepError::Table { what: "read", .. }
         )
     }
 

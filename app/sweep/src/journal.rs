@@ -153,14 +153,22 @@ struct Keyed {
     version: String,
 }
 
-/// The run of a line; nothing within it for a row that an older version wrote without a checksum, and that no plan asks for any
-/// more; `None` for a damaged line.
-fn key_of(line: &[u8]) -> Option<Option<RunKey>> {
-    let keyed: Option<Keyed> = serde_json::from_slice(line).ok();
-    match (judged(line), keyed) {
-        (JournalLine::Sound, Some(keyed)) => Some(Some(keyed.key)),
-        (JournalLine::Unchecked, Some(keyed)) if keyed.version != program_version() => Some(None),
-        _ => None,
+/// Which run a line is of.
+enum LineRun {
+    Known(RunKey),
+    /// A row that an older version wrote without a checksum, and that no plan asks for any more.
+    Older,
+    Damaged,
+}
+
+impl LineRun {
+    fn of(line: &[u8]) -> LineRun {
+        let keyed: Option<Keyed> = serde_json::from_slice(line).ok();
+        match (judged(line), keyed) {
+            (JournalLine::Sound, Some(keyed)) => LineRun::Known(keyed.key),
+            (JournalLine::Unchecked, Some(keyed)) if keyed.version != program_version() => LineRun::Older,
+            _ => LineRun::Damaged,
+        }
     }
 }
 
@@ -192,14 +200,14 @@ impl JournalIndex {
                 return Ok(());
             }
             if text.len() > 1 {
-                match key_of(&text) {
-                    Some(Some(key)) => {
+                match LineRun::of(&text) {
+                    LineRun::Known(key) => {
                         let place =
                             LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
                         self.places.entry(key).or_insert(place);
                     }
-                    Some(None) => {}
-                    None => self.damaged.push((path.clone(), line)),
+                    LineRun::Older => {}
+                    LineRun::Damaged => self.damaged.push((path.clone(), line)),
                 }
             }
             start += length as u64;

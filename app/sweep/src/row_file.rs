@@ -69,7 +69,7 @@ pub(crate) struct RowFile {
 
 /// Where rows go.
 enum Rows {
-    Csv(BufWriter<WholeFile>),
+    Csv(PathBuf, BufWriter<WholeFile>),
     Parquet(Box<TableWriter>),
 }
 
@@ -87,7 +87,7 @@ impl RowFile {
                 let mut file = BufWriter::new(WholeFile::begin(path).map_err(SweepError::file("write", path))?);
                 let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
                 writeln!(file, "{}", names.join(",")).map_err(SweepError::file("write", path))?;
-                Rows::Csv(file)
+                Rows::Csv(path.to_owned(), file)
             }
             TableFormat::Parquet => {
                 let schema: TableSchema = columns.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
@@ -100,9 +100,9 @@ impl RowFile {
     /// Appends a row, a value for each column in their order.
     pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), WatchError> {
         match &mut self.rows {
-            Rows::Csv(file) => {
+            Rows::Csv(path, file) => {
                 let cells: Vec<String> = cells.into_iter().map(|cell| in_csv(&cell)).collect();
-                writeln!(file, "{}", cells.join(","))?;
+                writeln!(file, "{}", cells.join(",")).map_err(SweepError::file("write", path))?;
             }
             Rows::Parquet(table) => table.push(cells)?,
         }
@@ -112,7 +112,10 @@ impl RowFile {
     /// All rows are there.
     pub fn finish(self) -> Result<(), WatchError> {
         match self.rows {
-            Rows::Csv(file) => file.into_inner().map_err(std::io::IntoInnerError::into_error)?.replace()?,
+            Rows::Csv(path, file) => {
+                let whole = file.into_inner().map_err(std::io::IntoInnerError::into_error);
+                whole.and_then(WholeFile::replace).map_err(SweepError::file("write", &path))?;
+            }
             Rows::Parquet(table) => table.finish()?,
         }
         self.folders.keep();

@@ -1,5 +1,6 @@
 //! Tables of rows as Parquet files. Only this module names Parquet.
 
+mod checksums;
 mod read;
 mod write;
 

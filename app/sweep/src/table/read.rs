@@ -10,6 +10,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
+use super::checksums::Checksums;
 use super::{RowTable, TableColumn};
 use crate::column::{ColumnKind, TableSchema};
 use crate::error::SweepError;
@@ -18,6 +19,7 @@ use crate::error::SweepError;
 pub(crate) struct TableReader {
     path: PathBuf,
     reader: SerializedFileReader<File>,
+    checksums: Checksums,
 }
 
 impl TableReader {
@@ -25,7 +27,8 @@ impl TableReader {
     pub fn open(path: &Path) -> Result<TableReader, SweepError> {
         let file = File::open(path).map_err(SweepError::file("read", path))?;
         let reader = SerializedFileReader::new(file).map_err(SweepError::table("read", path))?;
-        let reader = TableReader { path: path.to_owned(), reader };
+        let checksums = Checksums::of_file(reader.metadata().file_metadata());
+        let reader = TableReader { path: path.to_owned(), reader, checksums };
         if reader.has_places() { Ok(reader) } else { Err(reader.strange("it is damaged")) }
     }
 
@@ -83,7 +86,13 @@ impl TableReader {
         for name in names {
             let Some(at) = schema.iter().position(|(known, _)| known == name) else { continue };
             let column = reader.get_column_reader(at).and_then(|column| read_column(column, row_count));
-            columns.push((name.clone(), column.map_err(&failed)?));
+            let column = column.map_err(&failed)?;
+            if !self.checksums.agree(group * schema.len() + at, &column) {
+                return Err(
+                    self.strange(&format!("its column `{name}` is not as it was written; make the table again"))
+                );
+            }
+            columns.push((name.clone(), column));
         }
         Ok(RowTable { columns, row_count })
     }

@@ -13,7 +13,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::{ROWS_PER_GROUP, TableColumn, column_type};
+use super::{ROWS_PER_GROUP, TableColumn, checksums, column_type};
 use crate::column::{Cell, TableSchema, cells, schema};
 use crate::error::SweepError;
 use crate::row::SweepRow;
@@ -25,6 +25,8 @@ pub(crate) struct TableWriter {
     schema: TableSchema,
     group: Vec<TableColumn>,
     rows: usize,
+    /// Of all columns of all groups that are written.
+    checksums: String,
 }
 
 impl TableWriter {
@@ -38,13 +40,13 @@ impl TableWriter {
         // Nothing in the file depends on when or where it is written. LZ4 of this kind asks for memory as all of Rust does, so
         // that a process which gets none ends with exit code 3; the C library of zstd makes its binding panic.
         let properties = WriterProperties::builder()
-            .set_created_by(concat!("interplay ", env!("CARGO_PKG_VERSION")).to_owned())
+            .set_created_by(format!("{}{}", checksums::WRITER, env!("CARGO_PKG_VERSION")))
             .set_compression(Compression::LZ4_RAW)
             .set_key_value_metadata(Some(about));
         let root = Arc::new(root.map_err(&failed)?);
         let writer = SerializedFileWriter::new(file, root, Arc::new(properties.build())).map_err(&failed)?;
         let group = schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
-        Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0 })
+        Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0, checksums: String::new() })
     }
 
     /// Appends a row, a value for each column in their order.
@@ -72,6 +74,7 @@ impl TableWriter {
             group.close().map(drop)
         };
         write(&mut self.writer, &self.group).map_err(SweepError::table("write", &self.target))?;
+        self.checksums.extend(self.group.iter().map(checksums::of_column));
         self.group = self.schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
         self.rows = 0;
         Ok(())
@@ -80,6 +83,7 @@ impl TableWriter {
     /// Ends the table and gives it its place.
     pub fn finish(mut self) -> Result<(), SweepError> {
         self.end_group()?;
+        self.writer.append_key_value_metadata(KeyValue::new(checksums::NOTE.to_owned(), self.checksums));
         let file = self.writer.into_inner().map_err(SweepError::table("write", &self.target))?;
         file.replace().map_err(SweepError::file("write", &self.target))
     }

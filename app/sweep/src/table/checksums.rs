@@ -1,0 +1,91 @@
+//! Checksums of the columns of a table, which the file says about itself: a flipped bit may leave a file that can be read.
+//!
+//! One for each column of each row group, in their order. Tables of other programs have none.
+
+use parquet::file::metadata::FileMetaData;
+
+use super::TableColumn;
+
+/// Under this key the file has its checksums, eight hexadecimal digits each.
+pub(super) const NOTE: &str = "interplay:checksums";
+/// How the name of the program that writes them begins. Another program that writes the rows again may keep the note.
+pub(super) const WRITER: &str = "interplay ";
+const DIGITS: usize = 8;
+
+/// The checksum of a column of a row group.
+pub(super) fn of_column(column: &TableColumn) -> String {
+    let mut hasher = crc32fast::Hasher::new();
+    let mut add = |bytes: Option<&[u8]>| {
+        hasher.update(&[u8::from(bytes.is_some())]);
+        hasher.update(&bytes.map_or(0, <[u8]>::len).to_le_bytes());
+        hasher.update(bytes.unwrap_or_default());
+    };
+    match column {
+        TableColumn::Flags(all) => {
+            all.iter().for_each(|value| add(value.map(|value| [u8::from(value)]).as_ref().map(|bytes| &bytes[..])))
+        }
+        TableColumn::Counts(all) => {
+            all.iter().for_each(|value| add(value.map(u64::to_le_bytes).as_ref().map(|bytes| &bytes[..])))
+        }
+        TableColumn::Numbers(all) => {
+            all.iter().for_each(|value| add(value.map(f64::to_le_bytes).as_ref().map(|bytes| &bytes[..])))
+        }
+        TableColumn::Texts(all) => all.iter().for_each(|value| add(value.as_ref().map(String::as_bytes))),
+    }
+    format!("{:0DIGITS$x}", hasher.finalize())
+}
+
+/// The checksums that a file has.
+pub(super) struct Checksums(Option<String>);
+
+impl Checksums {
+    pub fn of_file(about: &FileMetaData) -> Checksums {
+        let is_own = about.created_by().is_some_and(|writer| writer.starts_with(WRITER));
+        let notes = about.key_value_metadata().filter(|_| is_own);
+        Checksums(notes.and_then(|notes| notes.iter().find(|note| note.key == NOTE)?.value.clone()))
+    }
+
+    /// Whether a column is as it was written: number `index` of all columns of all row groups. Without checksums it is taken as it is.
+    pub fn agree(&self, index: usize, column: &TableColumn) -> bool {
+        let Some(all) = &self.0 else { return true };
+        all.get(index * DIGITS..(index + 1) * DIGITS).is_some_and(|stated| stated == of_column(column))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::super::{RowTable, TableWriter};
+    use crate::column::{Cell, ColumnKind};
+
+    #[test]
+    fn no_flipped_bit_in_the_values_makes_another_row() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("runs.parquet");
+        let kinds = [ColumnKind::Flag, ColumnKind::Count, ColumnKind::Number, ColumnKind::Text];
+        let names: Vec<String> = ["arrives", "plans", "gap_m", "style"].map(str::to_owned).into();
+        let schema = names.iter().cloned().zip(kinds).collect();
+        let mut writer = TableWriter::new(&path, schema, &[]).expect("a table");
+        for row in 0..20_u32 {
+            let style = Some(row).filter(|row| row % 3 > 0).map(|row| format!("style {row}"));
+            let number = Cell::Number(Some(f64::from(row) * 0.37));
+            let cells = [Cell::Flag(Some(row % 2 == 0)), Cell::Count(Some(row.into())), number, Cell::Text(style)];
+            writer.push(cells).expect("a row");
+        }
+        writer.finish().expect("written");
+        let (whole, rows) = (fs::read(&path).expect("there"), RowTable::read(&path, &names).expect("sound"));
+        let footer = u32::from_le_bytes(whole[whole.len() - 8..whole.len() - 4].try_into().expect("four bytes"));
+        let mut refused = 0;
+        for bit in 32..8 * (whole.len() - 8 - footer as usize) {
+            let mut flipped = whole.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            fs::write(&path, flipped).expect("written");
+            match RowTable::read(&path, &names) {
+                Ok(read) => assert_eq!(read, rows, "bit {bit}"),
+                Err(_) => refused += 1,
+            }
+        }
+        assert!(refused > 1000, "{refused}");
+    }
+}
