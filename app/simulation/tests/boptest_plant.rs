@@ -230,7 +230,7 @@ type Lie<'a> = (&'a str, &'a str, Option<(u16, &'a str)>, &'a str);
 
 #[test]
 fn whatever_a_server_does_wrong_is_an_error() {
-    let wrong: [Lie<'_>; 10] = [
+    let wrong: [Lie<'_>; 11] = [
         ("POST /testcases/a-case/select", "refused", Some((404, r#"{"message":"no such case"}"#)), "no such case"),
         ("POST /testcases/a-case/select", "without identifier", Some((200, "{}")), "no `testid`"),
         ("GET /inputs/1f-2", "other inputs", Some((200, r#"{"payload":{"oveZ_u":{}}}"#)), "zones.0.inputs.0.name"),
@@ -240,6 +240,7 @@ fn whatever_a_server_does_wrong_is_an_error() {
         ("POST /advance/1f-2", "in Celsius", Some((200, r#"{"payload":{"reaT_y":21.0}}"#)), "-252.15 °C"),
         ("POST /advance/1f-2", "a failure", Some((200, r#"{"status":500,"message":"solver"}"#)), "status 500"),
         ("POST /advance/1f-2", "a crash", None, "advance"),
+        ("GET /kpi/1f-2", "a text", Some((200, r#"{"payload":{"tdis_tot":"much"}}"#)), "`tdis_tot` is neither"),
         ("PUT /results/1f-2", "no JSON", Some((200, "<html>")), "no JSON"),
     ];
     for (path, what, answer, said) in wrong {
@@ -247,6 +248,23 @@ fn whatever_a_server_does_wrong_is_an_error() {
         let (url, _) = server(move |request, body| if request == path { answer.clone() } else { sound(request, body) });
         let error = run(config(url)).map(|_| ()).expect_err(what);
         assert!(error.contains(said), "{what}: {error}");
+    }
+}
+
+#[test]
+fn temperatures_that_no_case_has_are_not_believed() {
+    for (name, kelvin) in [("TDryBul", -9.0), ("LowerSetp[1]", 21.0), ("UpperSetp[1]", 1e9)] {
+        let (url, _) = server(move |request, body| {
+            let (status, text) = sound(request, body)?;
+            let mut answer: Value = serde_json::from_str(&text).expect("JSON");
+            if request == "PUT /forecast/1f-2" && body["point_names"][0] == "TDryBul" {
+                answer["payload"][name][7] = json!(kelvin);
+            }
+            Some((status, answer.to_string()))
+        });
+        let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
+        let error = run(BoptestPlantConfig { forecast: Some(forecast), ..config(url) }).map(|_| ()).expect_err(name);
+        assert!(error.contains(name) && error.contains("outside of -100 to 200 °C"), "{error}");
     }
 }
 

@@ -12,6 +12,7 @@ use serde_json::json;
 
 use super::bench::{Bench, series};
 use crate::climate::plant::boptest_error::BoptestError;
+use crate::climate::plant::error::TEMPERATURES_C;
 use crate::climate::plant::foreseen::Foreseen;
 
 /// Interval at which series are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.
@@ -86,6 +87,10 @@ pub fn foresee(
         let reason = format!("it has {} times; wanted is one every {INTERVAL_S} s, {expected}", known.times_s.len());
         return Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason });
     }
+    let bounds_named = settings.zones.iter().filter(|zone| !zone.is_empty()).flat_map(|zone| bounds_of(zone));
+    for name in bounds_named.chain([settings.outdoor.clone()]) {
+        check_temperatures(&known, &name)?;
+    }
     let linear = |values: Vec<f64>| TimeSeries { first_s: 0.0, interval_s: INTERVAL_S, cyclic: false, values };
     let ambient_c = known.values(&settings.outdoor).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K).collect();
     let sun_w_per_m2 = known.values(&settings.sun).iter().map(|sun| sun.max(0.0)).collect();
@@ -95,6 +100,19 @@ pub fn foresee(
         bounds: (!settings.zones.is_empty()).then(|| bounds(settings, &known)),
         tariff: if settings.tariff { Some(tariff(&known, &price)?) } else { None },
     })
+}
+
+/// Refuses temperatures that no case has: a plan would trust them.
+fn check_temperatures(known: &KnownSeries, name: &str) -> Result<(), BoptestError> {
+    let mut values_c = known.values(name).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K);
+    match values_c.find(|value_c| !TEMPERATURES_C.contains(value_c)) {
+        None => Ok(()),
+        Some(value_c) => {
+            let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
+            let reason = format!("`{name}` is {value_c:.2} °C, which is outside of {from} to {to} °C");
+            Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason })
+        }
+    }
 }
 
 const EMISSIONS: &str = "EmissionsElectricPower";

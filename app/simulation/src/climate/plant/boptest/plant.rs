@@ -186,7 +186,14 @@ impl BoptestPlant {
             Some(known) => Some(known.compute(&self.config, test)?),
             None => None,
         };
-        let named = official.iter().map(|(name, value)| (name.clone(), value.as_f64())).collect();
+        let indicator = |(name, value): (&String, &Value)| match value.as_f64() {
+            None if !value.is_null() => Err(BoptestError::Invalid {
+                request: "GET /kpi".to_owned(),
+                reason: format!("`{name}` is neither a number nor null"),
+            }),
+            number => Ok((name.clone(), number)),
+        };
+        let named = official.iter().map(indicator).collect::<Result<_, BoptestError>>()?;
         self.benchmark = Some(Benchmark::new(named, ours, (&self.control_s, self.believed.step_s())));
         Ok(())
     }
