@@ -1,5 +1,6 @@
 //! Playing from a file, without a page: each line is a message of a page with the tick at which it comes.
 
+use interplay_planners::WHEEL_KINDS;
 use serde_json::Value as Json;
 use thiserror::Error;
 
@@ -52,7 +53,13 @@ pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptErro
         let mut json: Json = serde_json::from_str(line).map_err(|error| refused(error.to_string()))?;
         let tick = json.as_object_mut().and_then(|object| object.remove("tick"));
         let tick = tick.as_ref().and_then(Json::as_u64).ok_or_else(|| refused("there is no `tick`".to_owned()))?;
-        let message = serde_json::from_value(json).map_err(|error| refused(error.to_string()))?;
+        let message: PageMessage = serde_json::from_value(json).map_err(|error| refused(error.to_string()))?;
+        if let PageMessage::HandOver { to: Some(kind) } = &message
+            && !WHEEL_KINDS.contains(&kind.as_str())
+        {
+            let kinds = WHEEL_KINDS.join(", ");
+            return Err(refused(format!("there is no planner `{kind}` that takes the wheel; choose from {kinds}")));
+        }
         if lines.last().is_some_and(|last| last.tick as u64 > tick) {
             return Err(refused(format!("tick {tick} comes after a later one")));
         }
@@ -105,6 +112,7 @@ mod tests {
             ("[]", "there is no `tick`"),
             ("{\"tick\": 1, \"type\": \"input\", \"acceleration\": 0}", "missing field `steering`"),
             ("{\"tick\": 1, \"type\": \"rewind\", \"seconds\": 1, \"far\": 2}", "unknown field `far`"),
+            ("{\"tick\": 1, \"type\": \"hand_over\", \"to\": \"x\"}", "drive.jsonl:1: there is no planner `x`"),
         ] {
             let error = read_script("drive.jsonl", line).expect_err("a fault").to_string();
             assert!(error.contains(part), "{error}");
