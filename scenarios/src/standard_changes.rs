@@ -1,13 +1,15 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
-//! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
+//! - the style of each human, nice or tough, and of whoever walks; instead of another driver who minds nobody's wishes, a human of either style;
 //! - the planner of each interactive vehicle: negotiation, conservative or cooperative;
 //! - instead of it, the intelligent driver model, which does not interact: a factor of its own;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
 //! - each other setting of such a planner to which the file gives another value than the planner has by itself: that value;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
-use interplay_planners::{Driver, human::Style};
+use interplay_planners::Driver;
+use interplay_planners::human::Style;
+use interplay_planners::walker::WalkerStyle;
 use serde_json::Value as Json;
 
 use crate::error::LoadError;
@@ -107,6 +109,11 @@ fn changes(vehicle: &Vehicle, plain: Option<&Driver>, schema: SchemaNode) -> Vec
             let others = styles.filter(|style| style.safety_weight() != settings.weight());
             others.map(|style| style_change(vehicle, style)).collect()
         }
+        // Somebody on foot is no driver, and keeps what makes it begin to walk.
+        Driver::Walker(settings) => {
+            let styles = [WalkerStyle::Careful, WalkerStyle::Normal, WalkerStyle::Bold].into_iter();
+            styles.filter(|style| *style != settings.style).filter_map(|style| walker_change(vehicle, style)).collect()
+        }
         driver if driver.goes_first() => [Style::Tough, Style::Nice].map(|style| human(vehicle, style)).to_vec(),
         driver => {
             let others = PLANNERS.into_iter().filter(|kind| *kind != driver.kind());
@@ -133,6 +140,12 @@ fn style_change(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
     let word = style.name();
     let set = format!("vehicle.{name}.driver.style=\"{word}\"");
     (format!("{name}'s style"), format!("{name}: style = {word}"), set)
+}
+
+fn walker_change(Vehicle { name, .. }: &Vehicle, style: WalkerStyle) -> Option<Change> {
+    let word = serde_json::to_value(style).ok()?.as_str()?.to_owned();
+    let set = format!("vehicle.{name}.driver.style=\"{word}\"");
+    Some((format!("{name}'s style"), format!("{name}: style = {word}"), set))
 }
 
 fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {

@@ -73,7 +73,12 @@ pub struct Arrival {
 }
 
 impl WhyRun {
-    fn new(report: &Report, main: &Report, change: Option<&StandardChange>) -> WhyRun {
+    /// `scenario` is that of the main run. What stands on the road is not listed.
+    fn new(report: &Report, (main, scenario): (&Report, &Scenario), change: Option<&StandardChange>) -> WhyRun {
+        let is_obstacle = |name: &str| scenario.vehicle(name).is_some_and(|vehicle| vehicle.obstacle.is_some());
+        let order = |report: &Report| -> Vec<String> {
+            report.order.iter().filter(|name| !is_obstacle(name)).cloned().collect()
+        };
         let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.clone());
         let arrival = |vehicle: &crate::report::VehicleReport| Arrival {
             name: vehicle.name.clone(),
@@ -83,9 +88,9 @@ impl WhyRun {
             change: change.map(|change| change.change.clone()),
             factor: change.map(|change| change.factor.clone()),
             set: change.map(|change| change.sets.clone()).unwrap_or_default(),
-            order: report.order.clone(),
-            order_differs: report.order != main.order,
-            vehicles: report.vehicles.iter().map(arrival).collect(),
+            order: order(report),
+            order_differs: order(report) != order(main),
+            vehicles: report.vehicles.iter().filter(|vehicle| !is_obstacle(&vehicle.name)).map(arrival).collect(),
             min_gap_m: report.min_gap_m(),
             collisions: report.collisions.len(),
             plan_failures: report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum(),
@@ -136,7 +141,8 @@ pub fn why(
     let all: Vec<Option<&StandardChange>> = std::iter::once(None).chain(changes.iter().map(Some)).collect();
     let reports =
         all.par_iter().with_max_len(1).map(|change| one(*change)).collect::<Result<Vec<Report>, RunError>>()?;
-    let runs = reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
+    let runs =
+        reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, (&reports[0], scenario), change)).collect();
     Ok(conclude(name, (scenario.seed, then.map(|then| then.time_s())), runs))
 }
 
