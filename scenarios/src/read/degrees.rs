@@ -2,7 +2,8 @@
 //!
 //! Each key of the schema that ends with `_rad` has a twin that ends with `_deg`, unless the format has that key already. The
 //! twin is an ordinary key of the file; before a scenario is made of the file, its value takes the place of the other's. Keys
-//! in radians are accepted for one version more, with a remark that says what to write.
+//! in radians are accepted for one version more, with a remark that says what to write; one that no number of degrees gives to the last
+//! bit is written and read in radians without a remark, so that a written drive is the same drive.
 
 use serde_json::{Value as Json, json};
 
@@ -37,6 +38,44 @@ pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
     }
 }
 
+/// Puts degrees in the place of radians, wherever a number of degrees gives the same angle to the last bit.
+pub(crate) fn to_degrees(schema: SchemaNode, value: &mut Json) {
+    match value {
+        Json::Object(table) => {
+            let kind = table.get("kind").and_then(Json::as_str).and_then(|kind| schema.of_kind(kind));
+            let schema = kind.unwrap_or(schema);
+            for (key, property) in schema.properties() {
+                let radians = table.get(key).and_then(Json::as_f64).filter(|_| property.is_deprecated());
+                match (in_degrees(key), radians.and_then(exact)) {
+                    (Some(twin), Some(degrees)) => {
+                        table.remove(key);
+                        table.insert(twin, json!(degrees));
+                    }
+                    _ => {
+                        if let Some(below) = table.get_mut(key) {
+                            to_degrees(property, below);
+                        }
+                    }
+                }
+            }
+        }
+        Json::Array(items) => {
+            if let Some(schema) = schema.entries() {
+                items.iter_mut().for_each(|item| to_degrees(schema, item));
+            }
+        }
+        Json::Null | Json::Bool(_) | Json::Number(_) | Json::String(_) => {}
+    }
+}
+
+/// The number of degrees that is this angle to the last bit, the shortest that is tried; none for one angle of ten.
+fn exact(radians: f64) -> Option<f64> {
+    let nearest = radians.to_degrees();
+    let neighbours = [nearest, nearest.next_up(), nearest.next_down()];
+    let mut all = std::iter::once(rounded(nearest)).chain(neighbours);
+    all.find(|degrees| degrees.to_radians().to_bits() == radians.to_bits())
+}
+
 /// A remark for each key in radians that is stated, with the value in degrees.
 pub(crate) fn remarks(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut found = Vec::new();
@@ -52,6 +91,7 @@ fn collect(schema: SchemaNode, node: &TomlNode, found: &mut Vec<Fault>) {
             for (key, entry) in table {
                 let Some(property) = schema.property(key) else { continue };
                 let radians = entry.node.to_json().as_f64();
+                let radians = radians.filter(|radians| exact(*radians).is_some());
                 if let (true, Some(twin), Some(radians)) = (property.is_deprecated(), in_degrees(key), radians) {
                     let message = format!("`{key}` is in radians, which the next version will refuse");
                     let help = format!("write `{twin} = {}`", rounded(radians.to_degrees()));
@@ -81,5 +121,21 @@ mod tests {
         to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];
         assert_eq!(limits, &json!({ "steering_max_rad": 30.0_f64.to_radians() }));
+    }
+
+    #[test]
+    fn what_is_written_in_degrees_is_read_as_the_same_bits() {
+        let schema = Registry::standard().complete();
+        let angles = (-3000..3000).map(|angle| f64::from(angle) * 0.001_047_197_551).chain([60.0_f64.to_radians()]);
+        let mut in_degrees = 0;
+        for radians in angles {
+            let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_rad": radians } }] });
+            to_degrees(schema, &mut stated);
+            in_degrees += usize::from(stated["vehicle"][0]["limits"]["steering_max_deg"].is_f64());
+            to_radians(schema, &mut stated);
+            let read = stated["vehicle"][0]["limits"]["steering_max_rad"].as_f64();
+            assert_eq!(read.map(f64::to_bits), Some(radians.to_bits()));
+        }
+        assert!(in_degrees > 5000, "{in_degrees}");
     }
 }

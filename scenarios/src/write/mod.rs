@@ -11,6 +11,8 @@ use crate::file_format::scenario_file::ScenarioFile;
 use crate::file_format::start::StartConfig;
 use crate::file_format::stated::Stated;
 use crate::file_format::vehicle_config::VehicleConfig;
+use crate::read::degrees;
+use crate::registry::Registry;
 use crate::scenario::Counterfactual;
 use crate::scenario::obstacle::{ObstacleForm, Outline};
 use crate::scenario::{Scenario, Vehicle};
@@ -81,7 +83,12 @@ impl ScenarioFile {
         // The largest seeds are beyond the whole numbers of TOML.
         let mut keys = Stated::<ScenarioFile>::from(ScenarioFile { seed: None, ..self.clone() }).into_keys();
         keys.extend(self.seed.map(|seed| ("seed".to_owned(), seed.into())));
-        keys
+        let mut stated = Json::Object(keys);
+        degrees::to_degrees(Registry::standard().complete(), &mut stated);
+        match stated {
+            Json::Object(keys) => keys,
+            _ => Map::new(),
+        }
     }
 }
 

@@ -69,7 +69,7 @@ impl Follower {
             kind,
             x_m: Some(rounded(self.start.x_m, 4)),
             y_m: Some(rounded(self.start.y_m, 4)),
-            heading_rad: Some(rounded(self.start.heading_rad, 6)),
+            heading_rad: Some(rounded(self.start.heading_rad.to_degrees(), 4).to_radians()),
             length_m: Some(rounded(self.body.front_m + self.body.rear_m, 3)),
             width_m: Some(self.body.width_m),
             ..ObstacleConfig::default()
