@@ -27,13 +27,18 @@ fn syntax() {
         &["bad.toml:3:1", "duplicate key"],
     );
     errors.error("control_characters", from_text("bad.toml", "title = \u{1b}[31m", &[]), &["not valid TOML"]);
+    errors.error(
+        "a_decimal_comma",
+        from_text("bad.toml", "duration_s = 20,5\n", &[]),
+        &["bad.toml:1:16", "decimal point: `20.5`"],
+    );
     insta::assert_snapshot!("syntax", errors.0);
 }
 
 #[test]
 fn keys() {
     let mut errors = Catalogue::default();
-    refusal(&mut errors, "unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?", "is missing"]);
+    refusal(&mut errors, "unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?"]);
     refusal(
         &mut errors,
         "unknown_key_far_from_all",
@@ -52,6 +57,16 @@ fn keys() {
         "missing_kind",
         &[("kind = \"human\", ", "")],
         &["`vehicle.front.driver.kind`", "`conservative`"],
+    );
+    errors.error(
+        "a_plan",
+        from_text("bad.toml", "title = 'a'\nscenario = ['lane-change']\nplanner = ['idm']\n", &[]),
+        &["bad.toml:2:1", "plan of many runs", "interplay sweep"],
+    );
+    errors.error(
+        "a_table_in_place_of_a_list",
+        from_text("bad.toml", "extends = 'intersection/nice'\nvehicle.ego.start.speed_mps = 2.0\n", &[]),
+        &["bad.toml:2:1", "`[[vehicle]]`"],
     );
     errors.error(
         "no_vehicle",

@@ -67,7 +67,7 @@ fn wrong_units() {
     );
     refusal(all, "a_text_with_its_unit", ("limit_kw = 3.0", "limit_kw = \"3 kW\""), &["a number", "`3 kW`", "[kW]"]);
     let car = "title = 'a'\nshows = 'b'\nvehicle = [{ name = 'ego', start = { x_m = 0, y_m = 0.2, speed_kmh = 90 } }]";
-    errors.error("km_per_hour", from_text("bad.toml", car, &[]), &["`speed_mps`", "[m/s]", "is missing"]);
+    errors.error("km_per_hour", from_text("bad.toml", car, &[]), &["`speed_mps`", "[m/s]", "divide km/h by 3.6"]);
     insta::assert_snapshot!("units", errors.0);
 }
 

@@ -13,6 +13,7 @@ fn sound(text: &str) -> SweepPlan {
 /// Each wrong plan, with the line and column of the error and what it says.
 const WRONG: &[plans::WrongPlan] = &[
     ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
+    ("title = 'A'\nshows = 'B'\n[road]\nkind = 'lanes'\n", 3, 2, "is a scenario, not a plan of runs"),
     ("scenario = []\n", 1, 12, "must have at least 1"),
     ("scenario = ['lane-chnge']\n", 1, 13, "no scenario, no family and no file `lane-chnge`"),
     ("scenario = ['lane-change', 'lane-change/front-nice']\n", 1, 28, "in the plan twice"),

@@ -3,3 +3,4 @@
 pub(crate) mod consistency;
 pub(crate) mod remarks;
 pub(crate) mod shape;
+mod unknown_key;

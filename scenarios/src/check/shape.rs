@@ -8,9 +8,9 @@ use std::rc::Rc;
 use interplay_common::bounds::Bound;
 use interplay_common::json_schema::type_in_words;
 use interplay_common::spelling::{listed, nearest, suggestion};
-use interplay_common::units::{quantity_of, unit_of};
 use serde_json::Value as Json;
 
+use super::unknown_key;
 use crate::error::{Fault, Place, quoted};
 use crate::json_schema::SchemaNode;
 use crate::read::tree::{Table, TomlNode, TomlValue, kind_of};
@@ -128,7 +128,14 @@ impl Checker {
             other => kind_of(other).to_owned(),
         };
         let message = format!("{} must be {wanted}, not {got}", quoted(&path.0));
-        self.refuse(&node.place, &format!("not {wanted}"), message, schema.description());
+        let help = match schema.merge_key() {
+            Some(key) if matches!(node.value, TomlValue::Table(_)) => format!(
+                "state each entry as `[[{}]]` with its `{key}`; `{0}.NAME.…` is for `--set` and counterfactuals",
+                path.0
+            ),
+            _ => schema.description().to_owned(),
+        };
+        self.refuse(&node.place, &format!("not {wanted}"), message, help);
     }
 
     fn table(&mut self, node: &TomlNode, table: &Table, schema: SchemaNode, path: &Path) {
@@ -139,7 +146,10 @@ impl Checker {
                 None => self.unknown_key(key, &entry.key, schema, path),
             }
         }
-        for key in schema.required().filter(|key| !table.contains_key(*key)) {
+        // A misspelt key is told of once.
+        let unknown = table.keys().filter(|key| schema.property(key).is_none());
+        let meant: Vec<&str> = unknown.filter_map(|key| unknown_key::meant(key, schema)).collect();
+        for key in schema.required().filter(|key| !table.contains_key(*key) && !meant.contains(key)) {
             let message = format!("{} is missing", quoted(&path.join(key).0));
             let help = schema.property(key).map(SchemaNode::description).unwrap_or_default();
             let meant = node.label().and_then(|name| nearest(name, complete_entries.iter().map(String::as_str)));
@@ -172,12 +182,7 @@ impl Checker {
     fn unknown_key(&mut self, key: &str, place: &Place, schema: SchemaNode, path: &Path) {
         let within = if path.0.is_empty() { String::new() } else { format!(" in {}", quoted(&path.0)) };
         let message = format!("unknown key {}{within}", quoted(key));
-        let in_another_unit =
-            schema.properties().find(|(known, _)| differ_by_unit(key, known)).map(|(known, property)| {
-                format!("it is called `{known}` here, after its unit: {}", property.description())
-            });
-        let known: Vec<&str> = schema.properties().map(|(key, _)| key.as_str()).collect();
-        let help = in_another_unit.unwrap_or_else(|| suggestion(key, "the keys here are", &known));
+        let help = unknown_key::help(key, schema);
         self.refuse(place, "unknown key", message, help);
     }
 
@@ -297,13 +302,6 @@ fn is_of_type(node: &TomlNode, type_name: Option<&str>) -> bool {
         TomlValue::Float(_) => type_name == Some("number"),
         TomlValue::Datetime => false,
     }
-}
-
-/// Whether an unknown key names the quantity of a known one with another unit, or with none: `speed` and `speed_kmh` are
-/// `speed_mps`.
-fn differ_by_unit(key: &str, known: &str) -> bool {
-    let quantity = quantity_of(known);
-    unit_of(known).is_some() && key.strip_prefix(quantity).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
 
 fn entries(count: u64) -> &'static str {

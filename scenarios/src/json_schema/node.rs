@@ -28,6 +28,11 @@ impl<'s> SchemaNode<'s> {
         SchemaNode { root, stated: root, list: None }
     }
 
+    /// The schema of which this is a part.
+    pub fn whole(self) -> SchemaNode<'s> {
+        SchemaNode::new(self.root)
+    }
+
     fn at(self, stated: &'s Json) -> SchemaNode<'s> {
         SchemaNode { stated, list: None, ..self }
     }

@@ -227,6 +227,9 @@ pub(crate) fn assemble_on(
 ) -> Result<Scenario, Vec<Fault>> {
     let schema = registry.complete();
     let tree = &with_defaults(with_flows(tree.clone(), schema)?, schema)?;
+    if let Some(fault) = plan_in_its_place(tree) {
+        return Err(vec![fault]);
+    }
     let faults = shape::check(tree, schema);
     if !faults.is_empty() {
         return Err(faults);
@@ -235,6 +238,15 @@ pub(crate) fn assemble_on(
     degrees::to_radians(schema, &mut stated);
     expand(&mut stated, schema);
     resolve(registry, read(stated, tree)?, tree, known_roads)
+}
+
+/// The fault of a file that is a plan of many runs and no scenario.
+fn plan_in_its_place(tree: &TomlNode) -> Option<Fault> {
+    let table =
+        tree.table().filter(|table| !["shows", "vehicle", "building"].iter().any(|key| table.contains_key(*key)))?;
+    let entry = table.get("scenario")?;
+    let fault = Fault::at(&entry.key, "scenarios have no such key", "this is a plan of many runs, not a scenario");
+    Some(fault.help("`interplay sweep FILE` makes its runs; `--dry-run` shows what they are"))
 }
 
 /// The counterfactuals that a tree states, which the schema has admitted.

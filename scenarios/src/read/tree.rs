@@ -52,9 +52,21 @@ pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Ve
     }
     let faults = errors.iter().take(MAX_SYNTAX_ERRORS).map(|error| {
         let place = Place::new(document, error.span().unwrap_or(0..0));
-        Fault::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")))
+        let fault = Fault::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")));
+        match error.span().and_then(|span| decimal_point(text, span.start)) {
+            Some(number) => fault.help(format!("numbers have a decimal point: `{number}`")),
+            None => fault,
+        }
     });
     Err(faults.collect())
+}
+
+/// The number around a decimal comma, written with a point; `None` where no such number stands.
+fn decimal_point(text: &str, comma: usize) -> Option<String> {
+    let (before, after) = (text.get(..comma)?, text.get(comma..)?.strip_prefix(',')?);
+    let whole = before.rsplit(|character: char| !character.is_ascii_digit()).next()?;
+    let fraction = after.split(|character: char| !character.is_ascii_digit()).next()?;
+    (!whole.is_empty() && !fraction.is_empty()).then(|| format!("{whole}.{fraction}"))
 }
 
 /// The fault of a header such as `[vehicle]` that stands twice, or beside `[[vehicle]]`: a list wants two brackets. All other

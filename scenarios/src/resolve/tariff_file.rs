@@ -23,7 +23,7 @@ const PRICE: &str = "price_per_kwh";
 
 /// The tariff with the prices of the table that it names, if it names one; and a remark on prices that are unusually high.
 pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Result<(Tariff, Option<Fault>), Fault> {
-    let Some(name) = &tariff.file else { return Ok((tariff.clone(), None)) };
+    let Some(name) = &tariff.file else { return Ok((tariff.clone(), unusual_in_list(tariff, tree))) };
     let file = SeriesFile::read(name, "tariff.file", tree, ("table of prices", RANK))?;
     let refused = |line: usize, problem: String| Err(file.fault(&SeriesError { line, problem }));
     let column = match (file.table.column(PRICE), file.table.columns.as_slice()) {
@@ -55,12 +55,24 @@ pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Res
     refused(file.table.header_line, format!("the rows are {interval_s} s apart; 60 s to a day work"))
 }
 
-/// A remark on the first price that is unusually high.
+/// A remark on the first price of a table that is unusually high.
 fn unusual(file: &SeriesFile, column: &SeriesColumn) -> Option<Fault> {
     let row = column.values.iter().position(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
-    let problem = format!("the price is {} per kWh: is it per MWh?", readable(column.values[row]));
+    let problem = in_words(column.values[row]);
     let remark = file.remark(&SeriesError { line: file.table.lines[row], problem });
     Some(remark.help(format!("`{PRICE}` is a price per kilowatt-hour; divide prices per megawatt-hour by 1000")))
+}
+
+/// The same of the list in the scenario.
+fn unusual_in_list(tariff: &Tariff, tree: &TomlNode) -> Option<Fault> {
+    const KEY: &str = "tariff.prices_per_kwh";
+    let price = tariff.prices_per_kwh.iter().copied().find(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
+    let remark = Fault::at(tree.place_of(KEY), "per kWh", in_words(price));
+    Some(remark.help(format!("`{KEY}` has prices per kilowatt-hour; divide prices per megawatt-hour by 1000")))
+}
+
+fn in_words(price: f64) -> String {
+    format!("the price is {} per kWh: is it per MWh?", readable(price))
 }
 
 /// The prices from the first midnight of the run on.

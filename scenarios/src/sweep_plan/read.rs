@@ -114,6 +114,15 @@ fn with_samples(
     plan.map_err(|faults| LoadError::of_plan(name, faults))
 }
 
+/// The fault of a file that is a scenario and no plan.
+fn scenario_in_its_place(tree: &TomlNode, name: &str) -> Option<Fault> {
+    let table = tree.table().filter(|table| !table.contains_key("scenario"))?;
+    let entry = ["vehicle", "building", "extends", "road"].into_iter().find_map(|key| table.get(key))?;
+    let message = format!("{} is a scenario, not a plan of runs", quoted(name));
+    let help = format!("to run it from 20 starts: `interplay sweep --scenario {name} --starts 20`");
+    Some(Fault::at(&entry.key, "plans have no such key", message).help(help))
+}
+
 fn read(
     registry: &Registry,
     (name, text): (&str, &str),
@@ -121,6 +130,9 @@ fn read(
     tree: &TomlNode,
     folder: &Path,
 ) -> Result<SweepPlan, Vec<Fault>> {
+    if let Some(fault) = scenario_in_its_place(tree, name) {
+        return Err(vec![fault]);
+    }
     let faults = shape::check(tree, SchemaNode::new(&SCHEMA));
     if !faults.is_empty() {
         return Err(faults);
