@@ -14,7 +14,7 @@ use crate::identify::telemetry::Telemetry;
 
 /// Time of a row in a model, for one state, on one core of the reference machine, an AMD EPYC at 2.6 GHz: fitted to records that
 /// were made at random, with 1 to 3 zones and 300 to 8000 rows \[s\].
-const ROW_S: f64 = 3.7e-5;
+const ROW_S: f64 = 4.5e-5;
 const GROWTH: f64 = 2.5;
 
 /// Processor time of an identification from so many rows \[s\].

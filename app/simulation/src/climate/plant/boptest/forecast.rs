@@ -54,6 +54,22 @@ impl KnownSeries {
         Ok(Self { times_s, by_name })
     }
 
+    /// Refuses temperatures that no case has: plans and indicators would trust them.
+    ///
+    /// # Errors
+    /// [`BoptestError::Invalid`].
+    pub fn check_temperatures(&self, name: &str) -> Result<(), BoptestError> {
+        let mut values_c = self.values(name).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K);
+        match values_c.find(|value_c| !TEMPERATURES_C.contains(value_c)) {
+            None => Ok(()),
+            Some(value_c) => {
+                let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
+                let reason = format!("`{name}` is {value_c:.2} °C, which is outside of {from} to {to} °C");
+                Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason })
+            }
+        }
+    }
+
     /// The values of a series; none of one that was not asked for.
     fn values(&self, name: &str) -> &[f64] {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
@@ -89,7 +105,7 @@ pub fn foresee(
     }
     let bounds_named = settings.zones.iter().filter(|zone| !zone.is_empty()).flat_map(|zone| bounds_of(zone));
     for name in bounds_named.chain([settings.outdoor.clone()]) {
-        check_temperatures(&known, &name)?;
+        known.check_temperatures(&name)?;
     }
     let linear = |values: Vec<f64>| TimeSeries { first_s: 0.0, interval_s: INTERVAL_S, cyclic: false, values };
     let ambient_c = known.values(&settings.outdoor).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K).collect();
@@ -100,19 +116,6 @@ pub fn foresee(
         bounds: (!settings.zones.is_empty()).then(|| bounds(settings, &known)),
         tariff: if settings.tariff { Some(tariff(&known, &price)?) } else { None },
     })
-}
-
-/// Refuses temperatures that no case has: a plan would trust them.
-fn check_temperatures(known: &KnownSeries, name: &str) -> Result<(), BoptestError> {
-    let mut values_c = known.values(name).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K);
-    match values_c.find(|value_c| !TEMPERATURES_C.contains(value_c)) {
-        None => Ok(()),
-        Some(value_c) => {
-            let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
-            let reason = format!("`{name}` is {value_c:.2} °C, which is outside of {from} to {to} °C");
-            Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason })
-        }
-    }
 }
 
 const EMISSIONS: &str = "EmissionsElectricPower";

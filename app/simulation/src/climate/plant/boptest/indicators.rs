@@ -48,6 +48,9 @@ impl Known {
             }
         }
         let series = KnownSeries::ask(test, names, horizon_s)?;
+        for name in series.by_name.keys().filter(|name| name.contains("Setp[")) {
+            series.check_temperatures(name)?;
+        }
         Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
     }
 
