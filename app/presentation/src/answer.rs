@@ -24,7 +24,7 @@ const NOTHING_NEW_WIDTHS: f64 = 0.5;
 
 /// What vehicles ask one another for.
 ///
-/// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too, until whoever asks has
+/// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too, until one of both has
 /// arrived: then nothing is left to ask for.
 #[derive(Clone, Debug, Default)]
 pub struct Requests {
@@ -48,8 +48,9 @@ impl Requests {
             let proposals = vehicle.plan.proposals.iter();
             let asked = proposals.map(|proposal| {
                 let was_asked = |asked: &Vec<(String, bool)>| asked.contains(&(proposal.to.clone(), true));
-                let known = !has_arrived[index] && before.get(index).is_some_and(was_asked);
-                (proposal.to.clone(), known || asks_for_more(scenario, frame, proposal))
+                let known = proposal.acceptance.is_none() || before.get(index).is_some_and(was_asked);
+                let is_over = has_arrived[index] || scenario.index_of(&proposal.to).is_some_and(|to| has_arrived[to]);
+                (proposal.to.clone(), known && !is_over || asks_for_more(scenario, frame, proposal))
             });
             asked.collect()
         };
@@ -62,7 +63,7 @@ impl Requests {
         let asks = self.asked.get(vehicle);
         let asks_for_nothing = move |to: &String| asks.is_some_and(|asks| asks.contains(&(to.clone(), false)));
         let proposals = frame.vehicles[vehicle].plan.proposals.iter();
-        proposals.filter(move |proposal| proposal.acceptance.is_none() || !asks_for_nothing(&proposal.to))
+        proposals.filter(move |proposal| !asks_for_nothing(&proposal.to))
     }
 
     /// What a vehicle asks for at the last tick and what the other answers, without the subject; none if it asks for nothing.
