@@ -52,7 +52,9 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     }
     let first = asks(run, frame).or_else(|| intends(run, frame)).unwrap_or_default();
     // What the first line says already is no news.
-    let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && first.contains(does));
+    let words: Vec<&str> = first.split([' ', ',']).collect();
+    let is_in_first = |does: &str| does.split(' ').all(|word| words.contains(&word));
+    let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && is_in_first(does));
     let second = if said { String::new() } else { second };
     Caption { first, second, alarms: false }
 }
