@@ -1,9 +1,10 @@
 //! Which ways of passing make sense in words: left and right are sides of one road only.
 
-use interplay_planners::{Driver, PassingSide, PlanEventKind, PlannedPassing, Route};
+use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame};
 
+use crate::body_style::BodyStyle;
 use crate::signals::wrapped;
 
 /// A route whose direction changes by more than this leads around a corner \[rad\].
@@ -30,7 +31,7 @@ pub fn passing_sentence(scenario: &Scenario, vehicle: usize, passing: &PlannedPa
 pub fn is_met(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
     let Some(other) = scenario.index_of(&passing.of).map(|index| &scenario.vehicles[index]) else { return false };
     let turned_rad = wrapped(other.start.heading_rad - scenario.vehicles[vehicle].start.heading_rad).abs();
-    turned_rad > if matches!(other.driver, Driver::Walker(_)) { TURN_RAD } else { ONCOMING_RAD }
+    turned_rad > if BodyStyle::choose(other) == BodyStyle::Walker { TURN_RAD } else { ONCOMING_RAD }
 }
 
 /// Whether the way in which a vehicle (its index) passes another one is put into words.
