@@ -193,7 +193,7 @@ pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     let mut panels = vec![panel];
     if steps(recorded).any(|step| step.price_per_kwh.is_some()) {
         let currency = recorded.report.building.iter().find_map(|building| building.currency.as_deref());
-        let style = LineStyle::new(GREEN.rgb, Dash::Mixed);
+        let style = LineStyle::new(GREEN.rgb, Dash::Solid);
         panels.push(Panel {
             name: format!("price of electricity [{}/kWh]", currency.unwrap_or("money")),
             curves: vec![curve("price", style, |step| step.price_per_kwh.unwrap_or(f64::NAN))],

@@ -19,7 +19,7 @@ pre { background: #f4f4f4; padding: .6rem .8rem; overflow-x: auto; font-size: .8
 dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin: 0; }
 .mark { font-size: .85rem; font-weight: 600; padding: .05rem .5rem; border-radius: 1rem; white-space: nowrap; border: 1px solid; }
 .held { color: #00593f; } .shown { color: #555; } .missed, .broken { color: #9a3d00; }
-@media (max-width: 700px) { body { padding: .5rem .8rem 3rem; } nav { columns: 1; } figure { overflow-x: auto; } pre { white-space: pre; } svg, svg.small { width: 720px; max-width: none; } dd, td:first-child { overflow-wrap: anywhere; } }
+@media (max-width: 700px) { body { padding: .5rem .8rem 3rem; } nav { columns: 1; } figure { overflow-x: auto; } pre { white-space: pre; } svg, svg.small { width: 720px; max-width: none; } th, td { padding-right: .5rem; } dd, td:first-child { overflow-wrap: anywhere; } td:first-child { min-width: 7.5rem; } }
 @media print { section { break-inside: avoid; } nav { display: none; } }
 ";
 
