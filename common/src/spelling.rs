@@ -23,6 +23,11 @@ pub fn suggestion(word: &str, what: &str, candidates: &[impl AsRef<str>]) -> Str
     }
 }
 
+/// A number of things, such as `1 zone` or `3 zones`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// The words in backticks, separated by commas.
 pub fn listed(words: &[impl AsRef<str>]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();

@@ -3,6 +3,7 @@
 use interplay_planners::{Plan, PlanEvent, PlanEventKind, Proposal};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, VehicleFrame};
+use interplay_simulation::measure::is_arrival;
 
 /// From this share of acceptance on a vehicle accepts, below the other it declines.
 const ACCEPTS: f64 = 0.7;
@@ -21,34 +22,48 @@ fn answer(share: f64) -> &'static str {
 /// dots lie on the band of the plan, so nobody can see a difference either.
 const NOTHING_NEW_WIDTHS: f64 = 0.5;
 
-/// Of every vehicle whom it asks without a pause, and of each whether it has asked for anything but what was expected anyway.
+/// What vehicles ask one another for.
 ///
-/// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too.
+/// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too, until one of both has
+/// arrived: then nothing is left to ask for.
 #[derive(Clone, Debug, Default)]
-pub struct Requests(Vec<Vec<(String, bool)>>);
+pub struct Requests {
+    /// Of every vehicle whom it asks without a pause, and of each whether it has asked for anything but what was expected anyway.
+    asked: Vec<Vec<(String, bool)>>,
+    /// Of every vehicle whether it has reached its goal.
+    has_arrived: Vec<bool>,
+}
 
 impl Requests {
     /// Observes a tick, which must be the next one.
     pub fn tick(&mut self, scenario: &Scenario, frame: &Frame) {
-        let before = std::mem::take(&mut self.0);
+        let before = std::mem::take(&mut self.asked);
+        self.has_arrived.resize(frame.vehicles.len(), false);
+        for event in frame.events.iter().filter(|event| is_arrival(event)) {
+            let arrived = frame.vehicles.iter().position(|vehicle| vehicle.name == event.vehicle);
+            arrived.into_iter().for_each(|index| self.has_arrived[index] = true);
+        }
+        let has_arrived = &self.has_arrived;
         let now = |(index, vehicle): (usize, &VehicleFrame)| {
             let proposals = vehicle.plan.proposals.iter();
             let asked = proposals.map(|proposal| {
-                let known = before.get(index).is_some_and(|asked| asked.contains(&(proposal.to.clone(), true)));
-                (proposal.to.clone(), known || asks_for_more(scenario, frame, proposal))
+                let was_asked = |asked: &Vec<(String, bool)>| asked.contains(&(proposal.to.clone(), true));
+                let known = proposal.acceptance.is_none() || before.get(index).is_some_and(was_asked);
+                let is_over = has_arrived[index] || scenario.index_of(&proposal.to).is_some_and(|to| has_arrived[to]);
+                (proposal.to.clone(), known && !is_over || asks_for_more(scenario, frame, proposal))
             });
             asked.collect()
         };
-        self.0 = frame.vehicles.iter().enumerate().map(now).collect();
+        self.asked = frame.vehicles.iter().enumerate().map(now).collect();
     }
 
     /// The motions that a vehicle asks others for at the last tick, or expects of them, without those that were expected
     /// anyway.
     pub fn proposals<'a>(&self, frame: &'a Frame, vehicle: usize) -> impl Iterator<Item = &'a Proposal> {
-        let asks = self.0.get(vehicle);
+        let asks = self.asked.get(vehicle);
         let asks_for_nothing = move |to: &String| asks.is_some_and(|asks| asks.contains(&(to.clone(), false)));
         let proposals = frame.vehicles[vehicle].plan.proposals.iter();
-        proposals.filter(move |proposal| proposal.acceptance.is_none() || !asks_for_nothing(&proposal.to))
+        proposals.filter(move |proposal| !asks_for_nothing(&proposal.to))
     }
 
     /// What a vehicle asks for at the last tick and what the other answers, without the subject; none if it asks for nothing.
@@ -106,6 +121,18 @@ mod tests {
         let said = sentences("intersection/nice");
         assert!(said.iter().all(|words| words.starts_with("asks crossing to take the dotted way")), "{said:?}");
         assert!(said.last().is_some_and(|words| words.contains("accepts")), "{said:?}");
+    }
+
+    /// The ego ends in its lane ahead of a driver who lets it in: that driver is then not asked any more.
+    #[test]
+    fn who_has_arrived_asks_for_nothing_more() {
+        let name = "lane-change/front-nice";
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let (scenario, mut requests) = (&recorded.scenario, Requests::default());
+        recorded.frames.iter().for_each(|frame| requests.tick(scenario, frame));
+        let last = recorded.frames.last().expect("ticks");
+        assert!(!last.vehicles[scenario.ego_index()].plan.proposals.is_empty(), "it still has a proposal");
+        assert_eq!(requests.sentence(last, scenario.ego_index()), None);
     }
 
     /// The tough driver ahead of the ramp is asked for what it does anyway: nothing is said of it.

@@ -26,6 +26,7 @@ pub mod figures;
 mod font;
 mod lane_change;
 mod light_shapes;
+mod nearest;
 mod network_lines;
 pub mod page;
 mod palette;

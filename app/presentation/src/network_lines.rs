@@ -7,15 +7,18 @@ use interplay_scenarios::Scenario;
 
 use crate::curved_road::WorldLine;
 use crate::extent::extent;
+use crate::road_widths::SHOULDER_LANES;
 
 /// Largest distance between two points of a line, by the width of the lane.
 const POINT_DISTANCE_RATIO: f64 = 0.25;
+/// How often the interval between two points is halved in which an edge changes its style.
+const CHANGE_BISECTIONS: usize = 4;
 /// Most points of the line of a lane.
 const MAX_POINTS: f64 = 2000.0;
 /// Edges that are nearer to each other than this share of the lane's width are one line.
 const SHARED_RATIO: f64 = 0.15;
 /// A line is inside of a lane if it is further from its edges than this share of the width.
-const INSIDE_RATIO: f64 = 0.01;
+const INSIDE_RATIO: f64 = 0.001;
 /// Where the edges of several lanes of a junction cross, pieces of them may be outside of all; shorter ones than this, by the
 /// width of the lane, are left out.
 const MIN_PIECE_RATIO: f64 = 0.5;
@@ -122,14 +125,35 @@ impl<'a> NetworkLines<'a> {
 
     fn parts_of(&self, lane: usize, side: LaneSide) -> Vec<EdgePart> {
         let mut parts: Vec<EdgePart> = Vec::new();
+        let mut last_m = 0.0;
         for range_m in ranges_m(&self.lanes[lane], [0.0, self.lanes[lane].centre.length_m()]).windows(2) {
-            let style = self.style(lane, side, 0.5 * (range_m[0] + range_m[1]));
-            match parts.last_mut().filter(|last| last.style == style) {
-                Some(last) => last.range_m[1] = range_m[1],
+            let middle_m = 0.5 * (range_m[0] + range_m[1]);
+            let style = self.style(lane, side, middle_m);
+            match parts.last_mut() {
+                Some(last) if last.style == style => last.range_m[1] = range_m[1],
+                Some(last) => {
+                    let from_m = self.change_m(lane, side, [last_m, middle_m], last.style);
+                    last.range_m[1] = from_m;
+                    parts.push(EdgePart { lane, side, range_m: [from_m, range_m[1]], style });
+                }
                 None => parts.push(EdgePart { lane, side, range_m: [range_m[0], range_m[1]], style }),
             }
+            last_m = middle_m;
         }
         parts
+    }
+
+    /// Where between two arc lengths an edge changes from the style at the first of them, by bisection \[m\].
+    fn change_m(&self, lane: usize, side: LaneSide, [mut from_m, mut to_m]: [f64; 2], style: EdgeStyle) -> f64 {
+        for _ in 0..CHANGE_BISECTIONS {
+            let middle_m = 0.5 * (from_m + to_m);
+            if self.style(lane, side, middle_m) == style {
+                from_m = middle_m;
+            } else {
+                to_m = middle_m;
+            }
+        }
+        0.5 * (from_m + to_m)
     }
 
     /// How the edge of a lane is drawn at an arc length: a line that two lanes share is drawn once, and a line inside of
@@ -154,11 +178,14 @@ impl<'a> NetworkLines<'a> {
                 };
             }
         }
-        let beyond = edge_position(lane, side, along_m, shared_m);
+        // The asphalt reaches a shoulder beyond every lane: no line is drawn where that of another lane lies beside this one.
+        let shoulder_m = SHOULDER_LANES * lane.width.value(along_m);
+        let beyond = edge_position(lane, side, along_m, shared_m - shoulder_m);
         // Where one lane joins another, the edge of one may be inside of the other, and a place beyond it outside of both.
         let inside_m = INSIDE_RATIO * lane.width.value(along_m);
-        let is_inside = (0..self.lanes.len())
-            .any(|other| other != number && (self.holds(other, beyond, 0.0) || self.holds(other, at, inside_m)));
+        let is_inside = (0..self.lanes.len()).any(|other| {
+            other != number && (self.holds(other, beyond, -shoulder_m) || self.holds(other, at, inside_m))
+        });
         if is_inside { EdgeStyle::Hidden } else { EdgeStyle::Solid }
     }
 

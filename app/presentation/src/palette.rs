@@ -43,6 +43,9 @@ pub const OTHERS: [NamedColour; 5] = [BLUE, GREEN, PURPLE, SKY, OLIVE];
 /// What stands and nobody drives.
 pub const OBSTACLE: NamedColour = NamedColour { rgb: [0x9A, 0x9E, 0xA4], word: "grey" };
 
+/// One of many vehicles that no picture names.
+pub const UNNAMED: Colour = [0xC8, 0xCB, 0xCF];
+
 /// The surface of paths for people on foot.
 pub const PATH: Colour = [0x8C, 0x8B, 0x86];
 /// The surface of lanes for some vehicles only.

@@ -4,31 +4,60 @@ use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame};
 
+use crate::body_style::BodyStyle;
+use crate::signals::wrapped;
+
 /// A route whose direction changes by more than this leads around a corner \[rad\].
 const TURN_RAD: f64 = 0.6;
 /// At how many places the direction of a route is looked at.
 const PLACES: usize = 64;
 
+/// Vehicles whose directions at the start differ by more than this come toward each other \[rad\].
+const ONCOMING_RAD: f64 = 2.5;
+
+/// How a vehicle (its index) passes another one, without the subject; none if it is not put into words ([`is_said`]).
+///
+/// Somebody who comes toward a vehicle or walks across its way is neither followed nor led: one of them goes before the other.
+pub fn passing_sentence(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> Option<String> {
+    let sentence = || match passing.side {
+        PassingSide::Ahead if is_met(scenario, vehicle, passing) => format!("goes before {}", passing.of),
+        PassingSide::Behind if is_met(scenario, vehicle, passing) => format!("gives way to {}", passing.of),
+        _ => passing.sentence(),
+    };
+    is_said(scenario, vehicle, passing).then(sentence)
+}
+
+/// Whether the other one comes toward a vehicle (its index), or walks across its way, by their directions at the start.
+pub fn is_met(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
+    let Some(other) = scenario.index_of(&passing.of).map(|index| &scenario.vehicles[index]) else { return false };
+    let turned_rad = wrapped(other.start.heading_rad - scenario.vehicles[vehicle].start.heading_rad).abs();
+    turned_rad > if BodyStyle::choose(other) == BodyStyle::Walker { TURN_RAD } else { ONCOMING_RAD }
+}
+
 /// Whether the way in which a vehicle (its index) passes another one is put into words.
 ///
-/// On a network that leads around corners the left and the right of another vehicle are elsewhere a moment later: there
+/// On which side those pass who come toward each other goes without saying. On a network that leads around corners the left and the right of another vehicle are elsewhere a moment later: there
 /// only who goes ahead and who stays behind is said.
 pub fn is_said(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
     let is_sideways = matches!(passing.side, PassingSide::Left | PassingSide::Right);
     let turns = |index: usize| leads_around_a_corner(&scenario.vehicles[index].route);
     let turn = || turns(vehicle) || scenario.index_of(&passing.of).is_some_and(turns);
-    !is_sideways || scenario.network.is_none() || !turn()
+    !is_sideways || !(is_met(scenario, vehicle, passing) || scenario.network.is_some() && turn())
 }
 
-/// Whether an event is shown: all are, but for passings that are not put into words.
-pub fn is_event_said(scenario: &Scenario, frame: &Frame, event: &Event) -> bool {
-    let Some(index) = scenario.index_of(&event.vehicle) else { return true };
-    let Some(vehicle) = frame.vehicles.get(index) else { return true };
-    let passings = vehicle.plan.events.iter().filter(|planned| planned.text == event.text);
-    passings.into_iter().all(|planned| match &planned.kind {
-        PlanEventKind::Passing(passing) => is_said(scenario, index, passing),
-        _ => true,
-    })
+/// An event as it is shown, without the subject: all are, but for passings that are not put into words.
+pub fn event_text(scenario: &Scenario, frame: &Frame, event: &Event) -> Option<String> {
+    let vehicle = scenario.index_of(&event.vehicle).and_then(|index| Some((index, frame.vehicles.get(index)?)));
+    let passing = vehicle.and_then(|(index, vehicle)| {
+        vehicle.plan.events.iter().find_map(|planned| match &planned.kind {
+            PlanEventKind::Passing(passing) if planned.text == event.text => Some((index, passing)),
+            _ => None,
+        })
+    });
+    match passing {
+        Some((index, passing)) => passing_sentence(scenario, index, passing),
+        None => Some(event.text.clone()),
+    }
 }
 
 fn leads_around_a_corner(route: &Route) -> bool {
@@ -52,6 +81,19 @@ mod tests {
     use interplay_scenarios::load;
 
     use super::*;
+
+    /// Nobody drives behind or ahead of a car that comes toward it.
+    #[test]
+    fn oncoming_vehicles_are_given_way_to() {
+        let scenario = load("overtaking/oncoming", &[]).expect("embedded");
+        let said = |of: &str, side| {
+            passing_sentence(&scenario, scenario.ego_index(), &PlannedPassing { of: of.to_owned(), side })
+        };
+        assert_eq!(said("oncoming", PassingSide::Behind).as_deref(), Some("gives way to oncoming"));
+        assert_eq!(said("oncoming", PassingSide::Ahead).as_deref(), Some("goes before oncoming"));
+        assert_eq!(said("oncoming", PassingSide::Right), None);
+        assert_eq!(said("lorry", PassingSide::Behind).as_deref(), Some("stays behind lorry"));
+    }
 
     #[test]
     fn sides_are_said_on_one_road_and_not_on_a_ring() {

@@ -13,6 +13,8 @@ const BRAKING_MPS2: f64 = -0.1;
 const TURN_RAD: f64 = 0.6;
 /// How far ahead a turn is indicated, in lane widths.
 const TURN_AHEAD_LANES: f64 = 5.0;
+/// How long before it crosses the line a vehicle indicates a change of lane \[s\], at 1/10 scale: 3 s of a real car.
+const LANE_CHANGE_AHEAD_S: f64 = 1.0;
 
 /// The side to which a vehicle is going to move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +32,9 @@ pub fn is_braking(acceleration_mps2: f64) -> bool {
 
 /// To which side a plan leads: into another lane, or on a network around a corner.
 pub fn turn(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<Turn> {
-    let to_another_lane = lane_change(scenario, vehicle, &seen.plan.trajectory.states);
+    let states = &seen.plan.trajectory.states;
+    let ahead = (LANE_CHANGE_AHEAD_S * vehicle.body.time_ratio() / scenario.step_s).ceil() as usize;
+    let to_another_lane = lane_change(scenario, vehicle, &states[..states.len().min(ahead + 1)]);
     let along_m = vehicle.route.along(seen.state.position());
     let leftward = to_another_lane.or_else(|| turned_rad(scenario, &vehicle.route, along_m))?;
     Some(if leftward > 0.0 { Turn::Left } else { Turn::Right })

@@ -73,7 +73,7 @@ pub enum RunError {
     #[error("the scenario has no building")]
     NoBuilding,
     /// Heat was handed in for another number of zones.
-    #[error("{found} heats were handed in, and the building has {zones} zones")]
+    #[error("the number of heats handed in is {found}, and that of the building's zones {zones}")]
     WrongHeats {
         /// The heats that were handed in.
         found: usize,

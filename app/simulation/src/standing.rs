@@ -80,6 +80,11 @@ impl<'a> Standing<'a> {
         Standing { vehicles, frame }
     }
 
+    /// A vehicle as the scenario states it.
+    pub(crate) fn vehicle(&self, index: usize) -> &'a Vehicle {
+        &self.vehicles[index]
+    }
+
     /// Whether a vehicle stands although it wants to drive.
     pub fn stands(&self, index: usize) -> bool {
         let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());

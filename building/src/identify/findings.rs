@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use interplay_common::spelling::counted;
+
 use super::continuous::{continuous, decay};
 use super::cross_checks::CheckedEstimate;
 use super::diagnostics::{Confidence, whiteness};
@@ -138,7 +140,8 @@ impl Findings<'_> {
     fn warnings(&self, reports: &[ZoneReport]) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.telemetry.left_out_rows > 0 {
-            warnings.push(format!("{} rows were left out because a value is missing", self.telemetry.left_out_rows));
+            let rows = counted(self.telemetry.left_out_rows, "row");
+            warnings.push(format!("{rows} left out because a value is missing"));
         }
         for (zone, report) in reports.iter().enumerate() {
             let mut warn = |words: &str| warnings.push(format!("{}: {words}", report.name));

@@ -9,8 +9,14 @@ use crate::output::exit_status::ExitStatus;
 use crate::output::printed;
 
 /// Commands that take a scenario, and the argument that is one.
-const TAKES_SCENARIOS: [(&str, &str); 5] =
-    [("run", "scenario"), ("suite", "paths"), ("why", "scenario"), ("play", "scenario"), ("export-fmu", "scenario")];
+const TAKES_SCENARIOS: [(&str, &str); 6] = [
+    ("run", "scenario"),
+    ("check", "paths"),
+    ("suite", "paths"),
+    ("why", "scenario"),
+    ("play", "scenario"),
+    ("export-fmu", "scenario"),
+];
 
 /// Print completions for a shell.
 #[derive(Debug, Args)]
@@ -23,17 +29,40 @@ pub(crate) struct Completions {
 
 impl Completions {
     pub(crate) fn execute(self, mut interplay: clap::Command) -> ExitStatus {
-        // Those of zsh would not offer files any more.
-        if self.shell != Shell::Zsh {
-            for (name, argument) in TAKES_SCENARIOS {
-                let names = embedded().iter().map(|file| PossibleValue::new(file.name));
-                let names = PossibleValuesParser::new(names.collect::<Vec<PossibleValue>>());
-                interplay = interplay
-                    .mut_subcommand(name, |command| command.mut_arg(argument, |argument| argument.value_parser(names)));
-            }
+        for (name, argument) in TAKES_SCENARIOS {
+            let names = embedded().iter().map(|file| PossibleValue::new(file.name));
+            let names = PossibleValuesParser::new(names.collect::<Vec<PossibleValue>>());
+            interplay = interplay
+                .mut_subcommand(name, |command| command.mut_arg(argument, |argument| argument.value_parser(names)));
         }
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut interplay, "interplay", &mut script);
-        printed(&String::from_utf8_lossy(&script))
+        let script = String::from_utf8_lossy(&script);
+        printed(&match self.shell {
+            Shell::Zsh => zsh_with_files(&script),
+            Shell::Fish => fish_with_names(&script),
+            _ => script.into_owned(),
+        })
     }
+}
+
+fn names() -> String {
+    embedded().iter().map(|file| file.name).collect::<Vec<&str>>().join(" ")
+}
+
+/// A script for fish with the names of scenarios: what is generated completes the values of options alone.
+fn fish_with_names(script: &str) -> String {
+    let line = |(command, _): &(&str, &str)| {
+        format!("complete -c interplay -n \"__fish_interplay_using_subcommand {command}\" -a \"{}\"\n", names())
+    };
+    script.to_owned() + &TAKES_SCENARIOS.iter().map(line).collect::<String>()
+}
+
+/// A script for zsh where scenarios are offered beside files: values alone would be all that it offers.
+fn zsh_with_files(script: &str) -> String {
+    let names = names();
+    let function = format!(
+        "_interplay_scenarios() {{\n    _alternative 'scenarios:scenario:({names})' 'files:file:_files'\n}}\n\n_interplay() {{"
+    );
+    script.replace(&format!("({names})"), "_interplay_scenarios").replacen("_interplay() {", &function, 1)
 }

@@ -9,7 +9,7 @@ use super::pictures::{Pictures, Rgb};
 use super::rooms::Rooms;
 use super::title::{BAR, TITLE_PX, WORDS, draw_title};
 use crate::figures::RecordedRun;
-use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, ORANGE, temperature_colour};
+use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, GREEN, ORANGE, temperature_colour};
 use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, usual_wanted_c, zone_colour};
 
 const PAPER: Colour = [0xF7, 0xF7, 0xF4];
@@ -21,6 +21,10 @@ const SMALL_PX: f64 = 13.0;
 const PLAN_PX: [f64; 4] = [14.0, 44.0, 384.0, 394.0];
 const OUTDOORS_PX: [f64; 4] = [440.0, 66.0, 704.0, 216.0];
 const INDOORS_PX: [f64; 4] = [440.0, 260.0, 704.0, 404.0];
+/// The same with a chart of the price between the two.
+const OUTDOORS_ABOVE_PX: [f64; 4] = [440.0, 62.0, 704.0, 146.0];
+const PRICE_PX: [f64; 4] = [440.0, 190.0, 704.0, 260.0];
+const INDOORS_BELOW_PX: [f64; 4] = [440.0, 304.0, 704.0, 404.0];
 /// How many pictures show a day.
 const PICTURES_A_DAY: usize = 32;
 /// In a longer run only the first and the last day are shown.
@@ -39,6 +43,8 @@ pub struct BuildingPictures<'a> {
     /// Least and greatest temperature outdoors and in the rooms \[°C\].
     outdoors_c: [f64; 2],
     indoors_c: [f64; 2],
+    /// Least and greatest price of electricity, and its unit; none without one.
+    price: Option<([f64; 2], String)>,
 }
 
 impl<'a> BuildingPictures<'a> {
@@ -63,6 +69,7 @@ impl<'a> BuildingPictures<'a> {
             rooms: Rooms::new(building.floor_plan(), names, PLAN_PX),
             outdoors_c: range(seen().flat_map(|step| [step.ambient_c, step.forecast_c])),
             indoors_c: range(zones().map(|zone| zone.temperature_c).chain(wanted_c)),
+            price: price(recorded, seen().filter_map(|step| step.price_per_kwh)),
             days,
             day_count,
         })
@@ -110,7 +117,8 @@ impl<'a> BuildingPictures<'a> {
     }
 
     fn draw_outdoors(&self, canvas: &mut Canvas, steps: &[&BuildingFrame], hour: f64) {
-        let chart = Chart { place: OUTDOORS_PX, across: [0.0, HOURS], up: self.outdoors_c };
+        let place = if self.price.is_some() { OUTDOORS_ABOVE_PX } else { OUTDOORS_PX };
+        let chart = Chart { place, across: [0.0, HOURS], up: self.outdoors_c };
         chart.draw_axes(canvas, "Outdoors [°C]");
         let points = |value: fn(&BuildingFrame) -> f64| -> Vec<[f64; 2]> {
             steps.iter().map(|step| [hour_of(steps, step.step), value(step)]).collect()
@@ -120,8 +128,24 @@ impl<'a> BuildingPictures<'a> {
         chart.draw_cursor(canvas, hour);
     }
 
+    /// The price, which is known for the whole day, holds during a step.
+    fn draw_price(&self, canvas: &mut Canvas, steps: &[&BuildingFrame], hour: f64) {
+        let Some((range, unit)) = &self.price else { return };
+        let chart = Chart { place: PRICE_PX, across: [0.0, HOURS], up: *range };
+        chart.draw_axes(canvas, &format!("Price of electricity [{unit}]"));
+        let held = |step: &&BuildingFrame| {
+            let price = step.price_per_kwh.unwrap_or_default();
+            [step.step, step.step + 1].map(|at| [hour_of(steps, at), price])
+        };
+        let points: Vec<[f64; 2]> = steps.iter().flat_map(held).collect();
+        chart.dashed(canvas, &points, 1.6, GREY);
+        chart.draw_past(canvas, &points, hour, GREEN.rgb);
+        chart.draw_cursor(canvas, hour);
+    }
+
     fn draw_indoors(&self, canvas: &mut Canvas, steps: &[&BuildingFrame], hour: f64) {
-        let chart = Chart { place: INDOORS_PX, across: [0.0, HOURS], up: self.indoors_c };
+        let place = if self.price.is_some() { INDOORS_BELOW_PX } else { INDOORS_PX };
+        let chart = Chart { place, across: [0.0, HOURS], up: self.indoors_c };
         chart.draw_axes(canvas, "Rooms, coldest to warmest [°C]");
         let past = |step: &&&BuildingFrame| hour_of(steps, step.step) <= hour + 1e-9;
         let bounds: Vec<(f64, [f64; 2])> = steps
@@ -177,20 +201,31 @@ impl Pictures for BuildingPictures<'_> {
         draw_title(&mut canvas, self.title, 490.0, &clock);
         self.draw_plan(&mut canvas, step, at.fract());
         self.draw_outdoors(&mut canvas, steps, hour);
+        self.draw_price(&mut canvas, steps, hour);
         self.draw_indoors(&mut canvas, steps, hour);
-        let key = "solid: so far   dashed: forecast; lowest and highest wanted";
+        let key = match self.price {
+            Some(_) => "solid: so far   dashed: to come; lowest and highest wanted",
+            None => "solid: so far   dashed: forecast; lowest and highest wanted",
+        };
         canvas.text([INDOORS_PX[2], HEIGHT_PX - 10.0], Align::Right, SMALL_PX, key, DARK_WORDS);
         canvas.line(&[[0.0, TITLE_PX], [WIDTH_PX, TITLE_PX]], 1.0, LineEnd::Flat, BAR);
         Some(canvas.into_rgb())
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
-        vec![PAPER, BAR, WORDS, DARK_WORDS, BLUE.rgb, ORANGE.rgb]
+        vec![PAPER, BAR, WORDS, DARK_WORDS, BLUE.rgb, GREEN.rgb, ORANGE.rgb]
     }
 }
 
 fn of_building(frame: &Frame) -> Option<&BuildingFrame> {
     frame.building.as_ref()
+}
+
+/// Least and greatest of some prices, and their unit; none without any.
+fn price(recorded: &RecordedRun, prices: impl Iterator<Item = f64>) -> Option<([f64; 2], String)> {
+    let prices: Vec<f64> = prices.collect();
+    let currency = recorded.report.building.as_ref()?.currency.as_deref()?;
+    (!prices.is_empty()).then(|| (range(prices.into_iter()), format!("{currency}/kWh")))
 }
 
 /// The hour at which a step of a day begins.

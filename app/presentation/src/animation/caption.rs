@@ -1,13 +1,12 @@
 //! The words under a picture: who asks whom, what the other answers, and what happened last.
 
-use interplay_planners::PlannedPassing;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
 use interplay_simulation::standing::Standing;
 
 use super::scene::DrivingRun;
 use crate::contact::numbers;
-use crate::passing_words::{is_event_said, is_said};
+use crate::passing_words::{event_text, passing_sentence};
 
 /// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;
@@ -53,7 +52,9 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     }
     let first = asks(run, frame).or_else(|| intends(run, frame)).unwrap_or_default();
     // What the first line says already is no news.
-    let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && first.contains(does));
+    let words: Vec<&str> = first.split([' ', ',']).collect();
+    let is_in_first = |does: &str| does.split(' ').all(|word| words.contains(&word));
+    let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && is_in_first(does));
     let second = if said { String::new() } else { second };
     Caption { first, second, alarms: false }
 }
@@ -85,9 +86,18 @@ fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
     if let Some(reason) = standing.reason(index).filter(|_| ego.rules.are_kept && standing.stands(index)) {
         return Some(format!("{} {reason}", ego.name));
     }
-    let said = ego.plan.homotopy_class.iter().filter(|passing| is_said(run.scenario, index, passing));
-    let passings: Vec<String> = said.map(PlannedPassing::sentence).collect();
-    (!passings.is_empty()).then(|| format!("{} {}", ego.name, passings.join(", ")))
+    // Those who are passed in the same way are named together.
+    let mut passings: Vec<(String, Vec<&str>)> = Vec::new();
+    for passing in ego.plan.homotopy_class.iter().filter(|passing| run.is_named(frame, &passing.of)) {
+        let Some(sentence) = passing_sentence(run.scenario, index, passing) else { continue };
+        let verb = sentence.strip_suffix(&passing.of).unwrap_or(&sentence);
+        match passings.iter_mut().find(|(known, _)| known == verb) {
+            Some((_, names)) => names.push(&passing.of),
+            None => passings.push((verb.to_owned(), vec![&passing.of])),
+        }
+    }
+    let said: Vec<String> = passings.iter().map(|(verb, names)| format!("{verb}{}", names.join(" and "))).collect();
+    (!said.is_empty()).then(|| format!("{} {}", ego.name, said.join(", ")))
 }
 
 /// What happened in a tick to the ego or to others: warnings before notes.
@@ -98,9 +108,12 @@ fn news(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option
         let is_news = |event: &&Event| {
             let is_wanted = event.level == level && is_of(Some(event.vehicle.as_str()) == ego);
             let is_known = ["nobody ", "asks "].iter().any(|begin| event.text.starts_with(begin));
-            is_wanted && !is_known && is_event_said(run.scenario, frame, event)
+            is_wanted && !is_known && run.is_named(frame, &event.vehicle)
         };
-        frame.events.iter().find(is_news).map(|event| format!("{} {}", event.vehicle, plain(&event.text)))
+        let said = |event: &Event| {
+            event_text(run.scenario, frame, event).map(|text| format!("{} {}", event.vehicle, plain(&text)))
+        };
+        frame.events.iter().filter(is_news).find_map(said)
     };
     // Collisions have the first line.
     of_level(Level::Warning).or_else(|| of_level(Level::Note))

@@ -9,6 +9,8 @@ const GRID: Colour = [0xDD, 0xDD, 0xDA];
 const CURSOR: Colour = [0x8A, 0x8D, 0x92];
 const SIZE_PX: f64 = 13.0;
 const DASH_PX: f64 = 5.0;
+/// Numbers of an axis that reaches less far than this have two decimals.
+const FINE_REACH: f64 = 1.0;
 /// Share of the range that is left free above and below the curves.
 const HEADROOM: f64 = 0.08;
 
@@ -45,7 +47,11 @@ impl Chart {
         for value in self.up {
             let [_, y] = self.pixel([0.0, value]);
             canvas.line(&[[left, y], [right, y]], 1.0, LineEnd::Flat, GRID);
-            canvas.text([left - 6.0, y], Align::Right, SIZE_PX, &one_decimal(value), WORDS);
+            let words = match self.up[1] - self.up[0] {
+                reach if reach < FINE_REACH => format!("{value:.2}").replace('-', "−"),
+                _ => one_decimal(value),
+            };
+            canvas.text([left - 6.0, y], Align::Right, SIZE_PX, &words, WORDS);
         }
     }
 

@@ -17,7 +17,7 @@ use super::vehicle;
 use crate::contact::{contact_place, star};
 use crate::edge_mark::edge_marks;
 use crate::figures::RecordedRun;
-use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, VERMILLION};
+use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, OTHERS, VERMILLION};
 use crate::rectangle::{Rectangle, overlap, rectangle_around};
 use crate::road_shapes::RoadShapes;
 
@@ -30,10 +30,8 @@ const MIN_RIBBON_RATIO: f64 = 1.5;
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
 const LABEL_PX: f64 = 14.0;
-/// Of more vehicles, the legend has those nearest to the ego,
-const MOST_LISTED: usize = 12;
-/// in at most so many rows.
-const ROWS_OF_MANY: usize = 5;
+/// Rows of the legend of many vehicles, which has those with a colour.
+const ROWS_OF_MANY: usize = 3;
 /// Width of the line of what a vehicle may do instead \[px\].
 const BRANCH_PX: f64 = 2.5;
 
@@ -60,7 +58,7 @@ impl<'a> DrivingPictures<'a> {
         })?;
         let road = RoadShapes::trace(run.scenario, bounds);
         let driven: Vec<usize> = run.driven().collect();
-        let legend = if driven.len() > MOST_LISTED { Vec::new() } else { legend(&run, &driven) };
+        let legend = if driven.len() > OTHERS.len() + 1 { Vec::new() } else { legend(&run, &driven) };
         let key = key(&run, &moments);
         Some(DrivingPictures { run, moments, views, road, legend, key })
     }
@@ -82,16 +80,16 @@ impl<'a> DrivingPictures<'a> {
         road::draw_lights(&self.road, canvas, view, time_s);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen).filter(|(_, seen)| !seen.is_absent) {
-            if is_ribbon(&seen.plan, &vehicle.body) {
+            if is_ribbon(&seen.plan, &vehicle.body) && !seen.is_unnamed() {
                 let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
                 let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
                 ribbon::draw(canvas, &plan, width, seen.plan_colour);
             }
         }
-        for (colour, seen) in self.run.colours.iter().zip(seen) {
+        for seen in seen.iter().filter(|seen| !seen.is_unnamed()) {
             for branch in &seen.branches {
                 let line: Vec<[f64; 2]> = branch.iter().map(|point| view.place(*point)).collect();
-                canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::veiled(*colour, 1.0));
+                canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::veiled(seen.colour, 1.0));
             }
             let dots = seen.proposals.iter().flat_map(|proposal| {
                 let places: Vec<[f64; 2]> = proposal.iter().map(|point| view.place(*point)).collect();
@@ -99,17 +97,15 @@ impl<'a> DrivingPictures<'a> {
             });
             for dot in dots {
                 canvas.disc(dot, 3.6, [0xFF, 0xFF, 0xFF]);
-                canvas.disc(dot, 2.6, *colour);
+                canvas.disc(dot, 2.6, seen.colour);
             }
         }
-        let vehicles = || self.run.scenario.vehicles.iter().zip(seen).enumerate();
-        vehicles().for_each(|(_, (vehicle, seen))| vehicle::draw_shadow(canvas, view, vehicle, seen));
-        for (index, (vehicle, seen)) in vehicles() {
-            vehicle::draw(canvas, view, vehicle, seen, self.run.colours[index]);
-        }
+        let vehicles = || self.run.scenario.vehicles.iter().zip(seen);
+        vehicles().for_each(|(vehicle, seen)| vehicle::draw_shadow(canvas, view, vehicle, seen));
+        vehicles().for_each(|(vehicle, seen)| vehicle::draw(canvas, view, vehicle, seen));
         self.draw_contacts(canvas, view, seen, time_s);
         let taken = self.draw_edge_marks(canvas, view, seen, spoken_of);
-        self.draw_names(canvas, view, seen, taken);
+        self.draw_names(canvas, view, (seen, spoken_of), taken);
     }
 
     /// A star where two vehicles touch, for a while after they began to.
@@ -136,7 +132,7 @@ impl<'a> DrivingPictures<'a> {
         let states: Vec<State> = seen.iter().map(|seen| seen.state).collect();
         let mut taken: Vec<Rectangle> = (0..seen.len()).map(|index| self.bounds_px(view, seen, index)).collect();
         for mark in edge_marks(self.run.scenario, view, &states, spoken_of) {
-            let words = edge::draw(canvas, view, &mark, self.run.colours[mark.vehicle], &taken);
+            let words = edge::draw(canvas, view, &mark, seen[mark.vehicle].colour, &taken);
             taken.push(words);
         }
         taken
@@ -149,10 +145,17 @@ impl<'a> DrivingPictures<'a> {
     }
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name, nor other `taken` rectangles, of which the
-    /// first are those of the vehicles.
-    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], mut taken: Vec<Rectangle>) {
+    /// first are those of the vehicles. Of many vehicles, those with a colour have a name, and those who are spoken of.
+    fn draw_names(
+        &self,
+        canvas: &mut Canvas,
+        view: &CameraView,
+        (seen, spoken_of): (&[SeenVehicle], &[usize]),
+        mut taken: Vec<Rectangle>,
+    ) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
-            if vehicle.obstacle.is_some() || seen[index].is_absent {
+            let is_unnamed = seen[index].is_unnamed() && !spoken_of.contains(&index);
+            if vehicle.obstacle.is_some() || seen[index].is_absent || is_unnamed {
                 continue;
             }
             let [left, top, right, bottom] = taken[index];
@@ -194,17 +197,12 @@ impl<'a> DrivingPictures<'a> {
         canvas.text([clock_left, 0.5 * TITLE_PX], Align::Right, LABEL_PX, &speed, ink);
     }
 
-    /// The legend of those who are nearest to the ego now.
+    /// The legend of those who have a colour now.
     fn legend_of_many(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
-        let ego = &seen[self.run.scenario.ego_index()].state;
-        let away_m = |index: &usize| {
-            let state = &seen[*index].state;
-            libm::hypot(state.x_m - ego.x_m, state.y_m - ego.y_m)
-        };
-        let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_absent).collect();
-        listed.sort_by(|one, other| away_m(one).total_cmp(&away_m(other)));
-        listed.truncate(MOST_LISTED);
-        listed.sort_unstable();
+        // In the order of the colours, so that nobody moves while others come and go.
+        let place = |index: &usize| OTHERS.iter().position(|colour| colour.rgb == seen[*index].colour);
+        let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_unnamed()).collect();
+        listed.sort_by_key(place);
         let mut rows = legend(&self.run, &listed);
         rows.truncate(ROWS_OF_MANY);
         rows
@@ -225,7 +223,7 @@ impl<'a> DrivingPictures<'a> {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {
                 let ring = [[*left, y - 5.5], [left + 17.0, y - 5.5], [left + 17.0, y + 5.5], [*left, y + 5.5]];
-                canvas.fill_rounded(&ring, 4.0, self.run.colours[*index]);
+                canvas.fill_rounded(&ring, 4.0, seen[*index].colour);
                 let speed = match &seen[*index] {
                     seen if seen.is_absent => words.clone(),
                     seen => format!("{words} {:.1} m/s", seen.state.speed_mps.abs()),
@@ -252,6 +250,7 @@ impl Pictures for DrivingPictures<'_> {
         let mut ground = Canvas::new([WIDTH_PX as u32, view.size_px[1] as u32], GRASS)?;
         let words = caption(&self.run, moment.time_s);
         let mut spoken_of = self.run.partners(moment.time_s);
+        spoken_of.retain(|index| !seen[*index].is_unnamed());
         spoken_of.extend(
             words.names(self.run.scenario).into_iter().filter(|index| !spoken_of.contains(index)).collect::<Vec<_>>(),
         );
@@ -267,7 +266,8 @@ impl Pictures for DrivingPictures<'_> {
         // What is small or seldom seen would otherwise be mixed with its neighbours.
         let plan = |colour: &Colour| ribbon::ink(*colour).over(ASPHALT);
         let rare = [BRAKE_LIGHT, INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
-        self.run.colours.iter().copied().chain(rare).chain(self.run.colours.iter().map(plan)).collect()
+        let colours = self.run.used_colours();
+        colours.iter().copied().chain(rare).chain(colours.iter().map(plan)).collect()
     }
 }
 
@@ -346,7 +346,7 @@ impl DrivingPictures<'_> {
         let places = self.run.scenario.vehicles.iter().zip(&seen).map(place);
         let inside = |[x, _]: &[f64; 2]| (0.0..WIDTH_PX).contains(x);
         places
-            .zip(self.run.colours.iter().copied())
+            .zip(seen.iter().map(|seen| seen.colour))
             .filter(|(place, _)| inside(place))
             .map(|([x, y], colour)| ([x, y + TITLE_PX], colour))
             .collect()

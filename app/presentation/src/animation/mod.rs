@@ -14,6 +14,7 @@ mod camera;
 mod canvas;
 mod caption;
 mod chart;
+mod colours;
 mod driving;
 mod edge;
 mod encode;

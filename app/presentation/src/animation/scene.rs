@@ -4,11 +4,12 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
+use super::colours::colours;
 use super::timing::RunTimes;
 use crate::answer::Requests;
 use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
-use crate::palette::{Colour, VERMILLION, vehicle_colours};
+use crate::palette::{Colour, UNNAMED, VERMILLION};
 use crate::signals::{Turn, is_braking, turn, wrapped};
 
 /// How long an indicator is lit and dark \[s\], in the picture's time.
@@ -20,6 +21,8 @@ const NEAR_CARS: f64 = 30.0;
 /// A vehicle at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
+    /// Its colour at the moment.
+    pub colour: Colour,
     /// Whether it is not on the road.
     pub is_absent: bool,
     /// Present position, heading and speed.
@@ -46,8 +49,8 @@ pub struct SeenVehicle {
 pub struct DrivingRun<'a> {
     /// The scenario of the run.
     pub scenario: &'a Scenario,
-    /// One colour a vehicle.
-    pub colours: Vec<Colour>,
+    /// One colour a vehicle, for each tick.
+    colours: Vec<Vec<Colour>>,
     /// The ticks with vehicles.
     pub frames: Vec<&'a Frame>,
     /// What was asked until each tick.
@@ -56,6 +59,13 @@ pub struct DrivingRun<'a> {
     end: (f64, Vec<State>),
     /// Until when it is to be shown, if that is stated \[s\].
     until_s: Option<f64>,
+}
+
+impl SeenVehicle {
+    /// Whether it is one of many vehicles that are too far from the ego to be named.
+    pub fn is_unnamed(&self) -> bool {
+        self.colour == UNNAMED
+    }
 }
 
 impl<'a> DrivingRun<'a> {
@@ -70,7 +80,7 @@ impl<'a> DrivingRun<'a> {
         let frames: Vec<&Frame> = recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty()).collect();
         let last = frames.last()?;
         let scenario = &recorded.scenario;
-        let colours = vehicle_colours(scenario).into_iter().map(|colour| colour.rgb).collect();
+        let colours = colours(scenario, &frames);
         let end = recorded.report.vehicles.iter().map(|vehicle| vehicle.last).collect();
         let end = (last.time_s + scenario.step_s, end);
         let asked = |requests: &mut Requests, frame: &&Frame| {
@@ -79,6 +89,20 @@ impl<'a> DrivingRun<'a> {
         };
         let requests = frames.iter().scan(Requests::default(), asked).collect();
         Some(DrivingRun { scenario, colours, frames, requests, end, until_s: recorded.shown_until_s })
+    }
+
+    /// Whether a vehicle is named in the picture of a tick: of many vehicles, only those near the ego are.
+    pub fn is_named(&self, frame: &Frame, vehicle: &str) -> bool {
+        let index = self.scenario.index_of(vehicle);
+        index.is_none_or(|index| self.colours[self.tick(frame.time_s)][index] != UNNAMED)
+    }
+
+    /// The colours that vehicles have at some tick.
+    pub fn used_colours(&self) -> Vec<Colour> {
+        let mut used: Vec<Colour> = self.colours.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        used
     }
 
     /// What bounds the time that is shown.
@@ -155,7 +179,9 @@ impl<'a> DrivingRun<'a> {
             let state = self.state(index, tick, share);
             let turn = turn(self.scenario, &self.scenario.vehicles[index], vehicle);
             let failed = vehicle.origin != Origin::Planned;
+            let colour = self.colours[tick][index];
             SeenVehicle {
+                colour,
                 is_absent: vehicle.is_absent,
                 state,
                 steering_rad: vehicle.input.steering_rad,
@@ -163,7 +189,7 @@ impl<'a> DrivingRun<'a> {
                 turn,
                 blinks,
                 plan: rest(&vehicle.plan.trajectory.states, &state),
-                plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
+                plan_colour: if failed { VERMILLION.rgb } else { colour },
                 branches: {
                     let branches = vehicle.plan.branches.iter();
                     branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()

@@ -60,7 +60,8 @@ pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, se
 }
 
 /// Draws a vehicle.
-pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
+pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
+    let colour = seen.colour;
     if seen.is_absent {
         return;
     }
@@ -200,12 +201,13 @@ mod tests {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let view = CameraView { centre_m: seen.state.position(), px_per_m: 200.0, size_px: [WIDTH_PX, 200.0] };
         let mut canvas = Canvas::new([720, 200], [0x80; 3]).expect("a size");
-        draw(&mut canvas, &view, &scenario.vehicles[0], seen, [10, 200, 30]);
+        draw(&mut canvas, &view, &scenario.vehicles[0], seen);
         canvas.into_rgb().chunks_exact(3).filter(|pixel| *pixel == colour).count()
     }
 
     fn standing() -> SeenVehicle {
         SeenVehicle {
+            colour: [10, 200, 30],
             is_absent: false,
             state: State { x_m: 3.0, y_m: 1.0, heading_rad: 0.4, speed_mps: 1.0 },
             steering_rad: 0.0,

@@ -6,6 +6,7 @@ use interplay_simulation::climate::people;
 use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 
 use super::recorded_run::RecordedRun;
+use crate::palette::GREEN;
 use crate::plot::style::{self, BLUE, Dash, LIMIT, LineStyle, ORANGE, WANTED};
 use crate::plot::{Curve, Panel, Panels};
 
@@ -173,7 +174,7 @@ pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
     Panels { title: title.to_owned(), across: "day (iteration)".to_owned(), columns: 1, every, panels: vec![panel] }
 }
 
-/// Outdoor temperature and its forecast, day after day.
+/// Outdoor temperature and its forecast, and the price of electricity where there is one, day after day.
 pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     let step_h = step_h(recorded);
     let per_day = (24.0 / step_h).round();
@@ -189,13 +190,17 @@ pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
         ],
         ..Panel::default()
     };
-    Panels {
-        title: title.to_owned(),
-        across: "time [days]".to_owned(),
-        columns: 1,
-        every: Some(1.0),
-        panels: vec![panel],
+    let mut panels = vec![panel];
+    if steps(recorded).any(|step| step.price_per_kwh.is_some()) {
+        let currency = recorded.report.building.iter().find_map(|building| building.currency.as_deref());
+        let style = LineStyle::new(GREEN.rgb, Dash::Solid);
+        panels.push(Panel {
+            name: format!("price of electricity [{}/kWh]", currency.unwrap_or("money")),
+            curves: vec![curve("price", style, |step| step.price_per_kwh.unwrap_or(f64::NAN))],
+            ..Panel::default()
+        });
     }
+    Panels { title: title.to_owned(), across: "time [days]".to_owned(), columns: 1, every: Some(1.0), panels }
 }
 
 /// The net effect of weather and people on each zone as a temperature: that of the air outside which would do the same,

@@ -7,6 +7,7 @@ use interplay_simulation::frame::Frame;
 use super::recorded_run::RecordedRun;
 use crate::body_style::BodyStyle;
 use crate::extent::extent;
+use crate::palette::OBSTACLE;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels};
 use crate::road_shapes::RoadShapes;
@@ -22,13 +23,17 @@ const TIME_AFTER_GOALS_S: f64 = 1.5;
 /// How far the road goes on beyond all vehicles, in lengths of the longest one: as far as any picture shows.
 const ROAD_BEYOND_LENGTHS: f64 = 40.0;
 
-/// The line style of every vehicle, in the scenario's order: the ego's is orange.
+/// The line style of every vehicle, in the scenario's order: the ego's is orange, and that of what nobody drives is grey.
 pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
     let ego = scenario.ego_index();
     let mut others = style::line_styles().filter(|style| style.colour != ORANGE);
     let mut other = || others.next().unwrap_or(LineStyle::new(BLUE, Dash::Solid));
     (0..scenario.vehicles.len())
-        .map(|index| if index == ego { LineStyle::new(ORANGE, Dash::Solid) } else { other() })
+        .map(|index| match scenario.vehicles[index].obstacle {
+            _ if index == ego => LineStyle::new(ORANGE, Dash::Solid),
+            Some(_) => LineStyle::new(OBSTACLE.rgb, Dash::Solid),
+            None => other(),
+        })
         .collect()
 }
 
@@ -105,9 +110,12 @@ fn state(recorded: &RecordedRun, tick: usize, index: usize) -> State {
     seen.or(recorded.report.vehicles.get(index).map(|vehicle| vehicle.last)).unwrap_or_default()
 }
 
-/// Name and driver of a vehicle.
+/// Name and driver of a vehicle; what nobody drives has one name.
 fn who(vehicle: &Vehicle) -> String {
-    format!("{}: {}", vehicle.name, vehicle.driver.description())
+    match vehicle.obstacle {
+        Some(_) => "obstacles".to_owned(),
+        None => format!("{}: {}", vehicle.name, vehicle.driver.description()),
+    }
 }
 
 /// Lateral coordinates of the edges of the one straight road that all drive on; none if roads cross or turn.
@@ -149,11 +157,12 @@ fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
     Panels { title: title.to_owned(), across: "time [s]".to_owned(), columns: 1, every: None, panels }
 }
 
-/// A curve for each vehicle, of its state and its acceleration.
+/// A curve for each vehicle that somebody drives, of its state and its acceleration.
 fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f64) -> Panel {
     let mut panel = Panel { name: name.to_owned(), ..Panel::default() };
     let vehicles = recorded.scenario.vehicles.iter().zip(line_styles(&recorded.scenario));
-    for ((index, (vehicle, style)), seen) in vehicles.enumerate().zip(&recorded.report.vehicles) {
+    let all = vehicles.enumerate().zip(&recorded.report.vehicles);
+    for ((index, (vehicle, style)), seen) in all.filter(|((_, (vehicle, _)), _)| vehicle.obstacle.is_none()) {
         let points = vehicle_frames(recorded).map(|frame| {
             let vehicle = &frame.vehicles[index];
             [frame.time_s, value(&vehicle.state, vehicle.input.acceleration_mps2)]

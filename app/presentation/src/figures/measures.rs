@@ -1,7 +1,9 @@
 //! The measures of runs, as tables.
 
 use interplay_building::day::ZoneFigures;
+use interplay_common::units::{quantity_of, unit_of};
 use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report, ZoneOutcome};
+use serde_json::Value;
 
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
@@ -41,11 +43,16 @@ fn driving(recorded_runs: &[&&RecordedRun]) -> TextTable {
             .iter()
             .filter_map(|vehicle| vehicle.completed_s.map(|time_s| format!("{} {time_s:.1}", vehicle.name)));
         let completed: Vec<String> = completed.collect();
+        let is_driven = |name: &&str| {
+            let vehicle = recorded.scenario.index_of(name).map(|index| &recorded.scenario.vehicles[index]);
+            vehicle.is_some_and(|vehicle| vehicle.obstacle.is_none())
+        };
+        let order = report.order.iter().map(String::as_str).filter(is_driven);
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         [
             label(recorded),
             if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
-            report.order.join(", "),
+            order.collect::<Vec<_>>().join(", "),
             ego.map_or_else(String::new, |ego| {
                 ego.speed_range_mps().map(|speed_mps| format!("{speed_mps:.2}")).join(" to ")
             }),
@@ -141,15 +148,37 @@ fn expectations(report: &Report, changed: bool) -> String {
 /// Every expectation of a run: what was wanted and what came of it.
 pub fn expected(report: &Report) -> TextTable {
     let row = |expectation: &interplay_simulation::report::Expectation| {
+        let ([wanted, measured], at) = (expectation.shown(), expectation.at.iter());
         [
             expectation.what.clone(),
-            expectation.want.to_string(),
-            expectation.got.to_string(),
+            in_words(&wanted),
+            at.fold(in_words(&measured), |words, at| format!("{words} ({at})")),
             if expectation.passed { "held" } else { "FAILED" }.to_owned(),
         ]
     };
     let rows = report.expectations.iter().map(row).collect();
     TextTable::new("Expectations", ["what", "wanted", "measured", ""], rows)
+}
+
+/// A value of an expectation in words, with units for the keys that end with one.
+fn in_words(value: &Value) -> String {
+    match value {
+        Value::Null => "–".to_owned(),
+        Value::Bool(holds) => if *holds { "yes" } else { "no" }.to_owned(),
+        Value::Number(number) => number.to_string(),
+        Value::String(word) => word.clone(),
+        Value::Array(items) if items.is_empty() => "none".to_owned(),
+        Value::Array(items) => items.iter().map(in_words).collect::<Vec<_>>().join(", "),
+        Value::Object(table) => {
+            let entry = |(key, value): (&String, &Value)| {
+                // The key of a length may be its unit alone.
+                let key = format!("_{key}");
+                let (quantity, unit) = (quantity_of(&key).replace('_', " "), unit_of(&key).unwrap_or_default());
+                format!("{} {} {unit}", quantity.trim(), in_words(value)).trim().to_owned()
+            };
+            table.iter().map(entry).collect::<Vec<_>>().join(", ")
+        }
+    }
 }
 
 /// Every counterfactual of a run: what it claims, and what came of it.
@@ -169,4 +198,20 @@ pub fn counterfactuals(report: &Report) -> TextTable {
     };
     let header = ["with something changed", "order at the end", "reaches its goal [s]", "smallest gap [m]", ""];
     TextTable::new("Counterfactuals", header, report.counterfactuals.iter().map(row).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn values_of_expectations_are_words() {
+        let gap = json!({ "m": 4.529, "between": ["ego", "ring"], "time_s": 5.06 });
+        let said = in_words(&gap);
+        assert!(["4.529 m", "between ego, ring", "time 5.06 s"].iter().all(|part| said.contains(part)), "{said}");
+        assert_eq!(in_words(&json!({ "first": "ego", "second": "ring" })), "first ego, second ring");
+        assert_eq!((in_words(&json!(true)).as_str(), in_words(&json!("any time")).as_str()), ("yes", "any time"));
+    }
 }

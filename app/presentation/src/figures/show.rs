@@ -4,6 +4,7 @@ use super::entry::FigureContent;
 use super::recorded_run::RecordedRun;
 use super::space_time::space_time;
 use super::{climate, driving, measures};
+use crate::plot::TextTable;
 
 /// Of so many vehicles, what each believes and intends is drawn; of more, of the ego alone.
 const MOST_EXPLAINED: usize = 16;
@@ -32,9 +33,10 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
         content.pictures.push(climate::temperatures("Temperatures, day by day", recorded, &zones).drawing());
         content.pictures.push(climate::inputs("Heat from the equipment, day by day", recorded, &zones).drawing());
         content.pictures.push(climate::costs("Cost of each day", &[recorded]).drawing());
-        content.pictures.push(climate::weather("Weather", recorded).drawing());
+        content.pictures.push(climate::weather(weather_title(recorded), recorded).drawing());
     }
-    content.tables = measures::side_by_side(&[recorded]);
+    // Of one run, a measure a row: a row of all measures is wider than a page.
+    content.tables = measures::side_by_side(&[recorded]).into_iter().map(TextTable::transposed).collect();
     content.tables.extend(recorded.report.building.as_ref().map(measures::zones));
     if !recorded.report.expectations.is_empty() {
         content.tables.push(measures::expected(&recorded.report));
@@ -43,4 +45,9 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
         content.tables.push(measures::counterfactuals(&recorded.report));
     }
     content
+}
+
+fn weather_title(recorded: &RecordedRun) -> &'static str {
+    let has_price = recorded.report.building.as_ref().is_some_and(|building| building.currency.is_some());
+    if has_price { "Weather and price of electricity" } else { "Weather" }
 }

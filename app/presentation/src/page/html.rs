@@ -15,11 +15,11 @@ svg { display: block; width: 100%; height: auto; max-width: 1120px; margin: .8re
 svg.small { width: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: .9rem; margin: .8rem 0; display: block; overflow-x: auto; }
 caption { text-align: left; font-weight: 600; padding: .3rem 0; } th, td { text-align: left; vertical-align: top; padding: .25rem .9rem .25rem 0; border-bottom: 1px solid #ddd; }
-pre { background: #f4f4f4; padding: .6rem .8rem; overflow-x: auto; font-size: .88rem; }
+pre { background: #f4f4f4; padding: .6rem .8rem; overflow-x: auto; font-size: .88rem; white-space: pre-wrap; }
 dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin: 0; }
 .mark { font-size: .85rem; font-weight: 600; padding: .05rem .5rem; border-radius: 1rem; white-space: nowrap; border: 1px solid; }
 .held { color: #00593f; } .shown { color: #555; } .missed, .broken { color: #9a3d00; }
-@media (max-width: 700px) { nav { columns: 1; } }
+@media (max-width: 700px) { body { padding: .5rem .8rem 3rem; } nav { columns: 1; } figure { overflow-x: auto; } pre { white-space: pre; } svg, svg.small { width: 720px; max-width: none; } th, td { padding-right: .5rem; } dd, td:first-child { overflow-wrap: anywhere; } td:first-child { min-width: 7.5rem; } }
 @media print { section { break-inside: avoid; } nav { display: none; } }
 ";
 

@@ -134,33 +134,39 @@ impl Panels {
         let cell = WIDTH_PX / columns as f64;
         let common = self.common_legend();
         let legend = common.clone().unwrap_or_default();
-        let names = match common {
-            Some(_) => PANEL_NAME_HEIGHT_PX,
-            None => PANEL_NAME_HEIGHT_PX + self.highest_legend(cell - LEFT_MARGIN_PX - RIGHT_MARGIN_PX),
+        // Height of the names and legends above each row of plots.
+        let names: Vec<f64> = match common {
+            Some(_) => vec![PANEL_NAME_HEIGHT_PX; rows],
+            None => {
+                let highest = |row: &[Panel]| highest_legend(row, cell - LEFT_MARGIN_PX - RIGHT_MARGIN_PX);
+                self.panels.chunks(columns).map(|row| PANEL_NAME_HEIGHT_PX + highest(row)).collect()
+            }
         };
         let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * RIGHT_MARGIN_PX) + 6.0;
-        let row_height = names + plot_height + TICK_LABEL_HEIGHT_PX;
-        let mut drawing = Drawing::new(WIDTH_PX, head + rows as f64 * row_height + X_LABEL_HEIGHT_PX + 8.0);
+        let row_height = |names: &f64| names + plot_height + TICK_LABEL_HEIGHT_PX;
+        let height = head + names.iter().map(row_height).sum::<f64>();
+        let mut drawing = Drawing::new(WIDTH_PX, height + X_LABEL_HEIGHT_PX + 8.0);
         drawing.text([RIGHT_MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
         legend.draw(&mut drawing, [RIGHT_MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * RIGHT_MARGIN_PX);
         let values = self.values_across();
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = (index / columns, index % columns);
             let (left, right) = (column as f64 * cell + LEFT_MARGIN_PX, (column + 1) as f64 * cell - RIGHT_MARGIN_PX);
-            let top = head + row as f64 * row_height + names;
+            let names_top = head + names[..row].iter().map(row_height).sum::<f64>();
+            let top = names_top + names[row];
             let bottom = top + plot_height;
             let y = Axis::new(panel.values(), [bottom, top]);
             let y = if panel.logarithmic { y.logarithmic() } else { y };
             let x = Axis::new(values.clone(), [left, right]).every(self.every);
             panel.draw(&mut drawing, &Frame { x, y, left, right, top, bottom });
             drawing.text(
-                [left - 70.0, top - names + 0.5 * PANEL_NAME_HEIGHT_PX],
+                [left - 70.0, names_top + 0.5 * PANEL_NAME_HEIGHT_PX],
                 Side::Left,
                 MEDIUM_TEXT_PX,
                 panel.name.as_str(),
             );
             if common.is_none() {
-                panel.legend().draw(&mut drawing, [left, top - names + PANEL_NAME_HEIGHT_PX], right - left);
+                panel.legend().draw(&mut drawing, [left, names_top + PANEL_NAME_HEIGHT_PX], right - left);
             }
             if index + columns >= self.panels.len() {
                 let middle = [0.5 * (left + right), bottom + TICK_LABEL_HEIGHT_PX + 0.5 * X_LABEL_HEIGHT_PX];
@@ -179,10 +185,6 @@ impl Panels {
         (!legend.is_ambiguous()).then_some(legend)
     }
 
-    fn highest_legend(&self, width: f64) -> f64 {
-        self.panels.iter().map(|panel| panel.legend().height(width)).fold(0.0, f64::max)
-    }
-
     /// The range of the x axis: exactly that of the curves.
     fn values_across(&self) -> Range<f64> {
         let points = self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
@@ -190,6 +192,10 @@ impl Panels {
         let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         if low < high { low..high } else { range([low]) }
     }
+}
+
+fn highest_legend(panels: &[Panel], width: f64) -> f64 {
+    panels.iter().map(|panel| panel.legend().height(width)).fold(0.0, f64::max)
 }
 
 impl Panel {

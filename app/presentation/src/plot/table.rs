@@ -30,6 +30,15 @@ impl TextTable {
         TextTable { title: title.into(), header: header.map(str::to_owned).to_vec(), rows }
     }
 
+    /// The same table with its columns as rows.
+    pub fn transposed(self) -> TextTable {
+        let lines: Vec<Vec<String>> = std::iter::once(self.header).chain(self.rows).collect();
+        let count = lines.iter().map(Vec::len).max().unwrap_or(0);
+        let column = |at: usize| lines.iter().map(|line| line.get(at).cloned().unwrap_or_default()).collect();
+        let mut turned = (0..count).map(column);
+        TextTable { title: self.title, header: turned.next().unwrap_or_default(), rows: turned.collect() }
+    }
+
     /// The picture.
     pub fn drawing(&self) -> Drawing {
         let widths: Vec<f64> = (0..self.header.len()).map(|column| self.column_width(column)).collect();

@@ -2,6 +2,7 @@
 
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
+use interplay_common::spelling::counted;
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::report::CounterfactualReport;
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -58,10 +59,10 @@ fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Op
 /// How vehicles and building share the time.
 fn clocks(scenario: &Scenario) -> String {
     format!(
-        "**Two clocks**: the vehicles drive during the first {:.0} s of {} days. *The building* has its own tab; for its days \
+        "**Two clocks**: the vehicles drive during the first {:.0} s of {}. *The building* has its own tab; for its days \
          drag the time cursor, or play some thousand times faster.",
         scenario.duration_s,
-        scenario.days()
+        counted(scenario.days(), "day")
     )
 }
 

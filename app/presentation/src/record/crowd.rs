@@ -3,6 +3,11 @@
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 
+use crate::nearest::nearest;
+
+/// So many vehicles beside the ego have a label, and the ellipse that the ego keeps out of: more would cover the road.
+const MOST_LABELLED: usize = 8;
+
 /// Of a crowd those are told of who are within so many lengths of their bodies from the ego.
 const NEAR_LENGTHS: f64 = 30.0;
 
@@ -19,4 +24,11 @@ pub(super) fn told(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
         return vec![true; frame.vehicles.len()];
     }
     frame.vehicles.iter().zip(&scenario.vehicles).map(is_told).collect()
+}
+
+/// Of each vehicle, whether it has a label: the ego and those nearest to it who are on the road and driven by somebody.
+pub(super) fn labelled(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
+    let mut near = nearest(scenario, frame);
+    near.truncate(MOST_LABELLED);
+    (0..frame.vehicles.len()).map(|index| index == scenario.ego_index() || near.contains(&index)).collect()
 }

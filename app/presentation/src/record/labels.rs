@@ -11,7 +11,7 @@ const HEIGHT_PX: f64 = 25.0;
 /// Distance between a vehicle and its label \[px\].
 const DISTANCE_PX: f64 = 4.0;
 
-/// The label of each vehicle as a rectangle; none where there is no space or the vehicle is out of view.
+/// The label of each vehicle as a rectangle; none where there is no space or no word, or the vehicle is out of view.
 ///
 /// `vehicles` are rectangles around the bodies, `sides` where each label stood last: it stays there as long as it can.
 pub fn placed(
@@ -24,7 +24,8 @@ pub fn placed(
     let mut labels = Vec::new();
     for (index, (vehicle, words)) in vehicles.iter().zip(words).enumerate() {
         let [left, top, right, bottom] = *vehicle;
-        let is_seen = right > 0.0 && left < size_px[0] && bottom > 0.0 && top < size_px[1];
+        let is_inside = right > 0.0 && left < size_px[0] && bottom > 0.0 && top < size_px[1];
+        let is_seen = is_inside && !words.is_empty();
         let candidates = candidates(*vehicle, width_px(words));
         let is_free = |place: &Rectangle| {
             let [l, t, r, b] = *place;

@@ -12,7 +12,7 @@ use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
-use crate::passing_words::is_event_said;
+use crate::passing_words::event_text;
 
 /// Path of the events of all vehicles.
 pub const LOG: &str = "log";
@@ -181,9 +181,10 @@ impl Plots {
     }
 
     fn events(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
-        for event in frame.events.iter().filter(|event| is_event_said(scenario, frame, event)) {
+        for event in &frame.events {
+            let Some(text) = event_text(scenario, frame, event) else { continue };
             let path = if is_vehicle(frame, &event.vehicle) { LOG } else { BUILDING_LOG };
-            self.log_text(stream, path, event.level, &said(frame, &event.vehicle, &event.text))?;
+            self.log_text(stream, path, event.level, &said(frame, &event.vehicle, &text))?;
         }
         for vehicle in &frame.vehicles {
             let is_logged =

@@ -8,6 +8,7 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
+use super::crowd::labelled;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
@@ -25,6 +26,8 @@ const PLAN_WIDTHS: f64 = 0.07;
 const PROPOSAL_WIDTHS: f64 = 0.25;
 /// Radius of a light, in widths of a body.
 const LIGHT_WIDTHS: f64 = 0.1;
+/// The frame of what is not to be seen: too small for that, and not zero, which the viewer refuses.
+const HIDDEN: [[f32; 3]; 3] = [[1e-6, 0.0, 0.0], [0.0, 1e-6, 0.0], [0.0, 0.0, 1e-6]];
 /// Points of an ellipse.
 const ELLIPSE_POINTS: u16 = 72;
 
@@ -46,6 +49,8 @@ struct DrawnVehicle {
     is_absent: bool,
     /// Whether its plans are drawn.
     shows_intent: bool,
+    /// Whether the ellipse around it is drawn that the ego keeps out of.
+    has_ellipse: bool,
     asks: bool,
     /// Whether its last plan had branches.
     branches: bool,
@@ -66,7 +71,7 @@ impl VehicleLayer {
     ) -> RecordingStreamResult<VehicleLayer> {
         let ego = scenario.ego_index();
         let mut vehicles = Vec::new();
-        for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
+        for (index, (vehicle, vehicle_colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
             let drawn = DrawnVehicle {
                 path: format!("world/vehicle/{}", vehicle.name),
                 vehicle_colour: *vehicle_colour,
@@ -75,6 +80,7 @@ impl VehicleLayer {
                 last: None,
                 is_absent: false,
                 shows_intent: false,
+                has_ellipse: index != ego,
                 asks: false,
                 branches: false,
                 brakes: false,
@@ -107,6 +113,7 @@ impl VehicleLayer {
         frame: &Frame,
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
+        let labelled = labelled(scenario, frame);
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
             if drawn.log_absence(stream, vehicle.is_absent)? {
@@ -122,7 +129,10 @@ impl VehicleLayer {
             if frame.plans || !drawn.shows_intent || !scenario.is_crowd() {
                 drawn.log_intent(stream, vehicle, &asks)?;
             }
-            if index != self.ego {
+            if !labelled[index] {
+                drawn.hide_ellipse(stream)?;
+            } else if index != self.ego {
+                drawn.has_ellipse = true;
                 let heading_rad = drawn.route.locate(vehicle.state.position(), None).heading_rad;
                 let place = pose(&State { heading_rad, ..vehicle.state });
                 stream.log(format!("{}/safety", drawn.path), &place)?;
@@ -167,7 +177,7 @@ impl DrawnVehicle {
     fn log_absence(&mut self, stream: &RecordingStream, is_absent: bool) -> RecordingStreamResult<bool> {
         if is_absent && !self.is_absent {
             self.last = None;
-            let hidden = Transform3D::update_fields().with_mat3x3([[0.0; 3]; 3]);
+            let hidden = Transform3D::update_fields().with_mat3x3(HIDDEN);
             stream.log(self.at("body"), &hidden)?;
             stream.log(self.at("safety"), &hidden)?;
             for line in ["plan", "prediction", "trace", "branches"] {
@@ -181,11 +191,19 @@ impl DrawnVehicle {
 
     /// Takes away its plans and what belongs to them.
     fn hide_intent(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        self.hide_ellipse(stream)?;
         if std::mem::take(&mut self.shows_intent) {
-            stream.log(self.at("safety"), &Transform3D::update_fields().with_mat3x3([[0.0; 3]; 3]))?;
             for line in ["plan", "prediction", "branches"] {
                 stream.log(self.at(line), &strips([]))?;
             }
+        }
+        Ok(())
+    }
+
+    /// Takes away the ellipse around it.
+    fn hide_ellipse(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        if std::mem::take(&mut self.has_ellipse) {
+            stream.log(self.at("safety"), &Transform3D::update_fields().with_mat3x3(HIDDEN))?;
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use interplay_building::day::ZoneFigures;
+use interplay_common::spelling::counted;
 use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
 use interplay_simulation::report::{BuildingReport, ZoneOutcome};
@@ -18,7 +19,7 @@ const MAX_LISTED_ZONES: usize = 24;
 pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let radius = building.iterations.last().and_then(|day| day.spectral_radius);
     let radius = radius.map(|radius| format!(", spectral radius {radius:.3}")).unwrap_or_default();
-    writeln!(text, "  {} zones, controller {}{radius}", building.zones, building.controller)?;
+    writeln!(text, "  {}, controller {}{radius}", counted(building.zones, "zone"), building.controller)?;
     for remark in &building.remarks {
         writeln!(text, "  note: {remark}")?;
     }
@@ -167,7 +168,7 @@ fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result
 fn write_exchange(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let Some(exchange) = building.iterations.last().and_then(|day| day.exchange) else { return Ok(()) };
     let per_zone = exchange.messages as f64 / building.zones as f64;
-    write!(text, "  last plan: {} rounds, {per_zone:.0} messages a zone", exchange.rounds)?;
+    write!(text, "  last plan: {}, {per_zone:.0} messages a zone", counted(exchange.rounds, "round"))?;
     if exchange.undelivered > 0 {
         write!(text, " ({} in all not delivered in time)", exchange.undelivered)?;
     }

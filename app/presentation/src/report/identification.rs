@@ -6,6 +6,8 @@ use interplay_building::identify::{
     Confidence, ErrorReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualForecast, ZoneReport,
 };
 
+use interplay_common::spelling::counted;
+
 use super::columns::{Align, lines};
 
 /// The findings for a person: parameters with uncertainty and verdict, residuals, errors, and what to beware of.
@@ -22,8 +24,12 @@ fn write_report(text: &mut String, file: &str, report: &IdentificationReport) ->
     writeln!(text, "Thermal parameters from {file}, by {method}")?;
     writeln!(
         text,
-        "  {} rows every {} s in {} pieces, {} trained on, {} left out",
-        report.rows, report.step_s, report.segments, report.train_rows, report.left_out_rows
+        "  {} every {} s in {}, {} trained on, {} left out",
+        counted(report.rows, "row"),
+        report.step_s,
+        counted(report.segments, "piece"),
+        report.train_rows,
+        report.left_out_rows
     )?;
     write_models(text, report)?;
     for zone in &report.zones {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use interplay_common::spelling::counted;
 use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
@@ -19,7 +20,7 @@ pub fn summary(title: &str, report: &Report) -> String {
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
     let factor = report.simulated_s / report.wall_s.max(1e-9);
     let simulated = match &report.building {
-        Some(building) if report.vehicles.is_empty() => format!("{} days", building.iterations.len()),
+        Some(building) if report.vehicles.is_empty() => counted(building.iterations.len(), "day"),
         _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
     };
     writeln!(text, "{title}  [{}]", report.scenario)?;
@@ -45,7 +46,9 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    writeln!(text, "  order at the end: {}", report.order.join(", "))?;
+    let is_obstacle = |name: &str| report.vehicle(name).is_some_and(|vehicle| vehicle.is_obstacle);
+    let order: Vec<&str> = report.order.iter().map(String::as_str).filter(|name| !is_obstacle(name)).collect();
+    writeln!(text, "  order at the end: {}", order.join(", "))?;
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is alone")?,
@@ -118,10 +121,6 @@ fn all_of(count: usize, what: &str) -> String {
     if count == 1 { format!("the {what}") } else { format!("all {count} {what}s") }
 }
 
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// What is wrong with a vehicle's plans.
 fn remarks(plans: &PlansReport) -> String {
     let failed = (plans.failed > 0).then(|| format!("{} FAILED", plans.failed));
@@ -154,7 +153,8 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
             remarks(plans),
         ]
     };
-    lines(&header, vehicles.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
+    let driven = vehicles.iter().filter(|vehicle| !vehicle.is_obstacle);
+    lines(&header, driven.map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }
 
 #[cfg(test)]

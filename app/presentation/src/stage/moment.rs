@@ -6,7 +6,7 @@ use interplay_simulation::frame::{Frame, Level, VehicleFrame};
 use serde::Serialize;
 
 use crate::answer::Requests;
-use crate::passing_words::is_event_said;
+use crate::passing_words::event_text;
 use crate::signals::{Turn, is_braking, turn};
 
 /// A tick as a page shows it; lists have an entry for each vehicle.
@@ -124,16 +124,17 @@ impl StageWitness {
                 text: format!("takes {} for {}", belief.vehicle, belief.model.name()),
             })
         });
-        let events =
-            frame.events.iter().filter(|event| is_event_said(scenario, frame, event)).map(|event| StageEvent {
+        let events = frame.events.iter().filter_map(|event| Some((event, event_text(scenario, frame, event)?))).map(
+            |(event, text)| StageEvent {
                 vehicle: event.vehicle.clone(),
                 level: match event.level {
                     Level::Note => "note",
                     Level::Warning => "warning",
                     Level::Alarm => "alarm",
                 },
-                text: event.text.clone(),
-            });
+                text,
+            },
+        );
         StageMoment {
             states: states.iter().map(|state| state.to_array()).collect(),
             inputs: frame.vehicles.iter().map(|vehicle| vehicle.input.to_array()).collect(),

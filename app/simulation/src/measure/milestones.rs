@@ -81,9 +81,17 @@ fn answer(known: &mut BTreeMap<String, bool>, vehicle: &VehicleFrame, proposal: 
     }
 }
 
+const HAS_CROSSED: &str = "has crossed";
+const IN_ITS_LANE: &str = "is in its lane";
+
 /// A vehicle has reached its goal.
 pub fn arrival(vehicle: &str, crosses: bool) -> Event {
-    note(vehicle, if crosses { "has crossed" } else { "is in its lane" })
+    note(vehicle, if crosses { HAS_CROSSED } else { IN_ITS_LANE })
+}
+
+/// Whether an event says that a vehicle has reached its goal.
+pub fn is_arrival(event: &Event) -> bool {
+    [HAS_CROSSED, IN_ITS_LANE].contains(&event.text.as_str())
 }
 
 fn note(vehicle: &str, text: &str) -> Event {

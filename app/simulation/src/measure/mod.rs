@@ -34,7 +34,7 @@ pub use metric::{
     Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
 pub use metric_table::metric_table;
-pub use milestones::Milestones;
+pub use milestones::{Milestones, is_arrival};
 pub use planning::Planning;
 pub use registered::{RegisterMetrics, metrics_of};
 pub use right_of_way::{Passage, Passages};

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use interplay_scenarios::Scenario;
+use interplay_planners::{Driver, PassingSide};
+use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
 use crate::components::to_nanosecond;
-use crate::frame::{Event, Frame, Level};
+use crate::frame::{Event, Frame, Level, VehicleFrame};
 use crate::standing::{Standing, StandingReason};
 
 /// Shorter stops are not told, for a real car \[s\].
@@ -29,7 +30,7 @@ pub struct Wait {
     /// For whom; empty where it waited for nobody.
     pub waits_for: Vec<String>,
     /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`, `before it passes van`, `no room beside van`,
-    /// `they wait for each other`, or `no reason that shows`.
+    /// `they wait for each other`, `lets ego pass`, `as its script says`, `as recorded`, or `no reason that shows`.
     pub reason: String,
 }
 
@@ -84,6 +85,18 @@ impl Deadlock {
 const IN_A_CIRCLE: &str = "they wait for each other";
 const UNEXPLAINED: &str = "no reason that shows";
 
+/// Why a vehicle stands where neither rules nor others ask for it: its driver is told to, or lets somebody pass.
+fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
+    let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
+    let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
+    match vehicle.driver {
+        Driver::Scripted(_) => "as its script says".to_owned(),
+        Driver::Recorded(_) => "as recorded".to_owned(),
+        _ if passing.is_empty() => UNEXPLAINED.to_owned(),
+        _ => format!("lets {} pass", passing.join(", ")),
+    }
+}
+
 /// For whom and why somebody waits.
 fn words(reason: &StandingReason) -> (Vec<String>, String) {
     match reason {
@@ -125,7 +138,7 @@ impl Waits {
             if standing.stands(index) {
                 let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
                 is_unexplained = shows_none;
-                let (waits_for, reason) = self.wait(frame, index, &circle);
+                let (waits_for, reason) = self.wait(standing, frame, index, &circle);
                 self.add(index, waits_for, reason, step_s);
                 circles.extend(Some(circle).filter(|circle| !circle.is_empty()));
             }
@@ -152,7 +165,7 @@ impl Waits {
     }
 
     /// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
-    fn wait(&self, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
+    fn wait(&self, standing: &Standing<'_>, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
         let setting_off_s = SETTING_OFF_S * self.times[index];
         match &self.last[index] {
             Some((reason, at_s)) if circle.is_empty() && frame.time_s - at_s <= setting_off_s => words(reason),
@@ -160,7 +173,7 @@ impl Waits {
                 let others = circle.iter().filter(|other| **other != index);
                 (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
             }
-            _ => (Vec::new(), UNEXPLAINED.to_owned()),
+            _ => (Vec::new(), own_reason(standing.vehicle(index), &frame.vehicles[index])),
         }
     }
 
@@ -211,7 +224,6 @@ mod tests {
     use interplay_scenarios::{Scenario, load};
 
     use super::*;
-    use crate::frame::VehicleFrame;
 
     /// Both vehicles stand at their starts for some ticks of 0.1 s, each before a line at its front for the sake of others.
     fn stood(ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {

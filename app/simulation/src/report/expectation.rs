@@ -27,12 +27,17 @@ impl Expectation {
     pub(super) fn new(what: impl Into<String>, want: Value, got: Value, passed: bool) -> Self {
         Expectation { what: what.into(), want, got, passed, at: None }
     }
+
+    /// What was expected and what happened, with numbers as a reader needs them.
+    pub fn shown(&self) -> [Value; 2] {
+        [rounded(&self.want, None), rounded(&self.got, self.want.as_f64())]
+    }
 }
 
 impl fmt::Display for Expectation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let got = rounded(&self.got, self.want.as_f64());
-        write!(f, "{}: want {}, got {got}", self.what, rounded(&self.want, None))?;
+        let [want, got] = self.shown();
+        write!(f, "{}: want {want}, got {got}", self.what)?;
         self.at.as_ref().map_or(Ok(()), |at| write!(f, " ({at})"))
     }
 }

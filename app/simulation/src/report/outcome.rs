@@ -104,6 +104,9 @@ pub struct VehicleReport {
     /// Whether it started elsewhere than at its goal.
     #[serde(skip)]
     pub has_task: bool,
+    /// Whether nobody drives it.
+    #[serde(skip)]
+    pub is_obstacle: bool,
     /// Whether it keeps all rules of the road.
     #[serde(skip)]
     pub keeps_rules: bool,
@@ -178,6 +181,7 @@ impl VehicleReport {
         VehicleReport {
             name: vehicle.name.clone(),
             driver: vehicle.driver.kind().to_owned(),
+            is_obstacle: vehicle.obstacle.is_some(),
             keeps_rules: vehicle.keeps_rules(),
             scale: vehicle.body.real_ratio(),
             completed_s: measured.completion.completed_s,

@@ -3,6 +3,8 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use interplay_common::spelling::counted;
+
 use super::export::identified_network;
 use super::heat_balance;
 use super::likelihood::{Filtered, Observations, filter};
@@ -311,7 +313,8 @@ impl StateSpaceFindings<'_> {
                 .push(format!("the search for the best `{}` failed: it contains a model that is better", row.model));
         }
         if self.telemetry.left_out_rows > 0 {
-            warnings.push(format!("{} rows were left out because a value is missing", self.telemetry.left_out_rows));
+            let rows = counted(self.telemetry.left_out_rows, "row");
+            warnings.push(format!("{rows} left out because a value is missing"));
         }
         if !self.choice.chosen.maximum.converged {
             warnings.push("the ascent of the likelihood did not end: the estimate may not be the best".into());

@@ -1,5 +1,6 @@
 //! The text beside the pictures of a building.
 
+use interplay_common::spelling::counted;
 use interplay_scenarios::{Scenario, WeatherSource};
 
 use super::super::markdown::code;
@@ -14,7 +15,7 @@ pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     };
     format!(
         "**{title}**\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\
-         A day is an iteration of the controller ({kind}); {days} days in {weather}. Where no wanted temperature is \
+         A day is an iteration of the controller ({kind}); {days} in {weather}. Where no wanted temperature is \
          drawn nobody is there, and the temperature is free. The cost J of a day adds squared deviations and squared \
          power; *cheapest possible* is what the same day would have cost had everything been known. The timeline \
          `iteration` counts days.\n",
@@ -22,6 +23,6 @@ pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
         look = scenario.controller().look_for(),
         shows = scenario.shows.trim_end_matches('.'),
         kind = scenario.controller().kind(),
-        days = scenario.days(),
+        days = counted(scenario.days(), "day"),
     )
 }

@@ -48,15 +48,14 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let run_s = building_layer.duration_s;
     let plot = |title: &str, contents: Vec<String>| TimePlot::new(run_s, title, contents);
     let letters = |names: &[&str]| names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-    let names: Vec<&str> =
-        first_zones(building_layer).iter().map(|index| building_layer.names[*index].as_str()).collect();
     let outdoors =
         plot(&ranged("Outdoors", building_layer.ranges.outdoors(), "°C"), vec!["/building/outdoors/**".to_owned()]);
-    let heat = plot("Heat (negative cools) [kW]", inputs(building_layer));
+    let heat = plot("Heat (negative cools, vermillion: limits) [kW]", inputs(building_layer));
     let cost = plot("Cost of each day", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
-        (1.0, heat.with_legend(letters(&names).max(letters(&["limit, heating"])), QUARTER_WIDTH)),
+        // The rooms have the colours of their temperatures above.
+        (1.0, heat.alone()),
         (1.0, cost.with_legend(letters(&["cheapest possible"]), QUARTER_WIDTH)),
     ];
     match words {
@@ -135,11 +134,12 @@ fn floor(building_layer: &BuildingLayer) -> LayoutNode {
     LayoutNode::View(view.with("VisualBounds2D", VisualBounds2D::new(ViewBounds(bounds))))
 }
 
-/// The temperatures of the first tab, two plots in a row.
+/// The temperatures of the first tab, two plots in a row. The first has the legend of all: it takes a third of a plot.
 fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
     let zones = first_zones(building_layer);
     let width = if zones.len() > 1 { TEMPERATURE_WIDTH } else { 2.0 * TEMPERATURE_WIDTH };
-    LayoutNode::Column(rows(zones.iter().map(|index| temperature(building_layer, *index, Some(width))).collect(), 2))
+    let plot = |(place, index): (usize, &usize)| temperature(building_layer, *index, (place == 0).then_some(width));
+    LayoutNode::Column(rows(zones.iter().enumerate().map(plot).collect(), 2))
 }
 
 /// The temperature of a zone against what is wanted, with a legend in a plot of a width.

@@ -13,11 +13,12 @@
 //! ```
 
 use interplay_planners::State;
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
+use super::crowd::labelled;
 use super::labels;
 use super::mesh::Mesh;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
@@ -76,6 +77,8 @@ struct CameraTick {
     tick: i64,
     time_s: f64,
     moment: CameraMoment,
+    /// Of each vehicle, whether it has a label.
+    labelled: Vec<bool>,
 }
 
 /// A contact of two vehicles.
@@ -173,7 +176,7 @@ impl Cameras {
         self.seen_m = Some(extent(states.iter().map(State::position).chain(self.seen_m.into_iter().flatten())));
         let moment = CameraMoment { states, partners: camera::partners(scenario, ego), close_up: None };
         let tick = i64::try_from(frame.tick).unwrap_or(i64::MAX);
-        self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment });
+        self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment, labelled: labelled(scenario, frame) });
     }
 
     /// Logs all ticks that were noted: the cameras know what comes, so they move without lag.
@@ -253,8 +256,11 @@ impl Cameras {
             .clone()
             .map(|(vehicle, state)| rectangle_around(vehicle.body.corners(state).map(|corner| view.place(corner))))
             .collect();
-        let mut words: Vec<String> =
-            vehicles.map(|(vehicle, state)| format!("{} {:.1} m/s", vehicle.name, state.speed_mps.abs())).collect();
+        let label = |((vehicle, state), is_labelled): ((&Vehicle, &State), &bool)| match is_labelled {
+            true => format!("{} {:.1} m/s", vehicle.name, state.speed_mps.abs()),
+            false => String::new(),
+        };
+        let mut words: Vec<String> = vehicles.zip(&tick.labelled).map(label).collect();
         let mut paths: Vec<String> =
             scenario.vehicles.iter().map(|vehicle| format!("{TOP}/label/{}", vehicle.name)).collect();
         if let Some(hit) = self.marked(scenario, tick.time_s) {
@@ -273,9 +279,9 @@ impl Cameras {
             let taken: Vec<Rectangle> = boxes.iter().copied().chain(labels.iter().flatten().copied()).collect();
             labels[mark.vehicle] = labels::at_edge(mark.at, &words[mark.vehicle], view.size_px, &taken);
         }
-        for ((path, words), label) in paths.into_iter().zip(words).zip(labels) {
+        for (index, ((path, words), label)) in paths.into_iter().zip(words).zip(labels).enumerate() {
             // The last one is seldom there, and then says so only while there are contacts at all.
-            if label.is_some() || !words.is_empty() || !self.contacts.is_empty() {
+            if label.is_some() || index < scenario.vehicles.len() || !self.contacts.is_empty() {
                 stream.log(path, &label_at(label, words))?;
             }
         }

@@ -1,5 +1,6 @@
 //! Comparisons as a page.
 
+use interplay_common::spelling::counted;
 use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, PlannerFigures, Share, VersionComparison};
 
 use super::rows::{TextRows, differences, figures, heading, version_name, versus};
@@ -26,7 +27,8 @@ const LEGEND: [&str; 3] = [
 pub fn comparison_page(title: &str, comparison: &Comparison) -> Result<Page, PlotError> {
     let Comparison { runs, unfinished, versions, baseline, groups } = comparison;
     let summary = format!(
-        "{runs} runs, {unfinished} of them without a result; compared with {baseline}; made by version {}.",
+        "{}, {unfinished} of them without a result; compared with {baseline}; made by version {}.",
+        counted(*runs, "run"),
         versions.join(", ")
     );
     let opening = std::iter::once(summary).chain(LEGEND.map(str::to_owned)).collect();
@@ -93,6 +95,8 @@ pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> P
     Page { title: title.to_owned(), opening, sections: vec![section] }
 }
 
+/// A table of planners; where there are more measures than planners, a measure a row: a row of them all is wider than a page.
 fn table(title: String, (header, rows): TextRows) -> TextTable {
-    TextTable { title, header, rows }
+    let table = TextTable { title, header, rows };
+    if table.header.len() > table.rows.len() + 1 { table.transposed() } else { table }
 }

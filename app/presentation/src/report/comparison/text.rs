@@ -1,5 +1,6 @@
 //! Comparisons as text.
 
+use interplay_common::spelling::counted;
 use interplay_sweep::compare::{Comparison, PairedDifference, VersionComparison};
 
 use super::rows::{TextRows, differences, figures, heading, version_name, versus};
@@ -10,7 +11,7 @@ const WIDTH: usize = 98;
 
 /// The figures of every planner as text, and below each group its differences from the baseline.
 pub fn comparison(comparison: &Comparison) -> String {
-    let mut text = format!("{} runs, {} of them without a result\n", comparison.runs, comparison.unfinished);
+    let mut text = format!("{}, {} of them without a result\n", counted(comparison.runs, "run"), comparison.unfinished);
     for group in &comparison.groups {
         text += &format!("\n{}\n", heading(group));
         text.extend(figures(group).iter().map(indented));
