@@ -40,6 +40,12 @@ def kinds(said: str) -> set[str]:
     return {text for text in found if not re.fullmatch(r"cannot use .*: N errors?", text)}
 
 
+def first_line(said: str) -> str:
+    """The first line of what was said, reduced in the same way."""
+    line = next((line for line in said.splitlines() if line.strip()), "")
+    return re.sub(r"\s+", " ", NUMBER.sub("N", QUOTED.sub("…", line))).strip()
+
+
 def names_place(said: str) -> bool:
     """Whether a refusal says where: a file with its line, or a flag."""
     return PLACE.search(said) is not None
