@@ -27,12 +27,25 @@ OF_CONTROLLERS = {
     "model-predictive": {"horizon_h": (0.25, 48), "discomfort_linear": (0, 1e6), "discomfort_quadratic": (0, 1e6), "learning_rate": (0, 1)},
     "thermostat": {"dead_band_k": (0, 20), "power": (0, 1)},
     "pid": {"proportional_kw_per_k": (0, 1e3), "integral_kw_per_k_h": (0, 1e3), "derivative_kw_h_per_k": (0, 1e3)},
-    "iterative": {"learning_rate": (0, 1), "discomfort_linear": (0, 1e6), "discomfort_quadratic": (0, 1e6)},
-    "concurrent": {"learning_rate": (0, 1), "discomfort_quadratic": (0, 1e6)},
+    "iterative": {
+        "learning_rate": (0, 1),
+        "confidence": (0.5, 0.999999),
+        "decay": (0.001, 1),
+        "initial_gain_kw_per_k": (0, 10),
+        "model_error": (0, 2),
+    },
+    "concurrent": {
+        "learning_rate": (0, 1),
+        "gamma_q": (0, 100),
+        "gamma_2": (0, 100),
+        "confidence": (0.5, 0.999999),
+        "discomfort_quadratic": (0, 1e6),
+        "initial_gain_kw_per_k": (0, 10),
+    },
+    "distributed": {"tolerance_kw": (0, 10), "discomfort_quadratic": (0, 1e6), "gain_kw_per_k": (0, 10), "learning_rate": (0, 1), "loss": (0, 1)},
 }
 OTHERS = {
     "tariff.demand_per_kw": (0, 1e5),
-    "tariff.interval_s": (60, 86400),
     "setpoints.occupied_weight": (0, 1e6),
     "setpoints.other_weight": (0, 1e6),
     "setpoints.input_weight": (0, 1e6),
@@ -40,7 +53,6 @@ OTHERS = {
     "setpoints.other_c": (-50, 100),
     "setpoints.from_h": (0, 24),
     "setpoints.to_h": (0, 24),
-    "building.step_s": (60, 7200),
     "building.initial_c": (-50, 100),
     "weather.climate.mean_c": (-60, 60),
     "weather.climate.daily_amplitude_k": (0, 50),
@@ -48,8 +60,10 @@ OTHERS = {
     "weather.climate.storm_probability": (0, 1),
 }
 CHOICES = {
-    "tariff.prices_per_kwh": ["[]", "[0.0]", "[-0.1]", "[1000]", "[0.3, -0.3]", "[0.1, 0.4, 0.2]", "[1e-300]", "[0.0, 1000.0]", "[-1000.0, 1000.0]", "[1e-9, 1e3]"],
+    "tariff.prices_per_kwh": ["[0.0]", "[-0.1]", "[1000]", "[0.3, -0.3]", "[0.1, 0.4, 0.2]", "[1e-300]", "[0.0, 1000.0]", "[-1000.0, 1000.0]", "[1e-9, 1e3]"],
     "tariff.emissions_kg_per_kwh": ["[]", "[0]", "[10]", "[0.4, 0.1]", "[0.0, 10.0, 0.0]", "[-1]"],
+    "tariff.interval_s": ["60", "300", "900", "1800", "3600", "7200", "86400", "61"],
+    "building.step_s": ["300", "600", "900", "1800", "3600", "7200", "1000"],
     "tariff.currency": ['""', '"€"', '"\\u009b31m"', '"\\u0000"', '"a b"', '"<b>"', '"NaN"'],
     "heat_pump.heating": ["[]", "[{ outdoor_c = 0, cop = 0.1 }]", "[{ outdoor_c = 0, cop = 50 }]", "[{ outdoor_c = 5, cop = 3 }, { outdoor_c = -5, cop = 2 }]",
         "[{ outdoor_c = 0, cop = 3 }, { outdoor_c = 0, cop = 2 }]", "[{ outdoor_c = 0, cop = 0.1 }, { outdoor_c = 1e-9, cop = 50 }]"],
@@ -85,8 +99,8 @@ BLOCKS = [
 def _between(low: float, high: float, dice: random.Random) -> str:
     """A value within bounds, at them, or beyond."""
     within = low + (high - low) * dice.random() ** dice.choice([1, 1, 4, 12])
-    value = dice.choice([within] * 8 + [low, high, low, high, -1.0, 2 * high])
-    return f"{value:.4g}" if dice.random() < 0.98 else dice.choice(["nan", "inf", "1e-300", "1e308", "true"])
+    value = dice.choice([within] * 24 + [low, high] * 5 + [-1.0, 2 * high])
+    return f"{value:.4g}" if dice.random() < 0.99 else dice.choice(["nan", "inf", "1e-300", "1e308", "true"])
 
 
 def _made(dice: random.Random) -> str:
@@ -98,7 +112,7 @@ def _made(dice: random.Random) -> str:
         among = dice.choice([keys or OTHERS, keys or OTHERS, OTHERS, CHOICES])
         key = dice.choice(sorted(among))
         value = dice.choice(CHOICES[key]) if key in CHOICES else _between(*among[key], dice)
-        if not any(line.startswith(f"{key} ") for line in lines):
+        if not any(line.startswith(f"{key} ") for line in lines) and (key != "controller.learn_forecast" or kind == "economic-mpc"):
             lines.append(f"{key} = {value}")
     return "\n".join(lines) + "\n" + (dice.choice(BLOCKS) if dice.random() < 0.25 else "")
 
@@ -106,7 +120,8 @@ def _made(dice: random.Random) -> str:
 def _spoil(text: str, others: list[str], dice: random.Random) -> str:
     if dice.random() < 0.7:
         text = _made(dice)
-    return edits.toml(text, others, dice) if dice.random() < 0.3 else text
+    kind = dice.random()
+    return edits.toml(text, others, dice) if kind < 0.1 else edits.values(text, others, dice) if kind < 0.2 else text
 
 
 def _commands(text: str) -> Commands:

@@ -71,6 +71,19 @@ def toml(text: str, others: list[str], dice: random.Random) -> str:
     return text
 
 
+def values(text: str, others: list[str], dice: random.Random) -> str:
+    """A TOML text in which one to four values are others, mostly of a size that may be accepted."""
+    for _ in range(dice.choice([1, 1, 2, 3])):
+        numbers = list(NUMBER.finditer(text))
+        if numbers and dice.random() < 0.94:
+            place = dice.choice(numbers)
+            factor = dice.choice([-1.0, 0.0, 0.1, 0.5, 0.8, 0.9, 0.9, 0.97, 0.99, 0.999, 1.001, 1.01, 1.03, 1.1, 1.1, 1.25, 2.0, 4.0])
+            text = text[: place.start()] + f"{float(place[0]) * factor:.6g}" + text[place.end() :]
+        else:
+            text = _exchanged(text, dice.choice([text, text, *others[:1]]), QUOTED, dice)
+    return text
+
+
 def variant(text: str, others: list[str], dice: random.Random) -> str:
     """A variant with mistakes, and often with a table of another scenario besides."""
     if dice.random() < 0.4:

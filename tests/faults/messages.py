@@ -4,7 +4,7 @@ import re
 
 # A place that a message names: a file with its line, a line of a table, or a flag of the command line. `the flags` is a plan that
 # `sweep` makes of its flags: its lines are nowhere to be seen, but each names its flag.
-PLACE = re.compile(r"\[(?!the flags:)[^\[\]\n]+:\d+(:\d+)?\]|(?m:^Error: [^:\n]+:\d+:)|\blines? \d+|--[a-z]+")
+PLACE = re.compile(r"\[(?!the flags:)[^\[\]\n]+:\d+(:\d+)?\]|(?m:^(?:Error: )?[^:\s][^:\n]*:\d+:)|\blines? \d+|--[a-z]+")
 QUOTED = re.compile(r"`[^`]*`|\"[^\"]*\"|'[^'\s][^']*'")
 NUMBER = re.compile(r"[-+]?(?<![\w])(?:\d[\d,.]*(?:e[-+]?\d+)?|nan|inf)\b|\d+")
 FRAME = re.compile(r"^[\s│·]*(?:[╰├]─+\s*)?")

@@ -39,6 +39,8 @@ STATED = re.compile(r"in about ([\d.]+) MB")
 # Telemetry can be good enough for a report and not for a network; only `--scenario` asks for one.
 NO_NETWORK = "no scenario is written"
 MOST_TRIALS, MOST_SHRINKING_S = 60, 20.0
+# The share of a session that may go into making inputs small which are no faults.
+MOST_SHRINKING_SHARE = 0.25
 
 
 @dataclasses.dataclass
@@ -173,6 +175,7 @@ class Session:
         self.unplaced: dict[str, str] = {}
         self.checks, self.runs = collections.Counter(), collections.Counter()
         self.left_out, self.faults, self.examples, self.began = 0, [], {}, time.monotonic()
+        self.shrinking_s = 0.0
 
     def drive(self, count: int, minutes: float | None, seed: int) -> None:
         """Replays the corpus, then makes new inputs until there are enough or the time is over."""
@@ -203,8 +206,10 @@ class Session:
             if not is_kept:
                 self.keep("fault-", text)
         elif new:
-            if not is_kept and not outcome.runs:
+            began = time.monotonic()
+            if not is_kept and not outcome.runs and self.shrinking_s <= MOST_SHRINKING_SHARE * (began - self.began):
                 text = smaller(self.binary, self.target, text, outcome, MOST_TRIALS)
+                self.shrinking_s += time.monotonic() - began
             self.examples.update({kind: (text, outcome.said) for kind in new})
             if not is_kept:
                 self.keep("", text)

@@ -35,6 +35,25 @@ def _made(binary: str) -> dict[str, dict[str, bytes]]:
         return {kind: {file.name: file.read_bytes() for file in sorted((folder / kind).iterdir())} for kind in ("whole", "parts")}
 
 
+@functools.cache
+def _compared(binary: str) -> str:
+    """What `compare` says of the sweep in one piece."""
+    with tempfile.TemporaryDirectory() as name:
+        pathlib.Path(name, "runs.parquet").write_bytes(_made(binary)["whole"]["runs.parquet"])
+        return subprocess.run([binary, "compare", "runs.parquet", "--json"], cwd=name, capture_output=True, check=True).stdout.decode()
+
+
+def _figures(text: str) -> object:
+    """The figures of a comparison without times of computing."""
+
+    def without_times(value: object) -> object:
+        if isinstance(value, dict):
+            return {key: without_times(inner) for key, inner in value.items() if not key.endswith("_ms") and key != "versions"}
+        return [without_times(inner) for inner in value] if isinstance(value, list) else value
+
+    return without_times(json.loads(text[text.index("{") : text.rindex("}") + 1]))
+
+
 def _edited(content: bytes, edit: list) -> bytes:
     """Bytes with one mistake."""
     kind, where, value, token = edit
@@ -85,22 +104,27 @@ def _targets_of(binary: str) -> Target:
         yield
         shutil.rmtree(folder / "whole", ignore_errors=True)
 
+    def other_results(said: list[str]) -> str | None:
+        """Whether a sweep that went on after its journal was spoilt has other results than the one that was not."""
+        honest = _figures(_compared(binary))
+        return "the sweep goes on to other results" if said[-1].lstrip().startswith("{") and _figures(said[-1]) != honest else None
+
     seeds = [json.dumps([command, file]) for command, file in FILES.items()]
-    return Target("json", seeds, _spoil, _commands, beside=files_beside, may_refuse=frozenset(["compare"]))
+    return Target("json", seeds, _spoil, _commands, beside=files_beside, may_refuse=frozenset(["compare"]), disagreement=other_results)
 
 
 def _commands(text: str) -> Commands:
     match json.loads(text)[0]:
         case "compare":
-            return ["compare", "whole/runs.parquet"], [["compare", "whole/runs.parquet", "--by", "scenario", "--json"]]
+            return ["compare", "whole/runs.parquet"], [["compare", "whole/runs.parquet", "--by", "scenario"]]
         case "merge":
             return ["sweep", "merge", "parts"], [["compare", "parts"]]
         case "rejoin":
             shard = ["sweep", "plan.toml", "--out", "parts", "--jobs", "1", "--shard", "1/2"]
-            return shard, [["sweep", "merge", "parts"], ["compare", "parts"]]
+            return shard, [["sweep", "merge", "parts"], ["compare", "parts", "--json"]]
         case "replan":
-            return ["compare", "whole"], [["sweep", "plan.toml", "--out", "whole", "--jobs", "1"]]
-    return ["sweep", "plan.toml", "--out", "whole", "--jobs", "1"], [["compare", "whole"]]
+            return ["compare", "whole"], [["sweep", "plan.toml", "--out", "whole", "--jobs", "1"], ["compare", "whole", "--json"]]
+    return ["sweep", "plan.toml", "--out", "whole", "--jobs", "1"], [["compare", "whole", "--json"]]
 
 
 def targets(binary: str) -> dict[str, Target]:

@@ -45,15 +45,16 @@ def _seeds() -> list[str]:
 
 def _spoil(text: str, others: list[str], dice: random.Random) -> str:
     """A street with more things on it, of which none may be on that road, and with mistakes."""
-    lanes = sorted({first or second for first, second in LANE.findall(text)}) or ["main-0", "east"]
+    lanes = sorted({first or second for first, second in LANE.findall(text)})
     for _ in range(dice.choice([0, 0, 1, 1, 2])):
-        thing = dice.choice(THINGS).replace("LANE", dice.choice(lanes))
+        among = THINGS if lanes else [thing for thing in THINGS if "LANE" not in thing]
+        thing = dice.choice(among).replace("LANE", dice.choice(lanes or [""]))
         block = re.match(r"\[\[(\w+)\]\]", thing)
         # A list that stands in one piece takes no further tables.
         if block and any(found[1] == block[1] for found in LONG_LIST.finditer(text)):
             continue
         text += "\n" + thing
-    return edits.toml(text, others, dice) if dice.random() < 0.85 else text
+    return (edits.values if dice.random() < 0.8 else edits.toml)(text, others, dice) if dice.random() < 0.9 else text
 
 
 def _commands(text: str) -> Commands:
