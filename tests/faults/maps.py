@@ -7,6 +7,8 @@ import re
 import edits
 from target import ROOT, RECORD, Commands, Target
 
+# Drivers of ours need wider lanes than a record.
+DRIVERS = frozenset(["--ego", "--replace"])
 # Scenes that are no part of the repository; inputs made of them are not kept.
 REAL = [folder / "shared/data/commonroad" for folder in (ROOT.parent, ROOT.parent.parent)]
 MOST_REAL_BYTES = 400_000
@@ -82,9 +84,9 @@ def targets(_binary: str) -> dict[str, Target]:
     """Scenes of the repository, and real ones where they are there."""
     short = re.findall(r"(?ms)^```xml\n(.*?)^```", (ROOT / "docs/commonroad.md").read_text("utf-8"))
     own = short * 2 + [file.read_text("utf-8") for file in sorted((ROOT / "tests/cases/commonroad").glob("*.xml"))]
-    found = {"commonroad": Target("xml", own, _spoil, _commands)}
+    found = {"commonroad": Target("xml", own, _spoil, _commands, may_refuse=DRIVERS)}
     files = [file for folder in REAL for file in sorted(folder.glob("*.xml")) if file.stat().st_size < MOST_REAL_BYTES]
     if files:
         real = [pathlib.Path(file).read_text("utf-8") for file in files]
-        found["real-scenes"] = Target("xml", real, _spoil, _commands, keeps=False)
+        found["real-scenes"] = Target("xml", real, _spoil, _commands, may_refuse=DRIVERS, keeps=False)
     return found

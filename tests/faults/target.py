@@ -30,7 +30,7 @@ class Target:
     # From the input: the command that says whether it is accepted, and those that must then accept it, too.
     commands: Callable[[str], Commands]
     files: dict[str, str] = dataclasses.field(default_factory=dict)
-    # Commands after the first one that may refuse what it accepted.
+    # Commands and flags after the first command with which an input may be refused that it accepted.
     may_refuse: frozenset[str] = frozenset()
     # What stands beside the commands while they are given an input, such as a server.
     beside: Callable[[pathlib.Path, str], contextlib.AbstractContextManager[None]] = nothing_beside
