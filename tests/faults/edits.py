@@ -20,7 +20,7 @@ SWEEP_FLAGS += [["--samples", "0"], ["--starts", "2"], ["--starts", "-1"], ["--s
 SWEEP_FLAGS += [["--keep", "failures"], ["--jobs", "0"], ["--scenario", "lane-keeping"], ["--scenario", "*"], ["--scenario", ""]]
 
 
-def _number(text: str, dice: random.Random) -> str:
+def other_number(text: str, dice: random.Random) -> str:
     """One number of another size, or something else in its place."""
     numbers = list(NUMBER.finditer(text))
     if not numbers:
@@ -39,7 +39,7 @@ def _exchanged(text: str, other: str, pattern: re.Pattern[str], dice: random.Ran
     return text[: at.start()] + dice.choice(there) + text[at.end() :]
 
 
-def _lines(text: str, other: str, dice: random.Random) -> str:
+def other_lines(text: str, other: str, dice: random.Random) -> str:
     """A line that is lost, doubled, or moved, or one of another text."""
     lines = text.splitlines(keepends=True) or ["\n"]
     at = dice.randrange(len(lines))
@@ -48,7 +48,7 @@ def _lines(text: str, other: str, dice: random.Random) -> str:
     return "".join(lines) or "\n"
 
 
-def _piece(text: str, pieces: list[str], dice: random.Random) -> str:
+def other_piece(text: str, pieces: list[str], dice: random.Random) -> str:
     """A piece at a random place, over none or some of what stands there."""
     at = dice.randrange(len(text) + 1)
     return text[:at] + dice.choice(pieces) + text[at + dice.choice([0, 0, 1, 5]) :]
@@ -59,15 +59,28 @@ def toml(text: str, others: list[str], dice: random.Random) -> str:
     for _ in range(dice.randint(1, 2)):
         kind, other = dice.random(), dice.choice(others)
         if kind < 0.6:
-            text = _number(text, dice)
+            text = other_number(text, dice)
         elif kind < 0.7:
             text = _exchanged(text, other, QUOTED, dice)
         elif kind < 0.75:
             text = _exchanged(text, other, KEY, dice)
         elif kind < 0.9:
-            text = _lines(text, other, dice)
+            text = other_lines(text, other, dice)
         else:
-            text = _piece(text, PIECES, dice)
+            text = other_piece(text, PIECES, dice)
+    return text
+
+
+def values(text: str, others: list[str], dice: random.Random) -> str:
+    """A TOML text in which one to four values are others, mostly of a size that may be accepted."""
+    for _ in range(dice.choice([1, 1, 2, 3])):
+        numbers = list(NUMBER.finditer(text))
+        if numbers and dice.random() < 0.94:
+            place = dice.choice(numbers)
+            factor = dice.choice([-1.0, 0.0, 0.1, 0.5, 0.8, 0.9, 0.9, 0.97, 0.99, 0.999, 1.001, 1.01, 1.03, 1.1, 1.1, 1.25, 2.0, 4.0])
+            text = text[: place.start()] + f"{float(place[0]) * factor:.6g}" + text[place.end() :]
+        else:
+            text = _exchanged(text, dice.choice([text, text, *others[:1]]), QUOTED, dice)
     return text
 
 
@@ -91,7 +104,7 @@ def table(text: str, dice: random.Random) -> str:
             cells[cell] = dice.choice(CELLS)
             rows[at] = ",".join(cells)
         elif kind < 0.5:
-            rows[at] = _number(rows[at], dice)
+            rows[at] = other_number(rows[at], dice)
         elif kind < 0.7:
             rows[at : at + 1] = dice.choice([[], [rows[at]] * 2, [rows[at], dice.choice(rows)], [",".join(cells[:-1])], [rows[at] + ",1"]])
         elif kind < 0.8:
@@ -103,7 +116,7 @@ def table(text: str, dice: random.Random) -> str:
         elif kind < 0.94:
             rows = "\n".join(rows).replace(*dice.choice([(",", ";"), ("\n", "\r\n"), (".", ","), ("-", "/"), ("\n", "\n\n")])).split("\n")
         else:
-            rows = _piece("\n".join(rows), CELLS, dice).split("\n")
+            rows = other_piece("\n".join(rows), CELLS, dice).split("\n")
         text = "\n".join(rows)
     return text if dice.random() < 0.99 else "\ufeff" + text
 
@@ -130,7 +143,7 @@ def _flag(words: list[str], paths: list[tuple[str, str]], dice: random.Random) -
     if dice.random() < 0.15:
         return dice.choice(others)
     path, value = dice.choice(paths)
-    value = value if dice.random() < 0.3 else _number(value, dice)
+    value = value if dice.random() < 0.3 else other_number(value, dice)
     if dice.random() < 0.3:
         path = dice.choice([path + ".x", path.rsplit(".", 1)[0], path.replace("_", "-"), path[:-1], "vehicle.*." + path.rsplit(".", 1)[-1]])
     if dice.random() < 0.4:

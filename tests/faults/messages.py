@@ -4,7 +4,7 @@ import re
 
 # A place that a message names: a file with its line, a line of a table, or a flag of the command line. `the flags` is a plan that
 # `sweep` makes of its flags: its lines are nowhere to be seen, but each names its flag.
-PLACE = re.compile(r"\[(?!the flags:)[^\[\]\n]+:\d+(:\d+)?\]|(?m:^Error: [^:\n]+:\d+:)|\blines? \d+|--[a-z]+")
+PLACE = re.compile(r"\[(?!the flags:)[^\[\]\n]+:\d+(:\d+)?\]|(?m:^(?:Error: )?[^:\s][^:\n]*:\d+:)|\blines? \d+|--[a-z]+")
 QUOTED = re.compile(r"`[^`]*`|\"[^\"]*\"|'[^'\s][^']*'")
 NUMBER = re.compile(r"[-+]?(?<![\w])(?:\d[\d,.]*(?:e[-+]?\d+)?|nan|inf)\b|\d+")
 FRAME = re.compile(r"^[\s│·]*(?:[╰├]─+\s*)?")
@@ -38,6 +38,12 @@ def kinds(said: str) -> set[str]:
         text = NUMBER.sub("N", QUOTED.sub("…", text))
         found.add(re.sub(r"\s+", " ", text).strip())
     return {text for text in found if not re.fullmatch(r"cannot use .*: N errors?", text)}
+
+
+def first_line(said: str) -> str:
+    """The first line of what was said, reduced in the same way."""
+    line = next((line for line in said.splitlines() if line.strip()), "")
+    return re.sub(r"\s+", " ", NUMBER.sub("N", QUOTED.sub("…", line))).strip()
 
 
 def names_place(said: str) -> bool:

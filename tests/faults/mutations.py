@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Input with random mistakes in it: a command answers each, and what it accepts is run with recording and report.
 
-No command may panic, abort, hang, or refuse what was accepted, and no recording may be twice as large as `check` states.
+No command may panic, abort, hang, or refuse what was accepted, no recording may be twice as large as `check` states, no text may have
+control characters, and no result may be NaN or infinite.
 A refusal names a file with its line, or a flag. Inputs that led to a message not seen before are kept in
 tests/faults/corpus/TARGET.json while these are small; they come first in the next call, and further mistakes are made in
 them. Prints counts as Markdown; exits with 1 if anything did not hold, and keeps that input as small as it could be made.
@@ -25,8 +26,10 @@ import tempfile
 import time
 import zlib
 
+import judge
 import messages
 import targets
+from target import Target, cost_is_small
 
 CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
 MOST_CORPUS_BYTES, MOST_INPUT_BYTES = 25_000, 8_000
@@ -36,6 +39,8 @@ STATED = re.compile(r"in about ([\d.]+) MB")
 # Telemetry can be good enough for a report and not for a network; only `--scenario` asks for one.
 NO_NETWORK = "no scenario is written"
 MOST_TRIALS, MOST_SHRINKING_S = 60, 20.0
+# The share of a session that may go into making inputs small which are no faults.
+MOST_SHRINKING_SHARE = 0.25
 
 
 @dataclasses.dataclass
@@ -50,60 +55,92 @@ class Outcome:
     kinds: set[str] = dataclasses.field(default_factory=set)
 
 
-def execute(binary: str, folder: pathlib.Path, words: list[str]) -> tuple[str, str]:
-    """How a command ended, and what it said."""
+def execute(binary: str, folder: pathlib.Path, words: list[str]) -> tuple[str, str, str]:
+    """How a command ended, what it said, and what of that are results."""
     bounded = ["prlimit", f"--cpu={PROCESSOR_LIMIT_S}", binary] if shutil.which("prlimit") else [binary]
     try:
         done = subprocess.run([*bounded, *words], cwd=folder, capture_output=True, timeout=TIMEOUT_S)
     except subprocess.TimeoutExpired:
-        return "hang", f"no end in {TIMEOUT_S} s"
+        return "hang", f"no end in {TIMEOUT_S} s", ""
     if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return "hang", f"no end in {PROCESSOR_LIMIT_S} s of a processor"
-    said = (done.stdout + done.stderr).decode("utf-8", "replace")
-    return str(done.returncode) if done.returncode in (0, 1, 2, 3) else f"crash {done.returncode}", said
+        return "hang", f"no end in {PROCESSOR_LIMIT_S} s of a processor", ""
+    out, errors = done.stdout.decode("utf-8", "replace"), done.stderr.decode("utf-8", "replace")
+    return str(done.returncode) if done.returncode in (0, 1, 2, 3) else f"crash {done.returncode}", out + errors, out
 
 
-def attempt(binary: str, target: targets.Target, text: str) -> Outcome:
+def attempt(binary: str, target: Target, text: str) -> Outcome:
     """Gives one input to the commands of its target."""
     with tempfile.TemporaryDirectory(prefix="interplay-mutations-") as name:
         folder = pathlib.Path(name)
         for file, content in {**target.files, f"input.{target.suffix}": text}.items():
             (folder / file).write_bytes(content.encode("utf-8", "surrogateescape"))
-        check, runs = target.commands(text)
-        ended, said = execute(binary, folder, check)
-        outcome = Outcome(ended, said, [], kinds={f"{ended}: {kind}" for kind in messages.kinds(said) or {""}})
-        if ended not in "0123":
-            outcome.fault = f"{' '.join(check)}: {ended}"
-        elif ended != "2" and check[0] in ("check", "sweep") and ended != "0":
-            outcome.fault = f"{' '.join(check)}: exit code {ended}"
-        elif ended in "01":
-            _run(binary, folder, runs, outcome)
-        return outcome
+        with target.beside(folder, text):
+            if target.own:
+                ended, said, fault = target.own(binary, folder, text)
+                return Outcome(ended, said, [], fault=fault or _fault("play", ended, said, ""), kinds=_kinds("", ended, said))
+            return _attempt(binary, folder, target, text)
 
 
-def _run(binary: str, folder: pathlib.Path, runs: list[list[str]], outcome: Outcome) -> None:
+def _attempt(binary: str, folder: pathlib.Path, target: Target, text: str) -> Outcome:
+    """Gives an input to the commands, which stands in a folder."""
+    check, runs = target.commands(text)
+    ended, said, out = execute(binary, folder, check)
+    outcome = Outcome(ended, said, [], kinds=_kinds("", ended, said))
+    outcome.fault = _fault(" ".join(check), ended, said, out)
+    if ended not in "02" and (check[0] == "check" or "--dry-run" in check):
+        outcome.fault = f"{' '.join(check)}: {ended}"
+    elif ended in "01" and not outcome.fault:
+        _run(binary, folder, target, runs, outcome)
+    return outcome
+
+
+def _fault(command: str, ended: str, said: str, out: str) -> str | None:
+    """What is wrong with how a command ended and what it said."""
+    if ended not in "0123":
+        return f"{command}: {ended}"
+    wrong = judge.of_text(said) or judge.of_results(ended, out)
+    return f"{command}: {wrong}" if wrong else None
+
+
+def _kinds(command: str, ended: str, said: str) -> set[str]:
+    return {f"{command} {ended}: {kind}".strip() for kind in messages.kinds(said) or {messages.first_line(said) if ended in "23" else ""}}
+
+
+def _run(binary: str, folder: pathlib.Path, target: Target, runs: list[list[str]], outcome: Outcome) -> None:
     """Runs what was accepted, and adds to the outcome."""
+    all_said = [outcome.said]
     for words in runs:
-        if not targets.cost_is_small(outcome.said):
+        if not cost_is_small(outcome.said):
             outcome.left_out = True
             return
         stated_mb = [float(size) for size in STATED.findall(outcome.said)]
-        ended, said = execute(binary, folder, words)
+        ended, said, out = execute(binary, folder, words)
         outcome.runs.append(ended)
         outcome.said = said
-        outcome.kinds |= {f"{words[0]} {ended}: {kind}" for kind in messages.kinds(said) or {""}}
-        if NO_NETWORK in said:
+        all_said.append(said)
+        outcome.kinds |= _kinds(words[0], ended, said)
+        if NO_NETWORK in said or ended == "2" and not target.may_refuse.isdisjoint(words):
             return
-        recording = folder / "run.rrd"
-        if ended not in "013":
-            outcome.fault = f"{' '.join(words)}: {'refused after it was accepted' if ended == '2' else ended}"
-        elif stated_mb and recording.exists() and recording.stat().st_size > 2e6 * max(stated_mb):
-            outcome.fault = f"the recording has {recording.stat().st_size} bytes, stated were {max(stated_mb)} MB"
+        outcome.fault = _fault(" ".join(words), ended, said, out) or _fault_of_run(folder, words, ended, said, stated_mb)
         if ended not in "01" or outcome.fault:
             return
+    outcome.fault = target.disagreement(all_said)
 
 
-def smaller(binary: str, target: targets.Target, text: str, wanted: Outcome, trials: int) -> str:
+def _fault_of_run(folder: pathlib.Path, words: list[str], ended: str, said: str, stated_mb: list[float]) -> str | None:
+    """What is wrong with a command after what it does was accepted, and with its files."""
+    command, recording = " ".join(words), folder / "run.rrd"
+    if ended == "2":
+        return f"{command}: refused after it was accepted"
+    if ended == "3" and not said.strip():
+        return f"{command}: unfinished without a reason"
+    if stated_mb and recording.exists() and recording.stat().st_size > 2e6 * max(stated_mb):
+        return f"the recording has {recording.stat().st_size} bytes, stated were {max(stated_mb)} MB"
+    wrong = judge.of_files(folder) if words[0] == "run" and ended in "01" else None
+    return f"{command}: {wrong}" if wrong else None
+
+
+def smaller(binary: str, target: Target, text: str, wanted: Outcome, trials: int) -> str:
     """A smaller input with the same messages and the same fault, found by leaving out lines or, of lists, words."""
     is_list = target.suffix == "json"
     parts = json.loads(text) if is_list else text.splitlines(keepends=True)
@@ -129,7 +166,7 @@ def _is_same(found: Outcome, wanted: Outcome) -> bool:
 class Session:
     """All inputs of one target, what is known of them, and the corpus that remains."""
 
-    def __init__(self, binary: str, name: str, target: targets.Target) -> None:
+    def __init__(self, binary: str, name: str, target: Target) -> None:
         self.binary, self.name, self.target = binary, name, target
         self.archive = CORPUS / f"{name}.json"
         self.kept: dict[str, str] = json.loads(self.archive.read_text("utf-8")) if self.archive.exists() else {}
@@ -138,6 +175,7 @@ class Session:
         self.unplaced: dict[str, str] = {}
         self.checks, self.runs = collections.Counter(), collections.Counter()
         self.left_out, self.faults, self.examples, self.began = 0, [], {}, time.monotonic()
+        self.shrinking_s = 0.0
 
     def drive(self, count: int, minutes: float | None, seed: int) -> None:
         """Replays the corpus, then makes new inputs until there are enough or the time is over."""
@@ -168,8 +206,10 @@ class Session:
             if not is_kept:
                 self.keep("fault-", text)
         elif new:
-            if not is_kept and not outcome.runs:
+            began = time.monotonic()
+            if not is_kept and not outcome.runs and self.shrinking_s <= MOST_SHRINKING_SHARE * (began - self.began):
                 text = smaller(self.binary, self.target, text, outcome, MOST_TRIALS)
+                self.shrinking_s += time.monotonic() - began
             self.examples.update({kind: (text, outcome.said) for kind in new})
             if not is_kept:
                 self.keep("", text)
@@ -178,7 +218,7 @@ class Session:
         """Puts an input into the corpus, if there is room."""
         content = text.encode("utf-8", "surrogateescape")
         used = sum(len(kept.encode("utf-8", "surrogateescape")) for kept in self.kept.values())
-        if len(content) <= MOST_INPUT_BYTES and used + len(content) <= MOST_CORPUS_BYTES:
+        if self.target.keeps and len(content) <= MOST_INPUT_BYTES and used + len(content) <= MOST_CORPUS_BYTES:
             self.kept.setdefault(f"{prefix}{zlib.crc32(content):08x}", text)
             # Sorted and in ASCII, an input a line: equal inputs give equal bytes, and a difference can be read.
             self.archive.write_text(json.dumps(self.kept, indent=0, sort_keys=True) + "\n", "utf-8")
