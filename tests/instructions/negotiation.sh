@@ -26,7 +26,7 @@ inside() {
 
 scenarios=("$@")
 if ((${#scenarios[@]} == 0)); then scenarios=(intersection/nice lane-change/front-nice ramp-merge/nice left-turn/nice); fi
-echo "| scenario | million instructions a run | comparison of classes | descent | companion plan: comparison | its descent | safety filter | rest |"
+echo "| scenario | million instructions a run | comparison of classes | descent | fallback plan: comparison | its descent | safety filter | rest |"
 echo "|---|---|---|---|---|---|---|---|"
 for scenario in "${scenarios[@]}"; do
     count '*negotiation::Negotiation as *::plan' "$scenario"

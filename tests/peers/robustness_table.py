@@ -1,16 +1,46 @@
-"""The table of docs/robustness.md from the rows of sweeps.
+"""The tables of docs/robustness.md from the rows of sweeps.
 
     pip install pandas pyarrow
-    python tests/peers/robustness_table.py SWEEP [SWEEP ...]
+    python tests/peers/robustness_table.py starts settled unpersuaded unexpressed ramps unpriced
+    python tests/peers/robustness_table.py --roads roads
 
 Each sweep is a folder with `runs.parquet`. A line is a scenario with one change; pairs are runs from the same start. Of two
-runs the one with the better place of the ego and without contact is nearer to the front.
+runs the one with the better place of the ego and without contact is nearer to the front. With `--roads` it is the tables of real roads.
 """
 
 import math
 import sys
+import tomllib
+from pathlib import Path
 
 import pandas
+
+#: How the changes of an arm are called.
+ARMS = {
+    "vehicle.ego.driver.settled_steps=29": "Mechanism off: the whole plan of the other counts as settled (`settled_steps`)",
+    "vehicle.ego.driver.w_4=0.0": "Mechanism off: no persuasion (`w_4 = 0`)",
+    "vehicle.ego.driver.ahead_share=1.0": "As printed: it is drawn back where it is ahead (`ahead_share = 1`)",
+    "vehicle.ego.driver.slack_weight=0.0": "Mechanism off: no expression (`slack_weight = 0`)",
+    "vehicle.ego.driver.expressed_bounds=interval": 'As printed: it may not seem surer (`expressed_bounds = "interval"`)',
+    "vehicle.ego.driver.retreat_dearer_at_most=1e6": "No price of patience (`retreat_dearer_at_most = 1e6`)",
+    "vehicle.front.driver.style=tough": "A front driver who ignores the ego",
+    "vehicle.front.driver.style=nice": "A nice front driver",
+    "conservative": "A conservative ego",
+}
+#: Arms that are left out of a scenario in which they change no run.
+ONLY_IF_ANOTHER = ("ahead_share", "front.driver")
+HEAD = [
+    "scenario", "what is changed", "order as in the figure, 95 % interval", "ego nearer to the front / further back", "p",
+    "ego done sooner / later, median difference s", "p", "touched", "smallest gap m", "ego done s", "failed plans",
+]
+#: Real roads: what counts beside the scenario, and the planners in the order of the columns.
+ROADS = {"left-turn": "left turn", "narrow-passage": "narrow passage", "t-junction": "T-junction", "roundabout": "roundabout"}
+ORDERS = {
+    "on-ramp/five": "on-ramp with five", "all-way-stop/four": "all-way stop with four",
+    "overtaking/oncoming": "overtaking with oncoming traffic", "curve/lane-drop-cars": "lane drop in a curve",
+}
+DRIVERS = ["conservative", "negotiation", "bayesian", "game", "cooperative", "human", "idm"]
+TITLES = {"bayesian": "Bayesian", "idm": "IDM", "as-written": "as written"}
 
 
 def wilson(count, of, z=1.959964):
@@ -19,6 +49,11 @@ def wilson(count, of, z=1.959964):
     middle = (share + z * z / (2 * of)) / (1 + z * z / of)
     half = z / (1 + z * z / of) * math.sqrt(share * (1 - share) / of + z * z / (4 * of * of))
     return 100 * (middle - half), 100 * (middle + half)
+
+
+def share(count, of):
+    low, high = wilson(count, of)
+    return f"{100 * count / of:.0f} % ({max(low, 0):.0f} to {high:.0f})"
 
 
 def mcnemar(a, b):
@@ -30,7 +65,7 @@ def mcnemar(a, b):
 
 def split(better, worse):
     """Counts of pairs that are better and worse, and their probability."""
-    return f"{better} / {worse}", f"{mcnemar(better, worse):.1e}"
+    return f"{better} / {worse}", f"{mcnemar(better, worse):.1e}".replace("1.0e+00", "1").replace("e-0", "e-")
 
 
 def pairs_of(rows, base):
@@ -43,38 +78,84 @@ def pairs_of(rows, base):
     later = (pair.completed_s - pair.completed_s_base).dropna()
     sooner, after = int((later < -1e-9).sum()), int((later > 1e-9).sum())
     text, p = split(sooner, after)
-    median = f"{later.median():+.1f}" if len(later) else "-"
+    median = f"{later.median() + 0.0:+.1f}".replace("-0.0", "+0.0") if len(later) else "-"
     return [*place, f"{text}, {median}", p]
 
 
 def line(scenario, change, rows, base):
-    kept = int(rows.order_kept.fillna(False).astype(bool).sum())
-    low, high = wilson(kept, len(rows))
+    kept = int(rows.order_kept.astype("boolean").fillna(False).sum())
     done = rows.completed_s.dropna()
     cells = [
         scenario,
         change,
-        f"{100 * kept / len(rows):.0f} % ({low:.0f} to {high:.0f})",
+        share(kept, len(rows)),
         *(["-"] * 4 if base is None else pairs_of(rows, base)),
         str(int((rows.contacts > 0).sum())),
         f"{rows.ego_gap_m.min():.3f}",
         f"{done.min():.1f} to {done.max():.1f}" if len(done) else "-",
-        str(int(rows.has_task.astype(bool).sum() - rows.success.astype(bool).sum())),
         str(int(rows.plans_failed.sum())),
     ]
     return "| " + " | ".join(cells) + " |"
 
 
-def main():
-    for folder in sys.argv[1:]:
-        table = pandas.read_parquet(f"{folder}/runs.parquet")
-        for scenario in dict.fromkeys(table.scenario):
-            rows = table[table.scenario == scenario]
-            base = rows[rows.planner == "as-written"]
-            for planner in sorted(set(rows.planner), key=lambda name: (name != "as-written", name)):
-                change = "nothing" if planner == "as-written" else planner
-                print(line(scenario, change, rows[rows.planner == planner], None if change == "nothing" else base))
+def head(cells):
+    print("| " + " | ".join(cells) + " |\n|" + "---|" * len(cells))
+
+
+def scenarios(folder):
+    """The scenarios of a sweep in the order of its plan."""
+    return tomllib.loads(Path(folder, "plan.toml").read_text())["scenario"]
+
+
+def starts(folders):
+    """Every scenario of the first sweep with all changes that any of the sweeps has."""
+    tables = [pandas.read_parquet(f"{folder}/runs.parquet") for folder in folders]
+    head(HEAD)
+    for scenario in scenarios(folders[0]):
+        base = None
+        for table in tables:
+            of_scenario = table[table.scenario == scenario]
+            for planner in sorted(set(of_scenario.planner), key=lambda name: (name != "as-written", name)):
+                rows = of_scenario[of_scenario.planner == planner].sort_values("sample")
+                if planner != "as-written":
+                    same = list(rows.digest) == list(base.digest)
+                    if not (same and any(word in planner for word in ONLY_IF_ANOTHER)):
+                        print(line(scenario, ARMS.get(planner, planner), rows, base))
+                elif base is None:
+                    base = rows
+                    print(line(scenario, "nothing", rows, None))
+
+
+def off_road(rows, planners):
+    counts = {name: int(rows[(rows.planner == name) & rows.leaves_road.astype(bool)].shape[0]) for name in planners}
+    return ", ".join(f"{TITLES.get(name, name)} {count}" for name, count in counts.items() if count) or "0"
+
+
+def roads(folder):
+    """Who goes first on real roads, and whether the order is that of the file."""
+    table = pandas.read_parquet(f"{folder}/runs.parquet")
+    titles = [TITLES.get(name, name) for name in DRIVERS]
+    head(["start", "what counts", *titles, "off the road"])
+    for scenario in scenarios(folder):
+        family, _, style = scenario.partition("/")
+        rows = table[table.scenario == scenario]
+        if family in ROADS:
+            own = rows[rows.planner == "as-written"].driver.iloc[0]
+            first = style.endswith("nice")
+            counted = (rows.ego_place == 1) if first else (rows.ego_place > 1)
+            cells = [share(int(counted[rows.planner == name].sum()), int((rows.planner == name).sum())) for name in DRIVERS]
+            cells = [f"**{cell}**" if name == own else cell for name, cell in zip(DRIVERS, cells)]
+            kind = f"{ROADS[family]}, {'nice' if first else 'tough'}"
+            print("| " + " | ".join([kind, "ego first" if first else "ego second", *cells, off_road(rows, DRIVERS)]) + " |")
+    print()
+    planners = ["as-written", *DRIVERS]
+    head(["start", *(TITLES.get(name, name) for name in planners), "off the road"])
+    for scenario, title in ORDERS.items():
+        rows = table[table.scenario == scenario]
+        kept = rows.order_kept.astype("boolean").fillna(False)
+        cells = [share(int(kept[rows.planner == name].sum()), int((rows.planner == name).sum())) for name in planners]
+        print("| " + " | ".join([title, *cells, off_road(rows, planners)]) + " |")
 
 
 if __name__ == "__main__":
-    main()
+    roads(sys.argv[2]) if sys.argv[1] == "--roads" else starts(sys.argv[1:])
