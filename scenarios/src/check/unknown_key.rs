@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(help("acceleration_max_mps2", vehicle), "it stands deeper: `limits.acceleration_max_mps2`");
         assert_eq!(
             help("speed_mps", file),
-            "it stands deeper: `start_jitter.speed_mps`, `vehicle.NAME.start.speed_mps`, `vehicle.NAME.goal.speed_mps`"
+            "it stands deeper: `start_jitter.speed_mps`, `flow.NAME.speed_mps`, `vehicle.NAME.start.speed_mps`"
         );
         assert!(help("lane_count", start).starts_with("the keys here are: "));
         assert!(help("first_day", start).ends_with("; elsewhere there is `calendar.first_day`"));

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use interplay_planners::{Driver, PassingSide};
+use interplay_planners::PassingSide;
 use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
@@ -89,12 +89,10 @@ const UNEXPLAINED: &str = "no reason that shows";
 fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
     let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
     let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
-    match vehicle.driver {
-        Driver::Scripted(_) => "as its script says".to_owned(),
-        Driver::Recorded(_) => "as recorded".to_owned(),
-        _ if passing.is_empty() => UNEXPLAINED.to_owned(),
-        _ => format!("lets {} pass", passing.join(", ")),
+    if vehicle.driver.goes_first() {
+        return format!("as its {} driver is told", vehicle.driver.kind());
     }
+    if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
 }
 
 /// For whom and why somebody waits.

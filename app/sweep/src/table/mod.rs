@@ -1,6 +1,7 @@
 //! Tables of rows as Parquet files. Only this module names Parquet.
 
 mod checksums;
+mod guard;
 mod read;
 mod write;
 

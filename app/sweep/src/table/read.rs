@@ -11,6 +11,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::checksums::Checksums;
+use super::guard::guarded;
 use super::{RowTable, TableColumn};
 use crate::column::{ColumnKind, TableSchema};
 use crate::error::SweepError;
@@ -26,10 +27,11 @@ impl TableReader {
     /// Opens a table.
     pub fn open(path: &Path) -> Result<TableReader, SweepError> {
         let file = File::open(path).map_err(SweepError::file("read", path))?;
-        let reader = SerializedFileReader::new(file).map_err(SweepError::table("read", path))?;
+        let opened = guarded(|| SerializedFileReader::new(file)).ok_or_else(|| strange(path, DAMAGED))?;
+        let reader = opened.map_err(SweepError::table("read", path))?;
         let checksums = Checksums::of_file(reader.metadata().file_metadata());
         let reader = TableReader { path: path.to_owned(), reader, checksums };
-        if reader.has_places() { Ok(reader) } else { Err(reader.strange("it is damaged")) }
+        if reader.has_places() { Ok(reader) } else { Err(strange(path, DAMAGED)) }
     }
 
     /// Whether all columns have a place and a size: the library ends the process at a damaged file where they are negative.
@@ -55,10 +57,12 @@ impl TableReader {
                 PhysicalType::INT64 => ColumnKind::Count,
                 PhysicalType::DOUBLE => ColumnKind::Number,
                 PhysicalType::BYTE_ARRAY => ColumnKind::Text,
-                other => return Err(self.strange(&format!("the column `{}` has the type {other}", column.name()))),
+                other => {
+                    return Err(strange(&self.path, &format!("the column `{}` has the type {other}", column.name())));
+                }
             };
             if column.max_def_level() > 1 || column.max_rep_level() > 0 {
-                return Err(self.strange(&format!("the column `{}` is nested", column.name())));
+                return Err(strange(&self.path, &format!("the column `{}` is nested", column.name())));
             }
             Ok((column.name().to_owned(), kind))
         });
@@ -78,6 +82,10 @@ impl TableReader {
 
     /// One row group: the columns of these names, in their order; a column that is not there is left out.
     pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, SweepError> {
+        guarded(|| self.decoded(group, names)).ok_or_else(|| strange(&self.path, DAMAGED))?
+    }
+
+    fn decoded(&self, group: usize, names: &[String]) -> Result<RowTable, SweepError> {
         let failed = SweepError::table::<ParquetError>("read", &self.path);
         let schema = self.schema()?;
         let reader = self.reader.get_row_group(group).map_err(&failed)?;
@@ -88,18 +96,22 @@ impl TableReader {
             let column = reader.get_column_reader(at).and_then(|column| read_column(column, row_count));
             let column = column.map_err(&failed)?;
             if !self.checksums.agree(group * schema.len() + at, &column) {
-                return Err(
-                    self.strange(&format!("its column `{name}` is not as it was written; make the table again"))
-                );
+                return Err(strange(
+                    &self.path,
+                    &format!("its column `{name}` is not as it was written; make the table again"),
+                ));
             }
             columns.push((name.clone(), column));
         }
         Ok(RowTable { columns, row_count })
     }
+}
 
-    fn strange(&self, what: &str) -> SweepError {
-        SweepError::Input(format!("`{}` is no table of runs: {what}", self.path.display()))
-    }
+/// What is said of a table that cannot be decoded.
+const DAMAGED: &str = "it is damaged";
+
+fn strange(path: &Path, what: &str) -> SweepError {
+    SweepError::Input(format!("`{}` is no table of runs: {what}", path.display()))
 }
 
 /// Whether a column holds nothing but missing values by its type.
