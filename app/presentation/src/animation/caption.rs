@@ -67,13 +67,17 @@ pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
     recent.filter_map(|hit| numbers(run.scenario, &hit.between)).collect()
 }
 
-/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks.
+/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks. What others only expect of one
+/// another is not said.
 fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let ego = run.scenario.ego_index();
     let mut vehicles: Vec<usize> = (0..frame.vehicles.len()).collect();
     vehicles.sort_by_key(|index| *index != ego);
     let requests = run.requests(frame);
-    let asks = |vehicle: usize| requests.sentence(frame, vehicle).map(|sentence| (vehicle, sentence));
+    let asks = |vehicle: usize| {
+        let sentence = requests.sentence(frame, vehicle)?;
+        (vehicle == ego || sentence.starts_with("asks")).then_some((vehicle, sentence))
+    };
     let (vehicle, sentence) = vehicles.into_iter().find_map(asks)?;
     Some(format!("{} {}", frame.vehicles[vehicle].name, sentence))
 }
