@@ -48,9 +48,13 @@ impl Requests {
             let proposals = vehicle.plan.proposals.iter();
             let asked = proposals.map(|proposal| {
                 let was_asked = |asked: &Vec<(String, bool)>| asked.contains(&(proposal.to.clone(), true));
-                let known = proposal.acceptance.is_none() || before.get(index).is_some_and(was_asked);
+                let known = before.get(index).is_some_and(was_asked);
                 let is_over = has_arrived[index] || scenario.index_of(&proposal.to).is_some_and(|to| has_arrived[to]);
-                (proposal.to.clone(), known && !is_over || asks_for_more(scenario, frame, proposal))
+                let counts = match proposal.acceptance {
+                    Some(_) => known && !is_over || asks_for_more(scenario, frame, proposal),
+                    None => !is_over,
+                };
+                (proposal.to.clone(), counts)
             });
             asked.collect()
         };

@@ -2,7 +2,7 @@
 
 use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route};
 use interplay_scenarios::Scenario;
-use interplay_simulation::frame::{Event, Frame};
+use interplay_simulation::frame::{Event, Frame, VehicleFrame};
 
 use crate::body_style::BodyStyle;
 use crate::signals::wrapped;
@@ -34,6 +34,17 @@ pub fn is_met(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> 
     turned_rad > if BodyStyle::choose(other) == BodyStyle::Walker { TURN_RAD } else { ONCOMING_RAD }
 }
 
+/// Whether whoever is met is behind the vehicle (its index) already: then nothing is said of it any more.
+pub fn has_met(scenario: &Scenario, frame: &Frame, vehicle: usize, passing: &PlannedPassing) -> bool {
+    let other = scenario.index_of(&passing.of).and_then(|index| frame.vehicles.get(index));
+    let is_behind = |other: &VehicleFrame| {
+        let (own, other) = (&frame.vehicles[vehicle].state, &other.state);
+        let (sin, cos) = libm::sincos(own.heading_rad);
+        cos * (other.x_m - own.x_m) + sin * (other.y_m - own.y_m) < 0.0
+    };
+    is_met(scenario, vehicle, passing) && other.is_some_and(is_behind)
+}
+
 /// Whether the way in which a vehicle (its index) passes another one is put into words.
 ///
 /// On which side those pass who come toward each other goes without saying. On a network that leads around corners the left and the right of another vehicle are elsewhere a moment later: there
@@ -55,6 +66,7 @@ pub fn event_text(scenario: &Scenario, frame: &Frame, event: &Event) -> Option<S
         })
     });
     match passing {
+        Some((index, passing)) if has_met(scenario, frame, index, passing) => None,
         Some((index, passing)) => passing_sentence(scenario, index, passing),
         None => Some(event.text.clone()),
     }

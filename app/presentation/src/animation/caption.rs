@@ -1,12 +1,13 @@
 //! The words under a picture: who asks whom, what the other answers, and what happened last.
 
+use interplay_planners::PlannedPassing;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
 use interplay_simulation::standing::Standing;
 
 use super::scene::DrivingRun;
 use crate::contact::numbers;
-use crate::passing_words::{event_text, passing_sentence};
+use crate::passing_words::{event_text, has_met, passing_sentence};
 
 /// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;
@@ -67,13 +68,17 @@ pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
     recent.filter_map(|hit| numbers(run.scenario, &hit.between)).collect()
 }
 
-/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks.
+/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks. What others only expect of one
+/// another is not said.
 fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let ego = run.scenario.ego_index();
     let mut vehicles: Vec<usize> = (0..frame.vehicles.len()).collect();
     vehicles.sort_by_key(|index| *index != ego);
     let requests = run.requests(frame);
-    let asks = |vehicle: usize| requests.sentence(frame, vehicle).map(|sentence| (vehicle, sentence));
+    let asks = |vehicle: usize| {
+        let sentence = requests.sentence(frame, vehicle)?;
+        (vehicle == ego || sentence.starts_with("asks")).then_some((vehicle, sentence))
+    };
     let (vehicle, sentence) = vehicles.into_iter().find_map(asks)?;
     Some(format!("{} {}", frame.vehicles[vehicle].name, sentence))
 }
@@ -88,7 +93,9 @@ fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
     }
     // Those who are passed in the same way are named together.
     let mut passings: Vec<(String, Vec<&str>)> = Vec::new();
-    for passing in ego.plan.homotopy_class.iter().filter(|passing| run.is_named(frame, &passing.of)) {
+    let is_open =
+        |passing: &&PlannedPassing| run.is_named(frame, &passing.of) && !has_met(run.scenario, frame, index, passing);
+    for passing in ego.plan.homotopy_class.iter().filter(is_open) {
         let Some(sentence) = passing_sentence(run.scenario, index, passing) else { continue };
         let verb = sentence.strip_suffix(&passing.of).unwrap_or(&sentence);
         match passings.iter_mut().find(|(known, _)| known == verb) {

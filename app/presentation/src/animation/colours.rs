@@ -54,7 +54,7 @@ mod tests {
             let name = if number == 6 { "ego".to_owned() } else { format!("car-{number}") };
             let along_m = 15.0 * f64::from(number);
             format!(
-                "[[vehicle]]\nname = '{name}'\nstart = {{ along_m = {along_m}, speed_mps = 8.0 }}\n\
+                "[[vehicle]]\nname = '{name}'\nstart = {{ lane = 0, along_m = {along_m}, speed_mps = 8.0 }}\n\
                  goal = {{ speed_mps = 8.0 }}\ndriver = {{ kind = 'idm' }}\n"
             )
         };
