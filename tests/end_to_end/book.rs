@@ -36,7 +36,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay compare partners", "of a sweep that is not run here"),
     ("interplay compare roads", "the same"),
     ("interplay sweep told.plan/plan.toml --out", "takes an hour; the mechanism is in `sweeps`"),
-    ("interplay sweep benchmark --samples 10 --out", "the same"),
+    ("interplay sweep benchmark --samples 5 --out", "the same"),
     ("interplay compare told", "of a sweep that is not run here"),
     ("interplay sweep contingency", "takes a quarter of an hour; the mechanism is in `sweeps`"),
     ("interplay run intersection/nice --set 'vehicle.ego.driver.passing_orders=", "a global search takes minutes"),
