@@ -119,6 +119,7 @@ def told(look):
         "others brake hard": lambda row: share(row["others_hard_braking"]),
         "contacts of the ego (by the ego)": contacts,
         "stuck": lambda row: f"{row['deadlocks']:,}",
+        "off the road": lambda row: f"{row['off_road']['count']:,}",
         "plans that failed": lambda row: f"{row['plans_failed']:,}",
     }
     for word, cell in cells.items():
@@ -136,7 +137,7 @@ def told(look):
 def inferred(look):
     groups = look("conservative")
     head(
-        ["", "success, nice", "continuum", "tough", "IDM", "all", "time [s]", "ego first", "brakes hard", "stuck", "plans failed", "contacts (by the ego)"]
+        ["", "success, nice", "continuum", "tough", "IDM", "all", "time [s]", "ego first", "brakes hard", "stuck", "off the road", "plans failed", "contacts (by the ego)"]
     )
     for name in ALL:
         row = groups[None, None][name]
@@ -148,6 +149,7 @@ def inferred(look):
             whole(row["first"]),
             f"{100 * row['hard_braking']['count'] / row['hard_braking']['of']:.1f} %",
             str(row["deadlocks"]),
+            str(row["off_road"]["count"]),
             str(row["plans_failed"]),
             contacts(row),
         ])

@@ -2,7 +2,7 @@
 
     pip install pandas pyarrow
     python tests/peers/robustness_table.py starts settled unpersuaded unexpressed ramps unpriced
-    python tests/peers/robustness_table.py --roads roads
+    python tests/peers/robustness_table.py --roads roads wide
 
 Each sweep is a folder with `runs.parquet`. A line is a scenario with one change; pairs are runs from the same start. Of two
 runs the one with the better place of the ego and without contact is nearer to the front. With `--roads` it is the tables of real roads.
@@ -131,8 +131,8 @@ def off_road(rows, planners):
     return ", ".join(f"{TITLES.get(name, name)} {count}" for name, count in counts.items() if count) or "0"
 
 
-def roads(folder):
-    """Who goes first on real roads, and whether the order is that of the file."""
+def roads(folder, wide=None):
+    """Who goes first on real roads, and whether the order is that of the file; with a last row from wider starts."""
     table = pandas.read_parquet(f"{folder}/runs.parquet")
     titles = [TITLES.get(name, name) for name in DRIVERS]
     head(["start", "what counts", *titles, "off the road"])
@@ -151,11 +151,16 @@ def roads(folder):
     planners = ["as-written", *DRIVERS]
     head(["start", *(TITLES.get(name, name) for name in planners), "off the road"])
     for scenario, title in ORDERS.items():
-        rows = table[table.scenario == scenario]
-        kept = rows.order_kept.astype("boolean").fillna(False)
-        cells = [share(int(kept[rows.planner == name].sum()), int((rows.planner == name).sum())) for name in planners]
-        print("| " + " | ".join([title, *cells, off_road(rows, planners)]) + " |")
+        order_row(title, table[table.scenario == scenario], planners)
+    if wide:
+        order_row("the same, up to 10 m and 0.95 m/s", pandas.read_parquet(f"{wide}/runs.parquet"), planners)
+
+
+def order_row(title, rows, planners):
+    kept = rows.order_kept.astype("boolean").fillna(False)
+    cells = [share(int(kept[rows.planner == name].sum()), int((rows.planner == name).sum())) for name in planners]
+    print("| " + " | ".join([title, *cells, off_road(rows, planners)]) + " |")
 
 
 if __name__ == "__main__":
-    roads(sys.argv[2]) if sys.argv[1] == "--roads" else starts(sys.argv[1:])
+    roads(*sys.argv[2:]) if sys.argv[1] == "--roads" else starts(sys.argv[1:])
