@@ -76,8 +76,7 @@ def _commands(text: str) -> Commands:
     made = ["import", "input.xml", "--out", "made.toml"]
     made += [[], ["--ego", "human"], ["--replace", "all=human:tough"], ["--replace", "all"]][len(text) % 4]
     driven = ["run", "input.xml", *RECORD, "--export", "driven.xml"]
-    return ["check", "input.xml"], [driven, made, ["check", "made.toml"], ["run", "made.toml", "--no-record"], ["check", "driven.xml"]]
-
+    return ["check", "input.xml"], [driven, ["check", "driven.xml"], made, ["check", "made.toml"], ["run", "made.toml", "--no-record"]]
 
 
 def targets(_binary: str) -> dict[str, Target]:
