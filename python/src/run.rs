@@ -59,7 +59,8 @@ pub fn run(
         let report = on_all_cores(|| run_with_counterfactuals(&name, &stated, watchers))?.map_err(unfinished)?;
         recording.map_or(Ok(()), |recording| recording.close(&report)).map_err(unwritten)?;
         let scenario = (*stated).clone();
-        let recorded = RecordedRun { label: String::new(), command, scenario, frames: frame_log.frames(), report };
+        let frames = frame_log.frames();
+        let recorded = RecordedRun { label: String::new(), command, scenario, frames, report, shown_until_s: None };
         if let Some(file) = animate {
             on_all_cores(|| file.write(&recorded))?.map_err(unwritten)?;
         }

@@ -63,7 +63,7 @@ fn the_report_says_who_stands_why_and_who_is_stuck() {
         standing("ego")
     );
     let [idle] = standing("idle").as_slice() else { panic!("{:?}", standing("idle")) };
-    assert_eq!(idle.reason, "as its script says");
+    assert_eq!(idle.reason, "as its scripted driver is told");
     assert!((idle.waited_s - 14.0).abs() < 1e-6, "{idle:?}");
     let [deadlock] = film.report.deadlocks.as_slice() else { panic!("{:?}", film.report.deadlocks) };
     assert_eq!(deadlock.vehicles, ["idle"]);
@@ -80,14 +80,18 @@ fn the_command_says_it_in_words_and_as_values() {
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "70.0")).expect("a scratch file can be written");
     let said = interplay(&folder, &["run", "street.toml", "--no-record"]);
     assert_eq!(said.code, Some(0), "{}", said.stdout);
-    for piece in
-        ["ego stood ", " s (sign)", "idle stood 14.0 s (as its script says)", "DEADLOCK at 10.", "ok   rules_kept"]
-    {
+    for piece in [
+        "ego stood ",
+        " s (sign)",
+        "idle stood 14.0 s (as its scripted driver is told)",
+        "DEADLOCK at 10.",
+        "ok   rules_kept",
+    ] {
         assert!(said.stdout.contains(piece), "{piece:?} is not in\n{}", said.stdout);
     }
     let report = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]).json();
     assert_eq!(report["deadlocks"][0]["vehicles"], json!(["idle"]));
-    assert_eq!(report["vehicles"][1]["standing"][0]["reason"], "as its script says");
+    assert_eq!(report["vehicles"][1]["standing"][0]["reason"], "as its scripted driver is told");
     // 8 m before the line nobody stops from 10 m/s.
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "140.0")).expect("a scratch file can be written");
     let broken = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]);

@@ -89,7 +89,7 @@ const UNEXPLAINED: &str = "no reason that shows";
 fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
     let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
     let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
-    if vehicle.driver.goes_first() {
+    if vehicle.driver.goes_first() && !vehicle.driver.can_be_asked() {
         return format!("as its {} driver is told", vehicle.driver.kind());
     }
     if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
