@@ -1,10 +1,11 @@
 //! Checksums of the columns of a table, which the file says about itself: a flipped bit may leave a file that can be read.
 //!
-//! One for each column of each row group, in their order. Tables of other programs have none.
+//! One of the names of all columns, and one for each column of each row group, in their order. Tables of other programs have none.
 
 use parquet::file::metadata::FileMetaData;
 
 use super::TableColumn;
+use crate::column::TableSchema;
 
 /// Under this key the file has its checksums, eight hexadecimal digits each.
 pub(super) const NOTE: &str = "interplay:checksums";
@@ -35,6 +36,16 @@ pub(super) fn of_column(column: &TableColumn) -> String {
     format!("{:0DIGITS$x}", hasher.finalize())
 }
 
+/// The checksum of the names of the columns: one that is not found by its name would count as never stated.
+pub(super) fn of_names(schema: &TableSchema) -> String {
+    let mut hasher = crc32fast::Hasher::new();
+    for (name, _) in schema {
+        hasher.update(name.as_bytes());
+        hasher.update(b"\n");
+    }
+    format!("{:0DIGITS$x}", hasher.finalize())
+}
+
 /// The checksums that a file has.
 pub(super) struct Checksums(Option<String>);
 
@@ -48,7 +59,13 @@ impl Checksums {
     /// Whether a column is as it was written: number `index` of all columns of all row groups. Without checksums it is taken as it is.
     pub fn agree(&self, index: usize, column: &TableColumn) -> bool {
         let Some(all) = &self.0 else { return true };
-        all.get(index * DIGITS..(index + 1) * DIGITS).is_some_and(|stated| stated == of_column(column))
+        let start = (index + 1) * DIGITS;
+        all.get(start..start + DIGITS).is_some_and(|stated| stated == of_column(column))
+    }
+
+    /// Whether the columns have the names that were written.
+    pub fn agree_on_names(&self, schema: &TableSchema) -> bool {
+        self.0.as_ref().is_none_or(|all| all.get(..DIGITS).is_some_and(|stated| stated == of_names(schema)))
     }
 }
 
@@ -58,6 +75,28 @@ mod tests {
 
     use super::super::{RowTable, TableWriter};
     use crate::column::{Cell, ColumnKind};
+
+    #[test]
+    fn no_flipped_bit_in_a_name_hides_a_column() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("runs.parquet");
+        let schema = vec![("ego_yields".to_owned(), ColumnKind::Flag), ("gap_m".to_owned(), ColumnKind::Number)];
+        let mut writer = TableWriter::new(&path, schema, &[]).expect("a table");
+        writer.push([Cell::Flag(Some(true)), Cell::Number(Some(0.5))]).expect("a row");
+        writer.finish().expect("written");
+        let whole = fs::read(&path).expect("there");
+        let names = ["ego_yields".to_owned(), "gap_m".to_owned()];
+        let rows = RowTable::read(&path, &names).expect("sound");
+        let places = whole.windows(10).enumerate().filter(|(_, word)| word == b"ego_yields").map(|(at, _)| at);
+        let places: Vec<usize> = places.collect();
+        assert!(!places.is_empty());
+        for bit in places.iter().flat_map(|at| 8 * at..8 * (at + 10)) {
+            let mut flipped = whole.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            fs::write(&path, flipped).expect("written");
+            assert!(RowTable::read(&path, &names).map_or(true, |read| read == rows), "bit {bit}");
+        }
+    }
 
     #[test]
     fn no_flipped_bit_in_the_values_makes_another_row() {

@@ -31,7 +31,8 @@ impl TableReader {
         let reader = opened.map_err(SweepError::table("read", path))?;
         let checksums = Checksums::of_file(reader.metadata().file_metadata());
         let reader = TableReader { path: path.to_owned(), reader, checksums };
-        if reader.has_places() { Ok(reader) } else { Err(strange(path, DAMAGED)) }
+        let is_sound = reader.has_places() && reader.checksums.agree_on_names(&reader.schema()?);
+        if is_sound { Ok(reader) } else { Err(strange(path, DAMAGED)) }
     }
 
     /// Whether all columns have a place and a size: the library ends the process at a damaged file where they are negative.

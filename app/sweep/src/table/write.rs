@@ -25,7 +25,7 @@ pub(crate) struct TableWriter {
     schema: TableSchema,
     group: Vec<TableColumn>,
     rows: usize,
-    /// Of all columns of all groups that are written.
+    /// Of the names, and of all columns of all groups that are written.
     checksums: String,
 }
 
@@ -46,7 +46,8 @@ impl TableWriter {
         let root = Arc::new(root.map_err(&failed)?);
         let writer = SerializedFileWriter::new(file, root, Arc::new(properties.build())).map_err(&failed)?;
         let group = schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
-        Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0, checksums: String::new() })
+        let checksums = checksums::of_names(&schema);
+        Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0, checksums })
     }
 
     /// Appends a row, a value for each column in their order.
