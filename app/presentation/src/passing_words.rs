@@ -19,16 +19,25 @@ const ONCOMING_RAD: f64 = 2.5;
 ///
 /// Somebody who comes toward a vehicle or walks across its way is neither followed nor led: one of them goes before the other.
 pub fn passing_sentence(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> Option<String> {
-    let sentence = || match passing.side {
-        PassingSide::Ahead if is_met(scenario, vehicle, passing) => format!("goes before {}", passing.of),
-        PassingSide::Behind if is_met(scenario, vehicle, passing) => format!("gives way to {}", passing.of),
-        _ => passing.sentence(),
+    let sentence = || match meeting_verb(scenario, vehicle, passing) {
+        Some(verb) => format!("{verb} {}", passing.of),
+        None => passing.sentence(),
     };
     is_said(scenario, vehicle, passing).then(sentence)
 }
 
+/// What a vehicle (its index) does to somebody whom it meets; none if it meets nobody, or passes to a side.
+pub fn meeting_verb(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> Option<&'static str> {
+    let verb = match passing.side {
+        PassingSide::Ahead => "goes before",
+        PassingSide::Behind => "gives way to",
+        PassingSide::Left | PassingSide::Right => return None,
+    };
+    is_met(scenario, vehicle, passing).then_some(verb)
+}
+
 /// Whether the other one comes toward a vehicle (its index), or walks across its way, by their directions at the start.
-pub fn is_met(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
+fn is_met(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
     let Some(other) = scenario.index_of(&passing.of).map(|index| &scenario.vehicles[index]) else { return false };
     let turned_rad = wrapped(other.start.heading_rad - scenario.vehicles[vehicle].start.heading_rad).abs();
     turned_rad > if BodyStyle::choose(other) == BodyStyle::Walker { TURN_RAD } else { ONCOMING_RAD }

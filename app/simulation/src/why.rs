@@ -73,12 +73,9 @@ pub struct Arrival {
 }
 
 impl WhyRun {
-    /// `scenario` is that of the main run. What stands on the road is not listed.
-    fn new(report: &Report, (main, scenario): (&Report, &Scenario), change: Option<&StandardChange>) -> WhyRun {
-        let is_obstacle = |name: &str| scenario.vehicle(name).is_some_and(|vehicle| vehicle.obstacle.is_some());
-        let order = |report: &Report| -> Vec<String> {
-            report.order.iter().filter(|name| !is_obstacle(name)).cloned().collect()
-        };
+    /// What stands on the road is not listed.
+    fn new(report: &Report, main: &Report, change: Option<&StandardChange>) -> WhyRun {
+        let order = report.order_of_driven();
         let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.clone());
         let arrival = |vehicle: &crate::report::VehicleReport| Arrival {
             name: vehicle.name.clone(),
@@ -88,9 +85,9 @@ impl WhyRun {
             change: change.map(|change| change.change.clone()),
             factor: change.map(|change| change.factor.clone()),
             set: change.map(|change| change.sets.clone()).unwrap_or_default(),
-            order: order(report),
-            order_differs: order(report) != order(main),
-            vehicles: report.vehicles.iter().filter(|vehicle| !is_obstacle(&vehicle.name)).map(arrival).collect(),
+            order_differs: order != main.order_of_driven(),
+            order: order.into_iter().map(str::to_owned).collect(),
+            vehicles: report.vehicles.iter().filter(|vehicle| !vehicle.is_obstacle).map(arrival).collect(),
             min_gap_m: report.min_gap_m(),
             collisions: report.collisions.len(),
             plan_failures: report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum(),
@@ -141,8 +138,7 @@ pub fn why(
     let all: Vec<Option<&StandardChange>> = std::iter::once(None).chain(changes.iter().map(Some)).collect();
     let reports =
         all.par_iter().with_max_len(1).map(|change| one(*change)).collect::<Result<Vec<Report>, RunError>>()?;
-    let runs =
-        reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, (&reports[0], scenario), change)).collect();
+    let runs = reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
     Ok(conclude(name, (scenario.seed, then.map(|then| then.time_s())), runs))
 }
 

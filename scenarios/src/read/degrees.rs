@@ -5,67 +5,65 @@
 //! in radians are accepted for one version more, with a remark that says what to write; one that no number of degrees gives to the last
 //! bit is written and read in radians without a remark, so that a written drive is the same drive.
 
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json, json};
 
 use crate::error::Fault;
 use crate::json_schema::{SchemaNode, TWIN_OF, in_degrees, rounded};
 use crate::read::tree::{TomlNode, TomlValue};
 
-/// Puts radians in the place of the degrees of every twin.
-pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
+/// A change of a table that its schema describes.
+type TableChange<'a> = &'a dyn Fn(SchemaNode, &mut Map<String, Json>);
+
+/// Changes every table of a value, the outer ones first.
+fn change_tables(schema: SchemaNode, value: &mut Json, change: TableChange<'_>) {
     match value {
-        Json::Object(table) => {
-            let kind = table.get("kind").and_then(Json::as_str).and_then(|kind| schema.of_kind(kind));
-            let schema = kind.unwrap_or(schema);
-            for (key, property) in schema.properties() {
-                match (property.keyword(TWIN_OF).and_then(Json::as_str), table.get_mut(key)) {
-                    (Some(radians), Some(stated)) => {
-                        let angle = stated.as_f64().map(f64::to_radians);
-                        table.remove(key);
-                        table.insert(radians.to_owned(), json!(angle));
-                    }
-                    (None, Some(below)) => to_radians(property, below),
-                    (_, None) => {}
-                }
-            }
-        }
+        Json::Object(table) => change_table(schema, table, change),
         Json::Array(items) => {
             if let Some(schema) = schema.entries() {
-                items.iter_mut().for_each(|item| to_radians(schema, item));
+                items.iter_mut().for_each(|item| change_tables(schema, item, change));
             }
         }
         Json::Null | Json::Bool(_) | Json::Number(_) | Json::String(_) => {}
     }
 }
 
-/// Puts degrees in the place of radians, wherever a number of degrees gives the same angle to the last bit.
-pub(crate) fn to_degrees(schema: SchemaNode, value: &mut Json) {
-    match value {
-        Json::Object(table) => {
-            let kind = table.get("kind").and_then(Json::as_str).and_then(|kind| schema.of_kind(kind));
-            let schema = kind.unwrap_or(schema);
-            for (key, property) in schema.properties() {
-                let radians = table.get(key).and_then(Json::as_f64).filter(|_| property.is_deprecated());
-                match (in_degrees(key), radians.and_then(exact)) {
-                    (Some(twin), Some(degrees)) => {
-                        table.remove(key);
-                        table.insert(twin, json!(degrees));
-                    }
-                    _ => {
-                        if let Some(below) = table.get_mut(key) {
-                            to_degrees(property, below);
-                        }
-                    }
-                }
-            }
+/// Changes a table, and every one in it.
+fn change_table(schema: SchemaNode, table: &mut Map<String, Json>, change: TableChange<'_>) {
+    let kind = table.get("kind").and_then(Json::as_str).and_then(|kind| schema.of_kind(kind));
+    let schema = kind.unwrap_or(schema);
+    change(schema, table);
+    for (key, property) in schema.properties() {
+        if let Some(below) = table.get_mut(key) {
+            change_tables(property, below, change);
         }
-        Json::Array(items) => {
-            if let Some(schema) = schema.entries() {
-                items.iter_mut().for_each(|item| to_degrees(schema, item));
-            }
-        }
-        Json::Null | Json::Bool(_) | Json::Number(_) | Json::String(_) => {}
     }
+}
+
+/// Puts radians in the place of the degrees of every twin.
+pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
+    change_tables(schema, value, &|schema, table| {
+        for (key, property) in schema.properties() {
+            let radians = property.keyword(TWIN_OF).and_then(Json::as_str);
+            if let Some((radians, stated)) = radians.zip(table.get(key)) {
+                let angle = stated.as_f64().map(f64::to_radians);
+                table.remove(key);
+                table.insert(radians.to_owned(), json!(angle));
+            }
+        }
+    });
+}
+
+/// Puts degrees in the place of radians, wherever a number of degrees gives the same angle to the last bit.
+pub(crate) fn to_degrees(schema: SchemaNode, table: &mut Map<String, Json>) {
+    change_table(schema, table, &|schema, table| {
+        for (key, _) in schema.properties().filter(|(_, property)| property.is_deprecated()) {
+            let degrees = table.get(key).and_then(Json::as_f64).and_then(exact);
+            if let Some((twin, degrees)) = in_degrees(key).zip(degrees) {
+                table.remove(key);
+                table.insert(twin, json!(degrees));
+            }
+        }
+    });
 }
 
 /// The number of degrees that is this angle to the last bit, the shortest that is tried; none for one angle of ten.
@@ -130,7 +128,7 @@ mod tests {
         let mut in_degrees = 0;
         for radians in angles {
             let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_rad": radians } }] });
-            to_degrees(schema, &mut stated);
+            to_degrees(schema, stated.as_object_mut().expect("a table"));
             in_degrees += usize::from(stated["vehicle"][0]["limits"]["steering_max_deg"].is_f64());
             to_radians(schema, &mut stated);
             let read = stated["vehicle"][0]["limits"]["steering_max_rad"].as_f64();

@@ -83,12 +83,8 @@ impl ScenarioFile {
         // The largest seeds are beyond the whole numbers of TOML.
         let mut keys = Stated::<ScenarioFile>::from(ScenarioFile { seed: None, ..self.clone() }).into_keys();
         keys.extend(self.seed.map(|seed| ("seed".to_owned(), seed.into())));
-        let mut stated = Json::Object(keys);
-        degrees::to_degrees(Registry::standard().complete(), &mut stated);
-        match stated {
-            Json::Object(keys) => keys,
-            _ => Map::new(),
-        }
+        degrees::to_degrees(Registry::standard().complete(), &mut keys);
+        keys
     }
 }
 

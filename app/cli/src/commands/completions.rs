@@ -52,8 +52,9 @@ fn names() -> String {
 
 /// A script for fish with the names of scenarios: what is generated completes the values of options alone.
 fn fish_with_names(script: &str) -> String {
+    let names = names();
     let line = |(command, _): &(&str, &str)| {
-        format!("complete -c interplay -n \"__fish_interplay_using_subcommand {command}\" -a \"{}\"\n", names())
+        format!("complete -c interplay -n \"__fish_interplay_using_subcommand {command}\" -a \"{names}\"\n")
     };
     script.to_owned() + &TAKES_SCENARIOS.iter().map(line).collect::<String>()
 }

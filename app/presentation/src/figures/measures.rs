@@ -43,16 +43,11 @@ fn driving(recorded_runs: &[&&RecordedRun]) -> TextTable {
             .iter()
             .filter_map(|vehicle| vehicle.completed_s.map(|time_s| format!("{} {time_s:.1}", vehicle.name)));
         let completed: Vec<String> = completed.collect();
-        let is_driven = |name: &&str| {
-            let vehicle = recorded.scenario.index_of(name).map(|index| &recorded.scenario.vehicles[index]);
-            vehicle.is_some_and(|vehicle| vehicle.obstacle.is_none())
-        };
-        let order = report.order.iter().map(String::as_str).filter(is_driven);
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         [
             label(recorded),
             if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
-            order.collect::<Vec<_>>().join(", "),
+            report.order_of_driven().join(", "),
             ego.map_or_else(String::new, |ego| {
                 ego.speed_range_mps().map(|speed_mps| format!("{speed_mps:.2}")).join(" to ")
             }),

@@ -11,7 +11,7 @@ use super::palette::NamedColour;
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
 use crate::answer::Requests;
-use crate::passing_words::{is_met, is_said};
+use crate::passing_words::{is_said, meeting_verb};
 use crate::signals::is_braking;
 
 /// Path of the status lines.
@@ -89,10 +89,8 @@ fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<Stri
     let mut parts: Vec<String> = asks.into_iter().collect();
     let passings: Vec<&PlannedPassing> =
         now.plan.homotopy_class.iter().filter(|passing| is_said(scenario, index, passing)).collect();
-    parts.extend(grouped(&passings, |passing| match passing.side {
-        PassingSide::Ahead if is_met(scenario, index, passing) => "goes before",
-        PassingSide::Behind if is_met(scenario, index, passing) => "gives way to",
-        _ => verb(passing, stands, brakes),
+    parts.extend(grouped(&passings, |passing| {
+        meeting_verb(scenario, index, passing).unwrap_or_else(|| verb(passing, stands, brakes))
     }));
     let speed = match now.input.acceleration_mps2 {
         _ if stands => "stands",

@@ -46,9 +46,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    let is_obstacle = |name: &str| report.vehicle(name).is_some_and(|vehicle| vehicle.is_obstacle);
-    let order: Vec<&str> = report.order.iter().map(String::as_str).filter(|name| !is_obstacle(name)).collect();
-    writeln!(text, "  order at the end: {}", order.join(", "))?;
+    writeln!(text, "  order at the end: {}", report.order_of_driven().join(", "))?;
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is alone")?,

@@ -30,7 +30,7 @@ pub struct Wait {
     /// For whom; empty where it waited for nobody.
     pub waits_for: Vec<String>,
     /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`, `before it passes van`, `no room beside van`,
-    /// `they wait for each other`, `lets ego pass`, `as its script says`, `as recorded`, or `no reason that shows`.
+    /// `they wait for each other`, `lets ego pass`, `as its scripted driver is told`, or `no reason that shows`.
     pub reason: String,
 }
 
@@ -87,11 +87,11 @@ const UNEXPLAINED: &str = "no reason that shows";
 
 /// Why a vehicle stands where neither rules nor others ask for it: its driver is told to, or lets somebody pass.
 fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
-    let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
-    let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
     if vehicle.driver.goes_first() && !vehicle.driver.can_be_asked() {
         return format!("as its {} driver is told", vehicle.driver.kind());
     }
+    let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
+    let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
     if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
 }
 

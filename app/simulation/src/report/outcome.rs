@@ -157,6 +157,12 @@ impl Report {
         self.metrics.number("ego_gap_m")
     }
 
+    /// Names from first to last, without what stands on the road.
+    pub fn order_of_driven(&self) -> Vec<&str> {
+        let is_driven = |name: &&str| self.vehicle(name).is_none_or(|vehicle| !vehicle.is_obstacle);
+        self.order.iter().map(String::as_str).filter(is_driven).collect()
+    }
+
     /// The outcome for the vehicle of that name.
     pub fn vehicle(&self, name: &str) -> Option<&VehicleReport> {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)

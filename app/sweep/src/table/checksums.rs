@@ -15,35 +15,29 @@ const DIGITS: usize = 8;
 
 /// The checksum of a column of a row group.
 pub(super) fn of_column(column: &TableColumn) -> String {
-    let mut hasher = crc32fast::Hasher::new();
-    let mut add = |bytes: Option<&[u8]>| {
-        hasher.update(&[u8::from(bytes.is_some())]);
-        hasher.update(&bytes.map_or(0, <[u8]>::len).to_le_bytes());
-        hasher.update(bytes.unwrap_or_default());
-    };
     match column {
-        TableColumn::Flags(all) => {
-            all.iter().for_each(|value| add(value.map(|value| [u8::from(value)]).as_ref().map(|bytes| &bytes[..])))
-        }
-        TableColumn::Counts(all) => {
-            all.iter().for_each(|value| add(value.map(u64::to_le_bytes).as_ref().map(|bytes| &bytes[..])))
-        }
-        TableColumn::Numbers(all) => {
-            all.iter().for_each(|value| add(value.map(f64::to_le_bytes).as_ref().map(|bytes| &bytes[..])))
-        }
-        TableColumn::Texts(all) => all.iter().for_each(|value| add(value.as_ref().map(String::as_bytes))),
+        TableColumn::Flags(all) => of_values(all.iter().map(|value| value.map(|value| [u8::from(value)]))),
+        TableColumn::Counts(all) => of_values(all.iter().map(|value| value.map(u64::to_le_bytes))),
+        TableColumn::Numbers(all) => of_values(all.iter().map(|value| value.map(f64::to_le_bytes))),
+        TableColumn::Texts(all) => of_values(all.iter().map(Option::as_ref)),
+    }
+}
+
+/// The checksum of values as bytes, of which some may be missing.
+fn of_values<B: AsRef<[u8]>>(values: impl Iterator<Item = Option<B>>) -> String {
+    let mut hasher = crc32fast::Hasher::new();
+    for value in values {
+        let bytes = value.as_ref().map_or(&[][..], AsRef::as_ref);
+        hasher.update(&[u8::from(value.is_some())]);
+        hasher.update(&bytes.len().to_le_bytes());
+        hasher.update(bytes);
     }
     format!("{:0DIGITS$x}", hasher.finalize())
 }
 
 /// The checksum of the names of the columns: one that is not found by its name would count as never stated.
 pub(super) fn of_names(schema: &TableSchema) -> String {
-    let mut hasher = crc32fast::Hasher::new();
-    for (name, _) in schema {
-        hasher.update(name.as_bytes());
-        hasher.update(b"\n");
-    }
-    format!("{:0DIGITS$x}", hasher.finalize())
+    of_values(schema.iter().map(|(name, _)| Some(name)))
 }
 
 /// The checksums that a file has.

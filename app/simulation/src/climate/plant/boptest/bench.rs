@@ -5,6 +5,7 @@ use std::fmt::Debug;
 use serde_json::{Map, Value};
 
 use crate::climate::plant::boptest_error::BoptestError;
+use crate::climate::plant::error::TEMPERATURES_C;
 
 /// Numbers by name.
 pub type Signals = Map<String, Value>;
@@ -31,6 +32,23 @@ pub fn number(request: &str, signals: &Signals, name: &str) -> Result<f64, Bopte
         request: request.to_owned(),
         reason: format!("it has no number `{name}`"),
     })
+}
+
+/// 0 °C \[K\].
+pub const ZERO_CELSIUS_K: f64 = 273.15;
+
+/// A temperature in kelvin, which an answer calls `name`, in °C.
+///
+/// # Errors
+/// [`BoptestError::Invalid`] for one that no case has: plans and indicators would trust it.
+pub fn celsius(request: &str, name: &str, kelvin: f64) -> Result<f64, BoptestError> {
+    let value_c = kelvin - ZERO_CELSIUS_K;
+    if TEMPERATURES_C.contains(&value_c) {
+        return Ok(value_c);
+    }
+    let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
+    let reason = format!("`{name}` is {value_c:.2} °C, which is outside of {from} to {to} °C");
+    Err(BoptestError::Invalid { request: request.to_owned(), reason })
 }
 
 /// A list of finite numbers of some signals.

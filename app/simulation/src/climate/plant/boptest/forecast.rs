@@ -10,15 +10,12 @@ use interplay_building::weather::{TimeSeries, Weather};
 use interplay_scenarios::{BoptestForecast, BoptestPrices};
 use serde_json::json;
 
-use super::bench::{Bench, series};
+use super::bench::{Bench, ZERO_CELSIUS_K, celsius, series};
 use crate::climate::plant::boptest_error::BoptestError;
-use crate::climate::plant::error::TEMPERATURES_C;
 use crate::climate::plant::foreseen::Foreseen;
 
 /// Interval at which series are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.
 pub const INTERVAL_S: f64 = 900.0;
-/// 0 °C \[K\].
-pub const ZERO_CELSIUS_K: f64 = 273.15;
 /// Intervals of an hour.
 const PER_HOUR: usize = 4;
 const W_PER_KW: f64 = 1000.0;
@@ -54,20 +51,15 @@ impl KnownSeries {
         Ok(Self { times_s, by_name })
     }
 
-    /// Refuses temperatures that no case has: plans and indicators would trust them.
+    /// Refuses series of temperatures that no case has.
     ///
     /// # Errors
     /// [`BoptestError::Invalid`].
-    pub fn check_temperatures(&self, name: &str) -> Result<(), BoptestError> {
-        let mut values_c = self.values(name).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K);
-        match values_c.find(|value_c| !TEMPERATURES_C.contains(value_c)) {
-            None => Ok(()),
-            Some(value_c) => {
-                let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
-                let reason = format!("`{name}` is {value_c:.2} °C, which is outside of {from} to {to} °C");
-                Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason })
-            }
+    pub fn check_temperatures(&self, names: impl IntoIterator<Item = String>) -> Result<(), BoptestError> {
+        for name in names {
+            self.values(&name).iter().try_for_each(|kelvin| celsius(REQUEST, &name, *kelvin).map(drop))?;
         }
+        Ok(())
     }
 
     /// The values of a series; none of one that was not asked for.
@@ -103,10 +95,7 @@ pub fn foresee(
         let reason = format!("it has {} times; wanted is one every {INTERVAL_S} s, {expected}", known.times_s.len());
         return Err(BoptestError::Invalid { request: REQUEST.to_owned(), reason });
     }
-    let bounds_named = settings.zones.iter().filter(|zone| !zone.is_empty()).flat_map(|zone| bounds_of(zone));
-    for name in bounds_named.chain([settings.outdoor.clone()]) {
-        known.check_temperatures(&name)?;
-    }
+    known.check_temperatures(all_bounds(&settings.zones).chain([settings.outdoor.clone()]))?;
     let linear = |values: Vec<f64>| TimeSeries { first_s: 0.0, interval_s: INTERVAL_S, cyclic: false, values };
     let ambient_c = known.values(&settings.outdoor).iter().map(|kelvin| kelvin - ZERO_CELSIUS_K).collect();
     let sun_w_per_m2 = known.values(&settings.sun).iter().map(|sun| sun.max(0.0)).collect();
@@ -119,6 +108,11 @@ pub fn foresee(
 }
 
 const EMISSIONS: &str = "EmissionsElectricPower";
+
+/// The series of the bounds of all zones that are judged: the others have no name.
+pub fn all_bounds(zones: &[String]) -> impl Iterator<Item = String> {
+    zones.iter().filter(|zone| !zone.is_empty()).flat_map(|zone| bounds_of(zone))
+}
 
 fn bounds_of(zone: &str) -> [String; 2] {
     [format!("LowerSetp[{zone}]"), format!("UpperSetp[{zone}]")]

@@ -5,7 +5,7 @@ use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
 use serde_json::json;
 
 use super::bench::{Bench, series};
-use super::forecast::KnownSeries;
+use super::forecast::{KnownSeries, all_bounds};
 use crate::climate::plant::boptest_error::BoptestError;
 use crate::day::Metered;
 
@@ -32,10 +32,7 @@ impl Known {
         (start_s, horizon_s): (f64, f64),
     ) -> Result<Self, BoptestError> {
         let price_of_electricity = format!("PriceElectricPower{}", prices.words().1);
-        let mut names = Vec::new();
-        for zone in listed.zones.iter().filter(|zone| !zone.is_empty()) {
-            names.extend([format!("LowerSetp[{zone}]"), format!("UpperSetp[{zone}]")]);
-        }
+        let mut names: Vec<String> = all_bounds(&listed.zones).collect();
         let aired = listed.zones.iter().take(listed.carbon_dioxide.len()).filter(|zone| !zone.is_empty());
         names.extend(aired.map(|zone| format!("UpperCO2[{zone}]")));
         for (signals, price, emission) in [
@@ -48,9 +45,7 @@ impl Known {
             }
         }
         let series = KnownSeries::ask(test, names, horizon_s)?;
-        for name in series.by_name.keys().filter(|name| name.contains("Setp[")) {
-            series.check_temperatures(name)?;
-        }
+        series.check_temperatures(all_bounds(&listed.zones))?;
         Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
     }
 

@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 
 use super::super::benchmark::Benchmark;
 use super::super::boptest_error::BoptestError;
-use super::super::error::{PlantError, TEMPERATURES_C};
+use super::super::error::PlantError;
 use super::super::foreseen::Foreseen;
 use super::super::interface::{StepInputs, ThermalPlant};
 use super::super::walls;
 use super::api::Test;
-use super::bench::{Bench, Signals, number};
+use super::bench::{Bench, Signals, celsius, number};
 use super::fmu::FmuBench;
-use super::forecast::{ZERO_CELSIUS_K, foresee};
+use super::forecast::foresee;
 use super::indicators::Known;
 use crate::day::Metered;
 use crate::not_copied::NotCopied;
@@ -138,15 +138,8 @@ impl BoptestPlant {
     }
 
     fn zones_c(&self, request: &str, signals: &Signals) -> Result<Vec<f64>, BoptestError> {
-        let zone_c = |zone: &BoptestZone| {
-            let value_c = number(request, signals, &zone.temperature)? - ZERO_CELSIUS_K;
-            if TEMPERATURES_C.contains(&value_c) {
-                return Ok(value_c);
-            }
-            let (from, to) = (TEMPERATURES_C.start(), TEMPERATURES_C.end());
-            let reason = format!("`{}` is {value_c:.2} °C, which is outside of {from} to {to} °C", zone.temperature);
-            Err(BoptestError::Invalid { request: request.to_owned(), reason })
-        };
+        let zone_c =
+            |zone: &BoptestZone| celsius(request, &zone.temperature, number(request, signals, &zone.temperature)?);
         self.config.zones.iter().map(zone_c).collect()
     }
 

@@ -9,14 +9,12 @@ use interplay_scenarios::BoptestPlantConfig;
 use serde_json::{Map, Value, json};
 
 use super::data::CaseData;
-use crate::climate::plant::boptest::bench::{Bench, Signals};
+use crate::climate::plant::boptest::bench::{Bench, Signals, ZERO_CELSIUS_K};
 use crate::climate::plant::boptest_error::BoptestError;
 
 const DAY_S: f64 = 86_400.0;
 /// A period of BOPTEST begins so long before its middle day, and is warmed up as long \[d\].
 const DAYS_BEFORE: f64 = 7.0;
-/// 0 °C \[K\].
-const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// A test case in a process of its own.
 #[derive(Debug)]
