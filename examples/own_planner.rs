@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
-use interplay_planners::belief::Outlook;
+use interplay_planners::outlook::Outlook;
 use interplay_planners::predict::steady_inputs;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, Trajectory};
 use interplay_scenarios::{Override, Registry};

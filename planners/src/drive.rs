@@ -3,9 +3,9 @@
 use std::any::Any;
 use std::fmt;
 
-use crate::belief::Outlook;
 use crate::diagnostic::Explanation;
 use crate::input_record::InputRecord;
+use crate::outlook::Outlook;
 use crate::predict::Prediction;
 use crate::record::Record;
 use crate::{DriverSettingError, Goal, Plan, PlanError, PlanTime, Scene};

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::drive::DriverKind;
 use crate::foreign_driver::ForeignDriver;
 use crate::input_record::WHEEL_KINDS;
-use crate::{Planner, belief};
 
 /// Makes the enumeration of the listed kinds, each with the settings of its folder.
 macro_rules! drivers {
@@ -91,15 +90,5 @@ impl Driver {
     pub fn of_kind(kind: &str) -> Option<Driver> {
         let is_known = WHEEL_KINDS.contains(&kind);
         is_known.then(|| serde_json::from_value(serde_json::json!({ "kind": kind })).ok()).flatten()
-    }
-
-    /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
-    pub fn planner(&self) -> Planner {
-        self.planner_believing(&belief::Settings::default())
-    }
-
-    /// As [`Driver::planner`], with settings for how it infers plans.
-    pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
-        Planner::new(&**self, inference)
     }
 }

@@ -4,11 +4,8 @@
 //! with which nothing is left to settle is skipped: one that drives ahead in the ego's target lane, or that has crossed, or
 //! that the ego has crossed before.
 
-use crate::relation::Relation;
+use crate::relation::{PARALLEL_RAD, Relation};
 use crate::{Agent, PlanEvent, PlanEventKind, Scene};
-
-/// Paths that meet at a smaller angle than this run side by side \[rad\].
-pub(crate) const PARALLEL_RAD: f64 = 0.1;
 
 /// Whether the order of two vehicles is settled; one on the same road is if it is ahead by `clear_lead_m` in the lane that
 /// the ego wants. On routes of a network it is also settled if the other follows in the ego's lane, or

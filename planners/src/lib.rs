@@ -27,7 +27,7 @@
 //! A driver that looks ahead brakes for a slower vehicle in its lane:
 //!
 //! ```
-//! use interplay_planners::belief::Outlook;
+//! use interplay_planners::outlook::Outlook;
 //! use interplay_planners::predict::constant_velocity;
 //! use interplay_planners::rules::RoadRules;
 //! use interplay_planners::{
@@ -98,7 +98,7 @@ pub mod motion_prediction;
 pub mod nash;
 pub mod negotiation;
 mod obstacle;
-mod outlook;
+pub mod outlook;
 mod permitted_speed;
 mod plan;
 mod plan_time;
@@ -132,11 +132,12 @@ pub use drive::{Drive, DriverKind};
 pub use driver::Driver;
 pub use driver_setting::DriverSettingError;
 pub use foreign_driver::ForeignDriver;
-pub use homotopy::{PassingSide, PlannedPassing, homotopy_class};
+pub use homotopy::homotopy_class;
 pub use input_record::{InputRecord, WHEEL_KINDS};
 pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
 pub use plan_time::PlanTime;
 pub use plan_violation::{PlanCondition, PlanViolation};
+pub use planned_passing::{PassingSide, PlannedPassing};
 pub use planner::Planner;
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};

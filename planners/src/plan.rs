@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
 use crate::driver_estimate::DriverEstimate;
-use crate::homotopy::PlannedPassing;
+use crate::planned_passing::PlannedPassing;
 use crate::trajectory::{Problem, Statistics};
 use crate::{PlanViolation, Trajectory};
 

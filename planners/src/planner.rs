@@ -2,11 +2,13 @@
 
 use std::borrow::Cow;
 
-use crate::belief::{self, DriverBeliefs, Outlook};
+use crate::belief::{self, DriverBeliefs};
 use crate::certificate::{refused, violations, within_touch};
 use crate::deadline::PlanDeadline;
 use crate::drive::{Drive, DriverKind};
+use crate::driver::Driver;
 use crate::homotopy::HomotopyLog;
+use crate::outlook::Outlook;
 use crate::predict::Prediction;
 use crate::sensing::SensedScene;
 use crate::{Plan, PlanError, Scene};
@@ -28,6 +30,18 @@ pub struct Planner {
     may_be_refused: bool,
     /// When a plan is too late; never by default.
     deadline: Option<PlanDeadline>,
+}
+
+impl Driver {
+    /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
+    pub fn planner(&self) -> Planner {
+        self.planner_believing(&belief::Settings::default())
+    }
+
+    /// As [`Driver::planner`], with settings for how it infers plans.
+    pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
+        Planner::new(&**self, inference)
+    }
 }
 
 impl Planner {

@@ -6,6 +6,9 @@
 use crate::road::network::{ConflictKind, RouteConflict};
 use crate::{Agent, Route, State};
 
+/// Paths that meet at a smaller angle than this run side by side \[rad\].
+pub(crate) const PARALLEL_RAD: f64 = 0.1;
+
 /// Headings that differ by more than this belong to different roads \[rad\].
 const SAME_ROAD_RAD: f64 = 0.1;
 /// Ways on one strip at a larger angle cross \[rad\].

@@ -3,9 +3,10 @@
 mod common;
 
 use common::world::{self, Vehicle, lane_keeping, run_inferring};
-use interplay_planners::belief::{self, Alternative, DriverBeliefs, Outlook};
+use interplay_planners::belief::{self, DriverBeliefs};
 use interplay_planners::contingency::{self, diagnostics::FUTURES, futures, shared_steps};
 use interplay_planners::human::Style;
+use interplay_planners::outlook::{Alternative, Outlook};
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Driver, Plan, Scene, conservative};
 

@@ -3,8 +3,8 @@
 mod common;
 
 use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, intersection, run, vehicle};
-use interplay_planners::belief::Outlook;
 use interplay_planners::human::{Human, Settings, Style};
+use interplay_planners::outlook::Outlook;
 use interplay_planners::predict::{Prediction, constant_velocity};
 use interplay_planners::scripted::{self, Order};
 use interplay_planners::trajectory::HomotopySearch;

@@ -2,7 +2,7 @@
 //!
 //! No scenario file makes a planner fail on purpose, so a driver takes over that does for a while.
 
-use interplay_planners::belief::Outlook;
+use interplay_planners::outlook::Outlook;
 use interplay_planners::predict::steady;
 use interplay_planners::{Drive, DriverKind, Limits, Plan, PlanError, Scene, human};
 use interplay_simulation::Simulation;

@@ -23,11 +23,11 @@ pub use settings::{ReplyValue, Settings};
 pub use signal::problem;
 pub use value::attraction;
 
-use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::encounter::{PartnerChoice, PartnerSequence};
+use crate::outlook::Outlook;
 use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};

@@ -32,12 +32,12 @@ mod wishes;
 
 use std::sync::Arc;
 
-pub use crate::outlook::{Alternative, Outlook};
 pub use settings::{Prior, Settings, StyleOdds};
 
 use std::collections::VecDeque;
 
 use crate::driver_estimate::DriverEstimate;
+use crate::outlook::{Alternative, Outlook};
 use crate::predict::steadily_along;
 use crate::sensing::{SensedScene, Sighting};
 use crate::{Agent, Diagnostic, PlanEvent, Scene, Trajectory};

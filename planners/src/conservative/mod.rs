@@ -10,9 +10,9 @@ mod settings;
 pub(crate) use fallback::{fall_back, solve_or_fall_back};
 pub use settings::Settings;
 
-use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::outlook::Outlook;
 use crate::receding_horizon::{self, Solved};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, HomotopySearch, Optimiser, Problem, Robust, Violation};

@@ -21,10 +21,10 @@ mod settings;
 
 pub use settings::Settings;
 
-use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::outlook::Outlook;
 use crate::posing::{JointVehicle, joint_problem};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};

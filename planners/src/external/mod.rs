@@ -5,8 +5,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind};
+use crate::outlook::Outlook;
 use crate::predict::Prediction;
 use crate::{Plan, PlanError, PlanTime, Scene};
 

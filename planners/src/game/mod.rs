@@ -27,11 +27,11 @@ mod settings;
 
 pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, SolutionConcept};
 
-use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
+use crate::outlook::Outlook;
 use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};

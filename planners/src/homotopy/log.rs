@@ -1,6 +1,7 @@
 //! Changes of the homotopy class as events.
 
-use super::{PlannedPassing, homotopy_class};
+use super::homotopy_class;
+use crate::planned_passing::PlannedPassing;
 use crate::{Plan, PlanEvent, PlanEventKind, Scene};
 
 /// How each vehicle was passed by the last plan that came near it.

@@ -16,12 +16,11 @@
 
 mod log;
 
-pub use crate::planned_passing::{PassingSide, PlannedPassing};
+use crate::planned_passing::{PassingSide, PlannedPassing};
 pub(crate) use log::HomotopyLog;
 
 use crate::clearance::ellipses;
-use crate::encounter::PARALLEL_RAD;
-use crate::relation::Relation;
+use crate::relation::{PARALLEL_RAD, Relation};
 use crate::road::network::RouteConflict;
 use crate::{Agent, Axes, Plan, Scene, State};
 

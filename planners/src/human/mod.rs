@@ -67,10 +67,10 @@ pub use settings::{REACTION_S, Settings, Style};
 
 use std::borrow::Cow;
 
-use crate::belief::Outlook;
 use crate::clearance::ellipses;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::obstacle::ObstacleMemory;
+use crate::outlook::Outlook;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
 use crate::road_rules::Obstacle;

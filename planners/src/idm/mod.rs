@@ -14,10 +14,10 @@ pub use settings::{Mobil, Settings};
 
 use std::borrow::Cow;
 
-use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::lanes::{RoadLanes, leader};
 use crate::obstacle::ObstacleMemory;
+use crate::outlook::Outlook;
 use crate::relation::{Relation, is_on_strip};
 use crate::right_of_way::ArrivalMemory;
 use crate::road::network::ConflictKind;

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
-use crate::belief::Outlook;
 use crate::human::{self, Human};
+use crate::outlook::Outlook;
 use crate::predict::constant_velocity;
 use crate::rules::RoadRules;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};

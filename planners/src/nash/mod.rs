@@ -18,10 +18,10 @@ pub use deviation::TOLERATED_GAIN;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use settings::Settings;
 
-use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::outlook::Outlook;
 use crate::posing::{JointVehicle, joint_problem};
 use crate::receding_horizon;
 use crate::trajectory::HomotopySearch;

@@ -30,12 +30,13 @@ pub use proposal::{AskedPartner, optimiser, problem};
 pub use references::References;
 pub use settings::{Concedes, Settings};
 
-use crate::belief::Outlook;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::encounter::partner_event;
-use crate::homotopy::{PassingSide, homotopy_class};
+use crate::homotopy::homotopy_class;
+use crate::outlook::Outlook;
+use crate::planned_passing::PassingSide;
 use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;

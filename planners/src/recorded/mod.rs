@@ -15,8 +15,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::outlook::Outlook;
 use crate::plan::{PlanEvent, PlanEventKind};
 use crate::predict::{Prediction, steadily_along};
 pub use crate::record::{Record, RecordFault, next_to};

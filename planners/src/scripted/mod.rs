@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
+use crate::outlook::Outlook;
 use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
 use crate::trigger::{Trigger, TriggerMemory};

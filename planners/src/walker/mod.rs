@@ -14,9 +14,9 @@ mod settings;
 
 pub use settings::{Settings, WalkerStyle};
 
-use crate::belief::Outlook;
 use crate::drive::{Drive, DriverKind, settings_of};
 use crate::giving_way::{front_m, stopping_distance_m};
+use crate::outlook::Outlook;
 use crate::predict::Prediction;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::steering::{admissible, roll_out, steer};

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use interplay_planners::belief::Outlook;
+use interplay_planners::outlook::Outlook;
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Drive, Input, Plan, PlanError, Scene};
 use thiserror::Error;
