@@ -8,8 +8,8 @@
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
 use interplay_planners::Driver;
-use interplay_planners::human::Style;
-use interplay_planners::walker::WalkerStyle;
+use interplay_planners::drivers::human::Style;
+use interplay_planners::drivers::walker::WalkerStyle;
 use serde_json::Value as Json;
 
 use crate::error::LoadError;

@@ -89,9 +89,9 @@ const PARTS: &[(&str, &str)] = &[
 /// Nouns of the planners, and what their files may name of the optimiser (`trajectory`): problems are posed, solved and checked
 /// beside them, not in them.
 const NOUNS: &[(&str, &[&str])] = &[
-    ("planners/src/scene.rs", &[]),
-    ("planners/src/plan.rs", &["Problem", "Statistics"]),
-    ("planners/src/plan_violation.rs", &[]),
+    ("planners/src/scene/mod.rs", &[]),
+    ("planners/src/plan/mod.rs", &["Problem", "Statistics"]),
+    ("planners/src/plan/violation.rs", &[]),
 ];
 
 /// The most lines of a file, and of a function.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::recorded::Record;
-use interplay_planners::sensing::{Sensor, Sight};
+use interplay_planners::drivers::recorded::Record;
+use interplay_planners::perception::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 use interplay_scenarios::{Outline, Stay};

@@ -1,6 +1,7 @@
 //! Level of detail: humans who are far from the ego follow the intelligent driver model, and are humans again when they come near.
 
-use interplay_planners::{Driver, Planner, State, idm};
+use interplay_planners::drivers::idm;
+use interplay_planners::{Driver, Planner, State};
 use interplay_scenarios::Scenario;
 
 use crate::not_copied::NotCopied;

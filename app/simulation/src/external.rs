@@ -1,6 +1,6 @@
 //! The plan of a vehicle that is driven from outside.
 
-use interplay_planners::predict::steadily_along;
+use interplay_planners::prediction::steadily_along;
 use interplay_planners::traffic::applied_input;
 use interplay_planners::{Input, Plan, PlanError, Scene, Trajectory};
 

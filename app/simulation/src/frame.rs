@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use interplay_building::control::Design;
-use interplay_planners::diagnostic;
+use interplay_planners::plan::diagnostic;
 use interplay_planners::rules::RoadRules;
 pub use interplay_planners::traffic::Origin;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use interplay_planners::State;
-use interplay_planners::recorded::next_to;
+use interplay_planners::drivers::recorded::next_to;
 use interplay_scenarios::Stay;
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion, Sensed, VehicleParameters};

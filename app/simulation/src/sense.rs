@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::Agent;
+use interplay_planners::perception::sensing::SensedScene;
 use interplay_planners::rules::{RoadRules, RuleBook};
-use interplay_planners::sensing::SensedScene;
 use interplay_planners::traffic::{CommittedPlan, RoadUser, Traffic};
 use interplay_planners::trajectory::Statistics;
 

@@ -7,7 +7,7 @@
 //! [`DriverKind::plan_time`](interplay_planners::DriverKind::plan_time) says the first two, which were fitted to 324 random runs (an authored
 //! scenario, often with another planner or horizon). The two factors were set afterwards, by the runs that were farthest off.
 
-use interplay_planners::predict::Prediction;
+use interplay_planners::prediction::Prediction;
 
 use crate::scenario::{Scenario, Vehicle};
 

@@ -1,7 +1,8 @@
 //! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
 //! which that shows.
 
-use interplay_planners::{ComfortLimits, human, idm};
+use interplay_planners::ComfortLimits;
+use interplay_planners::drivers::{human, idm};
 use serde_json::{Map, Value as Json, json};
 
 use super::fill::scaled;

@@ -1,7 +1,9 @@
 //! A vehicle as a file states it.
 
+use interplay_planners::drivers::human;
+use interplay_planners::perception::{belief, sensing};
 use interplay_planners::rules::RuleKeeping;
-use interplay_planners::{Body, Driver, Limits, SafetyEllipse, belief, human, sensing};
+use interplay_planners::{Body, Driver, Limits, SafetyEllipse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;

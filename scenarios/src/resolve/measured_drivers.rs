@@ -3,7 +3,7 @@
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::Driver;
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 
 use crate::scenario::Vehicle;
 

@@ -23,10 +23,11 @@ use interplay_building::energy::{HeatPump, Tariff};
 use interplay_building::occupancy::Occupancy;
 use interplay_building::schedule::ZoneSchedule;
 use interplay_common::random::SplitMix64;
+use interplay_planners::perception::belief;
+use interplay_planners::perception::sensing::{self, Sensor};
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
-use interplay_planners::sensing::{self, Sensor};
-use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief};
+use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State};
 
 use crate::classes::{ScenarioScale, VehicleClass};
 use crate::file_format::budget_limits::BudgetLimits;

@@ -1,7 +1,7 @@
 //! What is compared: planners of the ego, and drivers of the other vehicles.
 
 use interplay_common::spelling::suggestion;
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 
 use super::assignment::{Assignment, path_of};
 use super::factor::{DrawSettings, Factor, factors};

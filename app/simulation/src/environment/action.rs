@@ -1,6 +1,6 @@
 //! What an agent decides, as numbers, and what its vehicle does with it.
 
-use interplay_planners::lanes::{RoadLanes, towards};
+use interplay_planners::drivers::lanes::{RoadLanes, towards};
 use interplay_planners::{Agent, Body, Input, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,8 @@
 //! What stands between an agent and its vehicle: what it sees as numbers, and what its numbers make the vehicle do.
 
-use interplay_planners::belief::{self, DriverBeliefs};
-use interplay_planners::driver_estimate::DriverEstimate;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::belief::{self, DriverBeliefs};
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::scene::driver_estimate::DriverEstimate;
 use interplay_planners::{Plan, Scene};
 
 use super::action::{MetaTarget, handed_in, row_of};

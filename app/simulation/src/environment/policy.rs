@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use interplay_planners::outlook::Outlook;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::{Drive, Input, Plan, PlanError, Scene};
 use thiserror::Error;
 

@@ -23,7 +23,7 @@ mod time_to_collision;
 mod tyres;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::recorded::next_to;
+use interplay_planners::drivers::recorded::next_to;
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Outline, Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};

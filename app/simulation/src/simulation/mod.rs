@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::sensing::SensedScene;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 

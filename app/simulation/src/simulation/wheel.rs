@@ -68,7 +68,7 @@ impl Simulation {
 mod tests {
     use interplay_planners::Driver;
     use interplay_planners::Input;
-    use interplay_planners::inputs::{Settings, WheelHandOver};
+    use interplay_planners::drivers::inputs::{Settings, WheelHandOver};
     use interplay_scenarios::{Override, load};
 
     use crate::Simulation;

@@ -1,8 +1,8 @@
 //! The check of what vehicles are told to do: scripts, triggers, and when they are on the road.
 
 use interplay_planners::Driver;
-use interplay_planners::scripted::Order;
-use interplay_planners::trigger::Trigger;
+use interplay_planners::drivers::scripted::Order;
+use interplay_planners::scene::trigger::Trigger;
 
 use super::checker::Checker;
 use crate::error::quoted;

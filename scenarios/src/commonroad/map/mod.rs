@@ -11,7 +11,8 @@ mod places;
 mod rights;
 mod vehicles;
 
-use interplay_planners::{Driver, DriverKind, recorded};
+use interplay_planners::drivers::recorded;
+use interplay_planners::{Driver, DriverKind};
 use serde_json::{Value as Json, json};
 
 use super::model::CommonRoad;

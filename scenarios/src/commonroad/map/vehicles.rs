@@ -1,6 +1,6 @@
 //! Obstacles become vehicles that follow their record, or that a driver of ours takes over.
 
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, Obstacle, Role};

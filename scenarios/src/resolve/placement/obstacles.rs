@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use interplay_common::spelling::suggestion;
-use interplay_planners::recorded;
+use interplay_planners::drivers::recorded;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Driver, Limits, Route, SafetyEllipse, State};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use interplay_planners::Driver;
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Corridor, Route, State};
 
