@@ -18,7 +18,7 @@ use interplay_scenarios::{Scenario, Vehicle};
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
-use crate::standing::STANDING_MPS;
+use crate::state::standing::STANDING_MPS;
 
 /// Who has stood for so long is run into, for a real car \[s\].
 const STOOD_S: f64 = 1.0;
@@ -200,7 +200,7 @@ impl Measurement for FirstContact {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Collision, Frame, VehicleFrame};
+    use crate::state::frame::{Collision, Frame, VehicleFrame};
     use crate::measure::metric::SharedStates;
 
     /// A vehicle that drives along the road.

@@ -34,7 +34,7 @@ const SMALLEST_GAP: LeastOfRun = LeastOfRun {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Frame, PairGap};
+    use crate::state::frame::{Frame, PairGap};
     use crate::measure::metrics::tests::of_frames;
 
     #[test]

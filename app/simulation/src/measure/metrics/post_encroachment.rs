@@ -144,8 +144,8 @@ fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::Frame;
-    use crate::frame::VehicleFrame;
+    use crate::state::frame::Frame;
+    use crate::state::frame::VehicleFrame;
     use crate::measure::metric::SharedStates;
     use interplay_scenarios::load;
 

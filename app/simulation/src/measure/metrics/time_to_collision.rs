@@ -68,7 +68,7 @@ mod tests {
     use interplay_scenarios::load;
 
     use super::*;
-    use crate::frame::{Frame, VehicleFrame};
+    use crate::state::frame::{Frame, VehicleFrame};
     use crate::measure::metric::ObservedMoment;
     use crate::measure::values::MetricValue;
 
