@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::column::{Cell, ColumnKind};
-use crate::error::SweepError;
+use crate::cell::{Cell, ColumnKind};
+use crate::error::TableError;
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns of a table of trajectories.
@@ -39,7 +39,7 @@ impl TrajectoryWriter {
     ///
     /// # Errors
     /// For a file that cannot be written.
-    pub fn begin(target: &TableFile) -> Result<TrajectoryWriter, SweepError> {
+    pub fn begin(target: &TableFile) -> Result<TrajectoryWriter, TableError> {
         Ok(TrajectoryWriter { rows: RowFile::begin(target, &COLUMNS)?, partners: BTreeMap::new() })
     }
 }

@@ -5,7 +5,7 @@
 use parquet::file::metadata::FileMetaData;
 
 use super::TableColumn;
-use crate::column::TableSchema;
+use crate::cell::TableSchema;
 
 /// Under this key the file has its checksums, eight hexadecimal digits each.
 pub(super) const NOTE: &str = "interplay:checksums";
@@ -68,7 +68,7 @@ mod tests {
     use std::fs;
 
     use super::super::{RowTable, TableWriter};
-    use crate::column::{Cell, ColumnKind};
+    use crate::cell::{Cell, ColumnKind};
 
     #[test]
     fn no_flipped_bit_in_a_name_hides_a_column() {

@@ -9,10 +9,10 @@ use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
 use parquet::errors::ParquetError;
 use parquet::schema::types::{Type, TypePtr};
 
-pub(crate) use read::TableReader;
-pub(crate) use write::{TableWriter, write_rows};
+pub use read::TableReader;
+pub use write::TableWriter;
 
-use crate::column::{Cell, ColumnKind};
+use crate::cell::{Cell, ColumnKind};
 
 /// How many rows a row group has: what a reader has in memory at a time.
 pub(crate) const ROWS_PER_GROUP: usize = 10_000;
@@ -31,7 +31,8 @@ pub enum TableColumn {
 }
 
 impl TableColumn {
-    pub(crate) fn empty(kind: ColumnKind) -> TableColumn {
+    /// A column of a type without values.
+    pub fn empty(kind: ColumnKind) -> TableColumn {
         match kind {
             ColumnKind::Flag => TableColumn::Flags(Vec::new()),
             ColumnKind::Count => TableColumn::Counts(Vec::new()),
@@ -41,7 +42,7 @@ impl TableColumn {
     }
 
     /// Appends a value; one of another type counts as none.
-    pub(crate) fn push(&mut self, cell: Cell) {
+    pub fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (TableColumn::Flags(all), Cell::Flag(value)) => all.push(value),
             (TableColumn::Counts(all), Cell::Count(value)) => all.push(value),
@@ -55,7 +56,7 @@ impl TableColumn {
     }
 
     /// A value.
-    pub(crate) fn cell(&self, row: usize) -> Cell {
+    pub fn cell(&self, row: usize) -> Cell {
         match self {
             TableColumn::Flags(all) => Cell::Flag(all.get(row).copied().flatten()),
             TableColumn::Counts(all) => Cell::Count(all.get(row).copied().flatten()),

@@ -8,8 +8,8 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{BuildingFrame, Frame, ZoneFrame};
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::column::{Cell, ColumnKind};
-use crate::error::SweepError;
+use crate::cell::{Cell, ColumnKind};
+use crate::error::TableError;
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns of the building as a whole.
@@ -51,10 +51,10 @@ impl SeriesWriter {
     ///
     /// # Errors
     /// For a scenario without a building, and a file that cannot be written.
-    pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<SeriesWriter, SweepError> {
+    pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<SeriesWriter, TableError> {
         let network = scenario.building.as_ref().and_then(|building| Some((building, building.network().ok()?)));
         let Some((building, network)) = network else {
-            return Err(SweepError::Input("the scenario has no building whose series could be written".to_owned()));
+            return Err(TableError::Input("the scenario has no building whose series could be written".to_owned()));
         };
         let (zones, walls) = network.names().split_at(network.zone_count());
         let mut columns: Vec<(String, ColumnKind)> =

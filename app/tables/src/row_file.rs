@@ -8,8 +8,8 @@ use interplay_files::{NewFolders, WholeFile};
 use interplay_simulation::watch::WatchError;
 use thiserror::Error;
 
-use crate::column::{Cell, ColumnKind, TableSchema};
-use crate::error::SweepError;
+use crate::cell::{Cell, ColumnKind, TableSchema};
+use crate::error::TableError;
 use crate::table::TableWriter;
 
 /// The formats of tables that a run writes.
@@ -40,7 +40,7 @@ impl TableFile {
     }
 
     /// The file of a run in the folder of a sweep, by the key of the run.
-    pub(crate) fn of_run(folder: &Path, key: impl std::fmt::Display) -> TableFile {
+    pub fn of_run(folder: &Path, key: impl std::fmt::Display) -> TableFile {
         let path = folder.join("trajectories").join(format!("{key}.parquet"));
         TableFile { path, format: TableFormat::Parquet }
     }
@@ -78,15 +78,15 @@ impl RowFile {
     ///
     /// # Errors
     /// For a file that cannot be written.
-    pub fn begin(target: &TableFile, columns: &[(&str, ColumnKind)]) -> Result<RowFile, SweepError> {
+    pub fn begin(target: &TableFile, columns: &[(&str, ColumnKind)]) -> Result<RowFile, TableError> {
         let path = target.path();
-        interplay_files::check(path).map_err(SweepError::file("write", path))?;
-        let folders = NewFolders::make_above(path).map_err(SweepError::file("write", path))?;
+        interplay_files::check(path).map_err(TableError::file("write", path))?;
+        let folders = NewFolders::make_above(path).map_err(TableError::file("write", path))?;
         let rows = match target.format {
             TableFormat::Csv => {
-                let mut file = BufWriter::new(WholeFile::begin(path).map_err(SweepError::file("write", path))?);
+                let mut file = BufWriter::new(WholeFile::begin(path).map_err(TableError::file("write", path))?);
                 let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
-                writeln!(file, "{}", names.join(",")).map_err(SweepError::file("write", path))?;
+                writeln!(file, "{}", names.join(",")).map_err(TableError::file("write", path))?;
                 Rows::Csv(path.to_owned(), file)
             }
             TableFormat::Parquet => {
@@ -102,7 +102,7 @@ impl RowFile {
         match &mut self.rows {
             Rows::Csv(path, file) => {
                 let cells: Vec<String> = cells.into_iter().map(|cell| in_csv(&cell)).collect();
-                writeln!(file, "{}", cells.join(",")).map_err(SweepError::file("write", path))?;
+                writeln!(file, "{}", cells.join(",")).map_err(TableError::file("write", path))?;
             }
             Rows::Parquet(table) => table.push(cells)?,
         }
@@ -114,7 +114,7 @@ impl RowFile {
         match self.rows {
             Rows::Csv(path, file) => {
                 let whole = file.into_inner().map_err(std::io::IntoInnerError::into_error);
-                whole.and_then(WholeFile::replace).map_err(SweepError::file("write", &path))?;
+                whole.and_then(WholeFile::replace).map_err(TableError::file("write", &path))?;
             }
             Rows::Parquet(table) => table.finish()?,
         }

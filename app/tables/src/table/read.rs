@@ -13,11 +13,11 @@ use parquet::schema::types::ColumnDescriptor;
 use super::checksums::Checksums;
 use super::guard::guarded;
 use super::{RowTable, TableColumn};
-use crate::column::{ColumnKind, TableSchema};
-use crate::error::SweepError;
+use crate::cell::{ColumnKind, TableSchema};
+use crate::error::TableError;
 
 /// A table that is open.
-pub(crate) struct TableReader {
+pub struct TableReader {
     path: PathBuf,
     reader: SerializedFileReader<File>,
     checksums: Checksums,
@@ -25,10 +25,10 @@ pub(crate) struct TableReader {
 
 impl TableReader {
     /// Opens a table.
-    pub fn open(path: &Path) -> Result<TableReader, SweepError> {
-        let file = File::open(path).map_err(SweepError::file("read", path))?;
+    pub fn open(path: &Path) -> Result<TableReader, TableError> {
+        let file = File::open(path).map_err(TableError::file("read", path))?;
         let opened = guarded(|| SerializedFileReader::new(file)).ok_or_else(|| strange(path, DAMAGED))?;
-        let reader = opened.map_err(SweepError::table("read", path))?;
+        let reader = opened.map_err(TableError::table("read", path))?;
         let checksums = Checksums::of_file(reader.metadata().file_metadata());
         let reader = TableReader { path: path.to_owned(), reader, checksums };
         let is_sound = reader.has_places() && reader.checksums.agree_on_names(&reader.schema()?);
@@ -48,7 +48,7 @@ impl TableReader {
     ///
     /// # Errors
     /// One of a type that no table of rows has.
-    pub fn schema(&self) -> Result<TableSchema, SweepError> {
+    pub fn schema(&self) -> Result<TableSchema, TableError> {
         let columns = self.reader.metadata().file_metadata().schema_descr().columns();
         let kinds = columns.iter().map(|column| {
             let kind = match column.physical_type() {
@@ -82,12 +82,12 @@ impl TableReader {
     }
 
     /// One row group: the columns of these names, in their order; a column that is not there is left out.
-    pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, SweepError> {
+    pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, TableError> {
         guarded(|| self.decoded(group, names)).ok_or_else(|| strange(&self.path, DAMAGED))?
     }
 
-    fn decoded(&self, group: usize, names: &[String]) -> Result<RowTable, SweepError> {
-        let failed = SweepError::table::<ParquetError>("read", &self.path);
+    fn decoded(&self, group: usize, names: &[String]) -> Result<RowTable, TableError> {
+        let failed = TableError::table::<ParquetError>("read", &self.path);
         let schema = self.schema()?;
         let reader = self.reader.get_row_group(group).map_err(&failed)?;
         let row_count = usize::try_from(reader.metadata().num_rows()).unwrap_or(0);
@@ -111,8 +111,8 @@ impl TableReader {
 /// What is said of a table that cannot be decoded.
 const DAMAGED: &str = "it is damaged";
 
-fn strange(path: &Path, what: &str) -> SweepError {
-    SweepError::Input(format!("`{}` is no table of runs: {what}", path.display()))
+fn strange(path: &Path, what: &str) -> TableError {
+    TableError::Input(format!("`{}` is no table of runs: {what}", path.display()))
 }
 
 /// Whether a column holds nothing but missing values by its type.
@@ -167,7 +167,7 @@ impl RowTable {
     ///
     /// # Errors
     /// What cannot be read, or is no table of rows.
-    pub fn read(path: &Path, names: &[String]) -> Result<RowTable, SweepError> {
+    pub fn read(path: &Path, names: &[String]) -> Result<RowTable, TableError> {
         let reader = TableReader::open(path)?;
         let mut whole = RowTable::default();
         for group in 0..reader.group_count() {

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use interplay_files::WholeFile;
-use interplay_scenarios::RegisteredMetrics;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -14,12 +13,11 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
 use super::{ROWS_PER_GROUP, TableColumn, checksums, column_type};
-use crate::column::{Cell, TableSchema, cells, schema};
-use crate::error::SweepError;
-use crate::row::SweepRow;
+use crate::cell::{Cell, TableSchema};
+use crate::error::TableError;
 
 /// A table that is being written. It appears at its place when it is whole.
-pub(crate) struct TableWriter {
+pub struct TableWriter {
     target: PathBuf,
     writer: SerializedFileWriter<WholeFile>,
     schema: TableSchema,
@@ -31,9 +29,9 @@ pub(crate) struct TableWriter {
 
 impl TableWriter {
     /// Begins a table with these columns and with these words about the whole.
-    pub fn new(target: &Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter, SweepError> {
-        let file = WholeFile::begin(target).map_err(SweepError::file("write", target))?;
-        let failed = SweepError::table::<ParquetError>("write", target);
+    pub fn new(target: &Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter, TableError> {
+        let file = WholeFile::begin(target).map_err(TableError::file("write", target))?;
+        let failed = TableError::table::<ParquetError>("write", target);
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
         let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
@@ -51,7 +49,7 @@ impl TableWriter {
     }
 
     /// Appends a row, a value for each column in their order.
-    pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), SweepError> {
+    pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), TableError> {
         for (column, cell) in self.group.iter_mut().zip(cells) {
             column.push(cell);
         }
@@ -59,7 +57,7 @@ impl TableWriter {
         if self.rows == ROWS_PER_GROUP { self.end_group() } else { Ok(()) }
     }
 
-    fn end_group(&mut self) -> Result<(), SweepError> {
+    fn end_group(&mut self) -> Result<(), TableError> {
         if self.rows == 0 {
             return Ok(());
         }
@@ -74,7 +72,7 @@ impl TableWriter {
             }
             group.close().map(drop)
         };
-        write(&mut self.writer, &self.group).map_err(SweepError::table("write", &self.target))?;
+        write(&mut self.writer, &self.group).map_err(TableError::table("write", &self.target))?;
         self.checksums.extend(self.group.iter().map(checksums::of_column));
         self.group = self.schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
         self.rows = 0;
@@ -82,11 +80,11 @@ impl TableWriter {
     }
 
     /// Ends the table and gives it its place.
-    pub fn finish(mut self) -> Result<(), SweepError> {
+    pub fn finish(mut self) -> Result<(), TableError> {
         self.end_group()?;
         self.writer.append_key_value_metadata(KeyValue::new(checksums::NOTE.to_owned(), self.checksums));
-        let file = self.writer.into_inner().map_err(SweepError::table("write", &self.target))?;
-        file.replace().map_err(SweepError::file("write", &self.target))
+        let file = self.writer.into_inner().map_err(TableError::table("write", &self.target))?;
+        file.replace().map_err(TableError::file("write", &self.target))
     }
 }
 
@@ -113,22 +111,4 @@ fn write_column(writer: &mut SerializedColumnWriter<'_>, column: &TableColumn) -
         }
     }
     Ok(())
-}
-
-/// Writes rows as a table; `inputs` are the columns of what varies, and `registered` metrics that have columns, too.
-pub(crate) fn write_rows(
-    target: &Path,
-    (inputs, registered): (&TableSchema, &RegisteredMetrics),
-    about: &[(&str, String)],
-    rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
-) -> Result<usize, SweepError> {
-    let columns = schema(inputs, registered);
-    let mut writer = TableWriter::new(target, columns.clone(), about)?;
-    let mut count = 0;
-    for row in rows {
-        writer.push(cells(&row?, &columns, inputs))?;
-        count += 1;
-    }
-    writer.finish()?;
-    Ok(count)
 }

@@ -4,8 +4,8 @@ use interplay_scenarios::{DetectorConfig, DetectorLine, LaneReference, Scenario}
 use interplay_simulation::frame::Frame;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::column::{Cell, ColumnKind};
-use crate::error::SweepError;
+use crate::cell::{Cell, ColumnKind};
+use crate::error::TableError;
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns. Speeds at a place are averaged over vehicles (`mean_speed_mps`) and harmonically (`space_mean_speed_mps`): the latter is the
@@ -68,9 +68,9 @@ impl DetectorWriter {
     ///
     /// # Errors
     /// For a scenario without detectors, and a file that cannot be written.
-    pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<DetectorWriter, SweepError> {
+    pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<DetectorWriter, TableError> {
         if scenario.detectors.is_empty() {
-            return Err(SweepError::Input(
+            return Err(TableError::Input(
                 "the scenario has no `[[detector]]`, so there is nothing to write".to_owned(),
             ));
         }
