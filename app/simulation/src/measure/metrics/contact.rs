@@ -200,8 +200,8 @@ impl Measurement for FirstContact {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::frame::{Collision, Frame, VehicleFrame};
     use crate::measure::metric::SharedStates;
+    use crate::state::frame::{Collision, Frame, VehicleFrame};
 
     /// A vehicle that drives along the road.
     fn at(name: &str, x_m: f64, speed_mps: f64) -> VehicleFrame {

@@ -240,8 +240,8 @@ fn braking_mps2(tick: &ObservedTick<'_>, vehicle: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::frame::{Frame, VehicleFrame};
     use crate::measure::metric::SharedStates;
+    use crate::state::frame::{Frame, VehicleFrame};
     use interplay_scenarios::load;
 
     /// Seconds, states before and after a tick of three vehicles: the ego, one in the new lane ahead of it and one behind it.
