@@ -26,7 +26,7 @@ test-crate CRATE *WORDS:
 # Compile everything without running it, with all lints
 lint:
     cargo fmt --all --check
-    rustfmt --edition 2024 --check scenarios/src/road/junctions/*.rs
+    rustfmt --edition 2024 --check scenarios/src/roads/junctions/*.rs
     cargo clippy --release --workspace --all-targets --locked -- -D warnings
 
 # What every change must pass, from formatting to the last test

@@ -5,7 +5,7 @@ use interplay_planners::{Agent, Body, Input, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::components::HandedIn;
+use crate::state::components::HandedIn;
 
 /// What an agent decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

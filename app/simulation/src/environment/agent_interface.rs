@@ -8,7 +8,7 @@ use interplay_planners::{Plan, Scene};
 use super::action::{MetaTarget, handed_in, row_of};
 use super::observation::{AgentView, ObservationSpace, Seen};
 use super::{Action, ActionSpace, DiscreteMeta};
-use crate::components::HandedIn;
+use crate::state::components::HandedIn;
 
 /// What stands between an agent and its vehicle. It remembers what it believes of the others, if that is seen, and to which lane and
 /// speed meta-actions have led.

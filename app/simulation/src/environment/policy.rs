@@ -9,8 +9,8 @@ use interplay_planners::{Drive, Input, Plan, PlanError, Scene};
 use thiserror::Error;
 
 use super::AgentInterface;
-use crate::components::HandedIn;
-use crate::external;
+use crate::phases::external;
+use crate::state::components::HandedIn;
 
 /// A function from what an agent sees to what it does, such as a trained network. The same observation gives the same action.
 pub trait Policy: Send + Sync {

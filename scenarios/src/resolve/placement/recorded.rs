@@ -9,8 +9,8 @@ use interplay_planners::{Corridor, Route, State};
 
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
-use crate::error::{Fault, quoted};
 use crate::resolve::records;
+use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
 
 /// Cosine of the largest angle between a vehicle and the lane that it is taken to follow.
