@@ -24,7 +24,7 @@ use interplay_planners::road::network::RoadNetwork;
 
 use crate::format::read::tree::TomlNode;
 use crate::format::registry::Registry;
-use crate::format::scenario_file::{ScenarioFile, defaults};
+use crate::format::scenario_file::{self, ScenarioFile};
 use crate::format::stated::Stated;
 use crate::format::vehicle_config::{VehicleConfig, default_driver};
 use crate::format::weather::WeatherConfig;
@@ -124,11 +124,11 @@ fn read(
         figure: file.figure,
         scale: file.scale,
         conduct: file.conduct,
-        duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
-        step_s: file.step_s.unwrap_or_else(defaults::step_s),
+        duration_s: file.duration_s.unwrap_or_else(scenario_file::defaults::duration_s),
+        step_s: file.step_s.unwrap_or_else(scenario_file::defaults::step_s),
         ticks_per_plan: 1,
-        horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
-        seed: file.seed.unwrap_or_else(defaults::seed),
+        horizon_steps: file.horizon_steps.unwrap_or_else(scenario_file::defaults::horizon_steps),
+        seed: file.seed.unwrap_or_else(scenario_file::defaults::seed),
         real_time: reader.optional("real_time", file.real_time)?,
         plant: reader.or_default("plant", file.plant)?,
         lights: file.lights,

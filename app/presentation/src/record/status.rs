@@ -145,7 +145,7 @@ mod tests {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let state = State { speed_mps, ..State::default() };
         let input = Input { acceleration_mps2, ..Input::default() };
-        let now = VehicleFrame { state, input, plan, origin, ..Default::default() };
+        let now = VehicleFrame { state, input, plan: plan.into(), origin, ..Default::default() };
         let frame = Frame { vehicles: vec![now.clone()], ..Frame::default() };
         does(&scenario, 0, &now, Requests::default().sentence(&frame, 0))
     }

@@ -65,7 +65,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
         VehicleFrame {
             name: vehicle.name.clone(),
             state: place(tick),
-            plan,
+            plan: plan.into(),
             origin,
             prediction: ahead.into(),
             ..Default::default()
