@@ -24,9 +24,13 @@ impl LastLine {
         thread::spawn(move || {
             // Dropped when the thread ends.
             let _reading: mpsc::Sender<()> = reading;
-            for line in BufReader::new(errors).lines().map_while(Result::ok).filter(|line| !line.trim().is_empty()) {
-                if let Ok(mut last) = last.lock() {
-                    *last = shown(&line);
+            // Units of other languages write other encodings than UTF-8.
+            for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
+                let line = String::from_utf8_lossy(&line);
+                if !line.trim().is_empty()
+                    && let Ok(mut last) = last.lock()
+                {
+                    *last = shown(line.trim_end());
                 }
             }
         });

@@ -57,6 +57,10 @@ fn crashes_and_wrong_answers_are_errors() {
             "echo 'no such symbol' >&2; exit 7".to_owned(),
             "`instantiate`: its process ended with exit code 7, after it wrote `no such symbol`",
         ),
+        (
+            r"printf 'ung\374ltig\r\nno licence\r\n' >&2; exit 7".to_owned(),
+            "`instantiate`: its process ended with exit code 7, after it wrote `no licence`",
+        ),
         ("kill -SEGV $$".to_owned(), "signal 11"),
         (format!("{done} kill -SEGV $$"), "`initialize`: its process ended with signal 11"),
         (format!("{done} echo hello"), "answers `hello`"),
