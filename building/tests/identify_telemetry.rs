@@ -1,7 +1,7 @@
 //! Tables are read as the mapping says, and what cannot be read is located: file, line, column, what was wrong, what would work.
 
 use interplay_building::identify::synthetic_classroom::Classroom;
-use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError, TelemetryProblem, ValueShape};
+use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError};
 
 const MAPPING: &str = r#"
 walls = [["living", "outdoor"]]
@@ -198,9 +198,6 @@ fn refused(from: &str, to: &str) -> TelemetryError {
 fn an_unknown_key_is_typed_and_located_and_the_nearest_is_named() {
     let error = refused("step_s = 900.0", "step_s = 900.0\nstep_m = 15");
     assert_eq!(error.to_string(), "home.toml:10:1: unknown key `step_m` in `time`; did you mean `step_s`?");
-    let TelemetryProblem::UnknownKey { table, key, known } = *error.problem else { panic!("{error}") };
-    assert_eq!((table.as_str(), key.as_str()), ("time", "step_m"));
-    assert_eq!(known, ["column", "format", "zone", "step_s", "gaps", "batch"]);
     // A misspelt key is unknown before the right one is missing, wherever it stands.
     let misspelt = |from: &str, to: &str| refused(from, to).to_string();
     assert_eq!(
@@ -255,8 +252,6 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
         kind,
         "home.toml:18:9: `zone.living.heat.0.kind` is missing; it must be one of `power`, `meter`, `supply-air`, `water`"
     );
-    let problem = refused("900.0", "\"900\"").problem;
-    assert!(matches!(*problem, TelemetryProblem::WrongType { wanted: ValueShape::Number, .. }), "{problem}");
 }
 
 #[test]
@@ -353,7 +348,7 @@ fn what_the_check_lets_pass_can_be_read() {
     for (place, value) in places.iter().flat_map(|place| values.map(|value| (place, value))) {
         let text = MAPPING.replacen(place, value, 1);
         if let Err(error) = Mapping::parse("home.toml", &text) {
-            assert!(!matches!(*error.problem, TelemetryProblem::Syntax { .. }), "{value} for {place}: {error}");
+            assert!(!error.problem.starts_with("not valid TOML"), "{value} for {place}: {error}");
             assert!(error.place.is_some(), "{value} for {place}: {error}");
             refused += 1;
         }
@@ -369,7 +364,7 @@ fn the_example_mappings_are_sound() {
     ] {
         Mapping::parse(file, text).expect("an example is sound");
     }
-    assert!(matches!(*read("").expect_err("empty").problem, TelemetryProblem::Empty));
+    assert_eq!(read("").expect_err("empty").problem, "the table is empty");
 }
 
 /// Every key of an object in a schema, and of those below it.

@@ -73,7 +73,7 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
 
 /// A network that lives in continuous time: capacities need the exact discretisation, conductances do not care.
 #[test]
-fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
+fn regression_recovers_the_capacities_and_resistances_of_the_testbed() {
     let telemetry = testbed(20, 900.0);
     let report = identify(&telemetry, &settings(Estimator::PredictionError)).expect("rich data").report;
     let euler =
@@ -87,19 +87,10 @@ fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
         assert!((value(&report, "resistance to outdoor") / 31.25 - 1.0).abs() < 0.1);
         assert!((value(&report, "time constant through the walls") / 4.34 - 1.0).abs() < 0.1);
     }
-    assert_eq!(report.walls.len(), 6, "one for each pair of rooms");
-    for wall in &report.walls {
-        let names = (wall.between.0.as_str(), wall.between.1.as_str());
-        let (conductance, error) = wall.combined.unwrap_or_else(|| panic!("{names:?}: {}", wall.words));
-        match names {
-            ("room 1", "room 4") | ("room 2", "room 3") => {
-                assert!(conductance < 3.0 * error, "{names:?}: {conductance} ± {error}")
-            }
-            _ => assert!(
-                (conductance - 0.016).abs() < 3.0 * error && error < 0.002,
-                "{names:?}: {conductance} ± {error}"
-            ),
-        }
+    for (zone, neighbour) in [(0, "room 2"), (1, "room 1"), (2, "room 4"), (3, "room 3")] {
+        let wall = quantity(&report, zone, &format!("conductance to {neighbour}"));
+        let (conductance, error) = (wall.value.expect("identified"), wall.standard_error.expect("identified"));
+        assert!((conductance - 0.016).abs() < 3.0 * error && error < 0.002, "{neighbour}: {conductance} ± {error}");
     }
 }
 
@@ -128,7 +119,6 @@ fn heat_that_never_changes_identifies_no_capacity() {
             assert_eq!(quantity.value, None, "{method:?}: {quantity:?}");
             assert_eq!(quantity.verdict.confidence, Confidence::NotIdentifiable, "{method:?}: {quantity:?}");
         }
-        assert_eq!(report.zones[0].condition_number.is_none(), method == Estimator::Semiparametric);
     }
 }
 
@@ -166,20 +156,6 @@ fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
     }
     let tau = |report| quantity(report, 0, "time constant through the walls").value.expect("needs no unit");
     assert!((tau(&without) / tau(&with_unit) - 1.0).abs() < 1e-6);
-}
-
-#[test]
-fn a_building_that_changes_half_way_is_disputed() {
-    let mut telemetry = Classroom { days: 18, ..Classroom::default() }.simulate();
-    let middle = telemetry.rows() / 2;
-    // As if the meter were exchanged for one that counts half.
-    telemetry.zones[0].power_kw[middle..].iter_mut().for_each(|power| *power *= 0.5);
-    let report =
-        identify(&telemetry, &settings(Estimator::PredictionError)).expect("no error: the report says so").report;
-    let heat = quantity(&report, 0, "effect of heat");
-    assert_eq!(heat.verdict.confidence, Confidence::Disputed, "{heat:?}");
-    assert_eq!(quantity(&report, 0, "heat capacity").verdict.confidence, Confidence::Disputed);
-    assert!(heat.checks.iter().any(|check| check.how.contains("half")));
 }
 
 #[test]

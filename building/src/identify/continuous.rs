@@ -13,7 +13,6 @@
 
 use nalgebra::DMatrix;
 
-use super::cross_checks::CheckedEstimate;
 use super::estimate::Estimate;
 use super::free_run::RunZone;
 use super::normal::product;
@@ -28,10 +27,9 @@ const MOST_TERMS: i32 = 1000;
 /// The estimates of all zones as rates of the continuous network.
 ///
 /// A model that settles within a step has no continuous counterpart; its estimates are returned as they are.
-pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[CheckedEstimate]) -> Vec<Estimate> {
-    let sampled = estimates.iter().map(|checked| checked.estimate.clone());
+pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[Estimate]) -> Vec<Estimate> {
     let loss = loss(telemetry, zones);
-    let Some(factor) = factor(&loss) else { return sampled.collect() };
+    let Some(factor) = factor(&loss) else { return estimates.to_vec() };
     let rates = product(&factor, &loss) / telemetry.step_s;
     let convert = |(zone, mut estimate): (usize, Estimate)| {
         let own = factor[(zone, zone)];
@@ -47,7 +45,7 @@ pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[
         estimate.covariance *= own * own;
         estimate
     };
-    sampled.enumerate().map(convert).collect()
+    estimates.iter().cloned().enumerate().map(convert).collect()
 }
 
 /// The share of a zone's temperature difference that decays within a step, M_ii.

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::normal::{LogLikelihood, condition_number, robust_covariance};
+use super::normal::{LogLikelihood, robust_covariance};
 use super::regression::{Regression, ZoneModel};
 use super::telemetry::Telemetry;
 use super::{Estimator, IdentifyError, IdentifySettings, arma};
@@ -26,8 +26,6 @@ pub(super) struct Estimate {
     pub unconstrained: Vec<f64>,
     /// Covariance of the unconstrained ones; an infinite variance means that the data do not determine one.
     pub covariance: DMatrix<f64>,
-    /// √(λ_max/λ_min) of the scaled normal equations.
-    pub condition_number: f64,
 }
 
 /// Estimates the coefficients of `model` on `segments` of the telemetry.
@@ -66,7 +64,7 @@ fn semiparametric(
     let covariance =
         robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
     let coefficients = likelihood.non_negative_maximum();
-    Ok(Estimate { coefficients, unconstrained, covariance, condition_number: condition_number(&regression) })
+    Ok(Estimate { coefficients, unconstrained, covariance })
 }
 
 fn prediction_error(
@@ -101,7 +99,6 @@ fn prediction_error(
         coefficients,
         unconstrained: free.regression[..count].to_vec(),
         covariance: free.covariance.view((0, 0), (count, count)).into_owned(),
-        condition_number: condition_number(&regression),
     })
 }
 

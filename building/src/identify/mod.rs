@@ -14,7 +14,6 @@
 
 mod arma;
 mod continuous;
-mod cross_checks;
 mod diagnostics;
 mod error;
 mod estimate;
@@ -29,7 +28,6 @@ mod regression;
 mod report;
 mod residual;
 mod settings;
-mod shared_walls;
 mod smoothing;
 mod state_space;
 pub mod synthetic_classroom;
@@ -47,17 +45,15 @@ pub use report::{
     SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
-pub use smoothing::local_linear;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, EnergyUnit, Gaps, HeatColumns, Hold,
     IrradianceUnit, Mapping, MeasuredWall, MeasuredZone, MeterReading, Neighbour, PowerUnit, RecordedDays, SolarColumn,
-    SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape,
-    WaterFlowUnit, ZoneColumns,
+    SupplyAir, TableForm, Telemetry, TelemetryError, TemperatureUnit, TimeAxis, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;
 
-use cross_checks::CheckedEstimate;
+use estimate::{Estimate, estimate};
 use findings::Findings;
 use free_run::RunZone;
 use regression::ZoneModel;
@@ -115,7 +111,7 @@ fn by_method(
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
         .collect::<Result<Vec<_>, _>>()?;
-    let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
+    let (estimates, zones): (Vec<Estimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let findings = Findings { telemetry, settings, split: &split, estimates: &estimates, zones: &zones };
     let report = findings.report();
     let network = Err("only the method `state-space` makes a network of what it finds".into());
@@ -144,13 +140,13 @@ fn fit_zone(
     zone: usize,
     train: &[Range<usize>],
     settings: &IdentifySettings,
-) -> Result<(CheckedEstimate, RunZone), IdentifyError> {
+) -> Result<(Estimate, RunZone), IdentifyError> {
     let model = ZoneModel::new(telemetry, zone);
     if model.coefficients(telemetry).is_empty() {
         return Err(IdentifyError::NothingToIdentify { zone: telemetry.zones[zone].name.clone() });
     }
-    let estimate = CheckedEstimate::new(telemetry, &model, train, settings)?;
-    let coefficients = estimate.estimate.coefficients.clone();
+    let estimate = estimate(telemetry, &model, train, settings)?;
+    let coefficients = estimate.coefficients.clone();
     let residual = |harmonics: usize| -> Result<(ResidualModel, ResidualSeries), IdentifyError> {
         let order = (settings.autoregressive_order, harmonics);
         let fitted = ResidualModel::fit(telemetry, &model, &coefficients, train, order)?;

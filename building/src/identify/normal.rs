@@ -108,14 +108,6 @@ impl LogLikelihood {
     }
 }
 
-/// The condition number of scaled columns, √(λ_max / λ_min) of their Gram matrix; infinite when they are dependent.
-pub(super) fn condition_number(regression: &Regression) -> f64 {
-    let eigenvalues = SymmetricEigen::new(LogLikelihood::new(regression).gram).eigenvalues;
-    let (low, high) = (eigenvalues.min(), eigenvalues.max());
-    // Below rounding the smallest eigenvalue may even be negative.
-    if low <= MIN_EIGENVALUE_RATIO * high { f64::INFINITY } else { (high / low).sqrt() }
-}
-
 /// Covariance of least-squares coefficients when residuals are correlated over time and differ in size (Newey and West):
 ///
 /// ```text
@@ -228,7 +220,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    use super::{LogLikelihood, condition_number, robust_covariance};
+    use super::{LogLikelihood, robust_covariance};
     use crate::identify::regression::Regression;
 
     fn regression(columns: Vec<Vec<f64>>, target: Vec<f64>) -> Regression {
@@ -317,14 +309,5 @@ mod tests {
         let usual = 0.01 / super::dot(&column, &column);
         assert!((found[(0, 0)] / usual - 1.0).abs() < 1e-9);
         assert_eq!(found[(1, 1)], f64::INFINITY);
-    }
-
-    #[test]
-    fn the_condition_number_forgets_units_and_sees_dependence() {
-        let (a, b): (Vec<f64>, Vec<f64>) = (0..100).map(|t| (f64::from(t % 7) - 3.0, f64::from(t % 5) - 2.0)).unzip();
-        let scaled = a.iter().map(|value| 1e6 * value).collect();
-        let condition = |columns| condition_number(&regression(columns, vec![0.0; 100]));
-        assert!((condition(vec![a.clone(), b.clone()]) / condition(vec![scaled, b]) - 1.0).abs() < 1e-9);
-        assert_eq!(condition(vec![a.clone(), a.iter().map(|value| -2.0 * value).collect()]), f64::INFINITY);
     }
 }

@@ -15,12 +15,12 @@ const CUTOFF_BANDWIDTHS: f64 = 4.0;
 /// The series minus its local-linear kernel smooth; `bandwidth` in samples.
 ///
 /// A constant and a straight line leave nothing. Fewer than three samples leave zeros.
-pub fn without_smooth(series: &[f64], bandwidth: f64) -> Vec<f64> {
+pub(super) fn without_smooth(series: &[f64], bandwidth: f64) -> Vec<f64> {
     local_linear(series, bandwidth).iter().zip(series).map(|(smooth, value)| value - smooth).collect()
 }
 
 /// The local-linear kernel smooth of a series; `bandwidth` in samples.
-pub fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
+fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
     if series.len() < 3 {
         return series.to_vec();
     }

@@ -7,6 +7,6 @@ mod read;
 mod row_time;
 
 pub use error::SeriesError;
-pub use gaps::{Fill, gaps};
+pub use gaps::{bridge, gaps};
 pub use held::HeldSeries;
 pub use read::{SeriesColumn, SeriesTable};

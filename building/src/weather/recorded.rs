@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Forecast, Sky, TimeSeries, Weather};
-use crate::series::{Fill, SeriesColumn, SeriesError, SeriesTable, gaps};
+use crate::series::{SeriesColumn, SeriesError, SeriesTable, bridge, gaps};
 use crate::sun::{Site, SplitRadiation};
 
 const HOUR_S: f64 = 3600.0;
@@ -223,7 +223,7 @@ impl Reader<'_> {
             let problem = format!("`{title}` is missing in {rows} rows that the run uses, and is bridged");
             self.remarks.push(SeriesError { line: self.table.lines[first.start], problem });
         }
-        Fill::Linear.apply(&mut values, &gaps);
+        bridge(&mut values, &gaps);
         Ok(values)
     }
 

@@ -69,27 +69,6 @@ impl YoulaFilter {
     pub fn impulse_norm(&self, lifted: &Lifted) -> f64 {
         self.response(lifted, &impulses(lifted)).temperatures_k.norm()
     }
-
-    /// C = (I − QG)⁻¹ Q, n·N by n·N \[kW/K\] (eq. 4.29): column by column, forwards in time.
-    pub fn feedback_matrix(&self, lifted: &Lifted) -> DMatrix<f64> {
-        let size = lifted.size();
-        let mut matrix = DMatrix::zeros(size, size);
-        for column in 0..size {
-            let mut state = StateSpace::new(self.clone(), lifted.model());
-            let n = lifted.zones();
-            for t in 0..lifted.steps() {
-                // At time t the error of row t − 1 is known.
-                let mut error_k = vec![0.0; n];
-                if t > 0 && column / n == t - 1 {
-                    error_k[column % n] = 1.0;
-                }
-                let heat_kw = state.answer(&error_k);
-                matrix.view_mut((t * n, column), (n, 1)).copy_from_slice(&heat_kw);
-                state.advance(&heat_kw);
-            }
-        }
-        matrix
-    }
 }
 
 /// α = \[I; 0\], n·N by n.

@@ -32,7 +32,7 @@ pub use usage::{EpwRemark, EpwUse};
 
 use super::{Sky, TimeSeries, Weather};
 use crate::calendar::Weekday;
-use crate::series::gaps;
+use crate::series::{bridge, gaps};
 use crate::sun::{Site, SplitRadiation, days_since_2000};
 
 const HOUR_S: f64 = 3600.0;
@@ -82,7 +82,7 @@ impl Epw {
                 if count == values.len() {
                     return None;
                 }
-                specification.fill.apply(&mut values, gaps);
+                bridge(&mut values, gaps);
                 if count > 0 {
                     filled.push((specification.field, count));
                 }
@@ -90,7 +90,7 @@ impl Epw {
             })
             .collect();
         let Some(rows) = columns[Field::DryBulb as usize].as_ref().map(Vec::len) else {
-            return Err(EpwError { line: header.lines + 1, problem: EpwProblem::NoTemperature });
+            return Err(EpwError::malformed(header.lines + 1, "every dry-bulb temperature is marked as missing"));
         };
         let days = if leap { 366 } else { 365 };
         Ok(Self {
