@@ -248,7 +248,7 @@ impl Targets {
     /// Prices, emissions and equipment of the `steps` steps from step `t` of the day on, with the days of [`Targets::ahead`]. The outdoor
     /// temperature is not known.
     #[must_use]
-    pub fn supply_ahead(&self, t: usize, steps: usize) -> EnergySupply {
+    pub(crate) fn supply_ahead(&self, t: usize, steps: usize) -> EnergySupply {
         let tomorrow = self.tomorrow.as_deref().unwrap_or(self);
         let stacked = |of: fn(&EnergySupply) -> &Option<Vec<f64>>| -> Option<Vec<f64>> {
             (t..t + steps)

@@ -138,7 +138,9 @@ pub trait Control: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// [`ControlError`] if there is no plan.
-    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError>;
+    fn start_of_day(&mut self, _day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        Ok(())
+    }
 
     /// Returns the heat that each zone shall get until the next step \[kW\], negative for cooling. Called once for each step
     /// of the day, in order.
@@ -148,7 +150,9 @@ pub trait Control: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the record is of another day or building.
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError>;
+    fn end_of_day(&mut self, _record: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
 
     /// Why the last step that was asked for follows an earlier plan than its own; `None` if it does not.
     fn trouble(&self) -> Option<&ControlError> {

@@ -36,6 +36,7 @@ pub mod pid;
 mod planning;
 mod powers;
 pub mod predictive;
+mod receding_plan;
 pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;

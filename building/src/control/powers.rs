@@ -1,5 +1,7 @@
 //! What a linear map does in the long run and at most, from products with it alone: for maps that are too large to write down.
 
+use crate::staged::dense::dot;
+
 /// Most products with a map.
 const MAX_PRODUCTS: usize = 600;
 /// A singular value is found when it changes by no more than this share from one product to the next.
@@ -55,7 +57,7 @@ fn any_direction(size: usize) -> Vec<f64> {
 }
 
 fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+    dot(x, x).sqrt()
 }
 
 #[cfg(test)]

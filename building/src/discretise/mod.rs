@@ -177,7 +177,7 @@ impl Model {
     ///
     /// # Panics
     /// When a slice has another length.
-    pub fn step_by_heat(&self, temperatures_c: &mut [f64], heat_kw: &[f64]) {
+    pub(crate) fn step_by_heat(&self, temperatures_c: &mut [f64], heat_kw: &[f64]) {
         self.step(temperatures_c, heat_kw, 0.0, &vec![0.0; self.network.gain_count()]);
     }
 

@@ -108,7 +108,7 @@ impl Tariff {
     }
 
     /// The mean of all prices \[currency/kWh\].
-    pub fn mean_per_kwh(&self) -> f64 {
+    pub(crate) fn mean_per_kwh(&self) -> f64 {
         self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
@@ -149,7 +149,7 @@ impl Tariff {
     }
 
     /// The emissions in each step of a day, counted from zero \[kg/kWh\]; `None` where they are not stated.
-    pub fn day_emissions(&self, day: usize, step_s: f64, steps: usize) -> Option<Vec<f64>> {
+    pub(crate) fn day_emissions(&self, day: usize, step_s: f64, steps: usize) -> Option<Vec<f64>> {
         let stated = &self.emissions_kg_per_kwh;
         (!stated.is_empty()).then(|| by_step((stated, HOUR_S), day, step_s, steps))
     }

@@ -16,6 +16,7 @@ use super::normal::{LogLikelihood, robust_covariance};
 use super::regression::{Regression, ZoneModel};
 use super::telemetry::Telemetry;
 use super::{Estimator, IdentifyError, IdentifySettings, arma};
+use crate::staged::dense::dot;
 
 /// Coefficients of one zone, in the order of its model's terms.
 #[derive(Debug, Clone)]
@@ -103,7 +104,7 @@ fn prediction_error(
 }
 
 fn column_length(column: &[f64]) -> f64 {
-    super::normal::dot(column, column).sqrt()
+    dot(column, column).sqrt()
 }
 
 /// The deterministic regressors of the disturbance: a constant, and `harmonics` of the day, at the start of each step.

@@ -12,9 +12,8 @@ use super::physical::Physical;
 use super::regression::Coefficient;
 use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, ZoneReport};
 use super::residual::steps;
-use super::settings::IdentifySettings;
+use super::settings::{IdentifySettings, TrainTestSplit};
 use super::telemetry::Telemetry;
-use super::train_test_split::TrainTestSplit;
 use crate::discretise;
 
 /// Everything that a report is made from.

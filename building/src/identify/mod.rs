@@ -20,10 +20,8 @@ mod estimate;
 mod findings;
 mod free_run;
 mod heat_units;
-mod identified_network;
 mod normal;
 mod physical;
-mod progress;
 mod regression;
 mod report;
 mod residual;
@@ -32,17 +30,14 @@ mod smoothing;
 mod state_space;
 pub mod synthetic_classroom;
 mod telemetry;
-mod train_test_split;
 
 pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
-pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
-pub use progress::Progress;
 pub use report::{
-    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
-    SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, IdentifiedNetwork, ModelRow,
+    NetworkUncertainty, Quantity, ResidualReport, SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
 pub use telemetry::{
@@ -58,7 +53,10 @@ use findings::Findings;
 use free_run::RunZone;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
-use train_test_split::TrainTestSplit;
+use settings::TrainTestSplit;
+
+/// Receives a few words about the next fit while an identification runs, from any thread.
+pub type Progress<'a> = dyn Fn(&str) + Sync + 'a;
 
 /// Identifies every zone of the telemetry.
 ///

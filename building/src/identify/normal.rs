@@ -17,6 +17,7 @@ use std::ops::Range;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::regression::Regression;
+use crate::staged::dense::dot;
 
 /// Smallest eigenvalue of a Gram matrix with unit diagonal, as a share of the largest, that is not treated as zero: about 450
 /// rounding units, above the rounding errors of the sums in its entries.
@@ -210,11 +211,6 @@ pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum())
 }
 
-/// Σ a_t b_t, in the order of time.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
@@ -222,6 +218,7 @@ mod tests {
 
     use super::{LogLikelihood, robust_covariance};
     use crate::identify::regression::Regression;
+    use crate::staged::dense::dot;
 
     fn regression(columns: Vec<Vec<f64>>, target: Vec<f64>) -> Regression {
         let rows = target.len();
@@ -231,7 +228,7 @@ mod tests {
     /// ∇l of the unscaled problem.
     fn gradient(problem: &Regression, coefficients: &[f64]) -> Vec<f64> {
         let rest = problem.residuals(coefficients);
-        problem.columns.iter().map(|column| super::dot(column, &rest)).collect()
+        problem.columns.iter().map(|column| dot(column, &rest)).collect()
     }
 
     fn data(rows: usize, columns: usize) -> impl Strategy<Value = Regression> {
@@ -278,7 +275,7 @@ mod tests {
             .collect();
         let problem = regression(columns, target);
         let exact = LogLikelihood::new(&problem).maximum();
-        let gram = DMatrix::from_fn(3, 3, |i, j| super::dot(&problem.columns[i], &problem.columns[j]));
+        let gram = DMatrix::from_fn(3, 3, |i, j| dot(&problem.columns[i], &problem.columns[j]));
         let distance_after = |hessian: &DMatrix<f64>, steps: usize| {
             let inverse = hessian.clone().try_inverse().expect("regular");
             let mut theta = DVector::zeros(3);
@@ -306,7 +303,7 @@ mod tests {
         let residuals: Vec<f64> = (0..400).map(|t| if (t / 2) % 2 == 0 { 0.1 } else { -0.1 }).collect();
         let columns = vec![column.clone(), vec![0.0; 400]];
         let found = robust_covariance(&columns, &residuals, &[0..200, 200..400], 0);
-        let usual = 0.01 / super::dot(&column, &column);
+        let usual = 0.01 / dot(&column, &column);
         assert!((found[(0, 0)] / usual - 1.0).abs() < 1e-9);
         assert_eq!(found[(1, 1)], f64::INFINITY);
     }

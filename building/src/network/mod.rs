@@ -24,7 +24,6 @@ mod power_limits;
 mod presets;
 mod remarks;
 mod settings;
-mod sunlight;
 mod window;
 
 use nalgebra::DMatrix;
@@ -210,7 +209,13 @@ impl Network {
     ///
     /// # Panics
     /// When a slice has another length.
-    pub fn net_heat_kw(&self, temperatures_c: &[f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) -> Vec<f64> {
+    pub(crate) fn net_heat_kw(
+        &self,
+        temperatures_c: &[f64],
+        heat_kw: &[f64],
+        ambient_c: f64,
+        gains_kw: &[f64],
+    ) -> Vec<f64> {
         assert_eq!(heat_kw.len(), self.zone_count, "one heat input per zone");
         assert_eq!(gains_kw.len(), self.gain_count(), "one gain per zone, or per node where the sun falls on walls");
         let mut net_kw = self.conduct(temperatures_c);

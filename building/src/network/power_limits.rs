@@ -29,7 +29,7 @@ impl PowerLimits {
     }
 
     /// The heat that every zone gets if `heat_kw` is requested, one number per zone \[kW\].
-    pub fn limited_all(&self, heat_kw: &[f64]) -> Vec<f64> {
+    pub(crate) fn limited_all(&self, heat_kw: &[f64]) -> Vec<f64> {
         heat_kw.iter().enumerate().map(|(zone, kw)| self.limited(zone, *kw)).collect()
     }
 
@@ -37,7 +37,7 @@ impl PowerLimits {
     ///
     /// # Panics
     /// When there is no such zone.
-    pub fn towards_kw(&self, zone: usize, heat_kw: f64) -> f64 {
+    pub(crate) fn towards_kw(&self, zone: usize, heat_kw: f64) -> f64 {
         if heat_kw < 0.0 { self.cooling_kw[zone] } else { self.heating_kw[zone] }
     }
 

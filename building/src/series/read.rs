@@ -9,7 +9,6 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use interplay_common::cell::shown_cell;
 use jiff::civil::Date;
 
-use super::error::SeriesError;
 use super::row_time::{RowTime, TimeForm};
 
 /// The most that the interval between two rows may differ from the first one, as a share of it.
@@ -41,6 +40,22 @@ pub struct SeriesColumn {
     pub title: String,
     /// Its values; NaN where they are missing.
     pub values: Vec<f64>,
+}
+
+/// A table of series that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {problem}")]
+pub struct SeriesError {
+    /// The line, from one.
+    pub line: usize,
+    /// What is wrong, and what would work.
+    pub problem: String,
+}
+
+impl SeriesError {
+    fn new(line: usize, problem: impl Into<String>) -> Self {
+        Self { line, problem: problem.into() }
+    }
 }
 
 impl SeriesTable {

@@ -2,9 +2,8 @@
 //! left to reduce.
 
 use super::pairs::{Direction, Groups, Pairs, PerRow};
-use super::program::{Peak, PlanStage, StagedProgram};
+use super::program::{Peak, PlanStage, StagedError, StagedProgram, StagedSolution};
 use super::recursion::{Curvature, Recursion};
-use super::solution::{StagedError, StagedSolution};
 
 /// Iterations after which the method gives up. Problems of buildings take 10 to 40.
 const MAX_ITERATIONS: u32 = 120;

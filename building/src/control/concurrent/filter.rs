@@ -24,14 +24,15 @@ use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::control::uncertainty::Uncertainty;
 use crate::lifted::Lifted;
+use crate::staged::dense::dot;
 
 /// The largest number of entries of all taps that is designed.
-pub const MOST_UNKNOWNS: usize = 1024;
+const MOST_UNKNOWNS: usize = 1024;
 /// Cost of the sum of the squares of all taps, which keeps the normal equations definite where a tap has no effect. It is taken
 /// off the reported cost again.
 const TAP_COST: f64 = 1e-9;
 /// The largest number of inputs of a day: the covariance has the square of that many entries.
-pub const MOST_INPUTS: usize = 2400;
+const MOST_INPUTS: usize = 2400;
 /// The default of γ₂, as a multiple of ‖h₁‖.
 const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
 /// The default of γ₂ where no taps within γ_q satisfy that, as a multiple of the least that they do.
@@ -115,10 +116,6 @@ fn delayed(series: &[f64], size: usize, by: usize) -> Vec<f64> {
 fn mean(values: &[f64]) -> f64 {
     let first = values.first().copied().unwrap_or(0.0);
     first + values.iter().map(|value| value - first).sum::<f64>() / values.len().max(1) as f64
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Refuses what no disturbance and no day can make work.

@@ -47,7 +47,7 @@ impl Response {
     }
 
     /// Standard deviations of the temperatures \[K\], stacked.
-    pub fn temperature_deviation_k(&self) -> Vec<f64> {
+    pub(crate) fn temperature_deviation_k(&self) -> Vec<f64> {
         row_norms(&self.temperatures_k)
     }
 }

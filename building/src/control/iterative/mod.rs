@@ -22,13 +22,11 @@ pub mod guard;
 pub mod joint;
 pub mod projection;
 mod settings;
-mod size;
 mod static_feedback;
 
 use nalgebra::DMatrix;
 
 pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objective, Stability};
-pub use size::{MOST_LINEAR_TEMPERATURES, MOST_LMI_TEMPERATURES, MOST_UNKNOWNS};
 pub use static_feedback::StaticFeedback;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
@@ -74,7 +72,7 @@ impl Iterative {
     pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         if settings.objective == Objective::Expected {
-            size::check(&settings, &lifted)?;
+            settings.check_size(&lifted)?;
             decay::chosen(&settings, lifted.model())?;
         }
         let n = lifted.zones();

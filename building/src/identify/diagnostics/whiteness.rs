@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::chi_squared::survival;
 use super::periodogram::boundary_excess;
-use crate::identify::normal::dot;
+use crate::staged::dense::dot;
 
 /// The most lags that are looked at.
 const MOST_LAGS: usize = 48;

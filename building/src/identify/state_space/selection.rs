@@ -10,7 +10,7 @@
 
 use rayon::prelude::*;
 
-use super::extension::{Extension, HiddenNode};
+use super::elements::{Extension, HiddenNode};
 use super::likelihood::{Observations, log_likelihood};
 use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;

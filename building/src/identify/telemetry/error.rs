@@ -36,7 +36,7 @@ impl Problem {
     }
 
     /// The value of a key is outside a bound.
-    pub fn out_of_bounds(key: &SettingKey, value: f64, bound: Bound) -> Self {
+    pub(crate) fn out_of_bounds(key: &SettingKey, value: f64, bound: Bound) -> Self {
         Self::new(format!("`{key}` is {value}"), format!("it must be {bound}"))
     }
 }

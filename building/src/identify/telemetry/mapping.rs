@@ -33,9 +33,9 @@ use super::error::{Problem, TelemetryError, listed};
 use super::form;
 use super::measurements::Hold;
 use super::table_form::TableForm;
-use super::time_zone::NamedZone;
 use super::units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
+use crate::series::clock::NamedZone;
 
 /// A mapping: which column of a table is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

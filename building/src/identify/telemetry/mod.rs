@@ -12,8 +12,6 @@ mod read;
 mod recorded_days;
 mod table;
 mod table_form;
-mod time_text;
-mod time_zone;
 mod units;
 mod value_shape;
 mod write;

@@ -5,10 +5,9 @@ use std::ops::Range;
 use super::error::{Problem, TelemetryError};
 use super::mapping::{Gaps, HeatColumns, Mapping, MeterReading, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
-use super::table::{Column, Row, Table, TableTime};
-use super::time_text::OFFSET;
-use super::time_zone::NamedZone;
+use super::table::{Column, Row, Table};
 use super::units::PowerUnit;
+use crate::series::clock::{ClockTime, NamedZone, OFFSET};
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
 const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
@@ -96,11 +95,11 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     // The row before, if it was complete: its time and batch.
     let mut before: Option<(f64, &str)> = None;
     let clock = axis.zone.as_deref().and_then(NamedZone::find);
-    let mut last: Option<TableTime> = None;
+    let mut last: Option<ClockTime> = None;
     for (index, row) in table.rows.iter().enumerate() {
         let now = match time {
             Some(column) => table.time(row, column, (axis, clock.as_ref()), last)?,
-            None => TableTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
+            None => ClockTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
         };
         let now_s = now.elapsed_s;
         last = Some(now);

@@ -1,13 +1,11 @@
 //! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use jiff::fmt::strtime::BrokenDownTime;
 
 use super::error::{Problem, TelemetryError, listed};
 use super::mapping::{Mapping, TimeAxis};
 use super::table_form::{DecimalSign, TableForm};
-use super::time_text;
-use super::time_zone::{NamedZone, seconds_since_1970};
+use crate::series::clock::{self, ClockTime, NamedZone, seconds_since_1970};
 
 /// A table of text; every row has as many fields as the header.
 pub(super) struct Table<'a> {
@@ -24,15 +22,6 @@ struct Computed {
     name: String,
     members: Vec<Column>,
     factor: f64,
-}
-
-/// A time of a row.
-#[derive(Clone, Copy)]
-pub(super) struct TableTime {
-    /// Since some moment that is the same for all rows \[s\].
-    pub elapsed_s: f64,
-    /// By how much clocks at the place were ahead of it \[s\].
-    pub offset_s: f64,
 }
 
 /// A row and the line on which it starts, from 1.
@@ -160,29 +149,29 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A field as a time. `clock` is the time zone of times without an offset, and `after` the time of the row before.
+    /// A field as a time. `zone` is the time zone of times without an offset, and `after` the time of the row before.
     pub fn time(
         &self,
         row: &Row,
         column: Column,
-        (axis, clock): (&TimeAxis, Option<&NamedZone>),
-        after: Option<TableTime>,
-    ) -> Result<TableTime, TelemetryError> {
+        (axis, zone): (&TimeAxis, Option<&NamedZone>),
+        after: Option<ClockTime>,
+    ) -> Result<ClockTime, TelemetryError> {
         let (text, format) = (self.text(row, column), axis.format.as_str());
         let number = |unit_s: f64| {
             let number = text.parse().ok().filter(|time: &f64| time.is_finite());
-            number.map(|number| TableTime { elapsed_s: number * unit_s, offset_s: 0.0 })
+            number.map(|number| ClockTime { elapsed_s: number * unit_s, offset_s: 0.0 })
         };
-        let parsed = || time_text::parsed(format, text);
-        let time = match (format, clock) {
+        let parsed = || clock::parsed(format, text);
+        let time = match (format, zone) {
             ("seconds", _) => number(1.0),
             ("hours", _) => number(3600.0),
-            (_, None) => parsed().and_then(|parsed| calendar_time(&parsed)),
-            (_, Some(clock)) => {
+            (_, None) => parsed().and_then(|parsed| ClockTime::stated(&parsed)),
+            (_, Some(zone)) => {
                 let shown = parsed().and_then(|parsed| parsed.to_datetime().ok());
                 let time = |shown| {
-                    let offset_s = clock.offset_s(shown, after.map(|after| after.elapsed_s))?;
-                    Some(TableTime { elapsed_s: seconds_since_1970(shown) - offset_s, offset_s })
+                    let offset_s = zone.offset_s(shown, after.map(|after| after.elapsed_s))?;
+                    Some(ClockTime { elapsed_s: seconds_since_1970(shown) - offset_s, offset_s })
                 };
                 if let Some((shown, None)) = shown.map(|shown| (shown, time(shown))) {
                     let zone = axis.zone.as_deref().unwrap_or_default();
@@ -194,7 +183,7 @@ impl<'a> Table<'a> {
             }
         };
         time.ok_or_else(|| {
-            let remedy = match time_text::format_with_offset(format, text) {
+            let remedy = match clock::format_with_offset(format, text) {
                 Some(format) => {
                     format!("it has an offset from UTC: set `time.format` to `{format}`, in place of a `time.zone`")
                 }
@@ -217,13 +206,6 @@ impl<'a> Table<'a> {
     pub fn title(&self, column: Column) -> String {
         self.header.get(self.first_of(column).0).cloned().unwrap_or_default()
     }
-}
-
-/// A time as it is written: seconds since 1970, in UTC where it has an offset.
-fn calendar_time(parsed: &BrokenDownTime) -> Option<TableTime> {
-    let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
-    let here = seconds_since_1970(parsed.to_datetime().ok()?);
-    Some(TableTime { elapsed_s: here - offset_s, offset_s })
 }
 
 /// A text and where its lines begin. (The reader counts lines too, but one short after a carriage return.)

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::world::World;
+use super::World;
 use crate::identify::state_space::likelihood::Observations;
 
 /// Shifts that are tried \[h\].
