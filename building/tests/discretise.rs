@@ -89,7 +89,7 @@ proptest! {
     }
 
     #[test]
-    fn the_transpose_is_the_transpose(network in network(6), step_s in 60.0..7200.0) {
+    fn the_transpose_product_is_adjoint_to_the_product(network in network(6), step_s in 60.0..7200.0) {
         for model in models(&network, step_s) {
             let n = network.node_count();
             let (x, y) = (numbers(n, 1.0), numbers(2 * n, 1.0)[n..].to_vec());
@@ -189,7 +189,7 @@ fn a_wrong_reading_of_the_units_is_refused_with_the_largest_stable_step() {
 }
 
 #[test]
-fn a_step_that_is_no_duration_is_refused() {
+fn a_step_that_is_not_a_positive_duration_is_refused() {
     for step_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(Model::exact(&Network::testbed(), step_s), Err(ModelError::BadStep { .. })));
         assert!(matches!(Model::euler(&Network::testbed(), step_s), Err(ModelError::BadStep { .. })));

@@ -121,7 +121,7 @@ fn cells_that_a_run_does_not_use_are_remarks() {
 }
 
 #[test]
-fn a_gap_is_bridged_with_a_word_or_refused() {
+fn a_short_gap_is_bridged_with_a_remark_and_a_long_one_refused() {
     let missing = |rows: std::ops::Range<usize>| {
         rows.fold(File::days((1, 3)), |file, index| file.with(index, 6, "99.9")).parse().expect("rows")
     };
@@ -158,7 +158,7 @@ fn a_file_without_sun_is_refused_where_the_sun_is_used() {
 }
 
 #[test]
-fn the_hour_of_a_row_ends_at_its_stamp() {
+fn the_hour_of_a_row_ends_at_its_time_stamp() {
     let weather = File::year().parse().expect("a whole year").weather();
     let at = |hours: f64| weather.ambient_c.at(hours * HOUR_S);
     // Row 0 is stamped hour 1: its temperature is that of 01:00, not that of 00:00.
@@ -214,7 +214,7 @@ fn steps_are_means_over_the_step() {
 }
 
 #[test]
-fn leap_years_are_read_off_the_rows() {
+fn leap_years_are_recognised_by_their_rows() {
     let leap = File::new(true, 1, (1, 1), (12, 31)).parse().expect("8784 rows");
     assert!(leap.is_leap() && leap.is_whole_year());
     assert_eq!(leap.rows(), 8784);
@@ -281,7 +281,7 @@ fn a_cut_off_file_is_located() {
 }
 
 #[test]
-fn what_is_wrong_is_located() {
+fn every_fault_of_an_epw_file_is_located() {
     let problem = |file: File| {
         let error = file.parse().expect_err("must be refused");
         (error.line - HEADER, error.to_string())

@@ -95,7 +95,7 @@ fn regression_recovers_the_capacities_and_resistances_of_the_testbed() {
 }
 
 #[test]
-fn a_wall_that_is_not_there_is_not_told_apart_from_zero_and_has_no_resistance() {
+fn a_missing_wall_has_a_conductance_of_about_zero_and_no_resistance() {
     let report = identify(&testbed(20, 900.0), &settings(Estimator::PredictionError)).expect("rich data").report;
     let rate = quantity(&report, 0, "rate towards room 4");
     assert_eq!(rate.verdict.confidence, Confidence::NotDistinguishableFromZero, "{rate:?}");
@@ -123,7 +123,7 @@ fn heat_that_never_changes_identifies_no_capacity() {
 }
 
 #[test]
-fn two_neighbours_that_are_one_cannot_be_told_apart_but_the_rest_can() {
+fn identical_neighbours_are_not_identifiable_and_the_rest_is() {
     for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
         telemetry.boundaries[2].temperature_c = telemetry.boundaries[1].temperature_c.clone();
@@ -159,7 +159,7 @@ fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
 }
 
 #[test]
-fn too_little_to_go_by_is_an_error_that_says_what_would_do() {
+fn too_few_rows_or_missing_causes_are_reported_with_a_remedy() {
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.segments = std::iter::once(0..20).collect();
     let error = identify(&telemetry, &settings(Estimator::PredictionError)).expect_err("20 rows are too few");

@@ -252,7 +252,7 @@ fn walls_that_store_heat_are_states_without_a_sensor() {
 }
 
 #[test]
-fn the_causal_optimum_is_one() {
+fn the_causal_feedback_is_optimal() {
     // No causal perturbation of the inputs is cheaper, and its conditions hold: Gᵀ W_e G (L + V) + W_u V vanishes where V
     // is free.
     let (lifted, targets) = (lifted(), chapter_3(1.0));
@@ -327,7 +327,7 @@ fn a_failed_design_repeats_the_day_before_and_says_why() {
 }
 
 #[test]
-fn a_covariance_that_is_none_is_refused() {
+fn a_matrix_that_is_not_a_covariance_is_refused() {
     let contradicting = DMatrix::from_row_slice(3, 3, &[1.0, 0.9, -0.9, 0.9, 1.0, 0.9, -0.9, 0.9, 1.0]);
     assert!(matches!(factor(contradicting), Err(ControlError::Covariance { order: 3 })));
     let mut missing = covariance(1.0);
@@ -337,7 +337,7 @@ fn a_covariance_that_is_none_is_refused() {
 }
 
 #[test]
-fn uncertainty_is_learned() {
+fn the_uncertainty_is_reestimated_from_prediction_errors() {
     let targets = chapter_3(1.0);
     let settings = UncertaintySettings { prior_days: 2.0, ..UncertaintySettings::default() };
     let truth = UncertaintySettings { common_kw: 0.05, zone_kw: 0.2, zone_other_kw: 0.03, ..settings };

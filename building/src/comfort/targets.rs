@@ -159,11 +159,11 @@ impl Targets {
         self.reference_c.len() / self.zones.max(1)
     }
 
-    /// By how much a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` counts
-    /// as in the stacked quantities.
+    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` is
+    /// an index of stacked quantities.
     ///
     /// # Panics
-    /// When there is no entry `i`.
+    /// When `i` is out of range.
     pub fn beyond_k(&self, i: usize, temperature_c: f64) -> f64 {
         if !self.occupied[i] {
             return 0.0;

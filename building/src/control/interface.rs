@@ -1,5 +1,4 @@
-//! What every controller provides, its settings, [`ControllerKind`], and what acts with them, [`Control`]; and what a controller
-//! is given and told of a day.
+//! The interface of controllers: settings ([`ControllerKind`]), the running controller ([`Control`]), and its inputs and outputs.
 
 use std::fmt;
 
@@ -132,12 +131,12 @@ pub trait ControllerKind: fmt::Debug + Send + Sync {
     }
 }
 
-/// A controller with all that it remembers.
+/// A running controller with its state.
 pub trait Control: fmt::Debug + Send + Sync {
     /// Plans the day.
     ///
     /// # Errors
-    /// [`ControlError`] if there is no plan.
+    /// [`ControlError`] if the controller cannot work on this day.
     fn start_of_day(&mut self, _day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
@@ -154,7 +153,7 @@ pub trait Control: fmt::Debug + Send + Sync {
         Ok(())
     }
 
-    /// Why the last step that was asked for follows an earlier plan than its own; `None` if it does not.
+    /// Why the last step follows an earlier plan than its own; `None` if it has its own.
     fn trouble(&self) -> Option<&ControlError> {
         None
     }
@@ -164,7 +163,7 @@ pub trait Control: fmt::Debug + Send + Sync {
         Design::default()
     }
 
-    /// A copy that remembers the same, for snapshots of a run. `None` for a controller that cannot be copied.
+    /// A copy with the same state, for snapshots of a run. `None` for a controller that cannot be copied.
     fn fork(&self) -> Option<Box<dyn Control>> {
         None
     }

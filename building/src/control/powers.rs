@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_map_of_two_is_what_its_closed_form_says() {
+    fn norm_and_spectral_radius_of_a_2_by_2_map_match_their_closed_forms() {
         // [[0.5, 3], [0, 0.8]]: eigenvalues 0.5 and 0.8; σ² the larger root of z² − 9.89 z + 0.16.
         let product = |x: &[f64]| vec![0.5 * x[0] + 3.0 * x[1], 0.8 * x[1]];
         let transpose = |y: &[f64]| vec![0.5 * y[0], 3.0 * y[0] + 0.8 * y[1]];

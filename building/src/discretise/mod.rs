@@ -57,10 +57,10 @@ pub enum Form {
     Series,
 }
 
-/// Why a step has no discretisation.
+/// Why a network cannot be discretised with a step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// The step is no positive duration.
+    /// The step is not a positive duration.
     #[error("the step is {step_s} s; it must be a positive number of seconds, at most a year")]
     BadStep {
         /// Duration of the step \[s\].
@@ -153,7 +153,7 @@ impl Model {
         self.step_s
     }
 
-    /// How time is cut into steps.
+    /// A method of discretisation in time.
     pub fn method(&self) -> Discretisation {
         self.method
     }

@@ -88,7 +88,7 @@ impl Tariff {
         if let Err(error) = setting::check(self) {
             return Err(TariffError { key: error.key.clone(), problem: error.to_string() });
         }
-        // Whoever reads the file puts its prices in the place of its name.
+        // The reader of the file replaces its name by its prices.
         if self.file.is_some() {
             return Ok(());
         }
@@ -97,7 +97,7 @@ impl Tariff {
             return refused("prices_per_kwh", problem);
         }
         if !is_whole(DAY_S / self.interval_s) {
-            let problem = format!("a day is no whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
+            let problem = format!("a day is not a whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
             return refused("interval_s", problem);
         }
         let mean = self.mean_per_kwh();

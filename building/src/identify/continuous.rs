@@ -107,7 +107,7 @@ mod tests {
     use crate::identify::normal::product;
 
     #[test]
-    fn for_one_zone_it_is_the_logarithm() {
+    fn the_rate_of_one_zone_is_the_logarithm_of_its_decay() {
         for y in [0.01, 0.1, 0.5, 0.9] {
             let k = factor(&DMatrix::from_element(1, 1, y)).expect("converges")[(0, 0)];
             assert!((k - -(1.0_f64 - y).ln() / y).abs() < 1e-12);
@@ -117,7 +117,7 @@ mod tests {
 
     /// exp(−K M) = I − M, summed as a power series.
     #[test]
-    fn it_inverts_the_exponential() {
+    fn continuous_rates_invert_the_matrix_exponential() {
         let m = DMatrix::from_row_slice(3, 3, &[0.3, -0.1, 0.0, -0.05, 0.2, -0.1, 0.0, -0.2, 0.4]);
         let rates = product(&factor(&m).expect("converges"), &m);
         let (mut power, mut exponential) = (DMatrix::<f64>::identity(3, 3), DMatrix::<f64>::identity(3, 3));

@@ -1,7 +1,7 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! The temperature of each zone follows its neighbours and the known heat; what else there is, the source calls the
-//! non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; the dissertation calls everything
+//! else the non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
@@ -63,13 +63,13 @@ pub type Progress<'a> = dyn Fn(&str) + Sync + 'a;
 /// # Errors
 /// [`IdentifyError`] for a setting out of range, a zone without anything to identify or whose temperature never changes, or too few
 /// rows. A parameter that the
-/// data do not determine is no error: its [`ParameterVerdict`] says so.
+/// data do not determine is not an error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     identify_with_progress(telemetry, settings, &|_| {})
 }
 
-/// Processor time of [`identify`] on one core of the reference machine, to about a factor of three \[s\]; nothing worth a word but by
-/// `state-space`.
+/// Processor time of [`identify`] on one core of the reference machine, to about a factor of three \[s\]; zero for the
+/// other methods.
 pub fn expected_processor_s(telemetry: &Telemetry, settings: &IdentifySettings) -> f64 {
     match settings.method {
         Estimator::StateSpace => state_space::expected_processor_s(telemetry, settings),
@@ -77,7 +77,7 @@ pub fn expected_processor_s(telemetry: &Telemetry, settings: &IdentifySettings) 
     }
 }
 
-/// As [`identify`], which tells `progress` what it does next. Only `state-space` takes long enough to tell anything.
+/// As [`identify`], and reports to `progress` which fit comes next. Only `state-space` takes long enough to report anything.
 ///
 /// # Errors
 /// As [`identify`].

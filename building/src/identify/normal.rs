@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn robust_errors_are_the_usual_ones_for_white_residuals_and_infinite_for_what_does_not_vary() {
+    fn robust_errors_match_least_squares_for_white_residuals_and_are_infinite_for_constant_regressors() {
         let column: Vec<f64> = (0..400).map(|t| f64::from((t * 37) % 41) / 41.0 - 0.5).collect();
         let residuals: Vec<f64> = (0..400).map(|t| if (t / 2) % 2 == 0 { 0.1 } else { -0.1 }).collect();
         let columns = vec![column.clone(), vec![0.0; 400]];

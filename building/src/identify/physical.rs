@@ -215,7 +215,7 @@ fn product(covariance: &DMatrix<f64>, a: &Linear, b: &Linear) -> f64 {
     sum
 }
 
-/// Fieller's interval of n/d, cut at zero; an end is `None` where there is no bound.
+/// Fieller's interval of n/d, cut at zero; an unbounded end is `None`.
 fn fieller((n, d): (f64, f64), (var_n, var_d, between): (f64, f64, f64)) -> (Option<f64>, Option<f64>) {
     let z2 = STANDARD_ERRORS_OF_95_PERCENT * STANDARD_ERRORS_OF_95_PERCENT;
     let (a, b, c) = (d * d - z2 * var_d, n * d - z2 * between, n * n - z2 * var_n);
@@ -258,7 +258,7 @@ mod tests {
 
     /// With a certain denominator it is the usual interval, with a certain numerator the inverse of the usual one.
     #[test]
-    fn fieller_has_the_usual_intervals_as_limits() {
+    fn fiellers_interval_reduces_to_the_normal_one_if_one_term_is_certain() {
         let (low, high) = fieller((6.0, 2.0), (0.25, 0.0, 0.0));
         assert!((low.expect("bounded") - (6.0 - 0.98) / 2.0).abs() < 1e-12);
         assert!((high.expect("bounded") - (6.0 + 0.98) / 2.0).abs() < 1e-12);
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_denominator_that_may_be_zero_leaves_a_lower_bound() {
+    fn a_denominator_that_may_be_zero_leaves_only_a_lower_bound() {
         let (low, high) = fieller((1.0, 0.5), (0.0, 0.25, 0.0));
         assert!((low.expect("bounded below") - 1.0 / 1.48).abs() < 1e-12);
         assert_eq!(high, None);

@@ -34,32 +34,32 @@ pub struct IdentificationReport {
     pub left_out_rows: usize,
     /// Number of pieces into which gaps and batches divide the rows.
     pub segments: usize,
-    /// The names of the two zones.
+    /// The reports of the zones.
     pub zones: Vec<ZoneReport>,
     /// Walls between two zones, seen from both.
     pub walls: Vec<WallReport>,
     /// The models that were compared to choose the order, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelRow>,
-    /// What the data contradict of that which every model takes for granted, by `state-space`.
+    /// Assumptions of every model that the data contradict, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub suspicions: Vec<Suspicion>,
     /// Warnings that a reader must know before using a number.
     pub warnings: Vec<String>,
 }
 
-/// Something that the data contradict, with what would explain it.
+/// An assumption that the data contradict, with a probable cause.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Suspicion {
     /// The zone, if it is of one.
     pub zone: Option<String>,
-    /// What would explain it.
+    /// The probable cause.
     pub cause: SuspectedCause,
     /// The same in words, with the figures.
     pub words: String,
 }
 
-/// What would explain that the data contradict the model.
+/// A probable cause of a contradiction between data and model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SuspectedCause {
@@ -67,7 +67,7 @@ pub enum SuspectedCause {
     Clock,
     /// The sun comes from another side than the measured one.
     Sun,
-    /// Heat that nobody measured comes at the same hours each day, or when people are in.
+    /// Unmeasured heat enters at the same hours each day, or when people are present.
     People,
     /// Heat is lost at times, as through open windows.
     Windows,
@@ -86,7 +86,7 @@ pub struct ModelRow {
     pub parameters: usize,
     /// Log-likelihood at the estimate.
     pub log_likelihood: f64,
-    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
+    /// Twice the gain of log-likelihood over the model that it extends, and the probability of such a gain if the smaller model is right.
     pub gain: Option<(f64, f64)>,
     /// Whether it is worse than the model that it extends, which it contains: its best parameters were not found.
     pub search_failed: bool,

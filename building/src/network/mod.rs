@@ -1,4 +1,4 @@
-//! The thermal network: who exchanges heat with whom (section 2.2).
+//! The thermal network of zones and walls (section 2.2).
 //!
 //! # The model
 //!
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! with heat from equipment u (zones only) and from people, sun and machines w \[kW\] (sun also on walls that store heat), outdoor temperature T₀, kᵢ = 1/R₀ᵢ, and L the
-//! conductance Laplacian of the graph plus diag(k). The source prints −L as R_T and calls it a resistance matrix; it is a
+//! conductance Laplacian of the graph plus diag(k). The dissertation prints −L as R_T and calls it a resistance matrix; it is a
 //! matrix of conductances \[kW/K\] whose rows sum to −kᵢ. L is symmetric and positive semidefinite, so every network is
 //! stable, and all its modes are real.
 //!

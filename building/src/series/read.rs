@@ -207,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_of_several_forms_are_the_same() {
+    fn separators_decimal_signs_and_quotes_do_not_change_a_table() {
         let plain = SeriesTable::parse("hour,a,b\n0,1.5,2\n0.25,,3\n").expect("a table");
         assert_eq!((plain.first_s, plain.interval_s, plain.titles()), (0.0, 900.0, vec!["a", "b"]));
         assert!(plain.columns[0].values[1].is_nan());
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_has_a_line() {
+    fn every_fault_of_a_table_is_reported_with_its_line() {
         for (text, line, words) in [
             ("", 1, "empty"),
             ("hour,a\n", 1, "no rows"),

@@ -85,7 +85,7 @@ pub struct StagedSolution {
     pub iterations: u32,
 }
 
-/// Why there is no solution.
+/// Why a problem has no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StagedError {
     /// A number of the problem is not finite, or an upper limit is not above the lower one.

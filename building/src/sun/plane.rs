@@ -34,8 +34,8 @@ impl Plane {
             + libm::sin(sun.zenith_rad) * libm::sin(tilt_rad) * libm::cos(across_rad)
     }
 
-    /// Radiation on the plane \[W/m²\]. While the sun is below the horizon there is no direct radiation, and the diffuse one comes
-    /// evenly from the sky.
+    /// Radiation on the plane \[W/m²\]. While the sun is below the horizon, direct radiation is zero and diffuse radiation is
+    /// isotropic.
     pub(crate) fn radiation_w_per_m2(&self, sun: &SunPosition, sky: &SkyRadiation) -> f64 {
         let cos_tilt = libm::cos(self.tilt_deg.to_radians());
         let ground = 0.5 * self.ground_reflectance * sky.global_w_per_m2 * (1.0 - cos_tilt);

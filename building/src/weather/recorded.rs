@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_what_is_stated_of_them() {
+    fn rows_are_read_as_instants_or_means_as_stated() {
         let table = SeriesTable::parse(&text()).expect("a table");
         let at = |rows: RowMeaning, hours: f64| {
             let read = RecordedWeather { rows, ..settings() }.read(&table, &span(DAY_S, 1.0)).expect("weather");
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_run_uses_must_be_there() {
+    fn missing_or_implausible_values_are_refused_only_if_the_run_uses_them() {
         let refused = |text: &str, settings: RecordedWeather, span: RunSpan| {
             let table = SeriesTable::parse(text).expect("a table");
             settings.read(&table, &span).expect_err("must be refused")

@@ -36,7 +36,7 @@ impl YoulaFilter {
         out
     }
 
-    /// n.
+    /// Number of zones.
     fn zones(&self) -> usize {
         self.0.first().map_or(1, DMatrix::nrows)
     }
@@ -47,7 +47,7 @@ impl YoulaFilter {
         (0..self.zones()).map(row).fold(0.0, f64::max)
     }
 
-    /// What disturbances, the columns of `factor`, do under this feedback: T = G (I − QG) d and U = −QG d.
+    /// The response to disturbances, the columns of `factor`, under this feedback: T = G (I − QG) d and U = −QG d.
     pub fn response(&self, lifted: &Lifted, factor: &DMatrix<f64>) -> Response {
         let shape = factor.shape();
         let (mut temperatures_k, mut inputs_kw) = (DMatrix::zeros(shape.0, shape.1), DMatrix::zeros(shape.0, shape.1));
@@ -100,7 +100,7 @@ impl StateSpace {
         Self { filter, model: model.clone(), state: vec![0.0; nodes], past: vec![vec![0.0; n]; count] }
     }
 
-    /// The feedback u_fb(t) for the error e(t) \[K\]; at t = 0 there is no error yet: pass zeros.
+    /// The feedback u_fb(t) for the error e(t) \[K\]; pass zeros at t = 0, when no error is known.
     pub fn answer(&mut self, error_k: &[f64]) -> Vec<f64> {
         let y = error_k.iter().zip(&self.state).map(|(e, x)| x + e).collect();
         self.past.rotate_right(1);

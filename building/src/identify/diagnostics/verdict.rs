@@ -71,7 +71,7 @@ mod tests {
     use super::{Confidence, judge};
 
     #[test]
-    fn each_class_is_reached() {
+    fn every_verdict_is_reached_by_some_value_and_error() {
         for (value, error, confidence) in [
             (1.0, 0.05, Confidence::Identified),
             (1.0, 0.4, Confidence::Weak),

@@ -15,7 +15,7 @@ pub(super) struct Rows {
     pub doubts: Vec<Doubt>,
     /// The line of each row, from one.
     pub lines: Vec<usize>,
-    /// The year of each day's first row; none where it is no year.
+    /// The year of each day's first row; none if that is not a year.
     pub years: Vec<Option<i16>>,
 }
 
