@@ -16,7 +16,7 @@ fn truth() -> [f64; 4] {
     [out, room, room, 1.0 / CAPACITY_KJ_PER_K]
 }
 
-/// Nine days to train, as the source has them.
+/// Nine days to train, as the dissertation has them.
 fn settings(method: Estimator) -> IdentifySettings {
     IdentifySettings {
         method,
@@ -75,7 +75,7 @@ fn the_prediction_error_estimator_recovers_the_truth_even_with_bad_sensors() {
     assert_recovered(Estimator::PredictionError, 0.1, (0.03, 0.12, 0.01), 0.8);
 }
 
-/// Bad sensors are where the source's estimator fails, which is why it is not the default.
+/// Bad sensors are where the dissertation's estimator fails, which is why it is not the default.
 #[test]
 fn the_semiparametric_estimator_overestimates_conductances_with_noisy_sensors() {
     let (mean, _) = mean_errors(Estimator::Semiparametric, RoomDisturbance::Arma, 0.1);

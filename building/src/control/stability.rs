@@ -8,7 +8,7 @@
 //! ⎣ AF − BM      r² S       ⎦ ≻ 0                                              (eq. 3.23, corrected)
 //! ```
 //!
-//! The source prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
+//! The dissertation prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
 //! than the diagonal: the printed inequality certifies nothing.
 //!
 //! Heat flows from warm to cold, so A is nonnegative. For such systems a vector f > 0 is a certificate:

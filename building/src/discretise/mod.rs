@@ -14,7 +14,7 @@
 //! Euler   B = h C⁻¹                                          A = I − h C⁻¹L
 //! ```
 //!
-//! Euler is the source's. It is stable only below h = 2/λ_max, with λ_max the fastest rate of the network, and is refused
+//! Euler is the dissertation's. It is stable only below h = 2/λ_max, with λ_max the fastest rate of the network, and is refused
 //! beyond. The exact one is stable and keeps temperatures in order for every step.
 //!
 //! # Small and large networks

@@ -1,6 +1,6 @@
 //! The two estimators of a zone's coefficients.
 //!
-//! **`semiparametric`** (the source, eq. 2.4 to 2.10): every series minus its kernel smooth, which removes the
+//! **`semiparametric`** (the dissertation, eq. 2.4 to 2.10): every series minus its kernel smooth, which removes the
 //! non-parametric term; then one Newton step. Unknown heat that varies faster than the bandwidth biases the result. So does
 //! sensor noise, which the smoother removes less than the signal: conductances come out too large.
 //!

@@ -122,7 +122,7 @@ pub struct ZoneReport {
 pub struct Quantity {
     /// Name of the quantity, as `conductance to outdoor`.
     pub name: String,
-    /// The symbol of the source, as `b`.
+    /// The symbol of the dissertation, as `b`.
     pub symbol: String,
     /// Unit of the value.
     pub unit: String,
@@ -152,7 +152,7 @@ pub struct CrossCheck {
 /// The model of the non-parametric term q \[K per step\].
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualReport {
-    /// The constant ψ of the source's form (2.12).
+    /// The constant ψ of the dissertation's form (2.12).
     pub psi: f64,
     /// ARMA with the constant.
     pub constant: Arma,

@@ -68,7 +68,7 @@ impl Default for IdentifySettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Estimator {
-    /// The source's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
+    /// The dissertation's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
     /// model is fitted to what is left.
     Semiparametric,
     /// Parameters, daily harmonics and ARMA errors at once, so that the one-step prediction error is smallest. Copes better

@@ -8,7 +8,7 @@
 //! u(t) = û(t) + K (T̂(t) − T(t))
 //! ```
 //!
-//! The source's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
+//! The dissertation's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
 //! the nominal inputs. They are found as a sparse problem with temperatures as variables. The last line is U_ff = Û − K Ê.
 //!
 //! Where limits bind, feedback and plan compete for them. [`joint`] finds both together and designs each several times.
