@@ -159,6 +159,6 @@ pub fn towards(scene: &Scene, lateral_m: f64, speed_mps: f64) -> Input {
     let missing_mps = speed_mps - state.speed_mps;
     let wanted =
         Input { acceleration_mps2: missing_mps / (SPEED_TIME_S * own.body.time_ratio()).max(step_s), steering_rad };
-    let input = own.comfortably(&own.previous_input, wanted, (state.speed_mps, step_s));
+    let input = own.comfortably(&own.previous_input, wanted, state.speed_mps, step_s);
     Input { acceleration_mps2: admissible(own, state, input.acceleration_mps2, step_s), ..input }
 }

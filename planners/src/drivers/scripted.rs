@@ -110,11 +110,11 @@ impl Drive for Scripted {
         self.look(scene);
         let trajectory = roll_out(scene, |t, state| {
             let time_s = scene.step_s * (scene.tick + t) as f64;
-            let order = self.latest((time_s, scene.step_s), |order| order.speed_mps.is_some());
+            let order = self.latest(time_s, scene.step_s, |order| order.speed_mps.is_some());
             let wanted = order.and_then(|order| order.speed_mps).unwrap_or(speed);
             let most = order.and_then(|order| order.acceleration_mps2).unwrap_or(f64::INFINITY);
             let acceleration = ((wanted - state.speed_mps) / scene.step_s).clamp(-most, most);
-            let place = self.latest((time_s, scene.step_s), |order| order.lateral_m.is_some());
+            let place = self.latest(time_s, scene.step_s, |order| order.lateral_m.is_some());
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
                 steering_rad: steer(own, state, place.and_then(|order| order.lateral_m).unwrap_or(lateral)),
@@ -137,7 +137,7 @@ impl Drive for Scripted {
 
 impl Scripted {
     /// The order that rules at a time, of those that `applies` accepts; of orders at one time, the last.
-    fn latest(&self, (time_s, step_s): (f64, f64), applies: impl Fn(&Order) -> bool) -> Option<&Order> {
+    fn latest(&self, time_s: f64, step_s: f64, applies: impl Fn(&Order) -> bool) -> Option<&Order> {
         let orders = self.settings.script.iter().zip(&self.triggers).filter(|(order, _)| applies(order));
         let begins = orders.filter_map(|(order, trigger)| {
             let counts_from_s = match order.when {

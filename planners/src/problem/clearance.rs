@@ -62,7 +62,7 @@ impl Scene {
 
     /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, who may
     /// state which multiple of the usual time gap it keeps, and the firm one; none for a driver who knows no comfort \[m\].
-    pub(crate) fn following_axes_m(&self, leader: &Agent, (weight, ratio): (f64, Option<f64>)) -> Option<[f64; 2]> {
+    pub(crate) fn following_axes_m(&self, leader: &Agent, weight: f64, ratio: Option<f64>) -> Option<[f64; 2]> {
         let time_gap_s = self.ego.limits.comfort?.time_gap_s;
         let (standstill_m, speed_mps) = (STANDSTILL_GAP_M * self.ego.body.scale, self.ego.state.speed_mps);
         let comfortable_m = standstill_m + ratio.unwrap_or_else(|| share_of(weight)) * time_gap_s * speed_mps;

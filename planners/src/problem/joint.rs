@@ -37,7 +37,7 @@ pub fn joint_problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
         for j in 0..i {
             let ([first, second], mutual) = ([j, i], is_mutual(&vehicles[i], &vehicles[j]));
             let separation = |vehicle: usize, from: usize| {
-                scene.separation(vehicles[vehicle].goal.safety, vehicle, (from, &vehicles[from].agent))
+                scene.separation(vehicles[vehicle].goal.safety, vehicle, from, &vehicles[from].agent)
             };
             terms.push(separation(first, second));
             if !mutual {

@@ -94,7 +94,7 @@ impl Scene {
         let wanted = route.locate(goal.target.position(), None);
         let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
         let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
-        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, (self.horizon, self.step_s));
+        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, self.horizon, self.step_s);
         Term::FrenetTracking(FrenetTracking {
             vehicle,
             weights: goal.tracking,
@@ -110,7 +110,7 @@ impl Scene {
 
     /// Vehicle number `vehicle` of a joint problem keeps out of ellipses of the size `safety` around vehicle number `from`, each
     /// along the road where that one is predicted.
-    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
+    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, from: usize, agent: &Agent) -> Term {
         let ellipses = ellipses(safety, &agent.route, &self.centres(&agent.prediction));
         Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
     }

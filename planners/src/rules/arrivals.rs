@@ -45,7 +45,7 @@ struct Arrival {
 
 impl Arrivals {
     /// Looks at everybody.
-    pub(super) fn note_all(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) {
+    pub(super) fn note_all(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) {
         for user in users {
             let others = users.iter().filter(|other| other.agent.name != user.agent.name);
             let lines: Vec<f64> = others
@@ -54,7 +54,7 @@ impl Arrivals {
                 .chain(signed_lines(user.agent))
                 .collect();
             let known = self.0.entry(user.agent.name.clone()).or_default();
-            known.note(user.agent, &lines, (tick, step_s));
+            known.note(user.agent, &lines, tick, step_s);
         }
     }
 
@@ -101,7 +101,7 @@ impl Arrivals {
 }
 
 impl Memory {
-    fn note(&mut self, agent: &Agent, lines: &[f64], (tick, step_s): (usize, f64)) {
+    fn note(&mut self, agent: &Agent, lines: &[f64], tick: usize, step_s: f64) {
         let (front_m, near_m) = (front_m(agent), ARRIVAL_LENGTHS * car_length_m(agent));
         self.arrival = self.arrival.filter(|arrival| front_m < arrival.line_m);
         let reached = lines.iter().copied().find(|line_m| (0.0..near_m).contains(&(line_m - front_m)));

@@ -59,7 +59,8 @@ impl<'a> Pair<'a> {
     pub(crate) fn new(
         [ego, other]: [&'a Agent; 2],
         conflict: &'a RouteConflict,
-        (wanted_mps, they_stand): (f64, bool),
+        wanted_mps: f64,
+        they_stand: bool,
     ) -> Self {
         Pair { ego, other, conflict, own_front_m: front_m(ego), their_front_m: front_m(other), wanted_mps, they_stand }
     }

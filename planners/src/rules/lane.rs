@@ -31,7 +31,7 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let places: Vec<(&Agent, FrenetPoint)> = places.collect();
     let times = places.iter().filter_map(|(other, at)| overtaking_s(user, own_m, other, at));
     let Some(time_s) = times.reduce(f64::max) else { return true };
-    places.iter().any(|(other, at)| comes_within(user, own_m, (other, at), time_s))
+    places.iter().any(|(other, at)| comes_within(user, own_m, other, at, time_s))
 }
 
 /// How long it takes to overtake somebody who drives slowly ahead in the lane; none of all others \[s\].
@@ -49,7 +49,7 @@ fn overtaking_s(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint)
 }
 
 /// Whether somebody comes the other way within a time.
-fn comes_within(user: &Obliged<'_>, own_m: f64, (other, at): (&Agent, &FrenetPoint), time_s: f64) -> bool {
+fn comes_within(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint, time_s: f64) -> bool {
     let ego = &user.agent;
     let comes_mps = -other.state.speed_mps * libm::cos(other.state.heading_rad - at.heading_rad);
     let lead_m = at.along_m - own_m;

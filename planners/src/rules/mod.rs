@@ -49,17 +49,17 @@ pub struct RuleBook {
 
 impl RuleBook {
     /// What is asked of each of some road users, in their order. To be called once a tick.
-    pub(crate) fn judge(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) -> Vec<RoadRules> {
+    pub(crate) fn judge(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) -> Vec<RoadRules> {
         if !users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network()) {
             return users.iter().map(beside_no_network).collect();
         }
-        self.arrivals.note_all((tick, step_s), users);
+        self.arrivals.note_all(tick, step_s, users);
         let time_s = tick as f64 * step_s;
         let lights_m: Vec<Option<f64>> = users.iter().map(|user| lights::line_m(user.agent, time_s)).collect();
         let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, &lights_m)).collect();
         let turns: Vec<_> = users.iter().map(|user| self.arrivals.turn(user.agent)).collect();
         waiting::release(&mut holds, &turns);
-        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, (holds, time_s));
+        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, holds, time_s);
         users.iter().zip(&holds).map(asked).collect()
     }
 
@@ -103,7 +103,7 @@ impl RuleBook {
                     they_win_ties: false,
                 };
                 let before_m = conflict.own_line_m - stopping_distance_m(ego);
-                let pair = Pair::new([ego, other.agent], conflict, (wanted_mps, is_standing(other.agent)));
+                let pair = Pair::new([ego, other.agent], conflict, wanted_mps, is_standing(other.agent));
                 if can_stop(ego, before_m) && pair.holds(arrived) {
                     found.push(Hold { by, line_m: conflict.own_line_m });
                 }
@@ -113,7 +113,7 @@ impl RuleBook {
     }
 
     /// What is asked of a vehicle that is held by others.
-    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], (holds, time_s): (&[Hold], f64)) -> RoadRules {
+    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
         let ego = &user.agent;
         if !user.keeps_rules || !ego.route.is_in_network() {
             return beside_no_network(user);

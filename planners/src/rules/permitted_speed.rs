@@ -96,7 +96,8 @@ impl Agent {
         &self,
         permitted_mps: Vec<f64>,
         wanted_mps: f64,
-        (horizon, step_s): (usize, f64),
+        horizon: usize,
+        step_s: f64,
     ) -> Vec<f64> {
         let Some(line_m) = self.rules.stop_line_m else { return permitted_mps };
         let approach_mps = self.approach_speeds_mps(line_m, wanted_mps, horizon, step_s);
@@ -130,7 +131,7 @@ impl Scene {
                 permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY).min(wanted_mps) - rolls_on_mps;
             permitted_mps.max(ego.state.speed_mps - braking_mps2 * self.step_s * (stage + 1) as f64)
         });
-        let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, (self.horizon, self.step_s));
+        let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, self.horizon, self.step_s);
         caps_mps.into_iter().map(|cap_mps| cap_mps.max(creeping_mps)).collect()
     }
 }

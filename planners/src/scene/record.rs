@@ -99,7 +99,7 @@ impl Record {
 impl Record {
     /// The input with which a vehicle goes from a state to where the record is a step after a time, as nearly as its limits allow;
     /// `None` where the record ends before that \[s\].
-    pub fn input(&self, (body, limits): (&Body, &Limits), state: &State, [time_s, step_s]: [f64; 2]) -> Option<Input> {
+    pub fn input(&self, body: &Body, limits: &Limits, state: &State, [time_s, step_s]: [f64; 2]) -> Option<Input> {
         let next = self.state_at(time_s + step_s)?;
         let acceleration_mps2 = (next.speed_mps - state.speed_mps) / step_s;
         let turn_rad = next_to(next.heading_rad, state.heading_rad) - state.heading_rad;

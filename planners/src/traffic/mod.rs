@@ -95,7 +95,7 @@ impl Traffic {
             lateral_goal_m: user.agent.route.across(user.goal.target.position()),
             keeps_rules: user.keeps_rules,
         });
-        let rules = self.rule_book.judge((tick, step_s), &obliged.collect::<Vec<_>>());
+        let rules = self.rule_book.judge(tick, step_s, &obliged.collect::<Vec<_>>());
         for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent).zip(rules) {
             user.agent.rules = rules;
         }

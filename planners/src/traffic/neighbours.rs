@@ -42,9 +42,8 @@ impl Neighbours {
             let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
             return present.map(|(other, _)| other).collect();
         }
-        let is_near = |other: &usize| {
-            can_matter((ego, self.reaches_m[vehicle]), (&road_users[*other].agent, self.reaches_m[*other]))
-        };
+        let is_near =
+            |other: &usize| can_matter(ego, self.reaches_m[vehicle], &road_users[*other].agent, self.reaches_m[*other]);
         let [column, row] = cell_of(&ego.state, self.cell_m);
         let mut found = Vec::new();
         for x in column.saturating_sub(1)..=column.saturating_add(1) {
@@ -65,7 +64,7 @@ impl Scene {
     pub(crate) fn within_reach(&self) -> Cow<'_, Scene> {
         let horizon_s = self.horizon as f64 * self.step_s;
         let own_m = reach_m(&self.ego, horizon_s);
-        let is_near = |other: &Agent| can_matter((&self.ego, own_m), (other, reach_m(other, horizon_s)));
+        let is_near = |other: &Agent| can_matter(&self.ego, own_m, other, reach_m(other, horizon_s));
         if self.others.iter().all(is_near) {
             return Cow::Borrowed(self);
         }
@@ -76,7 +75,7 @@ impl Scene {
 
 /// Whether two vehicles can come to each other within a horizon, whatever both do: one reaches the place of the other if they go the same
 /// way, and else both together the way between them. Each comes with its reach \[m\].
-fn can_matter((one, own_m): (&Agent, f64), (other, their_m): (&Agent, f64)) -> bool {
+fn can_matter(one: &Agent, own_m: f64, other: &Agent, their_m: f64) -> bool {
     let margin_m = margin_m(one) + margin_m(other);
     let turned = libm::cos(one.state.heading_rad - other.state.heading_rad);
     let reach_m = if turned > libm::cos(SAME_WAY_RAD) { own_m.max(their_m) } else { own_m + their_m } + margin_m;

@@ -22,7 +22,7 @@ pub fn act(
         }
         let planned = sensed.0.road_users[identity.index].planned_input();
         let times_s = [clock.time_s(), clock.step_s];
-        let recorded = record.as_ref().and_then(|record| record.input((body, limits), &motion.state, times_s));
+        let recorded = record.as_ref().and_then(|record| record.input(body, limits, &motion.state, times_s));
         let wanted = recorded.unwrap_or_else(|| towards(&motion.input, planned, ticks_left));
         let mut applied = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
         // When the run begins, wheels stand as the driver wants.

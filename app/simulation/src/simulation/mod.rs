@@ -326,8 +326,8 @@ impl Simulation {
     /// What was measured until now, judged as if the run ended here.
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
-        let measures = (self.measures(), self.world.get_resource::<BuildingMeasures>());
-        Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s))
+        let building = self.world.get_resource::<BuildingMeasures>();
+        Report::new(&self.name, &self.scenario, self.measures(), building, self.wall_s, ended_early_s)
     }
 
     /// What is measured.

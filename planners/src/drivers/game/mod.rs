@@ -146,7 +146,7 @@ impl Drive for Game {
         let (mut round, mut expressed) = (None, None);
         if let Some((other, meeting)) = meeting {
             let has_answered = choice.may_have_answered(self.settings.answer_s, scene.step_s);
-            let ego_behaviour = self.watch(scene, (other, has_answered), usual, &meeting);
+            let ego_behaviour = self.watch(scene, other, has_answered, usual, &meeting);
             let played = self.play();
             self.intentions.own = played.solution.ego;
             expressed =
@@ -183,7 +183,8 @@ impl Game {
     fn watch(
         &mut self,
         scene: &Scene,
-        (other, has_answered): (&Agent, bool),
+        other: &Agent,
+        has_answered: bool,
         usual: f64,
         meeting: &Meeting,
     ) -> ObservedBehaviour {

@@ -191,7 +191,7 @@ impl Drive for Human {
             None
         };
         let scene = wanted.as_ref();
-        let problem = pose(scene, (&expected.others, met.as_ref()), &self.settings);
+        let problem = pose(scene, &expected.others, met.as_ref(), &self.settings);
         let is_kept_back =
             |obstacle: &Obstacle| self.last.as_ref().is_some_and(|last| obstacle.keeps_back(scene, last));
         let start = match &met {
@@ -225,11 +225,11 @@ impl Drive for Human {
 
 /// The problem that a driver poses who neither reacts late nor hesitates.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
-    pose(scene, (&scene.others, None), settings)
+    pose(scene, &scene.others, None, settings)
 }
 
 /// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and meets an obstacle, which it passes or not.
-fn pose(scene: &Scene, (expected, met): (&[Agent], Option<&(Obstacle, bool)>), settings: &Settings) -> Problem {
+fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
     // Whoever comes the other way was looked at before passing was allowed, and is at every tick.
@@ -267,7 +267,7 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let mut comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
-    let axes_m = scene.following_axes_m(leader, (settings.weight(), settings.time_gap_ratio));
+    let axes_m = scene.following_axes_m(leader, settings.weight(), settings.time_gap_ratio);
     if let Some([along_m, _]) = axes_m {
         comfortable.ellipses = ellipses(SafetyEllipse { along_m, across_m }, &scene.ego.route, &comfortable.centres);
     }

@@ -50,7 +50,7 @@ impl Motion<'_> {
                 Some(_) => steer_over_step(own, state, lateral_m, step_s),
             };
             let wanted = Input { acceleration_mps2: self.acceleration_mps2(t, state, along_m), steering_rad };
-            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, (state.speed_mps, step_s));
+            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, state.speed_mps, step_s);
             before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad };
             before
         })

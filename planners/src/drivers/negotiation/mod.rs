@@ -151,7 +151,7 @@ impl Drive for Negotiation {
             return Ok(Plan { events, ..conservative::answer(fallback.clone()) });
         }
         self.remember(&optimum, &fallback, &partners);
-        let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
+        let mut plan = self.to_plan(scene, &optimum, &partners, &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
@@ -208,7 +208,7 @@ impl Negotiation {
         };
         let answers: Vec<Option<f64>> = pairs.map(answer).collect();
         let answer_steps = (settings.answer_s / scene.step_s).round() as usize;
-        self.selection.record(&answers, fallback_cost, (settings, answer_steps));
+        self.selection.record(&answers, fallback_cost, settings, answer_steps);
         answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
     }
 
@@ -289,7 +289,8 @@ impl Negotiation {
     fn to_plan(
         &self,
         scene: &Scene,
-        (optimum, partners): (&Optimum, &[&Agent]),
+        optimum: &Optimum,
+        partners: &[&Agent],
         accepted: &[f64],
         persuasion: Option<&Persuasion>,
     ) -> Plan {

@@ -67,7 +67,8 @@ impl PartnerSelection {
         &mut self,
         accepted: &[Option<f64>],
         fallback_cost: Option<f64>,
-        (settings, answer_steps): (&Settings, usize),
+        settings: &Settings,
+        answer_steps: usize,
     ) {
         let pairs = self.asked.iter_mut().zip(accepted);
         let had_time = pairs.map(|(asked, accepted)| accepted.is_some() && asked.patience.has_answered(answer_steps));

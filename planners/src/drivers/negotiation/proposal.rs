@@ -66,13 +66,13 @@ pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuas
         let vehicle = index + 1;
         let share = weight / own_weight * (1.0 - own_weight) / settings.other_normaliser;
         terms.extend(partner_terms(scene, agent, vehicle, share));
-        terms.push(scene.separation(scene.goal.safety, 0, (vehicle, agent)));
+        terms.push(scene.separation(scene.goal.safety, 0, vehicle, agent));
     }
     for (index, partner) in asked.iter().enumerate() {
         let before = asked[..index].iter().enumerate().filter(|(_, other)| other.agent.may_meet(partner.agent));
         terms.extend(before.map(|(other, by)| {
             let safety = planned_distance(scene, by.agent, partner.agent);
-            scene.separation(safety, other + 1, (index + 1, partner.agent))
+            scene.separation(safety, other + 1, index + 1, partner.agent)
         }));
     }
     terms.extend(persuasion.map(Term::Persuasion));

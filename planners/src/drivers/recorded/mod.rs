@@ -159,7 +159,7 @@ impl Recorded {
     fn input(&self, scene: &Scene) -> Input {
         let (own, state) = (&scene.ego, &scene.ego.state);
         let times_s = [scene.step_s * scene.tick as f64, scene.step_s];
-        let recorded = self.record.as_ref().and_then(|record| record.input((&own.body, &own.limits), state, times_s));
+        let recorded = self.record.as_ref().and_then(|record| record.input(&own.body, &own.limits, state, times_s));
         recorded.unwrap_or_else(|| Input {
             acceleration_mps2: 0.0,
             steering_rad: steer(own, state, own.route.across(state.position())),

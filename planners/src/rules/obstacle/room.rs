@@ -36,7 +36,7 @@ pub(super) fn in_the_way<'a>(
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
     let until_s = time_s(scene, zone_m[1] - own_m) + spare_s;
     let others = scene.others.iter().filter(|other| other.name != obstacle.name);
-    others.into_iter().find(|other| comes_into(scene, other, obstacle, (zone_m, until_s)))
+    others.into_iter().find(|other| comes_into(scene, other, obstacle, zone_m, until_s))
 }
 
 /// Where a row of obstacles ends that begins with one and between which there is no room to come back into the lane and to wait \[m\].
@@ -70,7 +70,7 @@ fn time_s(scene: &Scene, way_m: f64) -> f64 {
 }
 
 /// Whether a vehicle that keeps its speed is on the borrowed strip within some time, or comes up from behind.
-fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, (zone_m, until_s): ([f64; 2], f64)) -> bool {
+fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2], until_s: f64) -> bool {
     let ego = &scene.ego;
     let at = ego.route.locate(other.state.position(), None);
     let (sin, cos) = libm::sincos(other.state.heading_rad - at.heading_rad);
