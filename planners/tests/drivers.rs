@@ -33,7 +33,7 @@ fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
 #[test]
 fn unknown_settings_are_refused() {
     for kind in kinds() {
-        let error = driver(json!({ "kind": kind, "colour": 1 })).expect_err("nobody has a colour");
+        let error = driver(json!({ "kind": kind, "colour": 1 })).expect_err("no driver has a colour");
         assert!(error.to_string().contains("colour"), "{kind}: {error}");
     }
 }

@@ -68,7 +68,7 @@ fn a_hesitant_driver_brakes_only_when_it_decides_anew() {
     assert!((20..=22).contains(&found), "{found}");
 }
 
-/// Hesitation is about whoever might cut in or cross: the vehicle ahead is watched all the time.
+/// Hesitation concerns vehicles that might cut in or cross: the vehicle ahead is watched all the time.
 #[test]
 fn a_hesitant_driver_does_not_run_into_the_vehicle_ahead() {
     for driver in [hesitant(5.0), Settings { style: Some(Style::Tough), ..hesitant(5.0) }] {
@@ -190,7 +190,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Whatever the settings, and whoever comes, goes and jumps, a driver plans a finite motion or says why it has none.
+    /// Whatever the settings, and whichever vehicles come, go and jump, a driver plans a finite motion or says why it has none.
     #[test]
     fn no_setting_panics(
         settings in any_settings(),

@@ -1,4 +1,4 @@
-//! What a planner infers that is told nobody's plan: what it keeps, what it names, and what happens where no hypothesis fits.
+//! What a planner without known plans infers: what it keeps, what it names, and what happens where no hypothesis fits.
 
 mod common;
 
@@ -30,7 +30,7 @@ fn starts(vehicles: impl Fn() -> Vec<Vehicle>, count: i32) -> impl Iterator<Item
     })
 }
 
-/// In how many of some starts the ego is ahead of vehicle 1 in the end; nobody may touch anybody.
+/// In how many of some starts the ego is ahead of vehicle 1 in the end; no vehicles may touch.
 fn wins(vehicles: impl Fn() -> Vec<Vehicle>, settings: &belief::Settings) -> usize {
     let ahead = |vehicles: Vec<Vehicle>| {
         let run = world::run_inferring(vehicles, TICKS, settings, None);
@@ -67,7 +67,7 @@ fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_ve
     assert!(persuades(Prediction::Inferred) + 1 >= persuades(Prediction::Plan));
 }
 
-/// Without learning the prior decides: who takes everybody for tough gives up what a nice driver would grant.
+/// Without learning the prior decides: an ego that takes all drivers for tough gives up what a nice driver would grant.
 #[test]
 fn a_belief_that_does_not_learn_loses_the_wins() {
     let crossing = |learning| {
@@ -141,7 +141,7 @@ fn a_driver_of_no_known_model_is_named_and_not_touched() {
     }
 }
 
-/// Delay, noise and lost measurements: nobody is touched, and most of what is won stays won.
+/// With delay, noise and lost measurements no vehicles touch, and most of what is won stays won.
 #[test]
 fn late_and_noisy_measurements_cost_little() {
     let sensing = sensing::Settings {

@@ -105,13 +105,13 @@ impl PartnerChoice<'_> {
         self.steps as f64 * step_s >= answer_s
     }
 
-    /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
+    /// What to say about a change: "`does` NAME", or that no vehicle is left `to_do` it with.
     pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<PlanEvent> {
         self.is_new.then(|| partner_event(self.partner.map(|partner| &*partner.name), does, to_do))
     }
 }
 
-/// A planner turns to a partner: "`does` NAME", or nobody is left `to_do` it with.
+/// A planner turns to a partner: "`does` NAME", or no vehicle is left `to_do` it with.
 pub(crate) fn partner_event(partner: Option<&str>, does: &str, to_do: &str) -> PlanEvent {
     let text = partner.map_or_else(|| format!("nobody left {to_do}"), |name| format!("{does} {name}"));
     PlanEvent { kind: PlanEventKind::Partner(partner.map(str::to_owned)), text }
@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then nobody.
+    /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then none.
     #[test]
     fn partners_are_met_from_front_to_rear() {
         let mut partner = PartnerSequence::default();

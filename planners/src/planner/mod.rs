@@ -93,11 +93,11 @@ impl Planner {
         })
     }
 
-    /// Plans the next move in a scene in which everybody is seen as it is. Whoever can neither reach the vehicle nor be reached by it
+    /// Plans the next move in a scene that shows all vehicles as they are. A vehicle that can neither reach this one nor be reached by it
     /// within the horizon has no part in the plan.
     ///
     /// # Errors
-    /// [`PlanError`] if there is no plan; the caller falls back.
+    /// [`PlanError`] if no plan was found; the caller falls back.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let near = scene.within_reach();
         match self.beliefs {

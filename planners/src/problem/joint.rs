@@ -14,7 +14,7 @@ pub struct JointVehicle {
 }
 
 /// The joint problem: the inputs of all `vehicles` are decision variables, and its cost is the sum of theirs. The safety ellipses
-/// around the predictions of everybody else are soft constraints with an exact penalty, as for the conservative planner. (The
+/// around the predictions of all others are soft constraints with an exact penalty, as for the conservative planner. (The
 /// source has two vehicles and no others.)
 ///
 /// A pair has two separation constraints, one for the ellipse of each vehicle. If both ellipses have the same size and

@@ -16,7 +16,7 @@ use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Goal, SafetyEllipse, Scene};
 
-/// Leaving the road costs people so many times what it costs the drivers of the source: more than to come near somebody, for which a
+/// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for which a
 /// plan would otherwise trade the road.
 const PEOPLE_ON_ROAD: f64 = 5.0;
 
@@ -45,7 +45,7 @@ impl Agent {
             front_m: self.body.front_m,
             route: Arc::clone(&self.route),
             line_m,
-            // Nobody leaves the road in order to stay before a line.
+            // A driver does not leave the road in order to stay before a line.
             penalty: if self.rules.are_kept { Penalty::road_edge(self.body.scale) } else { Penalty::ROAD_EDGE },
         }
     }

@@ -12,7 +12,7 @@ use crate::trajectory::StageBounds;
 use crate::vehicle::ComfortLimits;
 use crate::{Agent, Limits};
 
-/// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
+/// Largest lateral acceleration in danger, as a multiple of the comfortable one.
 const MOST_LATERAL_URGENCY: f64 = 2.0;
 
 impl Agent {

@@ -11,11 +11,11 @@ use crate::scene::relation::is_standing;
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
 
-/// Somebody who stands at its line this long without being held has given up its turn: so often the time `√(length / 1 m/s²)`, for a
+/// A vehicle that stands at its line this long without being held has given up its turn: so often the time `√(length / 1 m/s²)`, for a
 /// car 4.3 s.
 const TURN_TIMES: f64 = 2.0;
 
-/// Slower than this share of a car's length a second nobody wants to drive who wants to drive at all.
+/// Lower bound of a wanted speed, as a share of a car's length a second: a vehicle with less does not want to drive.
 const LEAST_WANTED_LENGTHS: f64 = 0.02;
 
 /// Headings whose sine of the difference is larger come from the right, or from the left.
@@ -44,7 +44,7 @@ struct Arrival {
 }
 
 impl Arrivals {
-    /// Looks at everybody.
+    /// Looks at all vehicles.
     pub(super) fn note_all(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) {
         for user in users {
             let others = users.iter().filter(|other| other.agent.name != user.agent.name);

@@ -79,7 +79,7 @@ impl<'a> Pair<'a> {
         match conflict.precedence {
             _ if is_committed && conflict.kind != ConflictKind::Merging => self.comes_too_soon(),
             Precedence::Own => false,
-            // Who has priority and stands at its line waits for somebody else, and goes when that one has passed.
+            // A vehicle with priority that stands at its line waits for a third one, and goes when that one has passed.
             Precedence::Other => self.comes_too_soon() || (self.they_stand && arrived.they_are_ready),
             Precedence::ByArrival => self.arrived_later(arrived),
         }
@@ -110,7 +110,7 @@ impl<'a> Pair<'a> {
         let their_mps2 = ENTERING_SHARE * other.limits.acceleration_max_mps2;
         let their_s = time_s(their_way_m.max(0.0), other.state.speed_mps, self.wanted_mps, their_mps2);
         let own_end_m = match conflict.kind {
-            // Whoever joins must be as fast as the one behind by then; half of the way is as good as that.
+            // The vehicle that joins must be as fast as the one behind by then; half of the way is as good as that.
             ConflictKind::Merging => conflict.own_meeting_m,
             ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => conflict.own_m[1],
         };
@@ -152,7 +152,7 @@ pub(crate) fn stopping_distance_m(agent: &Agent) -> f64 {
 pub(crate) fn can_stop(agent: &Agent, place_m: f64) -> bool {
     let speed_mps = agent.state.speed_mps;
     let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
-    // Whoever stands a little beyond still waits.
+    // A vehicle that stands a little beyond still waits.
     front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * car_length_m(agent)
 }
 

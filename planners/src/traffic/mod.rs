@@ -4,8 +4,8 @@
 //!
 //! ```text
 //! sense     the caller writes state, last input and damage of every road user into a `Traffic`
-//! predict   Traffic::predict          everybody is expected to continue its last plan, from where it really is
-//! plan      Traffic::plan             everybody decides, in `planning_order`; failures fall back
+//! predict   Traffic::predict          each vehicle is expected to continue its last plan, from where it really is
+//! plan      Traffic::plan             each driver decides, in `planning_order`; failures fall back
 //! act       Traffic::applied_inputs   the first input of each plan, within the limits
 //! move      a plant of the caller, or the bicycle: Traffic::advance
 //! ```
@@ -13,14 +13,14 @@
 //! and [`Traffic::drive`] is a whole tick with the bicycle as the plant.
 //!
 //! There are no clocks, entities or threads here. The application, the tests, the examples and the benchmarks run this code;
-//! whoever wants to know how long planning takes measures inside the closure that it gives to [`Traffic::plan`].
+//! a caller that wants to know how long planning takes measures inside the closure that it gives to [`Traffic::plan`].
 //!
 //! **Who knows which plan.** Those who go first ([`RoadUser::goes_first`]) plan from the front of the road to its rear and
 //! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
-//! prediction); of one another they know the last plans only, so that nobody's decision depends on who was asked before in the
+//! prediction); of one another they know the last plans only, so that no decision depends on which driver was asked before in the
 //! same tick. Sums and the search over homotopy classes still go through the others as they are listed: reversed, they differ in
 //! rounding, and in a near-tie by more (`docs/reliability.md`).
-//! Whoever infers plans ([`RoadUser::knows_plans`]) is told none: its scene has the states of the others only.
+//! A driver that infers plans ([`RoadUser::knows_plans`]) knows none: its scene has the states of the others only.
 
 mod committed;
 mod limits;
@@ -43,7 +43,7 @@ use crate::prediction::without_plans;
 use crate::rules::{Obliged, RuleBook};
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
 
-/// Everybody on the road at the start of a tick.
+/// All road users at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Traffic {
     /// How many ticks have passed.
@@ -56,7 +56,7 @@ pub struct Traffic {
     pub road_users: Vec<RoadUser>,
     /// What has to be remembered in order to judge by the rules of the road; carried on from tick to tick.
     pub rule_book: RuleBook,
-    /// Who is near whom; before they are found, everybody counts as near.
+    /// Who is near whom; before they are found, all count as near.
     pub near: Neighbours,
 }
 
@@ -74,7 +74,7 @@ pub struct Decision {
 }
 
 impl Traffic {
-    /// Finds out who can matter to whom, from where everybody is now.
+    /// Finds out which vehicles can matter to which, from where all are now.
     pub fn find_neighbours(&mut self) {
         self.near = Neighbours::find(&self.road_users, self.horizon_s());
     }
@@ -135,7 +135,7 @@ impl Traffic {
         }
     }
 
-    /// Lets everybody who is on the road decide; returns the decisions in the order in which they were made.
+    /// Lets every driver on the road decide; returns the decisions in the order in which they were made.
     ///
     /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
     /// predictions of those who go first are their plans.
@@ -172,7 +172,7 @@ impl Traffic {
         self.road_users.iter().map(applied).collect()
     }
 
-    /// One tick with the bicycle as the plant: everybody predicts, plans, acts and moves. Returns the decisions in the order
+    /// One tick with the bicycle as the plant: all predict, plan, act and move. Returns the decisions in the order
     /// in which they were made.
     pub fn drive(&mut self, ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         self.predict();
@@ -182,7 +182,7 @@ impl Traffic {
         decisions
     }
 
-    /// Moves everybody by one tick with the bicycle as the plant.
+    /// Moves all vehicles by one tick with the bicycle as the plant.
     pub fn advance(&mut self, inputs: &[Input]) {
         for (RoadUser { agent, .. }, input) in self.road_users.iter_mut().zip(inputs) {
             agent.state = Bicycle::new(&agent.body, self.step_s).step(&agent.state, input);

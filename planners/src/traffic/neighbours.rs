@@ -11,8 +11,8 @@ const MARGIN_LENGTHS: f64 = 4.0;
 /// Who faces the same way to within this angle \[rad\] drives behind or before another, not towards it.
 const SAME_WAY_RAD: f64 = 0.5;
 
-/// Who is where: road users by cells of a grid, each as wide as the farthest reach. By default nobody is known to be anywhere, and then
-/// everybody counts as near.
+/// Who is where: road users by cells of a grid, each as wide as the farthest reach. By default no place is known, and then
+/// all count as near.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbours {
     cell_m: f64,
@@ -80,7 +80,7 @@ fn can_matter(one: &Agent, own_m: f64, other: &Agent, their_m: f64) -> bool {
     let turned = libm::cos(one.state.heading_rad - other.state.heading_rad);
     let reach_m = if turned > libm::cos(SAME_WAY_RAD) { own_m.max(their_m) } else { own_m + their_m } + margin_m;
     let [x_m, y_m] = [one.state.x_m - other.state.x_m, one.state.y_m - other.state.y_m];
-    // A state that is no number is near to everybody.
+    // A state that is not a number is near to all.
     (x_m * x_m + y_m * y_m).partial_cmp(&(reach_m * reach_m)).is_none_or(std::cmp::Ordering::is_le)
 }
 

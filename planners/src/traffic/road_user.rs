@@ -6,7 +6,7 @@ use crate::{Agent, Goal, Input};
 /// One vehicle of the closed loop: how the others see it, its goal, and its committed plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadUser {
-    /// The vehicle as everybody sees it.
+    /// The vehicle as all others see it.
     pub agent: Agent,
     /// The goal of the vehicle.
     pub goal: Goal,
@@ -18,7 +18,7 @@ pub struct RoadUser {
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
-    /// Whether it is not on the road now: it has not come yet, or has left. Nobody sees it, and its planner is not asked.
+    /// Whether it is not on the road now: it has not come yet, or has left. No driver sees it, and its planner is not asked.
     pub is_absent: bool,
     /// The plan that it decided on last.
     pub committed: CommittedPlan,

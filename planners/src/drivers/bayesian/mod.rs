@@ -47,7 +47,7 @@ pub struct Bayesian {
 }
 
 impl Bayesian {
-    /// A planner that has interacted with nobody yet.
+    /// A planner that has not interacted with any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,

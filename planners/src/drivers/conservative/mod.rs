@@ -1,6 +1,6 @@
 //! The conservative baseline (eq. 6.13): the ego keeps out of the safety ellipses around the others' predicted positions.
 //!
-//! The predictions are fixed. The ego assumes that nobody reacts to it, whoever has the right of way. Each ellipse is a soft
+//! The predictions are fixed. The ego assumes that no vehicle reacts to it, whichever has the right of way. Each ellipse is a soft
 //! constraint with an exact penalty ([`Penalty::EXACT`](crate::trajectory::Penalty::EXACT)), so it holds wherever it can.
 
 pub mod diagnostics;

@@ -35,9 +35,8 @@ use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 /// list.
 pub fn cooperators(scene: &Scene, own: Goal) -> Vec<JointVehicle> {
     let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
-    let everybody = others.chain([(&scene.ego, own)]);
-    let mut found: Vec<JointVehicle> =
-        everybody.map(|(agent, goal)| JointVehicle { agent: agent.clone(), goal }).collect();
+    let all = others.chain([(&scene.ego, own)]);
+    let mut found: Vec<JointVehicle> = all.map(|(agent, goal)| JointVehicle { agent: agent.clone(), goal }).collect();
     found.sort_by(|a, b| a.agent.name.cmp(&b.agent.name));
     found
 }

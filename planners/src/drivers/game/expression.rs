@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_passes_may_seem_surer_and_whoever_yields_too() {
+    fn a_player_may_seem_surer_to_pass_and_surer_to_yield() {
         let wanted = |intention| wanted_posterior(intention, &Settings::default());
         assert_eq!(wanted(0.7), [Some(0.7 - Settings::default().epsilon_p), None]);
         assert_eq!(wanted(0.3), [None, Some(0.3)]);

@@ -90,7 +90,7 @@ struct Round {
 }
 
 impl Game {
-    /// A planner that has interacted with nobody yet.
+    /// A planner that has not interacted with any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Game {
             settings,

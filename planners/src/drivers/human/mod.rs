@@ -1,6 +1,6 @@
 //! The human driver: model-predictive control with a safety weight.
 //!
-//! At each step the driver of the source minimises the sum of these terms over the inputs `u_0…u_{N−1}`. There is no other term.
+//! At each step the driver of the source minimises the sum of these terms over the inputs `u_0…u_{N−1}`, and of no others.
 //!
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
@@ -18,16 +18,16 @@
 //!   heading*, so that a nudge of the steering wheel is seen; `d` is the elliptical distance along the other's road.
 //!   The hinge is sharp: a driver yields only to what threatens to enter its ellipse. Where roads cross the term stands
 //!   twice, for the ellipse along the other's road and for the one along the driver's own. This is our choice: with one
-//!   of them drivers and planners disagree about who is in whose way. Whoever is behind in the same lane is ignored.
+//!   of them drivers and planners disagree about which vehicle is in the way of which. Vehicles behind in the same lane are ignored.
 //! - **Following.** `l` is the *planned* position of the vehicle ahead: the driver knows its plan. The weight is
 //!   `w_f = max(w, following_weight)`, whatever the style.
 //! - **Firm wall.** `d_f` belongs to an ellipse 0.7 times as long and 4 times as wide, with the exact penalty of the
 //!   planners' safety constraints. So the driver brakes for the vehicle ahead rather than run into it or swerve around
 //!   it.
 //!
-//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: whoever is ahead in its lane makes
+//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: a vehicle ahead in its lane makes
 //! it brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight
-//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
+//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into vehicles that have merged.
 //!
 //! Going first and yielding are two homotopy classes, which the optimiser compares (`passing_orders`).
 //!
@@ -36,16 +36,16 @@
 //!
 //! A driver who knows comfort ([`ComfortLimits`](crate::ComfortLimits)), as people on real roads do, differs in what is around others
 //! (module `clearance`): the ellipses of following and of the firm wall grow with the speed, an exact one keeps it from pulling into a short
-//! gap, and whoever comes the other way is passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
+//! gap, and oncoming vehicles are passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
 //! `obstacle`), beside an exact ellipse around the body.
 //!
 //! Drivers differ from this one by their settings:
 //!
-//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
+//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while a vehicle is about to cut
 //!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
 //!   (module `sighting`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
-//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
+//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it reacts to vehicles that might cut in or cross.
 //!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
 //!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
 //! - A driver who **adapts to the flow** (`adapts_to_leaders`, `adapts_to_lane`, module `flow`) wants a speed between that of its goal
@@ -85,7 +85,7 @@ const FIRST_BRAKING_RATIO: f64 = 0.3;
 /// hinge alone does not exclude a collision where the wanted speed weighs more.
 const LEADER_LENGTH_RATIO: f64 = 0.7;
 /// Width of the same ellipse as a multiple of the safety ellipse: the driver stops behind rather than swerve into a lane where
-/// it yields to nobody.
+/// it does not yield.
 const LEADER_WIDTH_RATIO: f64 = 4.0;
 
 /// A human driver with its last plan and what it remembers of the other vehicles.
@@ -232,7 +232,7 @@ pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
 fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
-    // Whoever comes the other way was looked at before passing was allowed, and is at every tick.
+    // Oncoming vehicles are checked before passing is allowed, and at every tick.
     let is_minded = |other: &Agent| {
         met.is_none_or(|(obstacle, is_passed)| {
             obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))

@@ -2,7 +2,7 @@
 //! changes (`mobil`).
 //!
 //! On a network it keeps to the right of way (module `right_of_way`): a line at which it must wait counts as a standing
-//! vehicle. On straight roads that cross it ignores whoever crosses.
+//! vehicle. On straight roads that cross it ignores crossing vehicles.
 
 mod car_following;
 pub mod diagnostics;
@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_lane_that_ends_is_left_or_stopped_in() {
-        // Somebody stays beside it, so that it cannot leave.
+        // A vehicle stays beside it, so that it cannot leave.
         let beside = agent(0.0, 0.555, 0.0, 1.0);
         let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![beside], 0.555, 1.0);
         let end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });

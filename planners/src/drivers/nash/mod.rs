@@ -3,7 +3,7 @@
 //! Each of 2 to 4 players minimises the cost of its own motion (eq. 6.6) and shares with every other the constraint that their safety
 //! ellipses are not entered. `equilibrium.rs` says how an equilibrium is found and certified. What the others want is not known:
 //! the ego supposes that they want to stay where their predicted motions lead, at the highest speed at which it saw them.
-//! Whoever does not play is an obstacle on its predicted way.
+//! Vehicles that do not play are obstacles on their predicted ways.
 
 mod best_responses;
 mod deviation;
@@ -60,7 +60,7 @@ pub fn joint_optimiser(search: HomotopySearch) -> Optimiser<Robust> {
 }
 
 impl Nash {
-    /// A planner that has not seen anybody yet.
+    /// A planner that has not seen any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Nash {
             settings,

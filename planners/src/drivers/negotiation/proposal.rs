@@ -3,7 +3,7 @@
 //! ```text
 //! minimise  w/Z₁ Σ (‖x₁ − x_des‖²_Q + ‖Δu₁‖²_R)  +  (1 − w)/Z₂ Σ ‖x₂ − x₂ᴾ‖²_D  +  10⁻² Σ ‖Δu₂‖²
 //! such that both obey the bicycle, their bounds and their roads, the ego keeps out of the other's ellipse and of
-//! everybody else's predicted one, the other follows its prediction until T_n, and the ego leans (eq. 6.23)
+//! the predicted ones of all others, the other follows its prediction until T_n, and the ego leans (eq. 6.23)
 //! ```
 //!
 //! Corrections of the source: safety holds against the *decision* `x₂`, not against the prediction (6.15 as printed makes

@@ -1,7 +1,7 @@
-//! Somebody on foot, or on a bicycle on a path: goes along its route, waits at the kerb, and sees cars.
+//! A pedestrian, or a cyclist on a path: goes along its route, waits at the kerb, and sees cars.
 //!
-//! It walks at the speed of its goal, keeps a distance to whoever walks ahead, and stops before the line that the rules of the road
-//! give it. Besides, it looks at each vehicle whose way crosses its own ahead, whoever goes first there. With
+//! It walks at the speed of its goal, keeps a distance to the pedestrian ahead, and stops before the line that the rules of the road
+//! give it. Besides, it looks at each vehicle whose way crosses its own ahead, whichever goes first there. With
 //!
 //! - `[t_in, t_out]` the time in which it would be in the crossing, walking on,
 //! - `t_car` when the vehicle is there if it keeps its speed `v`, at a distance `d`,
@@ -24,9 +24,9 @@ use crate::scene::trigger::TriggerMemory;
 use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use settings::Caution;
 
-/// How hard somebody on foot changes the speed at most, as a share of what it can.
+/// Largest share of its limits with which a pedestrian changes the speed.
 const COMFORT_SHARE: f64 = 0.6;
-/// Distance to whoever walks ahead, for real people \[m\].
+/// Distance to the pedestrian ahead, for real people \[m\].
 const DISTANCE_M: f64 = 0.8;
 /// Vehicles that are further from the crossing in time are not looked at, for real ones \[s\].
 const LOOK_S: f64 = 12.0;
@@ -59,7 +59,7 @@ impl DriverKind for Settings {
     }
 }
 
-/// Somebody who walks.
+/// A pedestrian.
 #[derive(Clone, Debug)]
 pub struct Walker {
     settings: Settings,
@@ -127,7 +127,7 @@ fn acceleration_mps2(scene: &Scene, speed_mps: f64, room_m: Option<f64>) -> f64 
     needed.clamp(2.0 * -hardest, softest)
 }
 
-/// The room to whoever walks ahead on the same path \[m\].
+/// The room to the pedestrian ahead on the same path \[m\].
 fn room_behind_m(scene: &Scene) -> Option<f64> {
     let own = &scene.ego;
     let ahead = scene.others.iter().filter(|other| own.shares_lane_with(other) && own.lead_of(other) > 0.0);
@@ -186,7 +186,7 @@ mod tests {
     use crate::fixture::{agent, scene};
 
     #[test]
-    fn it_walks_at_its_speed_and_stops_behind_somebody() {
+    fn it_walks_at_its_speed_and_stops_behind_another_pedestrian() {
         let plan = |others: Vec<Agent>| {
             let mut scene = scene(agent(0.0, 0.185, 0.0, 0.4), others);
             scene.goal.target.speed_mps = 0.4;

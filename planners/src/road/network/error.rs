@@ -128,13 +128,13 @@ pub enum LaneFault {
     },
 }
 
-/// Why a list of lanes is no route.
+/// Why a list of lanes is not a route.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RouteError {
     /// No lanes are named.
     #[error("a route needs at least one lane")]
     NoLanes,
-    /// There is no lane of this name.
+    /// No lane has this name.
     #[error("there is no lane `{lane}`")]
     UnknownLane {
         /// The name that is wrong.

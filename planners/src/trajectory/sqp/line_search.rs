@@ -57,7 +57,7 @@ impl LineSearch {
         self.earlier.clear();
     }
 
-    /// Remembers the cost of an iterate that is left, and no more than so many.
+    /// Remembers the cost of an iterate that is left, up to the limit.
     pub fn remember(&mut self, cost: Cost, most: usize) {
         self.earlier.push_front(cost);
         self.earlier.truncate(most);
