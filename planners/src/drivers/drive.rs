@@ -5,8 +5,8 @@ use std::fmt;
 
 use crate::plan::diagnostic::Explanation;
 use crate::prediction::Prediction;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::input_record::InputRecord;
-use crate::scene::outlook::Outlook;
 use crate::scene::record::Record;
 use crate::{DriverSettingError, Goal, Plan, PlanError, PlanTime, Scene};
 
@@ -50,7 +50,7 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         self.prediction() != Some(Prediction::Inferred)
     }
 
-    /// Whether its plans branch: then its [`Outlook`] has what each of the others may do.
+    /// Whether its plans branch: then its [`InferredFutures`] has what each of the others may do.
     fn branches(&self) -> bool {
         false
     }
@@ -113,12 +113,12 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
 pub trait Drive: fmt::Debug + Send + Sync {
     /// Plans the next `scene.horizon` steps; the first input is applied. Called once a tick.
     ///
-    /// `scene` has all vehicles as the driver senses them, with predictions as [`DriverKind::prediction`] asks for. `outlook` has
+    /// `scene` has all vehicles as the driver senses them, with predictions as [`DriverKind::prediction`] asks for. `inferred_futures` has
     /// what is inferred of the others' drivers; it is empty for a driver who is told plans.
     ///
     /// # Errors
     /// [`PlanError`] if no plan was found; the vehicle then drives a fallback.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError>;
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError>;
 
     /// A copy that remembers the same, for snapshots of a run. `None` for a driver that cannot be copied, such as one that
     /// asks another program.

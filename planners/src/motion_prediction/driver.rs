@@ -10,7 +10,7 @@ use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, Traffi
 use crate::drivers::human::{self, Human};
 use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
 
 /// Stages of the plan: 8 s, as people have on real roads.
@@ -75,7 +75,7 @@ impl PredictedDriver {
     pub(super) fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         let mut scene = self.scene(moment);
         scene.ego.urgency = scene.urgency();
-        let Ok(plan) = Human::new(self.settings).plan(&scene, &Outlook::default()) else {
+        let Ok(plan) = Human::new(self.settings).plan(&scene, &InferredFutures::default()) else {
             let lateral = self.lateral.unwrap_or_default();
             return super::acceleration::predict(moment, None, lateral);
         };

@@ -13,7 +13,7 @@ use crate::perception::sensing::SensedScene;
 use crate::plan::certificate::{refused, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Plan, PlanError, Scene};
 
 /// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
@@ -102,7 +102,7 @@ impl Planner {
         let near = scene.within_reach();
         match self.beliefs {
             Some(_) => self.plan_sensed(&SensedScene::perfect(&near)),
-            None => self.plan_as_told(&near, &Outlook::default()),
+            None => self.plan_as_told(&near, &InferredFutures::default()),
         }
     }
 
@@ -112,18 +112,18 @@ impl Planner {
     /// As [`Planner::plan`].
     pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
         let Some(beliefs) = &mut self.beliefs else {
-            return self.plan_as_told(&sensed.scene, &Outlook::default());
+            return self.plan_as_told(&sensed.scene, &InferredFutures::default());
         };
         let inferred = beliefs.infer(sensed);
-        let outlook = Outlook {
+        let inferred_futures = InferredFutures {
             alternatives: if self.branches { beliefs.alternatives(sensed, &inferred.scene) } else { Vec::new() },
             estimates: inferred.estimates,
             delay: sensed.oldest_sighting(),
         };
-        let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
+        let mut plan = self.plan_as_told(&inferred.scene, &inferred_futures)?;
         plan.diagnostics.extend(inferred.diagnostics);
         plan.events.splice(0..0, inferred.events);
-        plan.beliefs = outlook.estimates;
+        plan.beliefs = inferred_futures.estimates;
         Ok(plan)
     }
 
@@ -137,8 +137,8 @@ impl Planner {
     }
 
     /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
-    fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
-        let mut plan = self.driver.plan(scene, outlook)?;
+    fn plan_as_told(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
+        let mut plan = self.driver.plan(scene, inferred_futures)?;
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
         let may_be_refused = self.may_be_refused && !plan.violations.is_empty();

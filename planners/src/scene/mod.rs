@@ -1,8 +1,8 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
 pub mod driver_estimate;
+pub mod inferred_futures;
 pub(crate) mod input_record;
-pub mod outlook;
 pub(crate) mod record;
 pub(crate) mod relation;
 pub(crate) mod road_rules;

@@ -13,7 +13,7 @@ pub use settings::Settings;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon::{self, Solved};
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, HomotopySearch, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory};
@@ -85,7 +85,7 @@ impl Drive for Conservative {
     ///
     /// # Errors
     /// [`PlanError`] if no starting guess leads to an optimum.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         Ok(answer(self.optimise(scene)?))
     }
 

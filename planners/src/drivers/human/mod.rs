@@ -41,24 +41,24 @@
 //!
 //! Drivers differ from this one by their settings:
 //!
-//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while a vehicle is about to cut
+//! - A driver who **closes gaps** (`closing_mps`, module `gap_closing`) wants to be faster while a vehicle is about to cut
 //!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
-//!   (module `sighting`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
+//!   (module `past_observation`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
 //! - A driver who **hesitates** (`hesitation_s`) decides only that often how it reacts to vehicles that might cut in or cross.
-//!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
+//!   Until the next decision it expects of them what it expected at the last one (module `past_observation`). Its plan is
 //!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
 //! - A driver who **adapts to the flow** (`adapts_to_leaders`, `adapts_to_lane`, module `flow`) wants a speed between that of its goal
 //!   and those of the vehicles in its lane.
 //! - A driver of the style **`measured`** is a member of a population that is spread like recorded people (module `population`).
 //! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
-mod closing;
 pub mod diagnostics;
 mod flow;
+mod gap_closing;
+mod past_observation;
 mod population;
 mod settings;
-mod sighting;
 
 use std::sync::Arc;
 
@@ -72,12 +72,12 @@ use crate::prediction::steady_inputs;
 use crate::problem::clearance::ellipses;
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::road_rules::Obstacle;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, PlanTime, SafetyEllipse, Scene, Trajectory};
-use sighting::{Decision, Perception};
+use past_observation::{Decision, Perception};
 
 /// The very first guess brakes with this share of the strongest braking.
 const FIRST_BRAKING_RATIO: f64 = 0.3;
@@ -168,7 +168,7 @@ impl Drive for Human {
     ///
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let seen = self.perception.perceive(scene, self.settings.reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
@@ -176,7 +176,7 @@ impl Drive for Human {
         if let Some(speed_mps) = flow::adapted_speed_mps(&seen, adapts) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
-        if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
+        if let Some(speed_mps) = gap_closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
         let was_passing = self.obstacles.passing().map(str::to_owned);

@@ -23,7 +23,7 @@ use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::problem::{JointVehicle, joint_problem};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
@@ -101,7 +101,7 @@ impl Drive for Nash {
     ///
     /// # Errors
     /// [`PlanError`] if neither the game nor the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         self.seen.look(scene);
         self.refusals.look(scene, &self.last, self.settings.patience_steps);

@@ -32,12 +32,12 @@ pub use settings::{Concedes, Settings};
 
 use crate::drivers::conservative::{self, Conservative};
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::encounter::partner_event;
+use crate::drivers::partner_choice::partner_event;
 use crate::drivers::receding_horizon::Solved;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::plan::homotopy::homotopy_class;
 use crate::plan::planned_passing::PassingSide;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
@@ -119,7 +119,7 @@ impl Drive for Negotiation {
     ///
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let fallback = self.fallback.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();

@@ -9,7 +9,7 @@
 
 use super::patience::{FallbackPrice, Patience};
 use super::settings::Settings;
-use crate::drivers::encounter::{from_front_to_rear, is_settled};
+use crate::drivers::partner_choice::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
 
 /// The order in which vehicles are asked, and how long those that are asked have not accepted.

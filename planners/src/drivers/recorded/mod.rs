@@ -19,7 +19,7 @@ use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::plan::{PlanEvent, PlanEventKind};
 use crate::prediction::steering::steer;
 use crate::prediction::{Prediction, steadily_along};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 pub use crate::scene::record::{Record, RecordFault, next_to};
 use crate::{DriverSettingError, Input, Plan, PlanError, PlanTime, Scene, Trajectory};
 
@@ -112,14 +112,14 @@ impl Drive for Recorded {
     ///
     /// # Errors
     /// Those of the driver who has taken over.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
         if let Some(successor) = &mut self.successor {
-            return successor.plan(&wanting(scene, self.record.as_ref()), outlook);
+            return successor.plan(&wanting(scene, self.record.as_ref()), inferred_futures);
         }
         let due = self.hands_over.as_ref().zip(self.record.as_ref());
         if let Some((hands_over, reason)) = due.and_then(|(to, record)| Some((to, to.is_due(record, scene)?))) {
             let successor = self.successor.insert(hands_over.driver(scene));
-            let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), outlook)?;
+            let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), inferred_futures)?;
             let text = format!("drives itself from now on, not after its record: {reason}");
             plan.events.push(PlanEvent { kind: PlanEventKind::LeavesRecord, text });
             return Ok(plan);
@@ -177,7 +177,7 @@ mod tests {
     fn the_plan_does_not_tell_the_future() {
         let points = (0..20).map(|t| [0.1 * f64::from(t), 0.1 * f64::from(t), 0.185, 0.0, 1.0 - 0.05 * f64::from(t)]);
         let settings = Settings { points: points.collect(), ..Settings::default() };
-        let plan = settings.driver().plan(&scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new()), &Outlook::default());
+        let plan = settings.driver().plan(&scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new()), &InferredFutures::default());
         let trajectory = plan.expect("a plan").trajectory;
         assert!((trajectory.inputs[0].acceleration_mps2 + 0.5).abs() < 1e-9, "{:?}", trajectory.inputs[0]);
         assert!(trajectory.states.iter().all(|state| state.speed_mps == 1.0));

@@ -19,7 +19,7 @@ use crate::prediction::Prediction;
 use crate::prediction::steering::{admissible, roll_out, steer};
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::giving_way::{front_m, stopping_distance_m};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::trigger::TriggerMemory;
 use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use settings::Caution;
@@ -73,7 +73,7 @@ impl Drive for Walker {
     ///
     /// # Errors
     /// Never.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let own = &scene.ego;
         let caution = self.settings.style.caution();
         let has_begun = self.settings.when.as_ref().is_none_or(|trigger| self.trigger.has_fired(trigger, scene));
@@ -190,7 +190,7 @@ mod tests {
         let plan = |others: Vec<Agent>| {
             let mut scene = scene(agent(0.0, 0.185, 0.0, 0.4), others);
             scene.goal.target.speed_mps = 0.4;
-            Settings::default().driver().plan(&scene, &Outlook::default()).expect("a plan").trajectory
+            Settings::default().driver().plan(&scene, &InferredFutures::default()).expect("a plan").trajectory
         };
         let free = plan(Vec::new());
         assert!(free.states.iter().all(|state| (state.speed_mps - 0.4).abs() < 1e-9));

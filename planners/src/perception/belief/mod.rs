@@ -39,7 +39,7 @@ use std::collections::VecDeque;
 use crate::perception::sensing::{SensedScene, Sighting};
 use crate::prediction::steadily_along;
 use crate::scene::driver_estimate::DriverEstimate;
-use crate::scene::outlook::Alternative;
+use crate::scene::inferred_futures::Alternative;
 use crate::{Agent, Diagnostic, PlanEvent, Scene, Trajectory};
 use observed_driver::{ObservedDriver, later};
 

@@ -18,7 +18,7 @@ pub struct Alternative {
 /// is told the
 /// others' plans.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outlook {
+pub struct InferredFutures {
     /// The possible motions of each other vehicle, in the order of the scene; empty for a planner whose plans do not
     /// branch.
     pub alternatives: Vec<Vec<Alternative>>,
@@ -28,7 +28,7 @@ pub struct Outlook {
     pub delay: usize,
 }
 
-impl Outlook {
+impl InferredFutures {
     /// The belief about the driver of a vehicle, by the vehicle's name; `None` where its plan is told.
     pub fn estimate(&self, name: &str) -> Option<&DriverEstimate> {
         self.estimates.iter().find(|estimate| estimate.vehicle == name)

@@ -1,4 +1,4 @@
-//! Meeting another vehicle: whose path it crosses, whether the order of the two is settled, and whom to interact with.
+//! Which vehicle a planner interacts with: whose path it crosses, and whether the order of the two is settled.
 //!
 //! The source interacts with one vehicle after the other, from the front of the road to its rear (section 6.5). A vehicle
 //! with which nothing is left to settle is skipped: one that drives ahead in the ego's target lane, or that has crossed, or
