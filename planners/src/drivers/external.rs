@@ -1,6 +1,6 @@
 //! A driver whose inputs come from outside: from a person at the wheel, from another program, from recorded data.
 //!
-//! It plans nothing itself. Whoever runs the simulation hands in an input for each tick; without one there is nothing to drive.
+//! It plans nothing itself. The caller of the simulation hands in an input for each tick; without one the vehicle cannot be driven.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What lets somebody begin: another vehicle reaches a place.
+//! What lets a vehicle begin: another one reaches a place.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

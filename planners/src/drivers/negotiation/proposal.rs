@@ -15,7 +15,7 @@
 //! With several others `j` (the source has one) there is one problem for all of them. Each has its own `w_j`, lowered by its own
 //! refusals, and the ratio of the ego's cost to each deviation is the one of a negotiation with this vehicle alone: with the
 //! least weight `w = min w_j` the ego's cost has the factor `w/Z₁` and the deviation of `j` the factor `(w/w_j)(1 − w_j)/Z₂`.
-//! The others keep apart from one another by the ego's ellipse, or by as much of it as they plan to.
+//! The others keep apart from one another by the ego's ellipse, or by the part of it that they plan to keep.
 
 use super::Settings;
 use crate::trajectory::terms::{Comfort, Persuasion, Tracking};
@@ -33,7 +33,7 @@ const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 /// three of 108 authored scenarios fail.
 const WORK_LIMIT: usize = 300;
 /// Most work of comparing homotopy classes in a plan but the first. Proposals are renewed at every step and may be compared over
-/// several; a planner that asks nobody decides by its comparison and makes it at once.
+/// several; a planner that asks no vehicle decides by its comparison and makes it at once.
 const COMPARISON_WORK_LIMIT: usize = 200;
 
 /// An optimiser for the negotiation problem.

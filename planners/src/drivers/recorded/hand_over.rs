@@ -55,7 +55,7 @@ pub enum HandOverTime {
     Word(String),
 }
 
-/// The word for a record that would lead into somebody.
+/// The word for a record that would lead into another vehicle.
 const DISTURBED: &str = "disturbed";
 
 impl HandOver {
@@ -64,7 +64,7 @@ impl HandOver {
         !matches!(&self.when, HandOverTime::Word(word) if word != DISTURBED)
     }
 
-    /// Whether the driver takes over now; if somebody is in the way, in words for whom.
+    /// Whether the driver takes over now; if a vehicle is in the way, with its name in words.
     pub(super) fn is_due(&self, record: &Record, scene: &Scene) -> Option<String> {
         let time_s = scene.step_s * scene.tick as f64;
         match &self.when {

@@ -1,7 +1,7 @@
 //! A driver who does what a vehicle did that was recorded, whatever happens around it.
 //!
 //! The record gives pose and speed at times. Who moves the vehicles puts this one where its record says
-//! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. Nobody is told where it will be: its plan
+//! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. No other driver knows where it will be: its plan
 //! is to keep its speed along its road, and so are the predictions of the others.
 //!
 //! Where the record ends, the vehicle keeps its speed and its place in its lane; or another driver takes over before, with
@@ -107,7 +107,7 @@ pub struct Recorded {
 }
 
 impl Drive for Recorded {
-    /// Plans to keep the speed along the road. The first input leads to where the record goes on. Once somebody has taken over, plans
+    /// Plans to keep the speed along the road. The first input leads to where the record goes on. Once another driver has taken over, plans
     /// as that driver does.
     ///
     /// # Errors
@@ -146,7 +146,7 @@ impl Drive for Recorded {
     }
 }
 
-/// The scene for whoever takes over: it wants to drive as fast as the record was.
+/// The scene for the driver that takes over: it wants to drive as fast as the record was.
 fn wanting(scene: &Scene, record: Option<&Record>) -> Scene {
     let mut scene = scene.clone();
     let wanted_mps = record.map(|record| hand_over::wanted_mps(record, &scene.ego.body));
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
     use crate::fixture::{agent, scene};
 
-    /// It brakes, and nobody can tell: the plan keeps the speed, and only the first input is that of the record.
+    /// It brakes, and no other driver can tell: the plan keeps the speed, and only the first input is that of the record.
     #[test]
     fn the_plan_does_not_tell_the_future() {
         let points = (0..20).map(|t| [0.1 * f64::from(t), 0.1 * f64::from(t), 0.185, 0.0, 1.0 - 0.05 * f64::from(t)]);

@@ -112,7 +112,7 @@ pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
         return false;
     }
     let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
-    // After a contact in the first step there is no way out.
+    // After a contact in the first step no way out remains.
     let is_over = contact <= Some(1);
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
 }
