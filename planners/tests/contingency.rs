@@ -105,7 +105,7 @@ fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
 }
 
 #[test]
-fn an_unlikely_driver_who_is_told_apart_at_once_has_a_future_of_its_own() {
+fn an_unlikely_driver_that_shows_itself_at_once_has_a_future_of_its_own() {
     let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Style::Nice)).swap_remove(0);
     let mass = |known: &[Alternative]| known.iter().map(|one| one.probability).sum::<f64>();
     assert!(inferred_futures.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));

@@ -70,7 +70,7 @@ fn intending() -> Vehicle {
 }
 
 #[test]
-fn who_knows_plans_reacts_before_who_extrapolates() {
+fn drivers_that_know_plans_react_before_drivers_that_extrapolate() {
     let other = intending();
     let slowest =
         |plan: &Plan| plan.trajectory.states.iter().map(|state| state.speed_mps).fold(f64::INFINITY, f64::min);

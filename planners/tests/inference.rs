@@ -80,7 +80,7 @@ fn a_belief_that_does_not_learn_loses_the_wins() {
 
 /// The other way round it is dangerous: who takes a tough driver for nice runs into it.
 #[test]
-fn who_learns_lets_a_tough_driver_pass_that_seemed_nice() {
+fn an_ego_that_learns_lets_a_tough_driver_pass_that_seemed_nice() {
     for vehicles in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75), 6) {
         let run = world::run_inferring(vehicles, TICKS, &belief::Settings::default(), None);
         assert_eq!(run.collision, None);
@@ -110,7 +110,7 @@ fn a_tough_driver_is_named_within_a_second_of_interaction() {
 
 /// A nice driver is never taken for tough, whatever is believed first.
 #[test]
-fn a_nice_driver_who_yields_is_not_taken_for_tough() {
+fn a_nice_driver_that_yields_is_not_taken_for_tough() {
     for prior in [Prior::Nice, Prior::Even, Prior::Tough] {
         let vehicles = world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9);
         let settings = belief::Settings { prior, ..belief::Settings::default() };

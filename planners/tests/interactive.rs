@@ -144,7 +144,7 @@ fn crossed(vehicles: Vec<Vehicle>) -> (bool, f64) {
 }
 
 #[test]
-fn at_an_intersection_nice_drivers_yield_to_those_who_persuade() {
+fn at_an_intersection_nice_drivers_yield_to_planners_that_persuade() {
     assert!(crossing_by_persuasion(Nice).0);
     assert!(!crossing_by_persuasion(Tough).0);
     assert!(crossing_by_game(Nice).0);
@@ -233,7 +233,7 @@ fn in_the_corrected_form_the_accident_is_worst_and_intentions_stay_inside_their_
 
 /// Any vehicle may have any driver.
 #[test]
-fn two_who_persuade_may_meet() {
+fn two_persuading_planners_may_meet() {
     for (ego, front) in [(bayesian(), game()), (game(), bayesian()), (bayesian(), negotiator()), (game(), game())] {
         let mut vehicles = lane_change(ego.clone(), [Nice, Nice]);
         vehicles[1].drive(front.clone());

@@ -31,7 +31,7 @@ fn precedence(signs: [RightOfWay; 4], own: [&str; 2], other: [&str; 2]) -> Optio
 }
 
 #[test]
-fn signs_and_rules_say_who_goes_first() {
+fn signs_and_rules_decide_which_vehicle_goes_first() {
     use ConflictKind::{Crossing, Merging};
     use Precedence::{ByArrival, Other, Own};
     let at = |own, other| precedence(PRIORITY_ROAD, own, other);
@@ -65,7 +65,7 @@ fn drivers() -> [Driver; 3] {
 /// Whatever their styles: who yields waits for both vehicles of the priority road and crosses then. With the signs turned round
 /// the same vehicle crosses first.
 #[test]
-fn who_yields_crosses_after_those_with_priority() {
+fn a_vehicle_that_yields_crosses_after_those_with_priority() {
     let mut turned_round = PRIORITY_ROAD;
     turned_round.rotate_left(1);
     for (signs, waits) in [(PRIORITY_ROAD, true), (turned_round, false)] {

@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn who_keeps_its_line_is_not_expected_in_the_middle_of_the_lane() {
+    fn a_vehicle_that_keeps_its_line_is_not_predicted_to_the_middle_of_the_lane() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
         let across_m =
             |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];

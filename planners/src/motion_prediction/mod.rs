@@ -178,7 +178,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn who_brakes_to_a_stop_stands() {
+    fn a_vehicle_that_brakes_to_a_stop_stands() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
         let model =
             MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };

@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stands_at_the_end_stands_for_ever() {
+    fn a_record_that_ends_at_rest_stays_at_rest() {
         let parked = Record::new(&[[0.0, 1.0, 2.0, 0.5, 0.0]]).expect("a record");
         assert_eq!(parked.state_at(1e6), Some(parked.first()));
     }

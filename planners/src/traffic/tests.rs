@@ -113,7 +113,7 @@ fn shown(traffic: &mut Traffic) -> impl Fn(&str, &str) -> Trajectory + use<> {
 }
 
 #[test]
-fn plans_of_those_who_go_first_are_known_at_once_and_others_a_tick_later() {
+fn plans_of_drivers_that_go_first_are_known_at_once_and_others_a_tick_later() {
     let users = [("rear", 0.0, true), ("front", 2.0, true), ("one", 1.0, false), ("two", 3.0, false)];
     let mut traffic = traffic(users.map(|(name, x_m, goes_first)| road_user(name, x_m, goes_first)).into());
     let start = |index: usize| constant_velocity(&traffic.road_users[index].agent.state, HORIZON, STEP_S);

@@ -169,7 +169,7 @@ mod tests {
         [ConflictGeometry::Alongside { lead_m: 0.3 }, ConflictGeometry::Crossing { ego_m: 2.0, other_m: 1.5 }];
 
     #[test]
-    fn who_keeps_its_own_speed_seems_to_pass_and_who_slows_down_to_yield() {
+    fn a_vehicle_that_keeps_its_speed_seems_to_pass_and_one_that_slows_down_to_yield() {
         let settings = Settings::default();
         for geometry in GEOMETRIES {
             let [kept, slowed] = geometry.own_observations([0.8, 0.5], [0.8, 0.8], &settings);
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn who_arrives_first_seems_to_pass() {
+    fn the_first_to_arrive_seems_to_pass() {
         let settings = Settings::default();
         let geometry = ConflictGeometry::Crossing { ego_m: 1.0, other_m: 2.0 };
         let [ego, other] = geometry.observations([1.0, 1.0], &settings);
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stands_still_arrives_last() {
+    fn a_stationary_vehicle_arrives_last() {
         let settings = Settings::default();
         let times = [0.0, 0.04, 0.06, 0.2, 1.0].map(|speed| arrival_s(2.0, speed, &settings));
         assert!(times.windows(2).all(|pair| pair[0] >= pair[1]), "{times:?}");

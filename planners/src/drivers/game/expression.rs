@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_late_is_asked_for_the_highest_speed() {
+    fn a_late_vehicle_expresses_itself_by_its_highest_speed() {
         let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
         let geometry = ConflictGeometry::Crossing { ego_m: 1.4, other_m: 0.2 };
         let [ego_behaviour, _] = geometry.observations([1.0, 1.0], &settings);

@@ -343,7 +343,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_is_taken_for_tough_is_expected_to_pass() {
+    fn a_driver_believed_tough_is_expected_to_pass() {
         let usual = |probabilities| usual_intention(&DriverEstimate::new("other", DriverModel::Nice, probabilities));
         assert_eq!(usual([1.0, 0.0, 0.0, 0.0, 0.0]), MAX_INTENTION);
         assert_eq!(usual([0.0, 0.0, 1.0, 0.0, 0.0]), MIN_INTENTION);

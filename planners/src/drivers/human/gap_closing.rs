@@ -42,7 +42,7 @@ mod tests {
     }
 
     #[test]
-    fn only_who_turns_towards_the_lane_ahead_makes_a_driver_hurry() {
+    fn a_driver_closes_the_gap_only_to_vehicles_that_turn_towards_its_lane() {
         assert_eq!(wanted(agent(0.5, 0.185, 0.1, 1.0)), 1.4);
         assert_eq!(wanted(agent(0.5, 0.185, 0.0, 1.0)), 1.2, "it keeps its lane");
         assert_eq!(wanted(agent(-0.5, 0.185, 0.1, 1.0)), 1.2, "it is behind");

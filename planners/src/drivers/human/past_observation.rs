@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn who_appears_later_is_seen_as_it_is() {
+    fn a_vehicle_that_appears_later_is_seen_in_its_present_state() {
         let (mut perception, mut decision) = (Perception::default(), Decision::default());
         let alone = Scene { others: Vec::new(), ..at(0) };
         perception.perceive(&alone, 1.0);

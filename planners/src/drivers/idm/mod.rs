@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_leader_is_overtaken_by_one_who_does_not_insist_on_its_lane() {
+    fn a_slow_leader_is_overtaken_by_a_driver_without_a_lane_preference() {
         let leader = agent(0.9, 0.185, 0.0, 0.3);
         let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
         let lane = |bias_mps2: f64| {

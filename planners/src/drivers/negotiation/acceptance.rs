@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn who_goes_on_unasked_is_not_willing_and_who_stops_is() {
+    fn continuing_reads_as_unwilling_and_stopping_as_willing() {
         for family in 0..3 {
             let (ego, first, ellipse) = braking(family, 0.0);
             assert_eq!(willingness(&first, &first, &ego, |_| ellipse), 0.0, "family {family}");

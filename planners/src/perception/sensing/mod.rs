@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_not_measured_for_a_second_is_gone_and_comes_back_when_measured_again() {
+    fn a_vehicle_unmeasured_for_a_second_is_dropped_until_it_is_measured_again() {
         let mut sensor = Sensor::new(Settings { range_m: Some(3.0), ..Settings::default() }, 1);
         let away = |tick: usize| {
             let mut scene = at(0);
