@@ -138,7 +138,7 @@ fn five_vehicles_share_a_problem() {
     assert!(number(&plan, SAFETY_SLACK) < 1e-3);
 }
 
-/// A human among those who cooperate is an obstacle to both.
+/// A human between cooperating vehicles is an obstacle to both.
 #[test]
 fn strangers_are_kept_out_of() {
     let mut vehicles = convoy(3);

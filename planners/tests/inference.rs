@@ -78,7 +78,7 @@ fn a_belief_that_does_not_learn_loses_the_wins() {
     assert!(learnt >= frozen + 2, "{learnt} against {frozen}");
 }
 
-/// The other way round it is dangerous: who takes a tough driver for nice runs into it.
+/// The other way round it is dangerous: an ego that takes a tough driver for nice runs into it.
 #[test]
 fn an_ego_that_learns_lets_a_tough_driver_pass_that_seemed_nice() {
     for vehicles in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75), 6) {

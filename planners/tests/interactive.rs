@@ -294,7 +294,7 @@ fn declarations_of_diagnostics_are_sound() {
     }
 }
 
-/// Every planner says ahead of or behind whom its plans lead, the last time as it then happens, and an event tells of it.
+/// Every planner reports which vehicle its plans pass ahead of or behind; the last report comes true, and an event states it.
 #[test]
 fn plans_say_in_which_order_they_pass() {
     for (ego, style) in egos().into_iter().flat_map(|ego| [(ego.clone(), Nice), (ego, Tough)]) {

@@ -62,7 +62,7 @@ fn drivers() -> [Driver; 3] {
     [human(Style::Nice), human(Style::Tough), Driver::Idm(idm::Settings::default())]
 }
 
-/// Whatever their styles: who yields waits for both vehicles of the priority road and crosses then. With the signs turned round
+/// Whatever their styles, a vehicle that yields waits for both vehicles of the priority road and crosses then. With the signs turned round
 /// the same vehicle crosses first.
 #[test]
 fn a_vehicle_that_yields_crosses_after_those_with_priority() {

@@ -45,7 +45,7 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         Some(Prediction::Plan)
     }
 
-    /// Whether the driver is told the plans of the others; one who infers them is not.
+    /// Whether the driver knows the plans of the others; one that infers them does not.
     fn knows_plans(&self) -> bool {
         self.prediction() != Some(Prediction::Inferred)
     }
@@ -60,7 +60,7 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         PlanTime::UNKNOWN
     }
 
-    /// Whether the driver plans before those who rely on knowing its plan. Its plans are then never refused: they are what the
+    /// Whether the driver plans before drivers that rely on knowing its plan. Its plans are then never refused: they are what the
     /// others have to live with.
     fn goes_first(&self) -> bool {
         false
@@ -114,7 +114,7 @@ pub trait Drive: fmt::Debug + Send + Sync {
     /// Plans the next `scene.horizon` steps; the first input is applied. Called once a tick.
     ///
     /// `scene` has all vehicles as the driver senses them, with predictions as [`DriverKind::prediction`] asks for. `inferred_futures` has
-    /// what is inferred of the others' drivers; it is empty for a driver who is told plans.
+    /// what is inferred of the others' drivers; it is empty for a driver that knows plans.
     ///
     /// # Errors
     /// [`PlanError`] if no plan was found; the vehicle then drives a fallback.

@@ -9,7 +9,7 @@ use crate::{Agent, PlanEvent, PlanEventKind, Scene};
 
 /// Whether the order of two vehicles is settled; one on the same road is if it is ahead by `clear_lead_m` in the lane that
 /// the ego wants. On routes of a network it is also settled if the other follows in the ego's lane, or
-/// if the rules say now who waits for whom.
+/// if the rules decide now which of them waits.
 pub(crate) fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> bool {
     let ego = &scene.ego;
     if ego.has_order_with(other) {

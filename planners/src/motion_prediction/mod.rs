@@ -1,6 +1,6 @@
 //! Predictions of one vehicle of real traffic from what is known of it and of the vehicles around it at a moment.
 //!
-//! A [`TrafficMoment`] is told in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
+//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
 //! middle, positive to the left. It holds no plan, and nothing that was seen later: all others are expected to keep their speeds
 //! along its lane. A [`MotionModel`] answers with places at steps of [`STEP_S`].
 //!

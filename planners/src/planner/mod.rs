@@ -48,7 +48,7 @@ impl Driver {
 }
 
 impl Planner {
-    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it is told none.
+    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it knows none.
     pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
         Planner {
             driver: kind.driver(),
@@ -66,14 +66,14 @@ impl Planner {
         Planner { deadline, ..self }
     }
 
-    /// Another driver takes over. What follows from the kind of the former one stays: what the driver is told, and whether its plans
+    /// Another driver takes over. What follows from the kind of the former one stays: what the driver knows, and whether its plans
     /// may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
         self.driver = driver;
     }
 
     /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
-    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it is told none.
+    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it knows none.
     pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
         let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
         self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
@@ -106,7 +106,7 @@ impl Planner {
         }
     }
 
-    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver is told no plans.
+    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver knows no plans.
     ///
     /// # Errors
     /// As [`Planner::plan`].

@@ -1,4 +1,4 @@
-//! Whether one vehicle has to wait for another one where their routes meet, by what is known of who has arrived.
+//! Whether one vehicle has to wait for another one where their routes meet, by which vehicles have arrived.
 //!
 //! The rules that all vehicles are judged by (`rules`) and drivers who only keep the right of way (`right_of_way`) ask it; they differ in
 //! whom they remember, and in who counts as standing.

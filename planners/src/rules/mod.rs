@@ -1,6 +1,6 @@
 //! The rules of the road: what they ask of each vehicle now, worked out once a tick from the states of all vehicles.
 //!
-//! `RuleBook::judge` looks at all vehicles of a network together and says of each where it must wait and for whom
+//! `RuleBook::judge` looks at all vehicles of a network together and says of each where it must wait and for which vehicles
 //! ([`RoadRules`]). It is part of the traffic and not of a driver, so they ask the same of all kinds of drivers. Drivers who
 //! keep the rules find the answer on their [`Agent`](crate::Agent): as a speed that no plan may exceed (`speed_caps`) and as a line.
 //!
@@ -39,7 +39,7 @@ use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
-/// What has to be remembered of the past to judge the present: who has arrived where, and when.
+/// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RuleBook {
     arrivals: Arrivals,

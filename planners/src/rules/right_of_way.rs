@@ -25,7 +25,7 @@ const REFERENCE_MPS2: f64 = 1.0;
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
 
-/// What a driver remembers of who has arrived when.
+/// What a driver remembers of when vehicles have arrived.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ArrivalMemory {
     /// Who has arrived at its line and is not past it.

@@ -1,4 +1,4 @@
-//! Who waits for whom, and how circles of waiting are broken.
+//! Which vehicle waits for which, and how circles of waiting are broken.
 
 /// One vehicle that another one has to wait for, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,7 @@ mod tests {
         holds
     }
 
-    /// Who goes, with those who have a smaller number having come first.
+    /// The vehicles that go; those with smaller numbers came first.
     fn released(pairs: &[(usize, usize)], count: usize) -> Vec<usize> {
         let mut holds = waiting(pairs, count);
         let before = holds.clone();

@@ -1,4 +1,4 @@
-//! What vehicles may do.
+//! The futures of other vehicles that a driver infers.
 
 use crate::Trajectory;
 use crate::scene::driver_estimate::DriverEstimate;
@@ -14,8 +14,7 @@ pub struct Alternative {
     pub prediction: Trajectory,
 }
 
-/// What a driver has inferred of the others: their possible motions, the beliefs, and their age. Empty for a driver who
-/// is told the
+/// What a driver has inferred of the others: their possible motions, the beliefs, and their age. Empty for a driver that knows the
 /// others' plans.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InferredFutures {
@@ -24,12 +23,12 @@ pub struct InferredFutures {
     pub alternatives: Vec<Vec<Alternative>>,
     /// The belief about the driver of each other vehicle, in the same order.
     pub estimates: Vec<DriverEstimate>,
-    /// The age of the oldest sighting, in steps.
+    /// The age of the oldest observation, in steps.
     pub delay: usize,
 }
 
 impl InferredFutures {
-    /// The belief about the driver of a vehicle, by the vehicle's name; `None` where its plan is told.
+    /// The belief about the driver of a vehicle, by the vehicle's name; `None` where its plan is known.
     pub fn estimate(&self, name: &str) -> Option<&DriverEstimate> {
         self.estimates.iter().find(|estimate| estimate.vehicle == name)
     }

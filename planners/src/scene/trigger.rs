@@ -50,7 +50,7 @@ impl TriggerMemory {
     }
 
     /// Looks at a scene; the plan in which the trigger fired, by number.
-    pub fn fired_at(&mut self, trigger: &Trigger, scene: &Scene) -> Option<usize> {
+    fn fired_at(&mut self, trigger: &Trigger, scene: &Scene) -> Option<usize> {
         if self.fired.is_none() && trigger.is_reached(scene) {
             self.fired = Some(scene.tick);
         }

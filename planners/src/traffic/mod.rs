@@ -116,7 +116,7 @@ impl Traffic {
         }
     }
 
-    /// The moment as one vehicle sees it: with the plans of the others if it is told them.
+    /// The moment as one vehicle sees it: with the plans of the others if it knows them.
     pub fn scene(&self, vehicle: usize) -> Scene {
         let scene = self.moment(vehicle);
         if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
@@ -138,7 +138,7 @@ impl Traffic {
     /// Lets every driver on the road decide; returns the decisions in the order in which they were made.
     ///
     /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
-    /// predictions of those who go first are their plans.
+    /// predictions of drivers that go first are their plans.
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         let order = planning_order(&self.road_users);
         let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent).collect::<Vec<_>>();
@@ -164,7 +164,7 @@ impl Traffic {
     }
 
     /// The input that each vehicle applies after planning: the first one of its plan, within its limits.
-    pub fn applied_inputs(&self) -> Vec<Input> {
+    fn applied_inputs(&self) -> Vec<Input> {
         let applied = |user: &RoadUser| {
             let agent = &user.agent;
             applied_input(&user.planned_input(), &agent.state, &agent.body, &agent.limits, self.step_s)

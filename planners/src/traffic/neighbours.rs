@@ -1,4 +1,4 @@
-//! Who can matter to whom within the horizon of a plan: found in a grid, without walking over all for each.
+//! Which road users can matter to which within the horizon of a plan: found in a grid, without comparing all pairs.
 
 use std::borrow::Cow;
 
@@ -23,7 +23,7 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Sorts those who are on the road into cells.
+    /// Sorts the road users on the road into cells.
     pub fn find(road_users: &[RoadUser], horizon_s: f64) -> Neighbours {
         let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent);
         let reaches_m: Vec<f64> = road_users.iter().map(|user| reach_m(&user.agent, horizon_s)).collect();
@@ -35,7 +35,7 @@ impl Neighbours {
         Neighbours { cell_m, cells, reaches_m }
     }
 
-    /// The indices of those who can matter to a road user, in the order in which they are listed.
+    /// The indices of the road users that can matter to one, in the order in which they are listed.
     pub fn of(&self, vehicle: usize, road_users: &[RoadUser]) -> Vec<usize> {
         let ego = &road_users[vehicle].agent;
         if self.cells.is_empty() {

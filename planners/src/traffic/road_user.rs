@@ -10,9 +10,9 @@ pub struct RoadUser {
     pub agent: Agent,
     /// The goal of the vehicle.
     pub goal: Goal,
-    /// Whether it plans before, and publishes its plan to, those who do not.
+    /// Whether it plans before all others and publishes its plan to them.
     pub goes_first: bool,
-    /// Whether it is told the plans of the others.
+    /// Whether it knows the plans of the others.
     pub knows_plans: bool,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
     pub keeps_rules: bool,
@@ -25,7 +25,7 @@ pub struct RoadUser {
 }
 
 impl RoadUser {
-    /// A vehicle that has not planned yet and is told the plans of the others.
+    /// A vehicle that has not planned yet and knows the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
         RoadUser {
             agent,

@@ -97,7 +97,7 @@ proptest! {
     }
 }
 
-/// Each vehicle's prediction as the others are shown it, by the names of who looks and who is looked at.
+/// Each vehicle's prediction as the others are shown it, by the names of the observer and the observed.
 fn shown(traffic: &mut Traffic) -> impl Fn(&str, &str) -> Trajectory + use<> {
     let mut shown = Vec::new();
     traffic.drive(|_, scene| {

@@ -74,7 +74,7 @@ impl PersuasionBelief {
     }
 }
 
-/// The weight that a kind of driver puts on its own plan: who yields to others changes it for them.
+/// The weight that a kind of driver puts on its own plan: a driver that yields to others changes it for them.
 fn loyalty(model: DriverModel, settings: &Settings) -> f64 {
     match model {
         DriverModel::Nice => settings.w_1_min,

@@ -1,6 +1,6 @@
 //! Bayesian persuasion (chapter 7): the ego's motion is a signal about how conservative it is.
 //!
-//! The other's impression of the ego is the elliptical distance `ω = ‖I′(x_sᴾ − x_e)‖` (eq. 7.2, 7.7): who comes close seems
+//! The other's impression of the ego is the elliptical distance `ω = ‖I′(x_sᴾ − x_e)‖` (eq. 7.2, 7.7): a vehicle that comes close seems
 //! bold. At every step the planner
 //!
 //! 1. chooses whom to persuade, one vehicle after the other;

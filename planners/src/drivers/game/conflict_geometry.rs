@@ -53,7 +53,7 @@ impl ConflictGeometry {
         }
     }
 
-    /// What the ego shows the other and the other shows the ego, at these mean speeds, in the corrected form: who passes
+    /// What the ego shows the other and the other shows the ego, at these mean speeds, in the corrected form: a vehicle that passes
     /// keeps the largest speed that it has shown, `v⁰`, and who yields slows down against it.
     ///
     /// On one road `μ_p = v⁰` and `μ_y = v⁰ − d_s/t_f`; at a crossing `μ_p = T⁰` and `μ_y = T⁰ + T_c`, where `T⁰` is the

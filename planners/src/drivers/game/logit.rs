@@ -18,7 +18,7 @@ const MAX_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-10;
 
 /// The logit response to an intention of the other, before it is clipped; `temperature` is `τ`.
-pub fn logit_response(player: &Player, other: f64, temperature: f64) -> f64 {
+fn logit_response(player: &Player, other: f64, temperature: f64) -> f64 {
     let advantage = player.utility(1.0, other) - player.utility(0.0, other);
     1.0 / (1.0 + libm::exp(-advantage / (temperature * player.accident_value().abs())))
 }

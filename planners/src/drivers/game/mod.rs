@@ -1,4 +1,4 @@
-//! The persuasion game (chapter 8): who passes and who yields is decided by a game, and the outcome is shown by speed.
+//! The persuasion game (chapter 8): which vehicle passes and which yields is decided by a game, and the outcome is shown by speed.
 //!
 //! At every step the planner
 //!
@@ -320,7 +320,7 @@ impl Game {
     }
 }
 
-/// The intention that a driver is taken to have before it shows one: the probability that it is none of those who yield.
+/// The intention that a driver is taken to have before it shows one: the probability that it does not yield.
 fn usual_intention(estimate: &DriverEstimate) -> f64 {
     let passes = |model: DriverModel| match model {
         DriverModel::Normal | DriverModel::Nice => 0.0,

@@ -36,7 +36,7 @@ impl PastObservation {
         scene.tick.saturating_sub(self.tick)
     }
 
-    /// The others of `scene`, in its order, as this observation continues; who is not in it is seen as it is.
+    /// The others of `scene`, in its order, as this observation continues; a vehicle that is not in it is seen as it is.
     fn continued(&self, scene: &Scene) -> Vec<Agent> {
         let age = self.age(scene);
         let seen = |other: &Agent| {

@@ -164,7 +164,7 @@ fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
     with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
 }
 
-/// The scene with those others only of whom something holds.
+/// The scene with only those others for which a condition holds.
 fn with_others(scene: &Scene, holds: impl Fn(&&Agent) -> bool) -> Cow<'_, Scene> {
     if scene.others.iter().all(|other| holds(&other)) {
         return Cow::Borrowed(scene);

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::{Scene, State, Trajectory};
 
-/// An equilibrium that expects a smaller change of velocity a second than this asks for nothing \[m/s²\].
+/// An equilibrium that expects a smaller change of velocity a second than this needs no player \[m/s²\].
 const LEAST_ASKED_MPS2: f64 = 0.2;
 /// A vehicle that makes a smaller share of the expected change of its velocity does not play.
 const PLAYING_SHARE: f64 = 0.2;

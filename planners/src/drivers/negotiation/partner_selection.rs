@@ -62,7 +62,7 @@ impl PartnerSelection {
     }
 
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
-    /// fallback costs now. Who has been asked long enough is not asked again.
+    /// fallback costs now. A vehicle that was asked long enough is not asked again.
     pub(super) fn record(
         &mut self,
         accepted: &[Option<f64>],

@@ -7,7 +7,7 @@
 //! - `t_car` when the vehicle is there if it keeps its speed `v`, at a distance `d`,
 //!
 //! it goes if the vehicle comes `gap_s` after `t_out` or is past before `t_in`. Where it has the right of way it also goes if the
-//! vehicle can stop before with a braking of `v²/2d` below what it trusts in. Otherwise it waits at the kerb. Who is on the street
+//! vehicle can stop before with a braking of `v²/2d` below what it trusts in. Otherwise it waits at the kerb. A pedestrian on the street
 //! already goes on.
 
 mod settings;
@@ -136,7 +136,7 @@ fn room_behind_m(scene: &Scene) -> Option<f64> {
     room.reduce(f64::min).map(|room_m| room_m.max(0.0))
 }
 
-/// The nearest kerb at which the walker has to wait, and for whom \[m\].
+/// The nearest kerb at which the walker has to wait \[m\], and the vehicle that it waits for.
 fn danger(scene: &Scene, caution: &Caution) -> Option<(f64, String)> {
     let own = &scene.ego;
     let dangers = scene.others.iter().flat_map(|other| {

@@ -91,7 +91,7 @@ impl Sighting {
 /// A scene as a driver senses it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedScene {
-    /// The scene with the others at their estimated states, driven on to the present; who is not seen is missing.
+    /// The scene with the others at their estimated states, driven on to the present, without those that are not seen.
     pub scene: Scene,
     /// The last sighting of each other vehicle, in the order of the scene.
     pub sightings: Vec<Sighting>,
@@ -127,7 +127,7 @@ struct SeenVehicle {
 }
 
 impl Sight {
-    /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells. Who is not seen is missing.
+    /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells, without those that are not seen.
     pub fn apply_to(&self, scene: &Scene) -> SensedScene {
         let (mut others, mut sightings) = (Vec::new(), Vec::new());
         for other in &scene.others {

@@ -46,7 +46,7 @@ impl Harm {
     }
 
     /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road.
-    pub fn is_less_than(&self, other: &Harm) -> bool {
+    fn is_less_than(&self, other: &Harm) -> bool {
         match (self.impact_mps, other.impact_mps) {
             (None, Some(_)) => true,
             (Some(_), None) => false,

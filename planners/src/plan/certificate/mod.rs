@@ -2,7 +2,7 @@
 //!
 //! A plan must follow from its inputs by the bicycle (eq. 6.10), keep the limits of inputs and speed (eq. 6.9), keep the corners of
 //! the body on the road (eq. 6.7), and keep the body itself, a rectangle and not an ellipse, clear of where the others are expected to
-//! be. The first stage at which a condition is violated is told. What is violated where the vehicle already is, no plan can mend: it
+//! be. The first stage at which a condition is violated is reported. What is violated where the vehicle already is, no plan can mend: it
 //! is not counted.
 //!
 //! Not every violation is a fault. A negotiator's plan counts on what it asks for, and a driver who looks 3 s ahead may touch

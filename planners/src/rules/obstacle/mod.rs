@@ -1,4 +1,4 @@
-//! What stands in the way: whether it is passed, where, and for whom a driver waits before.
+//! What stands in the way: whether it is passed, where, and which vehicle a driver waits for before.
 //!
 //! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind another one: then it is
 //! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to others. That is
@@ -61,7 +61,7 @@ struct Passing {
     until_m: f64,
 }
 
-/// What a driver remembers of those who stand.
+/// What a driver remembers of stationary vehicles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ObstacleMemory {
     /// Since which tick each has been standing; 0 if it stood when it was first seen.

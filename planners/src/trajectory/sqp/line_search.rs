@@ -118,7 +118,7 @@ impl LineSearch {
     }
 
     /// Rolls out the inputs a share of the step away from an iterate, into `trial`.
-    pub fn try_step(&mut self, step: &StageSolution, problem: &Problem, from: &Iterate, share: f64) {
+    fn try_step(&mut self, step: &StageSolution, problem: &Problem, from: &Iterate, share: f64) {
         let trial = &mut self.trial;
         trial.inputs.resize_with(from.inputs.len(), Vec::new);
         for (i, inputs) in from.inputs.iter().enumerate() {
