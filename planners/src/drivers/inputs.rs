@@ -38,7 +38,7 @@ impl DriverKind for InputRecord {
         };
         let is_row = |row: &[f64; 3]| row.iter().all(|number| number.is_finite()) && row[0] >= 0.0;
         if let Some(wrong) = self.inputs.iter().position(|row| !is_row(row)) {
-            let reason = format!("row {} of `inputs` is no plan with an input", wrong + 1);
+            let reason = format!("row {} of `inputs` is not a plan with an input", wrong + 1);
             return refused("inputs", reason, "state rows of plan, acceleration and steering angle");
         }
         if let Some(at) = self.inputs.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
@@ -48,7 +48,7 @@ impl DriverKind for InputRecord {
         let is_unknown = |to: &&str| !WHEEL_KINDS.contains(to);
         match self.hand_overs.iter().filter_map(|handed| handed.to.as_deref()).find(is_unknown) {
             Some(to) => {
-                let reason = format!("`{to}` is no driver that takes the wheel");
+                let reason = format!("`{to}` is not a driver that can take over");
                 refused("hand_overs", reason, &format!("choose from {}", WHEEL_KINDS.join(", ")))
             }
             None => Ok(()),

@@ -24,7 +24,7 @@ pub enum Prediction {
     Plan,
     /// At constant velocity with their present headings; along a curved road, with their present angle to it.
     ConstantVelocity,
-    /// By what their motion says of their drivers: nobody's plan is told. `inference` has the settings.
+    /// By what their motion says of their drivers: no plan is known. `inference` has the settings.
     Inferred,
 }
 

@@ -29,7 +29,7 @@ pub struct HandOver {
     #[serde(default)]
     #[schemars(example = &"nice")]
     pub style: Option<Style>,
-    /// When: at a time \[s\], or `"disturbed"`: as soon as the record would lead into somebody else within 2.5 s of a real car, who is
+    /// When: at a time \[s\], or `"disturbed"`: as soon as the record would lead into another vehicle within 2.5 s of a real car, which is
     /// expected to keep its speed.
     #[schemars(example = json!("disturbed"))]
     pub when: HandOverTime,
@@ -51,7 +51,7 @@ pub enum Successor {
 pub enum HandOverTime {
     /// At a time \[s\].
     At(#[schemars(range(min = 0.0))] f64),
-    /// By the word `disturbed`: when somebody is in its way.
+    /// By the word `disturbed`: when a vehicle is in its way.
     Word(String),
 }
 

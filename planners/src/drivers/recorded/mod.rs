@@ -37,7 +37,7 @@ pub struct Settings {
     /// The record itself, in place of a table: rows of time \[s\], x and y \[m\], heading \[rad\] and speed \[m/s\].
     #[schemars(length(max = 100_000), example = vec![[0.0, 12.0, 1.75, 0.0, 8.0], [1.0, 20.0, 1.75, 0.0, 8.0]])]
     pub points: Vec<[f64; 5]>,
-    /// Who takes over from the record, and when; by default nobody does.
+    /// The driver that takes over from the record, and when; by default none does.
     #[schemars(example = json!({ "to": "human", "when": "disturbed" }))]
     pub hands_over: Option<HandOver>,
 }

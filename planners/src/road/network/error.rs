@@ -141,7 +141,7 @@ pub enum RouteError {
         lane: String,
     },
     /// A lane of the route is neither a successor of the one before nor a neighbour into which one may change.
-    #[error("lane `{to}` is no successor of lane `{from}`, and no neighbour into which one may change")]
+    #[error("lane `{to}` is neither a successor of lane `{from}` nor a neighbour into which a vehicle may change")]
     NotConnected {
         /// Name of the lane before.
         from: String,
