@@ -5,7 +5,7 @@ mod metric;
 pub use metric::WAITING_SHARE;
 
 // shown from here
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, State, Trajectory};
 use schemars::JsonSchema;
@@ -46,7 +46,7 @@ struct LaneChanger {
 }
 
 impl Drive for LaneChanger {
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let (ego, mut goal) = (&scene.ego, scene.goal);
         let across_m = |state: &State| ego.route.across(state.position());
         self.has_accepted |= scene.others.iter().all(|other| {

@@ -1,4 +1,4 @@
-//! Whether there is room for somebody who comes on the road.
+//! Whether there is room for a vehicle that enters the road.
 
 use super::Traffic;
 use crate::Agent;
@@ -11,7 +11,7 @@ const TIME_GAP_S: f64 = 1.0;
 const BRAKING_MPS2: f64 = 2.0;
 
 impl Traffic {
-    /// Whether a road user who is not on the road yet could come where it stands, so that neither it nor anybody behind it would have
+    /// Whether a road user who is not on the road yet could come where it stands, so that neither it nor a vehicle behind it would have
     /// to brake hard.
     pub fn has_room_for(&self, newcomer: usize) -> bool {
         let own = &self.road_users[newcomer].agent;
@@ -59,6 +59,6 @@ mod tests {
         assert!(traffic(&[agent(0.8, 0.555, 0.0, 1.0)]).has_room_for(0), "in another lane");
         let mut gone = traffic(&[agent(0.8, 0.185, 0.0, 1.0)]);
         gone.road_users[1].presence = Presence::Left;
-        assert!(gone.has_room_for(0), "somebody who is not there");
+        assert!(gone.has_room_for(0), "a vehicle that is not there");
     }
 }

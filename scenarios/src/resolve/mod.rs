@@ -92,12 +92,12 @@ impl Reader<'_> {
         let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
         let mut road = self.or_default("road", file.road.take())?;
         records::read(&mut file.vehicles, self.tree)?;
-        let origin = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
+        let origin = local_origin::move_near_origin(&mut road, &mut file.vehicles, &mut file.obstacles);
         let schema = self.registry.complete();
         let Placed { network, starts } =
-            place(&file.vehicles, (&road, &file.lights, written), (self.tree, schema), known_roads)?;
+            place(&file.vehicles, &road, &file.lights, written, self.tree, schema, known_roads)?;
         let mut vehicles = self.vehicles(std::mem::take(&mut file.vehicles), starts)?;
-        vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (self.tree, &vehicles))?);
+        vehicles.extend(obstacles(&file.obstacles, &road, network.as_deref(), self.tree, &vehicles)?);
         let moved = origin.map(|origin| local_origin::remark(origin, self.tree));
         Ok(PlacedVehicles { road, network, vehicles, moved })
     }
@@ -157,8 +157,8 @@ fn read(
     let ticks = ticks_per_plan(file.planning_period_s, scenario.step_s, tree).map_err(|fault| faults.push(fault));
     scenario.ticks_per_plan = ticks.unwrap_or(1);
     scenario.remarks.0.extend(moved.map(ScenarioRemark));
-    let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
-    let (scenario, unread) = with_named_files(scenario, named, tree);
+    let (weather, gains) = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
+    let (scenario, unread) = with_named_files(scenario, weather, gains, tree);
     faults.extend(unread);
     Ok(ReadScenario { scenario, is_placed, faults })
 }
@@ -182,7 +182,8 @@ fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result
 /// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
 fn with_named_files(
     mut scenario: Scenario,
-    (weather, gains): (WeatherConfig, Vec<GainsConfig>),
+    weather: WeatherConfig,
+    gains: Vec<GainsConfig>,
     tree: &TomlNode,
 ) -> (Scenario, Vec<Fault>) {
     let mut unread = Vec::new();

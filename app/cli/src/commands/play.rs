@@ -86,7 +86,7 @@ impl Play {
             Err(status) => return status,
         };
         match (&self.input, chosen) {
-            (Some(input), Some((name, scenario, seat))) => self.play_file(registry, input, (&name, &scenario, &seat)),
+            (Some(input), Some((name, scenario, seat))) => self.play_file(registry, input, &name, &scenario, &seat),
             (_, chosen) => self.serve(registry, chosen.map(|(name, _, seat)| (name, seat)), None),
         }
     }
@@ -183,12 +183,7 @@ impl Play {
         }
     }
 
-    fn play_file(
-        &self,
-        registry: &Registry,
-        input: &Path,
-        (name, scenario, seat): (&str, &Scenario, &str),
-    ) -> ExitStatus {
+    fn play_file(&self, registry: &Registry, input: &Path, name: &str, scenario: &Scenario, seat: &str) -> ExitStatus {
         let refused = |text: &str| {
             print_error(text);
             ExitStatus::BadInput

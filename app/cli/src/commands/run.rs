@@ -161,7 +161,7 @@ impl Run {
             Ok(tables) => tables,
             Err(error) => return gave_up(error),
         };
-        let passed = self.simulate(&name, scenario, (recording, tables)).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, recording, tables).and_then(|recorded| {
             self.page(&name, &recorded)?;
             self.write_animation(&recorded)?;
             if let (Some(file), Some(export)) = (&self.export, &export) {
@@ -252,7 +252,8 @@ impl Run {
         &self,
         name: &str,
         scenario: Scenario,
-        (recording, tables): (Option<OpenRecording>, Vec<Box<dyn Watcher>>),
+        recording: Option<OpenRecording>,
+        tables: Vec<Box<dyn Watcher>>,
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();

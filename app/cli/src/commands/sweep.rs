@@ -170,13 +170,13 @@ impl Sweep {
     }
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        make_rows(&pool_for(plan, self.jobs)?, plan, (shard, folder), &self.keep)
+        make_rows(&pool_for(plan, self.jobs)?, plan, shard, folder, &self.keep)
     }
 }
 
 /// Makes the runs of a whole plan that are not in a folder yet, and tells how far it is.
 pub(crate) fn make_missing_rows(plan: &SweepPlan, folder: &Path) -> Result<SweepOutcome, SweepError> {
-    make_rows(&pool_for(plan, None)?, plan, (Shard::WHOLE, folder), &[])
+    make_rows(&pool_for(plan, None)?, plan, Shard::WHOLE, folder, &[])
 }
 
 /// Where the rows of a plan go by default: into a folder of its name.
@@ -194,7 +194,8 @@ fn pool_for(plan: &SweepPlan, jobs: Option<NonZeroUsize>) -> Result<ThreadPool, 
 fn make_rows(
     pool: &ThreadPool,
     plan: &SweepPlan,
-    (shard, folder): (Shard, &Path),
+    shard: Shard,
+    folder: &Path,
     kept: &[Keep],
 ) -> Result<SweepOutcome, SweepError> {
     let checks = CheckProgress::start(plan.run_count());

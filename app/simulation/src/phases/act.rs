@@ -17,7 +17,7 @@ pub fn act(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>) {
         let RoadUser { agent, record, .. } = user;
         let (body, limits, last) = (&agent.body, &agent.limits, agent.previous_input);
         let times_s = [clock.time_s(), clock.step_s];
-        let recorded = record.as_ref().and_then(|record| record.input((body, limits), &agent.state, times_s));
+        let recorded = record.as_ref().and_then(|record| record.input(body, limits, &agent.state, times_s));
         let wanted = recorded.unwrap_or_else(|| towards(&last, planned, ticks_left));
         let mut applied = applied_input(&wanted, &agent.state, body, limits, clock.step_s);
         // When the run begins, wheels stand as the driver wants.

@@ -1,5 +1,7 @@
 //! A world that is stepped from outside.
 
+mod builder;
+mod extensions;
 pub(crate) mod run_error;
 mod saved_run;
 mod snapshot;
@@ -8,6 +10,7 @@ mod wheel;
 pub(crate) mod world_state;
 mod zones;
 
+pub use builder::SimulationBuilder;
 pub use saved_run::SavedRunError;
 pub use snapshot::Snapshot;
 pub use zones::ZoneNow;
@@ -21,12 +24,15 @@ use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
+use self::extensions::Extensions;
 use self::saved_run::HandedInput;
 use crate::climate::Building;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn};
+use crate::state::components::{
+    Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond,
+};
 use crate::state::detail::LevelOfDetail;
 use crate::state::frame::Frame;
 
@@ -69,6 +75,8 @@ pub struct Simulation {
     pub(crate) inputs: Vec<HandedInput>,
     /// Vehicles whose driver was replaced by one that the scenario does not name.
     pub(crate) replaced: Vec<String>,
+    /// Systems and state that the caller has added.
+    pub(crate) extensions: Extensions,
     /// Wall time of building and stepping the world \[s\].
     wall_s: f64,
 }
@@ -79,7 +87,7 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] if the scenario's building cannot be built.
     pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
-        Self::watched(&scenario.title, scenario, Vec::new())
+        Self::builder(scenario).build()
     }
 
     /// The world of `scenario` before its first tick, called `name` in its report, and with watchers who see every tick.
@@ -87,26 +95,21 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn watched(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Self, RunError> {
-        let began = Instant::now();
-        let state = WorldState::initial(scenario)?;
-        let parts = (Arc::new(scenario.clone()), TimePoints::new(scenario));
-        let mut simulation = Self::assembled(name, parts, state, watchers)?;
-        simulation.wall_s = began.elapsed().as_secs_f64();
-        Ok(simulation)
+        Self::builder(scenario).with_name(name).with_watchers(watchers).build()
     }
 
     pub(crate) fn assembled(
-        name: &str,
-        (scenario, time_points): (Arc<Scenario>, TimePoints),
-        state: WorldState,
-        watchers: Vec<Box<dyn Watcher>>,
+        name: String,
+        scenario: Arc<Scenario>,
+        time_points: TimePoints,
+        mut world: World,
+        extensions: Extensions,
     ) -> Result<Self, RunError> {
-        let mut world = state.into_world(watchers);
         let mut schedule = phases::schedule();
-        let built = schedule.initialize(&mut world);
-        built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
+        extensions::initialize(&mut schedule, &mut world)?;
+        extensions.add_systems(&mut schedule, &mut world)?;
         Ok(Simulation {
-            name: name.to_owned(),
+            name,
             scenario,
             world,
             schedule,
@@ -114,6 +117,7 @@ impl Simulation {
             has_failed: false,
             inputs: Vec::new(),
             replaced: Vec::new(),
+            extensions,
             wall_s: 0.0,
         })
     }
@@ -154,6 +158,24 @@ impl Simulation {
             return Err(RunError::Climate { day: (building.step - 1) / building.steps_per_day() + 1, reason });
         }
         Ok(Some(&self.world.resource::<CurrentFrame>().0))
+    }
+
+    /// Steps until everything that begins before `time_s` has happened, or the scenario is over. Moves nothing if the world is there
+    /// already.
+    ///
+    /// # Errors
+    /// As [`Simulation::step`].
+    pub fn advance_to(&mut self, time_s: f64) -> Result<(), RunError> {
+        let end_s = to_nanosecond(time_s);
+        while self.time_points.clone().next().is_some_and(|time_point| time_point.time_s < end_s) {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of ours.
+    pub fn state<T: Resource>(&self) -> Option<&T> {
+        self.world.get_resource()
     }
 
     /// The last frame; none before the first step.
@@ -261,16 +283,20 @@ impl Simulation {
     /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.
     ///
     /// # Errors
-    /// [`NotCopied`] says who has no copy: a building behind a socket, a driver of somebody else's that does not fork.
+    /// [`NotCopied`] names what has no copy: a building behind a socket, a driver of another crate that does not fork, state of an added
+    /// system that was not registered.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
-        let world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
-        let Simulation { name, scenario, time_points, inputs, replaced, .. } = self;
+        let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
+        let Simulation { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
+        extensions.refuse_uncopied(&self.world, &world)?;
+        extensions.copy_states(&self.world, &mut world);
         Ok(Snapshot {
             name: name.clone(),
             scenario: Arc::clone(scenario),
             time_points: time_points.clone(),
             inputs: inputs.clone(),
             replaced: replaced.clone(),
+            extensions: extensions.clone(),
             world,
         })
     }
@@ -302,8 +328,8 @@ impl Simulation {
     /// What was measured until now, judged as if the run ended here.
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
-        let measures = (self.measures(), self.world.get_resource::<BuildingMeasures>());
-        Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s))
+        let building = self.world.get_resource::<BuildingMeasures>();
+        Report::new(&self.name, &self.scenario, self.measures(), building, self.wall_s, ended_early_s)
     }
 
     /// What is measured.

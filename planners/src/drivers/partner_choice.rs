@@ -1,4 +1,4 @@
-//! Meeting another vehicle: whose path it crosses, whether the order of the two is settled, and whom to interact with.
+//! Which vehicle a planner interacts with: whose path it crosses, and whether the order of the two is settled.
 //!
 //! The source interacts with one vehicle after the other, from the front of the road to its rear (section 6.5). A vehicle
 //! with which nothing is left to settle is skipped: one that drives ahead in the ego's target lane, or that has crossed, or
@@ -9,7 +9,7 @@ use crate::{Agent, PlanEvent, PlanEventKind, Scene};
 
 /// Whether the order of two vehicles is settled; one on the same road is if it is ahead by `clear_lead_m` in the lane that
 /// the ego wants. On routes of a network it is also settled if the other follows in the ego's lane, or
-/// if the rules say now who waits for whom.
+/// if the rules decide now which of them waits.
 pub(crate) fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> bool {
     let ego = &scene.ego;
     if ego.has_order_with(other) {
@@ -105,13 +105,13 @@ impl PartnerChoice<'_> {
         self.steps as f64 * step_s >= answer_s
     }
 
-    /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
+    /// What to say about a change: "`does` NAME", or that no vehicle is left `to_do` it with.
     pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<PlanEvent> {
         self.is_new.then(|| partner_event(self.partner.map(|partner| &*partner.name), does, to_do))
     }
 }
 
-/// A planner turns to a partner: "`does` NAME", or nobody is left `to_do` it with.
+/// A planner turns to a partner: "`does` NAME", or no vehicle is left `to_do` it with.
 pub(crate) fn partner_event(partner: Option<&str>, does: &str, to_do: &str) -> PlanEvent {
     let text = partner.map_or_else(|| format!("nobody left {to_do}"), |name| format!("{does} {name}"));
     PlanEvent { kind: PlanEventKind::Partner(partner.map(str::to_owned)), text }
@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then nobody.
+    /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then none.
     #[test]
     fn partners_are_met_from_front_to_rear() {
         let mut partner = PartnerSequence::default();

@@ -1,8 +1,8 @@
 //! What a driver expects of the others who does not see them as they are now.
 //!
-//! A sighting holds the others as they were at an earlier tick. *Continued* to the present, each vehicle has kept the
+//! A observation holds the others as they were at an earlier tick. *Continued* to the present, each vehicle has kept the
 //! heading and the speed that it had then, and of its plan of then the part that is left is known, at its end at
-//! constant velocity. Two kinds of memory hold sightings:
+//! constant velocity. Two kinds of memory hold observations:
 //!
 //! - [`Perception`]: a driver who reacts late sees the others as they were `reaction_s` ago. Before it has seen them
 //!   that long, it sees them as they were at its first plan.
@@ -21,14 +21,14 @@ use crate::{Agent, Scene};
 
 /// The others as they were at a tick.
 #[derive(Clone, Debug)]
-struct Sighting {
+struct PastObservation {
     tick: usize,
     others: Vec<Agent>,
 }
 
-impl Sighting {
-    fn of(scene: &Scene) -> Sighting {
-        Sighting { tick: scene.tick, others: scene.others.clone() }
+impl PastObservation {
+    fn of(scene: &Scene) -> PastObservation {
+        PastObservation { tick: scene.tick, others: scene.others.clone() }
     }
 
     /// How many ticks ago it was.
@@ -36,7 +36,7 @@ impl Sighting {
         scene.tick.saturating_sub(self.tick)
     }
 
-    /// The others of `scene`, in its order, as this sighting continues; who is not in it is seen as it is.
+    /// The others of `scene`, in its order, as this observation continues; a vehicle that is not in it is seen as it is.
     fn continued(&self, scene: &Scene) -> Vec<Agent> {
         let age = self.age(scene);
         let seen = |other: &Agent| {
@@ -70,7 +70,7 @@ fn ticks(duration_s: f64, step_s: f64) -> usize {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Perception {
     /// From the one that is seen now to the latest.
-    sightings: VecDeque<Sighting>,
+    observations: VecDeque<PastObservation>,
 }
 
 impl Perception {
@@ -80,11 +80,11 @@ impl Perception {
         if delay == 0 {
             return Cow::Borrowed(scene);
         }
-        self.sightings.push_back(Sighting::of(scene));
-        while self.sightings.get(1).is_some_and(|next| next.age(scene) >= delay) {
-            self.sightings.pop_front();
+        self.observations.push_back(PastObservation::of(scene));
+        while self.observations.get(1).is_some_and(|next| next.age(scene) >= delay) {
+            self.observations.pop_front();
         }
-        match self.sightings.front() {
+        match self.observations.front() {
             Some(seen) => Cow::Owned(Scene { others: seen.continued(scene), ..scene.clone() }),
             None => Cow::Borrowed(scene),
         }
@@ -94,7 +94,7 @@ impl Perception {
 /// What a driver expects who hesitates.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Decision {
-    basis: Option<Sighting>,
+    basis: Option<PastObservation>,
 }
 
 impl Decision {
@@ -107,7 +107,7 @@ impl Decision {
                 Cow::Owned(Scene { others: basis.continued(scene), ..scene.clone() })
             }
             _ => {
-                self.basis = Some(Sighting::of(scene));
+                self.basis = Some(PastObservation::of(scene));
                 Cow::Borrowed(scene)
             }
         }
@@ -143,7 +143,7 @@ mod tests {
             assert_eq!(perceived.others[0].prediction.states[0], seen(&perceived));
             assert_eq!(perceived.ego, scene.ego, "its own state is the present one");
         }
-        assert_eq!(perception.sightings.len(), 4, "older sightings are forgotten");
+        assert_eq!(perception.observations.len(), 4, "older observations are forgotten");
     }
 
     #[test]
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn who_appears_later_is_seen_as_it_is() {
+    fn a_vehicle_that_appears_later_is_seen_in_its_present_state() {
         let (mut perception, mut decision) = (Perception::default(), Decision::default());
         let alone = Scene { others: Vec::new(), ..at(0) };
         perception.perceive(&alone, 1.0);

@@ -1,4 +1,4 @@
-//! What vehicles may do.
+//! The futures of other vehicles that a driver infers.
 
 use crate::Trajectory;
 use crate::scene::driver_estimate::DriverEstimate;
@@ -14,22 +14,21 @@ pub struct Alternative {
     pub prediction: Trajectory,
 }
 
-/// What a driver has inferred of the others: their possible motions, the beliefs, and their age. Empty for a driver who
-/// is told the
+/// What a driver has inferred of the others: their possible motions, the beliefs, and their age. Empty for a driver that knows the
 /// others' plans.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outlook {
+pub struct InferredFutures {
     /// The possible motions of each other vehicle, in the order of the scene; empty for a planner whose plans do not
     /// branch.
     pub alternatives: Vec<Vec<Alternative>>,
     /// The belief about the driver of each other vehicle, in the same order.
     pub estimates: Vec<DriverEstimate>,
-    /// The age of the oldest sighting, in steps.
+    /// The age of the oldest observation, in steps.
     pub delay: usize,
 }
 
-impl Outlook {
-    /// The belief about the driver of a vehicle, by the vehicle's name; `None` where its plan is told.
+impl InferredFutures {
+    /// The belief about the driver of a vehicle, by the vehicle's name; `None` where its plan is known.
     pub fn estimate(&self, name: &str) -> Option<&DriverEstimate> {
         self.estimates.iter().find(|estimate| estimate.vehicle == name)
     }

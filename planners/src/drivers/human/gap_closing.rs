@@ -1,4 +1,4 @@
-//! A driver who closes the gap: it drives faster while somebody from another lane is about to cut in ahead of it.
+//! A driver who closes the gap: it drives faster while a vehicle from another lane is about to cut in ahead of it.
 //!
 //! The source has such drivers in figure 7.2 ("accelerates and ignores the lane changing need") and no model of them: a safety
 //! weight of 0 ignores the other. Here the wanted speed rises by a stated amount as long as another vehicle
@@ -8,8 +8,8 @@
 use crate::prediction::steadily_along;
 use crate::{Agent, Scene};
 
-/// The speed that a driver wants who wants to be faster by `closing_mps` while somebody threatens to cut in \[m/s\]; `None`
-/// if nobody does.
+/// The speed that a driver with `closing_mps` wants while a vehicle threatens to cut in \[m/s\]; `None`
+/// if none does.
 pub(super) fn hurried_speed_mps(scene: &Scene, closing_mps: f64) -> Option<f64> {
     if closing_mps <= 0.0 || !scene.others.iter().any(|other| cuts_in(scene, other)) {
         return None;
@@ -42,7 +42,7 @@ mod tests {
     }
 
     #[test]
-    fn only_who_turns_towards_the_lane_ahead_makes_a_driver_hurry() {
+    fn a_driver_closes_the_gap_only_to_vehicles_that_turn_towards_its_lane() {
         assert_eq!(wanted(agent(0.5, 0.185, 0.1, 1.0)), 1.4);
         assert_eq!(wanted(agent(0.5, 0.185, 0.0, 1.0)), 1.2, "it keeps its lane");
         assert_eq!(wanted(agent(-0.5, 0.185, 0.1, 1.0)), 1.2, "it is behind");
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_hurries_beyond_its_limit_or_without_the_wish() {
+    fn a_driver_closes_gaps_within_its_limits_and_only_if_set_to() {
         let mut scene = scene(agent(0.0, 0.555, 0.0, 1.2), vec![agent(0.5, 0.185, 0.1, 1.0)]);
         scene.goal.target.speed_mps = 1.4;
         let most = scene.ego.limits.speed_max_mps;

@@ -1,14 +1,14 @@
-//! The two geometries of a meeting, and what yielding and passing look like in them (eq. 8.2-8.4).
+//! The two geometries of a conflict, and what yielding and passing look like in them (eq. 8.2-8.4).
 
 use super::Settings;
 use super::intention::Behaviour;
-use crate::drivers::encounter::distance_to_path;
+use crate::drivers::partner_choice::distance_to_path;
 use crate::scene::relation::Relation;
 use crate::{Agent, Scene};
 
-/// The geometry in which two vehicles meet.
+/// How the ways of two vehicles conflict.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Meeting {
+pub enum ConflictGeometry {
     /// On one road: how far the ego is ahead of the other, `d` \[m\].
     Alongside {
         /// How far the ego is ahead of the other, `d` \[m\].
@@ -32,28 +32,28 @@ pub struct ObservedBehaviour {
     pub behaviour: Behaviour,
 }
 
-impl Meeting {
+impl ConflictGeometry {
     /// How the ego meets `other`; `None` for one that comes head-on on a straight road, or whose way is apart.
-    pub fn find(scene: &Scene, other: &Agent, settings: &Settings) -> Option<Meeting> {
+    pub fn find(scene: &Scene, other: &Agent, settings: &Settings) -> Option<ConflictGeometry> {
         let ego = &scene.ego;
         match ego.relation(other) {
-            Relation::Alongside => return Some(Meeting::Alongside { lead_m: -ego.lead_of(other) }),
+            Relation::Alongside => return Some(ConflictGeometry::Alongside { lead_m: -ego.lead_of(other) }),
             Relation::Apart => return None,
             Relation::CrossingRoads | Relation::Conflict(_) => {}
         }
         let ego_m = distance_to_path(ego, other)? - settings.conflict_edge_m;
-        Some(Meeting::Crossing { ego_m, other_m: distance_to_path(other, ego)? - settings.conflict_edge_m })
+        Some(ConflictGeometry::Crossing { ego_m, other_m: distance_to_path(other, ego)? - settings.conflict_edge_m })
     }
 
     /// Whether neither vehicle has passed the conflict zone.
     pub fn is_open(&self) -> bool {
         match *self {
-            Meeting::Alongside { .. } => true,
-            Meeting::Crossing { ego_m, other_m } => ego_m > 0.0 && other_m > 0.0,
+            ConflictGeometry::Alongside { .. } => true,
+            ConflictGeometry::Crossing { ego_m, other_m } => ego_m > 0.0 && other_m > 0.0,
         }
     }
 
-    /// What the ego shows the other and the other shows the ego, at these mean speeds, in the corrected form: who passes
+    /// What the ego shows the other and the other shows the ego, at these mean speeds, in the corrected form: a vehicle that passes
     /// keeps the largest speed that it has shown, `v⁰`, and who yields slows down against it.
     ///
     /// On one road `μ_p = v⁰` and `μ_y = v⁰ − d_s/t_f`; at a crossing `μ_p = T⁰` and `μ_y = T⁰ + T_c`, where `T⁰` is the
@@ -66,8 +66,8 @@ impl Meeting {
         settings: &Settings,
     ) -> [ObservedBehaviour; 2] {
         let distances = match *self {
-            Meeting::Alongside { .. } => [None; 2],
-            Meeting::Crossing { ego_m, other_m } => [Some(ego_m), Some(other_m)],
+            ConflictGeometry::Alongside { .. } => [None; 2],
+            ConflictGeometry::Crossing { ego_m, other_m } => [Some(ego_m), Some(other_m)],
         };
         [0, 1].map(|who| {
             let (mean, fastest) = (mean_mps[who], fastest_mps[who]);
@@ -86,7 +86,7 @@ impl Meeting {
     /// What the ego shows the other and the other shows the ego, at these mean speeds, as printed (eq. 8.3, 8.4).
     pub fn observations(&self, [ego_mps, other_mps]: [f64; 2], settings: &Settings) -> [ObservedBehaviour; 2] {
         match *self {
-            Meeting::Alongside { lead_m } => {
+            ConflictGeometry::Alongside { lead_m } => {
                 let seen = |observed: f64, reference: f64, lead_m: f64| {
                     let (gap, finish) = (settings.safety_gap_m, settings.finish_s);
                     let behaviour = Behaviour {
@@ -99,7 +99,7 @@ impl Meeting {
                 // `d` is how far the one who watches is ahead.
                 [seen(ego_mps, other_mps, -lead_m), seen(other_mps, ego_mps, lead_m)]
             }
-            Meeting::Crossing { ego_m, other_m } => {
+            ConflictGeometry::Crossing { ego_m, other_m } => {
                 let times = [arrival_s(ego_m, ego_mps, settings), arrival_s(other_m, other_mps, settings)];
                 let seen = |observed: f64, reference: f64| {
                     let behaviour = Behaviour {
@@ -132,23 +132,24 @@ mod tests {
     #[test]
     fn a_meeting_is_known_by_its_roads() {
         let (scene, settings) = (scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new()), Settings::default());
-        let beside = Meeting::find(&scene, &agent(-0.4, 0.4, 0.0, 1.0), &settings);
-        assert_eq!(beside, Some(Meeting::Alongside { lead_m: 0.4 }));
-        let Some(Meeting::Crossing { ego_m, other_m }) = Meeting::find(&scene, &crossing(2.0, -1.5, 1.0), &settings)
+        let beside = ConflictGeometry::find(&scene, &agent(-0.4, 0.4, 0.0, 1.0), &settings);
+        assert_eq!(beside, Some(ConflictGeometry::Alongside { lead_m: 0.4 }));
+        let Some(ConflictGeometry::Crossing { ego_m, other_m }) =
+            ConflictGeometry::find(&scene, &crossing(2.0, -1.5, 1.0), &settings)
         else {
             panic!("the roads cross");
         };
         assert!((ego_m - 1.7).abs() < 1e-12 && (other_m - 1.2).abs() < 1e-12);
-        assert_eq!(Meeting::find(&scene, &agent(3.0, 0.0, std::f64::consts::PI, 1.0), &settings), None);
+        assert_eq!(ConflictGeometry::find(&scene, &agent(3.0, 0.0, std::f64::consts::PI, 1.0), &settings), None);
     }
 
     #[test]
     fn the_faster_of_two_side_by_side_is_the_one_that_seems_to_pass() {
         let settings = Settings::default();
-        let [ego, other] = Meeting::Alongside { lead_m: 0.0 }.observations([1.2, 1.0], &settings);
+        let [ego, other] = ConflictGeometry::Alongside { lead_m: 0.0 }.observations([1.2, 1.0], &settings);
         assert!(ego.behaviour.posterior(0.5, ego.observed) > 0.5);
         assert!(other.behaviour.posterior(0.5, other.observed) < 0.5);
-        let [same, alike] = Meeting::Alongside { lead_m: 0.0 }.observations([1.0, 1.0], &settings);
+        let [same, alike] = ConflictGeometry::Alongside { lead_m: 0.0 }.observations([1.0, 1.0], &settings);
         assert!((same.behaviour.posterior(0.5, 1.0) - 0.5).abs() < 1e-12);
         assert_eq!(same, alike);
     }
@@ -157,20 +158,21 @@ mod tests {
     #[test]
     fn expected_speeds_end_a_safety_gap_behind_or_ahead() {
         let settings = Settings { safety_gap_m: 1.5, finish_s: 5.0, ..Settings::default() };
-        let [ego, other] = Meeting::Alongside { lead_m: 0.4 }.observations([1.0, 1.1], &settings);
+        let [ego, other] = ConflictGeometry::Alongside { lead_m: 0.4 }.observations([1.0, 1.1], &settings);
         assert!((other.behaviour.yielding - (1.0 - 1.1 / 5.0)).abs() < 1e-12);
         assert!((other.behaviour.passing - (1.0 + 1.9 / 5.0)).abs() < 1e-12);
         assert!((ego.behaviour.yielding - (1.1 - 1.9 / 5.0)).abs() < 1e-12);
         assert!((ego.behaviour.passing - (1.1 + 1.1 / 5.0)).abs() < 1e-12);
     }
 
-    const MEETINGS: [Meeting; 2] = [Meeting::Alongside { lead_m: 0.3 }, Meeting::Crossing { ego_m: 2.0, other_m: 1.5 }];
+    const GEOMETRIES: [ConflictGeometry; 2] =
+        [ConflictGeometry::Alongside { lead_m: 0.3 }, ConflictGeometry::Crossing { ego_m: 2.0, other_m: 1.5 }];
 
     #[test]
-    fn who_keeps_its_own_speed_seems_to_pass_and_who_slows_down_to_yield() {
+    fn a_vehicle_that_keeps_its_speed_seems_to_pass_and_one_that_slows_down_to_yield() {
         let settings = Settings::default();
-        for meeting in MEETINGS {
-            let [kept, slowed] = meeting.own_observations([0.8, 0.5], [0.8, 0.8], &settings);
+        for geometry in GEOMETRIES {
+            let [kept, slowed] = geometry.own_observations([0.8, 0.5], [0.8, 0.8], &settings);
             assert!(kept.behaviour.posterior(0.5, kept.observed) > 0.5);
             assert!(slowed.behaviour.posterior(0.5, slowed.observed) < 0.5);
         }
@@ -179,25 +181,25 @@ mod tests {
     #[test]
     fn in_the_corrected_form_one_vehicle_s_motion_says_nothing_about_the_other() {
         let settings = Settings::default();
-        for meeting in MEETINGS {
-            let seen = |ego_mps: f64| meeting.own_observations([ego_mps, 0.7], [1.2, 0.8], &settings)[1];
+        for geometry in GEOMETRIES {
+            let seen = |ego_mps: f64| geometry.own_observations([ego_mps, 0.7], [1.2, 0.8], &settings)[1];
             assert_eq!(seen(0.2), seen(1.2));
         }
     }
 
     #[test]
-    fn who_arrives_first_seems_to_pass() {
+    fn the_first_to_arrive_seems_to_pass() {
         let settings = Settings::default();
-        let meeting = Meeting::Crossing { ego_m: 1.0, other_m: 2.0 };
-        let [ego, other] = meeting.observations([1.0, 1.0], &settings);
+        let geometry = ConflictGeometry::Crossing { ego_m: 1.0, other_m: 2.0 };
+        let [ego, other] = geometry.observations([1.0, 1.0], &settings);
         assert_eq!((ego.observed, other.observed), (1.0, 2.0));
         assert!(ego.behaviour.posterior(0.5, ego.observed) > 0.5);
         assert!(other.behaviour.posterior(0.5, other.observed) < 0.5);
-        assert!(meeting.is_open() && !Meeting::Crossing { ego_m: -0.1, other_m: 2.0 }.is_open());
+        assert!(geometry.is_open() && !ConflictGeometry::Crossing { ego_m: -0.1, other_m: 2.0 }.is_open());
     }
 
     #[test]
-    fn who_stands_still_arrives_last() {
+    fn a_stationary_vehicle_arrives_last() {
         let settings = Settings::default();
         let times = [0.0, 0.04, 0.06, 0.2, 1.0].map(|speed| arrival_s(2.0, speed, &settings));
         assert!(times.windows(2).all(|pair| pair[0] >= pair[1]), "{times:?}");
