@@ -113,6 +113,10 @@ class Scenario:
         """The names of those in whom nobody drives: parked cars, cones, walls."""
 
     @property
+    def default_agents(self) -> list[str]:
+        """The names of the vehicles that are agents of an environment unless others are named: their drivers decide what to do."""
+
+    @property
     def has_building(self) -> bool:
         """Whether it has a building."""
 

@@ -74,7 +74,7 @@ fn bad(error: impl std::fmt::Display) -> PyErr {
 
 /// A vehicle that waits for inputs from outside gets none in a whole run.
 fn refuse_external(scenario: &PyScenario) -> PyResult<()> {
-    let external = scenario.scenario.vehicles.iter().find(|vehicle| vehicle.driver.kind() == "external");
+    let external = scenario.scenario.awaiting_inputs();
     let message = |name: &str| {
         format!("`{name}` is driven from outside: step an `interplay.Simulation`, or give it a planner with `planner=`")
     };

@@ -25,7 +25,7 @@ pub mod recorded;
 pub mod scripted;
 pub mod walker;
 
-pub use drive::{Drive, DriverKind};
+pub use drive::{Drive, DriverKind, StandardReplacement};
 pub use driver::Driver;
 pub use driver_setting::DriverSettingError;
 pub use foreign_driver::ForeignDriver;

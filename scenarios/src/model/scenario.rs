@@ -179,6 +179,11 @@ impl Scenario {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
 
+    /// A vehicle whose driver needs inputs from outside while the run goes on.
+    pub fn awaiting_inputs(&self) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.driver.awaits_inputs())
+    }
+
     /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
     pub fn tick_count(&self) -> usize {
         if self.vehicles.is_empty() {

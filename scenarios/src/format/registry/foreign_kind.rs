@@ -1,5 +1,7 @@
 //! Kinds of drivers of other crates: how their settings are described and read.
 
+use std::sync::Arc;
+
 use interplay_planners::{Driver, DriverKind, ForeignDriver};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Serialize;
@@ -7,12 +9,14 @@ use serde::de::DeserializeOwned;
 use serde_json::{Error, Map, Value as Json, json};
 
 /// A kind of driver that another crate provides.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct ForeignKind {
     /// Its word in a scenario file.
     pub kind: &'static str,
     /// What tells its results from those of earlier versions.
     pub version: &'static str,
+    /// The kind with the defaults of its settings.
+    pub plain: Arc<dyn DriverKind>,
     /// The schema of its settings; definitions that it refers to are left to the generator.
     settings: fn(&mut SchemaGenerator) -> Json,
     read: fn(Json) -> Result<ForeignDriver, Error>,
@@ -24,9 +28,10 @@ impl ForeignKind {
     where
         S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
     {
-        let (kind, version) = (S::default().kind(), S::default().version());
+        let plain: Arc<dyn DriverKind> = Arc::new(S::default());
+        let (kind, version) = (plain.kind(), plain.version());
         let read = |table| ForeignDriver::new(serde_json::from_value::<S>(table)?);
-        ForeignKind { kind, version, settings: |generator| S::json_schema(generator).to_value(), read }
+        ForeignKind { kind, version, plain, settings: |generator| S::json_schema(generator).to_value(), read }
     }
 
     /// The schema of a driver of this kind: its settings beside a `kind`.

@@ -152,6 +152,17 @@ impl Registry {
         vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
     }
 
+    /// The kinds of drivers of Interplay and of other crates, each with the defaults of its settings.
+    pub(crate) fn drivers(&self) -> impl Iterator<Item = &dyn DriverKind> {
+        let own = Driver::kinds().iter().map(|driver| &**driver);
+        own.chain(self.drivers.iter().map(|foreign| &*foreign.plain))
+    }
+
+    /// The kind of driver that a scenario file calls `kind`, with the defaults of its settings.
+    pub(crate) fn driver_kind(&self, kind: &str) -> Option<&dyn DriverKind> {
+        self.drivers().find(|driver| driver.kind() == kind)
+    }
+
     /// The kinds of controllers that a building may have.
     pub fn controller_kinds(&self) -> Vec<&str> {
         self.complete().property("controller").map(SchemaNode::kinds).unwrap_or_default()
