@@ -296,6 +296,29 @@ impl Stay {
 }
 
 impl Vehicle {
+    /// A vehicle without a name, with the defaults of 1/10 scale cars.
+    pub(crate) fn new(start: State, route: Arc<Route>, driver: Driver) -> Vehicle {
+        Vehicle {
+            name: String::new(),
+            class: None,
+            road: Branch::Main,
+            start,
+            start_acceleration_mps2: 0.0,
+            route,
+            goal: GoalConfig::default(),
+            weights: Weights::default(),
+            body: Body::default(),
+            limits: Limits::default(),
+            safety: SafetyEllipse::default(),
+            driver,
+            rules: None,
+            stay: Stay::default(),
+            obstacle: None,
+            sensing: None,
+            inference: None,
+        }
+    }
+
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
     /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
     /// tracks it.

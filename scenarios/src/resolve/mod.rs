@@ -32,7 +32,7 @@ use crate::model::building::gains::GainsConfig;
 use crate::model::building::plant::BuildingPlant;
 use crate::model::building::weather::WeatherSource;
 use crate::model::remark::{ScenarioRemark, ScenarioRemarks};
-use crate::model::scenario::{Scenario, Stay, Vehicle};
+use crate::model::scenario::{Scenario, Vehicle};
 use crate::resolve::check::{consistency, remarks};
 use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
 use crate::roads::Road;
@@ -268,30 +268,12 @@ impl Reader<'_> {
         placed.map(|(index, (vehicle, start))| self.vehicle(index, vehicle, start)).collect()
     }
 
-    fn vehicle(&self, index: usize, stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
+    fn vehicle(&self, index: usize, mut stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
         let path = |key: &str| format!("vehicle.{index}.{key}");
-        Ok(Vehicle {
-            weights: self.or_default(&path("weights"), stated.weights)?,
-            body: self.or_default(&path("body"), stated.body)?,
-            limits: self.or_default(&path("limits"), stated.limits)?,
-            safety: self.or_default(&path("safety"), stated.safety)?,
-            driver: self.driver(&path("driver"), stated.driver)?,
-            sensing: self.optional(&path("sensing"), stated.sensing)?,
-            inference: self.optional(&path("inference"), stated.inference)?,
-            name: stated.name,
-            class: stated.class,
-            road: stated.road,
-            start_acceleration_mps2: stated.start.acceleration_mps2.unwrap_or(0.0),
-            start,
-            route,
-            goal: stated.goal,
-            rules: stated.rules,
-            obstacle: None,
-            stay: Stay {
-                enters_s: stated.enters_s,
-                leaves_s: stated.leaves_s,
-                leaves_at_end: stated.leaves_at_end.unwrap_or(false),
-            },
-        })
+        let driver = self.driver(&path("driver"), stated.driver.take())?;
+        let start_acceleration_mps2 = stated.start.acceleration_mps2.unwrap_or(0.0);
+        let mut vehicle = Vehicle { start_acceleration_mps2, ..Vehicle::new(start, route, driver) };
+        stated.settle_in(&mut vehicle).map_err(|(key, error)| self.refused(&path(key), &error))?;
+        Ok(vehicle)
     }
 }

@@ -6,11 +6,11 @@ use interplay_common::spelling::suggestion;
 use interplay_planners::drivers::recorded;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
-use interplay_planners::{Driver, Limits, Route, SafetyEllipse, State};
+use interplay_planners::{Driver, Route, State};
 
 use crate::format::obstacle::ObstacleConfig;
 use crate::format::read::tree::TomlNode;
-use crate::model::scenario::{Stay, Vehicle};
+use crate::model::scenario::Vehicle;
 use crate::model::traffic::lane_reference::LaneReference;
 use crate::model::traffic::obstacle::{ObstacleForm, Outline};
 use crate::roads::{Branch, Road};
@@ -61,25 +61,13 @@ impl Written<'_> {
             outline = outline.turned(start.heading_rad - along_rad);
             (point[3], start.heading_rad) = (along_rad, along_rad);
         }
-        let driver = recorded::Settings { points, ..recorded::Settings::default() };
+        let driver = Driver::Recorded(recorded::Settings { points, ..recorded::Settings::default() });
         Ok(Vehicle {
             name: self.stated.name.clone(),
-            class: None,
-            road: Branch::Main,
-            start,
-            start_acceleration_mps2: 0.0,
-            route,
-            goal: crate::model::traffic::goal::GoalConfig::default(),
-            weights: crate::model::traffic::weights::Weights::default(),
             body: outline.body(scale),
-            limits: Limits::default(),
-            safety: SafetyEllipse::default(),
-            driver: Driver::Recorded(driver),
             rules: Some(RuleKeeping::Ignored),
-            stay: Stay::default(),
             obstacle: Some(ObstacleForm { kind: self.stated.kind, outline }),
-            sensing: None,
-            inference: None,
+            ..Vehicle::new(start, route, driver)
         })
     }
 
