@@ -329,10 +329,9 @@ def driver_kinds() -> list[str]:
 def run(
     scenario: Scenario,
     record: _Path | None = None,
-    animate: str | None = None,
-    trajectories: str | None = None,
+    outputs: dict[str, str] | None = None,
 ) -> RecordedRun:
-    """Runs a scenario and its counterfactuals, and writes what is asked for."""
+    """Runs a scenario and its counterfactuals, and writes a recording and the outputs of these flags."""
 
 def sweep(
     source: str,
