@@ -113,7 +113,7 @@ pub use model::traffic::detector::DetectorConfig;
 pub use model::traffic::goal::GoalConfig;
 pub use model::traffic::lane_reference::LaneReference;
 pub use model::traffic::light::LightConfig;
-pub use model::traffic::obstacle::{ObstacleForm, ObstacleKind, Outline};
+pub use model::traffic::obstacle::{DeclaredObstacle, ObstacleForm, ObstacleKind, Outline};
 pub use model::traffic::plant::{Dynamic, Kinematic, Plant};
 pub use model::traffic::real_time::{Deadline, RealTime};
 pub use model::traffic::start_jitter::StartJitter;

@@ -3,11 +3,14 @@
 use std::ops::Deref;
 use std::sync::LazyLock;
 
+use interplay_common::foreign::{ForeignSettings, KindTable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::drivers::drive::DriverKind;
-use crate::drivers::foreign_driver::ForeignDriver;
+
+/// The settings of a driver whose kind another crate provides.
+pub type ForeignDriver = ForeignSettings<dyn DriverKind>;
 
 /// Makes the enumeration of the listed kinds, each with the settings of its folder.
 macro_rules! drivers {
@@ -30,7 +33,7 @@ macro_rules! drivers {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 let kind = self.kind();
                 match self {
-                    $(Driver::$kind(settings) => DriverTable { kind, settings }.serialize(serializer),)*
+                    $(Driver::$kind(settings) => KindTable { kind, settings }.serialize(serializer),)*
                     Driver::Foreign(foreign) => foreign.serialize(serializer),
                 }
             }
@@ -48,13 +51,6 @@ macro_rules! drivers {
             }
         }
     };
-}
-
-#[derive(Serialize)]
-struct DriverTable<'a, S> {
-    kind: &'a str,
-    #[serde(flatten)]
-    settings: &'a S,
 }
 
 drivers! {

@@ -12,7 +12,6 @@ mod driver;
 mod driver_setting;
 pub(crate) mod encounter;
 pub mod external;
-mod foreign_driver;
 pub mod game;
 pub mod human;
 pub mod idm;
@@ -26,6 +25,5 @@ pub mod scripted;
 pub mod walker;
 
 pub use drive::{Drive, DriverKind, StandardReplacement};
-pub use driver::Driver;
+pub use driver::{Driver, ForeignDriver};
 pub use driver_setting::DriverSettingError;
-pub use foreign_driver::ForeignDriver;

@@ -209,7 +209,7 @@ impl Scenario {
 
     /// Who controls the building; a PID controller in each zone unless the scenario says so.
     pub fn controller(&self) -> Controller {
-        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+        self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
     /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.

@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
+use interplay_building::control::Controller;
 use interplay_planners::Driver;
 use interplay_planners::road::network::RoadNetwork;
 
@@ -90,14 +91,19 @@ impl Reader<'_> {
     /// Builds the road and places vehicles and obstacles on it.
     fn placed(&self, file: &mut ScenarioFile, known_roads: &KnownRoads) -> Result<PlacedVehicles, Vec<Fault>> {
         let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
-        let mut road = self.or_default("road", file.road.take())?;
+        let road = file.road.take().map(|stated| self.registry.road(stated)).transpose();
+        let mut road = road.map_err(|error| self.refused("road", &error))?.unwrap_or_default();
         records::read(&mut file.vehicles, self.tree)?;
         let origin = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
         let schema = self.registry.complete();
         let Placed { network, starts } =
             place(&file.vehicles, (&road, &file.lights, written), (self.tree, schema), known_roads)?;
         let mut vehicles = self.vehicles(std::mem::take(&mut file.vehicles), starts)?;
-        vehicles.extend(obstacles(&file.obstacles, (&road, network.as_deref()), (self.tree, &vehicles))?);
+        vehicles.extend(obstacles(
+            (&file.obstacles, self.registry.obstacles()),
+            (&road, network.as_deref()),
+            (self.tree, &vehicles),
+        )?);
         let moved = origin.map(|origin| local_origin::remark(origin, self.tree));
         Ok(PlacedVehicles { road, network, vehicles, moved })
     }
@@ -144,7 +150,7 @@ fn read(
         calendar: reader.optional("calendar", file.calendar)?,
         tariff: reader.optional("tariff", file.tariff)?,
         heat_pump: reader.optional("heat_pump", file.heat_pump)?,
-        controller: reader.optional("controller", file.controller)?,
+        controller: reader.controller(file.controller)?,
         iterations: file.iterations,
         budget: reader.or_default("budget", file.budget)?,
         expect: file.expect,
@@ -261,6 +267,11 @@ impl Reader<'_> {
     fn driver(&self, path: &str, stated: Option<Stated<Driver>>) -> Result<Driver, Fault> {
         let Some(stated) = stated else { return Ok(default_driver()) };
         self.registry.driver(stated).map_err(|error| self.refused(path, &error))
+    }
+
+    fn controller(&self, stated: Option<Stated<Controller>>) -> Result<Option<Controller>, Fault> {
+        let read = stated.map(|stated| self.registry.controller(stated)).transpose();
+        read.map_err(|error| self.refused("controller", &error))
     }
 
     fn vehicles(&self, stated: Vec<VehicleConfig>, starts: Vec<Start>) -> Result<Vec<Vehicle>, Fault> {

@@ -63,7 +63,7 @@ impl Scenario {
             calendar: self.calendar.clone().map(Stated::from),
             tariff: self.tariff.clone().map(Stated::from),
             heat_pump: self.heat_pump.clone().map(Stated::from),
-            controller: self.controller.map(Stated::from),
+            controller: self.controller.clone().map(Stated::from),
             iterations: self.iterations,
             budget: Some(self.budget.into()),
             expect: self.expect.clone(),

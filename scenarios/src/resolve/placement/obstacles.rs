@@ -12,7 +12,7 @@ use crate::format::obstacle::ObstacleConfig;
 use crate::format::read::tree::TomlNode;
 use crate::model::scenario::Vehicle;
 use crate::model::traffic::lane_reference::LaneReference;
-use crate::model::traffic::obstacle::{ObstacleForm, Outline};
+use crate::model::traffic::obstacle::{DeclaredObstacle, ObstacleForm, Outline};
 use crate::roads::{Branch, Road};
 use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
@@ -25,14 +25,14 @@ const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 /// # Errors
 /// For places that are none, and outlines that are no convex polygons.
 pub(crate) fn obstacles(
-    stated: &[ObstacleConfig],
+    (stated, declared): (&[ObstacleConfig], &[DeclaredObstacle]),
     (road, network): (&Road, Option<&RoadNetwork>),
     (tree, vehicles): (&TomlNode, &[Vehicle]),
 ) -> Result<Vec<Vehicle>, Vec<Fault>> {
     let scale = vehicles.first().map_or(REAL_SCALE, |vehicle| vehicle.body.scale);
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     for (index, stated) in stated.iter().enumerate() {
-        let written = Written { stated, index, tree, road, network };
+        let written = Written { stated, declared, index, tree, road, network };
         match written.vehicle(scale) {
             Ok(vehicle) => found.push(vehicle),
             Err(fault) => faults.push(fault),
@@ -44,6 +44,7 @@ pub(crate) fn obstacles(
 /// An obstacle of a file, and where it is written.
 struct Written<'a> {
     stated: &'a ObstacleConfig,
+    declared: &'a [DeclaredObstacle],
     index: usize,
     tree: &'a TomlNode,
     road: &'a Road,
@@ -66,7 +67,7 @@ impl Written<'_> {
             name: self.stated.name.clone(),
             body: outline.body(scale),
             rules: Some(RuleKeeping::Ignored),
-            obstacle: Some(ObstacleForm { kind: self.stated.kind, outline }),
+            obstacle: Some(ObstacleForm { kind: self.stated.kind.clone(), outline }),
             ..Vehicle::new(start, route, driver)
         })
     }
@@ -174,10 +175,11 @@ impl Written<'_> {
         if !corners_m.is_empty() {
             return self.polygon(corners_m);
         }
-        let usual_m = kind.size_m().map(|size_m| size_m * scale / REAL_SCALE);
+        let (usual_m, is_round) = kind.shape(self.declared);
+        let usual_m = usual_m.map(|size_m| size_m * scale / REAL_SCALE);
         Ok(match (radius_m, length_m, width_m) {
             (Some(radius_m), _, _) => Outline::Circle { radius_m: *radius_m },
-            (None, None, None) if kind.is_round() => Outline::Circle { radius_m: 0.5 * usual_m[0] },
+            (None, None, None) if is_round => Outline::Circle { radius_m: 0.5 * usual_m[0] },
             _ => Outline::Box { length_m: length_m.unwrap_or(usual_m[0]), width_m: width_m.unwrap_or(usual_m[1]) },
         })
     }
