@@ -137,7 +137,7 @@ function act(name, number) {
       return true;
     case "handOver": {
       if (!isOn || !motion?.last) return false;
-      send({ type: "hand_over", to: motion.last.driven_by === "you" ? "negotiation" : null });
+      send({ type: "hand_over", to: motion.last.driven_by === "you" ? world.co_driver : null });
       if (isHeld) go();
       return true;
     }

@@ -135,6 +135,8 @@ pub enum ServerMessage {
         help: String,
         /// Where the vehicles start: x, y, heading and speed.
         states: Vec<[f64; 4]>,
+        /// The kind of planner that takes the wheel if the person hands it over.
+        co_driver: Option<&'static str>,
         /// In a study, where in it the person is: nothing is told of who drives how.
         study: Option<StudyPlace>,
     },

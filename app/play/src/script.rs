@@ -1,6 +1,6 @@
 //! Playing from a file, without a page: each line is a message of a page with the tick at which it comes.
 
-use interplay_planners::WHEEL_KINDS;
+use interplay_planners::Driver;
 use serde_json::Value as Json;
 use thiserror::Error;
 
@@ -55,9 +55,9 @@ pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptErro
         let tick = tick.as_ref().and_then(Json::as_u64).ok_or_else(|| refused("there is no `tick`".to_owned()))?;
         let message: PageMessage = serde_json::from_value(json).map_err(|error| refused(error.to_string()))?;
         if let PageMessage::HandOver { to: Some(kind) } = &message
-            && !WHEEL_KINDS.contains(&kind.as_str())
+            && Driver::at_wheel(kind).is_none()
         {
-            let kinds = WHEEL_KINDS.join(", ");
+            let kinds = Driver::wheel_kinds();
             return Err(refused(format!("there is no planner `{kind}` that takes the wheel; choose from {kinds}")));
         }
         if lines.last().is_some_and(|last| last.tick as u64 > tick) {

@@ -29,7 +29,7 @@ impl BodyStyle {
     /// The style of a vehicle: by its class, or without one by its size.
     pub fn choose(vehicle: &Vehicle) -> BodyStyle {
         if let Some(obstacle) = &vehicle.obstacle {
-            return match (obstacle.kind, &obstacle.outline) {
+            return match (&obstacle.kind, &obstacle.outline) {
                 (ObstacleKind::ParkedCar, Outline::Box { .. }) => BodyStyle::Car,
                 (ObstacleKind::ParkedVan, Outline::Box { .. }) => BodyStyle::Van,
                 _ => BodyStyle::Plain,

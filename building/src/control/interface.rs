@@ -92,6 +92,12 @@ pub trait ControllerKind: fmt::Debug + Send + Sync {
     /// The word for this kind in a scenario file.
     fn kind(&self) -> &'static str;
 
+    /// What tells the results of this kind from those of its earlier versions, such as `env!("CARGO_PKG_VERSION")`; empty for those
+    /// of Interplay, whose version counts for all of them.
+    fn version(&self) -> &'static str {
+        ""
+    }
+
     /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
     /// of steps of a day.
     ///

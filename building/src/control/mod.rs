@@ -42,7 +42,7 @@ pub mod thermostat;
 pub mod uncertainty;
 
 pub use clairvoyant::{Clairvoyant, ClairvoyantSettings};
-pub use controller::Controller;
+pub use controller::{Controller, ForeignController};
 pub use design::{Design, Exchange};
 pub use error::ControlError;
 pub use interface::{Control, ControllerKind, DayAhead, DayRecord, Disturbance, Observation};

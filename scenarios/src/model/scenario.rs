@@ -180,6 +180,11 @@ impl Scenario {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
 
+    /// A vehicle whose driver needs inputs from outside while the run goes on.
+    pub fn awaiting_inputs(&self) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.driver.awaits_inputs())
+    }
+
     /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
     pub fn tick_count(&self) -> usize {
         if self.vehicles.is_empty() {
@@ -205,7 +210,7 @@ impl Scenario {
 
     /// Who controls the building; a PID controller in each zone unless the scenario says so.
     pub fn controller(&self) -> Controller {
-        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+        self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
     /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
@@ -274,6 +279,29 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
+    /// A vehicle without a name, with the defaults of 1/10 scale cars.
+    pub(crate) fn new(start: State, route: Arc<Route>, driver: Driver) -> Vehicle {
+        Vehicle {
+            name: String::new(),
+            class: None,
+            road: Branch::Main,
+            start,
+            start_acceleration_mps2: 0.0,
+            route,
+            goal: GoalConfig::default(),
+            weights: Weights::default(),
+            body: Body::default(),
+            limits: Limits::default(),
+            safety: SafetyEllipse::default(),
+            driver,
+            rules: None,
+            stay: Stay::default(),
+            obstacle: None,
+            sensing: None,
+            inference: None,
+        }
+    }
+
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
     /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
     /// tracks it.

@@ -112,6 +112,7 @@ impl Playing {
             help: self.session.written().shows.clone(),
             goal,
             states: self.session.states().into_iter().map(interplay_planners::State::to_array).collect(),
+            co_driver: crate::session::planners_beside_person().first().map(|driver| driver.kind()),
             study: self.study,
             seat,
         });

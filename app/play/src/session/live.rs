@@ -44,7 +44,7 @@ struct KeptMoment {
 /// The vehicles of a scenario that a person can drive.
 pub(crate) fn seats_of(scenario: &Scenario) -> Vec<String> {
     let is_seat = |vehicle: &&Vehicle| {
-        vehicle.obstacle.is_none() && vehicle.driver.record().is_none() && vehicle.driver.kind() != "walker"
+        vehicle.obstacle.is_none() && vehicle.driver.record().is_none() && vehicle.driver.can_be_replaced()
     };
     scenario.vehicles.iter().filter(is_seat).map(|vehicle| vehicle.name.clone()).collect()
 }
@@ -178,7 +178,7 @@ impl Session {
     /// # Errors
     /// [`SessionError::NoSeat`]; [`SessionError::NoPlanner`].
     pub fn hand_over(&mut self, seat: &str, to: Option<&str>) -> Result<(), SessionError> {
-        if let Some(kind) = to.filter(|kind| Driver::of_kind(kind).is_none()) {
+        if let Some(kind) = to.filter(|kind| Driver::at_wheel(kind).is_none()) {
             return Err(SessionError::NoPlanner(kind.to_owned()));
         }
         self.seat(seat)?.handed_to = Some(to.map(str::to_owned));

@@ -12,6 +12,6 @@ pub use error::SessionError;
 pub use goal::PlayGoal;
 pub(crate) use live::seats_of;
 pub use live::{Session, check_seats};
-pub(crate) use score::others;
 pub use score::{Score, ScoreRow};
+pub(crate) use score::{others, planners_beside_person};
 pub use seat::Wish;

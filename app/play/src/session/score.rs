@@ -9,8 +9,13 @@ use serde::Serialize;
 use super::error::SessionError;
 use super::live::Session;
 
-/// Who drives the ego beside a person who did.
-const PLANNERS: [&str; 3] = ["negotiation", "conservative", "bayesian"];
+/// The planners that drive the ego for comparison with a person, in the order of the score; the first also takes the wheel.
+pub(crate) fn planners_beside_person() -> Vec<&'static Driver> {
+    let mut ranked: Vec<&Driver> =
+        Driver::kinds().iter().filter(|driver| driver.rank_beside_person().is_some()).collect();
+    ranked.sort_by_key(|driver| driver.rank_beside_person());
+    ranked
+}
 
 /// How a run went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -93,7 +98,7 @@ pub(crate) fn others(written: &Scenario, seat: &str, duration_s: f64) -> Result<
     let Some(index) = written.index_of(seat) else { return Ok(Vec::new()) };
     let as_written = written.vehicles[index].driver.clone();
     let drivers: Vec<(String, Driver)> = if index == written.ego_index() {
-        PLANNERS.iter().filter_map(|kind| Some(((*kind).to_owned(), Driver::of_kind(kind)?))).collect()
+        planners_beside_person().into_iter().map(|driver| (driver.kind().to_owned(), driver.clone())).collect()
     } else {
         vec![(as_written.description(), as_written)]
     };

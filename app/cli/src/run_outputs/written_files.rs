@@ -8,14 +8,14 @@ use interplay_scenarios::{Override, Registry};
 use crate::flag_values::files::{destroyed, is_page_file, is_same_file};
 
 /// The files that a run writes.
-pub(crate) struct RunOutputs<'a> {
+pub(crate) struct WrittenFiles<'a> {
     /// Each with what it is.
     pub files: Vec<(&'static str, &'a Path)>,
     /// The folder of the page.
     pub page: Option<&'a Path>,
 }
 
-impl RunOutputs<'_> {
+impl WrittenFiles<'_> {
     /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
     pub(crate) fn refused(&self, registry: &Registry, scenario: &str, overrides: &[Override]) -> Option<String> {
         self.takes_an_input(registry, scenario, overrides)
