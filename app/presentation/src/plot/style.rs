@@ -6,7 +6,7 @@ pub use crate::palette::Colour;
 
 /// Colour of text and axes.
 pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
-/// Colour of less important things: forecasts, the past, the shoulder of the road.
+/// Colour of less important curves and marks.
 pub const GREY: Colour = [0x80, 0x80, 0x80];
 /// Colour of grid lines.
 pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
@@ -14,7 +14,7 @@ pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
 pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
 /// Colour of the background.
 pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
-/// Colour of limits, and of the path of the ego as the source draws it.
+/// Colour of limits, and of the path of the ego as in the dissertation.
 pub const VERMILLION: Colour = palette::VERMILLION.rgb;
 /// Colour of the ego.
 pub const ORANGE: Colour = palette::ORANGE.rgb;
@@ -50,7 +50,6 @@ impl Dash {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineStyle {
-    /// Colour of the line.
     pub colour: Colour,
     /// Dash pattern of the line.
     pub dash: Dash,
