@@ -132,6 +132,7 @@ impl Drawing {
     }
 
     /// Number of marks.
+    #[cfg(test)]
     pub fn mark_count(&self) -> usize {
         self.marks.len()
     }

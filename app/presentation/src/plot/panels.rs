@@ -8,7 +8,7 @@ use super::drawing::{
     TITLE_HEIGHT_PX, WIDTH_PX, X_LABEL_HEIGHT_PX,
 };
 use super::legend::{Legend, Sample};
-use super::style::{Dash, GREY, LIMIT, LineStyle, PALE, SURFACE};
+use super::style::{Dash, GREY, LIMIT, LineStyle, PALE};
 
 /// Height of the line with the name of a plot, above it.
 const PANEL_NAME_HEIGHT_PX: f64 = 40.0;
@@ -36,8 +36,6 @@ pub struct Panel {
     pub curves: Vec<Curve>,
     /// Limits, drawn as horizontal lines, each with its name.
     pub limits: Vec<(f64, String)>,
-    /// Intervals of the x axis that are shaded, such as working hours, and their name.
-    pub shaded: (Vec<[f64; 2]>, String),
     /// Vertical lines at events, each with its x value, style and name.
     pub events: Vec<(f64, LineStyle, String)>,
     /// Values that the y axis includes even if no curve reaches them.
@@ -200,7 +198,6 @@ impl Panel {
         for (_, style, name) in &self.events {
             legend.add(Sample::Line(style.thin()), name);
         }
-        legend.add(Sample::Patch(SURFACE), &self.shaded.1);
         legend
     }
 
@@ -217,9 +214,6 @@ impl Panel {
 
     fn draw(&self, drawing: &mut Drawing, frame: &Frame) {
         let Frame { x, y, left, right, top, bottom } = frame;
-        for [from, to] in &self.shaded.0 {
-            drawing.block([x.pixel(*from), *top], [x.pixel(*to), *bottom], SURFACE);
-        }
         self.draw_axes(drawing, frame);
         for (at, style, _) in &self.events {
             drawing.line(vec![[x.pixel(*at), *top], [x.pixel(*at), *bottom]], style.thin());

@@ -10,7 +10,7 @@ pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
 pub const GREY: Colour = [0x80, 0x80, 0x80];
 /// Colour of grid lines.
 pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
-/// Colour of the surface of the road, and of working hours behind curves.
+/// Colour of the header of tables.
 pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
 /// Colour of the background.
 pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
@@ -66,11 +66,6 @@ impl LineStyle {
     /// The same style with a thin line.
     pub const fn thin(self) -> LineStyle {
         LineStyle { width: 2, ..self }
-    }
-
-    /// The same style with another dash pattern.
-    pub const fn dashed(self, dash: Dash) -> LineStyle {
-        LineStyle { dash, ..self }
     }
 }
 
