@@ -261,7 +261,7 @@ impl Run {
         };
         let Some(sink) = sink else { return Ok(None) };
         let mut recorder = Recorder::begin(scenario, name, &sink)?;
-        recorder.repeat_with(&self.command())?;
+        recorder.set_command(&self.command())?;
         Ok(Some(OpenRecording::new(recorder)))
     }
 }

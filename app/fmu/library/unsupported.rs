@@ -1,15 +1,15 @@
-//! Functions of FMI 3.0 that must exist and that this FMU does not support, as its description says: other types than
-//! `Float64`, clocks, events, derivatives, structural parameters, and the other two interfaces. Lists of no entries are no error.
+//! Functions that the standards demand and that this FMU does not support, as its descriptions say: variables of other types
+//! than real numbers, clocks, events, derivatives, asynchronous steps, and the interfaces other than co-simulation.
 
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr;
 
-use super::super::logger::{LogMessage, status};
+use super::logger::{LogMessage, status};
 
-/// A function about a list of variables: there are no variables of that type.
+/// Exports functions that take a list of variables of a type that this FMU does not have: an empty list succeeds.
 macro_rules! no_variables {
     ($($name:ident($($argument:ty),*);)*) => {$(
-        /// There are no variables of this type.
+        /// This FMU has no variables of this type.
         #[unsafe(no_mangle)]
         pub extern "C" fn $name(_: *mut c_void, _: *const u32, count: usize $(, _: $argument)*) -> c_int {
             if count == 0 { status::OK } else { status::ERROR }
@@ -18,6 +18,12 @@ macro_rules! no_variables {
 }
 
 no_variables! {
+    fmi2GetInteger(*mut c_void);
+    fmi2GetBoolean(*mut c_void);
+    fmi2GetString(*mut c_void);
+    fmi2SetInteger(*mut c_void);
+    fmi2SetBoolean(*mut c_void);
+    fmi2SetString(*mut c_void);
     fmi3GetFloat32(*mut f32, usize);
     fmi3GetInt8(*mut i8, usize);
     fmi3GetUInt8(*mut u8, usize);
@@ -55,7 +61,7 @@ no_variables! {
     fmi3GetOutputDerivatives(*const i32, *mut f64, usize);
 }
 
-/// A function that is refused, whatever it is given.
+/// Exports functions that always fail.
 macro_rules! refused {
     ($($name:ident($($argument:ty),*);)*) => {$(
         /// Not supported.
@@ -67,6 +73,15 @@ macro_rules! refused {
 }
 
 refused! {
+    fmi2GetDirectionalDerivative(*mut c_void, *const u32, usize, *const u32, usize, *const f64, *mut f64);
+    fmi2SetRealInputDerivatives(*mut c_void, *const u32, usize, *const c_int, *const f64);
+    fmi2GetRealOutputDerivatives(*mut c_void, *const u32, usize, *const c_int, *mut f64);
+    fmi2CancelStep(*mut c_void);
+    fmi2GetStatus(*mut c_void, c_int, *mut c_int);
+    fmi2GetRealStatus(*mut c_void, c_int, *mut f64);
+    fmi2GetIntegerStatus(*mut c_void, c_int, *mut c_int);
+    fmi2GetBooleanStatus(*mut c_void, c_int, *mut c_int);
+    fmi2GetStringStatus(*mut c_void, c_int, *mut c_void);
     fmi3EnterEventMode(*mut c_void);
     fmi3GetNumberOfVariableDependencies(*mut c_void, u32, *mut usize);
     fmi3GetVariableDependencies(*mut c_void, u32, *mut usize, *mut u32, *mut usize, *mut c_int, usize);
@@ -90,7 +105,7 @@ refused! {
     fmi3ActivateModelPartition(*mut c_void, u32, f64);
 }
 
-/// There is no model exchange.
+/// Model exchange is not supported: returns null.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3InstantiateModelExchange(
     _instance_name: *const c_char,
@@ -104,7 +119,7 @@ pub extern "C" fn fmi3InstantiateModelExchange(
     ptr::null_mut()
 }
 
-/// There is no scheduled execution. The three callbacks are those of clocks and locks.
+/// Scheduled execution is not supported: returns null. The last three arguments are the callbacks of clocks and locks.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3InstantiateScheduledExecution(
     _instance_name: *const c_char,

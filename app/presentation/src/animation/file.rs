@@ -1,5 +1,6 @@
-//! In which format an animation is written: the ending of its file decides.
+//! Files of animations, their formats, and the errors of writing them. The ending of the file name decides the format.
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -10,9 +11,9 @@ use super::encode::has_ffmpeg;
 /// The formats of animations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnimationFormat {
-    /// A GIF that repeats for ever.
+    /// A GIF that repeats forever.
     Gif,
-    /// A lossless WebP that repeats for ever.
+    /// A lossless WebP that repeats forever.
     WebP,
     /// Eight pictures beside and below one another.
     Filmstrip,
@@ -20,23 +21,23 @@ pub enum AnimationFormat {
     Mp4,
 }
 
-/// A file that an animation is written to.
+/// The output file of an animation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AnimationFile {
     path: PathBuf,
     format: AnimationFormat,
 }
 
-/// Why no animation can be written to a file of that name.
+/// The name of a file does not select a usable format.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum AnimationFormatError {
-    /// The ending of the file's name stands for no format.
-    #[error("`{path}` has no ending of an animation; use .gif, .webp, .png (a filmstrip) or .mp4 (through ffmpeg)")]
+    /// The ending of the file name is not that of a format.
+    #[error("`{path}` does not end like an animation; use .gif, .webp, .png (a filmstrip) or .mp4 (through ffmpeg)")]
     UnknownEnding {
         /// Path of the file.
         path: String,
     },
-    /// MP4 needs a program that is not there.
+    /// MP4 needs ffmpeg, which is not installed.
     #[error("`{path}` needs the program ffmpeg, which is not on the path; use .gif, .webp or .png (a filmstrip)")]
     NoFfmpeg {
         /// Path of the file.
@@ -45,7 +46,7 @@ pub enum AnimationFormatError {
 }
 
 impl AnimationFile {
-    /// A file that is written as GIF, whatever its name.
+    /// A GIF file, regardless of its ending.
     pub fn gif(path: PathBuf) -> AnimationFile {
         AnimationFile { path, format: AnimationFormat::Gif }
     }
@@ -79,12 +80,41 @@ impl FromStr for AnimationFile {
     }
 }
 
+/// An animation was not written. An existing file is unchanged.
+#[derive(Debug, Error)]
+pub enum AnimationError {
+    /// The run has neither vehicles nor a building to draw.
+    #[error("nothing to animate: the run has neither vehicles nor rooms")]
+    Nothing,
+    /// An encoder failed.
+    #[error("cannot encode the animation: {0}")]
+    Encoding(Box<dyn std::error::Error + Send + Sync>),
+    /// ffmpeg failed.
+    #[error("cannot make the film: {0}")]
+    Film(io::Error),
+    /// The file cannot be written.
+    #[error("cannot write the animation {}: {reason}; choose another path", path.display())]
+    Unwritable {
+        /// Path of the file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: io::Error,
+    },
+}
+
+impl AnimationError {
+    /// The error of an encoder.
+    pub(super) fn encoding(error: impl std::error::Error + Send + Sync + 'static) -> AnimationError {
+        AnimationError::Encoding(Box::new(error))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_ending_decides_and_an_unknown_one_is_refused_with_the_list() {
+    fn the_ending_selects_the_format_and_unknown_endings_are_refused() {
         let format = |text: &str| text.parse::<AnimationFile>().map(|file| file.format());
         assert_eq!(format("a/run.gif"), Ok(AnimationFormat::Gif));
         assert_eq!(format("run.WebP"), Ok(AnimationFormat::WebP));

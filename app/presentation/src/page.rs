@@ -1,9 +1,79 @@
-//! The page as text. The library escapes every text that is put into the markup.
+//! A page: one HTML file that shows pictures and tables, with everything in it and no address outside.
+//!
+//! Pictures are SVG inside the text, and there are no scripts. A page opens from a folder, offline, in any browser.
+
+use std::path::Path;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::contents::{Page, Section, SectionStatus};
 use crate::plot::TextTable;
+
+/// The content of a page, from which HTML is made.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Page {
+    /// Title of the page.
+    pub title: String,
+    /// Paragraphs below the title.
+    pub opening: Vec<String>,
+    /// Sections of the page.
+    pub sections: Vec<Section>,
+}
+
+/// A section of a page.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Anchor for links, unique on the page.
+    pub id: String,
+    /// Heading of the section.
+    pub heading: String,
+    /// Whether the expectations of the section held.
+    pub verdict: SectionStatus,
+    /// Paragraphs, each with its heading.
+    pub words: Vec<(String, String)>,
+    /// Pictures as SVG, each with its alternative text.
+    pub pictures: Vec<(String, String)>,
+    /// Tables.
+    pub tables: Vec<TextTable>,
+    /// Commands that reproduce the content.
+    pub commands: Vec<String>,
+    /// Files in the folder of the page, each with its description.
+    pub files: Vec<(String, String)>,
+}
+
+/// Whether what was expected of a part came true.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SectionStatus {
+    /// The section has no expectations.
+    #[default]
+    Shown,
+    /// All expectations held.
+    Held,
+    /// An expectation failed.
+    Missed,
+    /// The section could not be made, with the reason.
+    Broken(String),
+}
+
+impl SectionStatus {
+    /// The status in words.
+    pub fn word(&self) -> &'static str {
+        match self {
+            SectionStatus::Shown => "shown",
+            SectionStatus::Held => "expectations held",
+            SectionStatus::Missed => "an expectation failed",
+            SectionStatus::Broken(_) => "could not be made",
+        }
+    }
+
+    /// A sign for the status.
+    fn sign(&self) -> &'static str {
+        match self {
+            SectionStatus::Shown => "–",
+            SectionStatus::Held => "✓",
+            SectionStatus::Missed | SectionStatus::Broken(_) => "✗",
+        }
+    }
+}
 
 const STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto; max-width: 1120px; padding: 1rem 1.5rem 4rem; }
@@ -23,11 +93,11 @@ dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin:
 @media print { section { break-inside: avoid; } nav { display: none; } }
 ";
 
-/// What a page says that made it.
-pub(super) const GENERATOR: &str = "Interplay";
+/// The value of the meta tag `generator`, which marks pages of Interplay.
+const GENERATOR: &str = "Interplay";
 
 /// The whole page.
-pub(super) fn page(page: &Page) -> String {
+fn whole_page(page: &Page) -> String {
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
@@ -35,7 +105,7 @@ pub(super) fn page(page: &Page) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="generator" content=(GENERATOR);
-                // Without this, browsers ask for a picture of their own.
+                // Without this, browsers request a favicon.
                 link rel="icon" href="data:,";
                 title { (page.title) }
                 style { (PreEscaped(STYLE)) }
@@ -111,11 +181,11 @@ fn table_markup(table: &TextTable) -> Markup {
     }
 }
 
-/// A picture as part of the page. The name space is the parser's business there, and an address; it goes.
+/// A picture as an element of the page, without the XML name space, which HTML does not need.
 fn inline(svg: &str, alt: &str, id: &str) -> Markup {
     let svg = svg.trim_start_matches(|c| c != '<').replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
     let small = width(&svg).is_some_and(|width| width < 1000);
-    // An element without content: what is written of it up to its end are the attributes.
+    // The opening tag of an element without content has all attributes.
     let opening = html! { svg id=(id) class=[small.then_some("small")] role="img" aria-label=(alt); }.into_string();
     PreEscaped(svg.replacen("<svg", opening.trim_end_matches('>'), 1))
 }
@@ -124,12 +194,26 @@ fn width(svg: &str) -> Option<u32> {
     svg.split("width=\"").nth(1)?.split('"').next()?.parse().ok()
 }
 
+impl Page {
+    /// The page as one HTML file.
+    pub fn html(&self) -> String {
+        whole_page(self)
+    }
+
+    /// Whether the file at a path exists and was not written by Interplay, so that a page must not replace it.
+    pub fn is_taken(path: &Path) -> bool {
+        let Ok(text) = std::fs::read(path) else { return path.exists() };
+        let mark = format!("<meta name=\"generator\" content=\"{}\">", GENERATOR);
+        !text.windows(mark.len()).any(|part| part == mark.as_bytes())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn whatever_the_words_are_they_stay_words() {
+    fn markup_in_texts_is_escaped() {
         let section = Section {
             id: "x".to_owned(),
             heading: "<script>alert(1)</script>".to_owned(),
@@ -144,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_within_the_page_names_no_address() {
+    fn an_inlined_picture_contains_no_address() {
         let svg = "<svg width=\"700\" height=\"2\" xmlns=\"http://www.w3.org/2000/svg\"><rect/></svg>";
         let inside = inline(svg, "a \"thing\"", "p").into_string();
         assert!(!inside.contains("http"), "{inside}");

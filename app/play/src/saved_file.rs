@@ -1,29 +1,29 @@
-//! What was played as a file.
+//! Files of played runs.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::session::Session;
 
-/// Writes what was played into a folder, under a name that nobody has: the scenario's and a number. Returns the path.
+/// Saves the played run in a folder, under the name of the scenario and a free number. Returns the path.
 ///
 /// # Errors
-/// What the system says.
-pub fn keep(session: &Session, folder: &Path) -> io::Result<PathBuf> {
+/// The error of the operating system.
+pub fn save_played(session: &Session, folder: &Path) -> io::Result<PathBuf> {
     let path = free_name(folder, session.name());
-    write(session, &path)?;
+    write_played(session, &path)?;
     Ok(path)
 }
 
-/// Writes what was played to a file, whole or not at all.
+/// Writes the played run to a file, atomically.
 ///
 /// # Errors
-/// What the system says.
-pub fn write(session: &Session, path: &Path) -> io::Result<()> {
+/// The error of the operating system.
+pub fn write_played(session: &Session, path: &Path) -> io::Result<()> {
     interplay_files::write(path, session.played().to_file().to_toml().as_bytes())
 }
 
-/// A name in a folder that no file has.
+/// A file name in a folder that is free.
 fn free_name(folder: &Path, scenario: &str) -> PathBuf {
     let stem = scenario.strip_suffix(".toml").unwrap_or(scenario);
     let plain: String =

@@ -1,16 +1,16 @@
-//! The functions of FMI 2.0 that every instance needs. What they do with pointers is in [`calls`].
+//! The functions of FMI 2.0 that differ from those of FMI 3.0. What they do with pointers is in [`calls`].
 
 use std::ffi::{c_char, c_double, c_int, c_uint, c_void};
 use std::ptr;
 
-use super::super::logger::{CallbackFunctions, Logger, status};
-use super::super::{calls, location};
+use super::logger::{CallbackFunctions, Logger, status};
+use super::{calls, location};
 use calls::{text, with_instance};
 
 /// `fmi2Type` of co-simulation.
 const CO_SIMULATION: c_int = 1;
 
-/// The platform of the types: that of the standard.
+/// The platform of the C types: the default one of the standard.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
@@ -49,17 +49,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     })
 }
 
-/// Frees an instance.
-///
-/// # Safety
-/// The component is null or one of `fmi2Instantiate`, and is not used any more.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(component: *mut c_void) {
-    // SAFETY: what this function demands.
-    unsafe { calls::free_instance(component) }
-}
-
-/// Logging needs no setting: only errors are logged.
+/// Accepts any log settings: only errors are logged.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2SetDebugLogging(
     _component: *mut c_void,
@@ -83,31 +73,10 @@ pub extern "C" fn fmi2SetupExperiment(
     with_instance(component, |instance| instance.begin_at(start_time_s))
 }
 
-/// There is nothing to initialise.
+/// Begins the initialisation, which needs no action.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2EnterInitializationMode(component: *mut c_void) -> c_int {
     with_instance(component, |_| Ok(()))
-}
-
-/// There is nothing to do at the end of the initialisation.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2ExitInitializationMode(component: *mut c_void) -> c_int {
-    with_instance(component, |_| Ok(()))
-}
-
-/// Ends the simulation; outputs can still be read.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2Terminate(component: *mut c_void) -> c_int {
-    with_instance(component, |_| Ok(()))
-}
-
-/// Returns to the first midnight.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2Reset(component: *mut c_void) -> c_int {
-    with_instance(component, |instance| {
-        instance.plant.reset();
-        Ok(())
-    })
 }
 
 /// Reads the values of variables.

@@ -5,81 +5,77 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Level, VehicleFrame};
 use serde::Serialize;
 
-use crate::answer::Requests;
 use crate::passing_words::event_text;
-use crate::signals::{Turn, is_braking, turn};
+use crate::requests::Requests;
+use crate::signals::{IndicatorSide, indicator_side, is_braking};
 
 /// A tick as a page shows it; lists have an entry for each vehicle.
 #[derive(Clone, Debug, Serialize)]
-pub struct StageMoment {
+pub struct StageFrame {
     /// x, y, heading and speed at the end of the tick.
     pub states: Vec<[f64; 4]>,
     /// Acceleration and steering angle during it.
     pub inputs: Vec<[f64; 2]>,
-    /// Who is not on the road.
+    /// Whether each vehicle is absent.
     pub absent: Vec<bool>,
-    /// Whose brake lights are on.
+    /// Whether the brake lights are on.
     pub brakes: Vec<bool>,
-    /// Which indicator is on.
+    /// The side of the active indicator.
     pub turn: Vec<Option<&'static str>>,
-    /// Planned positions; empty of whom nothing is to be shown.
+    /// Planned positions; empty for vehicles driven by people.
     pub plans: Vec<Vec<[f64; 2]>>,
-    /// What one asks of another.
+    /// Requests between vehicles.
     pub proposals: Vec<StageProposal>,
-    /// What one takes another for.
+    /// Beliefs about other drivers.
     pub beliefs: Vec<StageBelief>,
-    /// What happened that is worth a line.
+    /// Events in words.
     pub events: Vec<StageEvent>,
 }
 
-/// The motion that a vehicle asks another for.
+/// The motion that a vehicle requests of another.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageProposal {
-    /// Who asks.
     pub from: String,
-    /// Who is asked.
     pub to: String,
     /// The positions of the motion \[m\].
     pub points: Vec<[f64; 2]>,
-    /// The share of it that is accepted, where that is known.
+    /// Acceptance from 0 to 1, if it is known.
     pub share: Option<f64>,
 }
 
-/// What a driver takes another for.
+/// The belief of a driver about another one.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageBelief {
-    /// Who believes it.
+    /// The driver with the belief.
     pub of: String,
-    /// Of whom.
+    /// The other driver.
     pub about: String,
-    /// The probability that the other is nice.
+    /// The probability that the other driver is nice.
     pub nice: f64,
-    /// The same in words.
+    /// The belief in words.
     pub text: String,
 }
 
-/// Something that happened.
+/// An event.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageEvent {
-    /// Whose doing it is.
     pub vehicle: String,
     /// `note`, `warning` or `alarm`.
     pub level: &'static str,
-    /// What happened, in words.
     pub text: String,
 }
 
-/// Whoever watches a run for a page: it remembers who was asked.
+/// Converts the frames of a run for a page. It keeps the open requests.
 #[derive(Clone, Debug, Default)]
-pub struct StageWitness {
+pub struct StageObserver {
     requests: Requests,
 }
 
-impl StageWitness {
-    /// A moment at which nobody has planned yet.
-    pub fn standing(states: &[State]) -> StageMoment {
+impl StageObserver {
+    /// The frame before the first tick, without plans.
+    pub fn initial(states: &[State]) -> StageFrame {
         let count = states.len();
-        StageMoment {
+        StageFrame {
             states: states.iter().map(|state| state.to_array()).collect(),
             inputs: vec![[0.0; 2]; count],
             absent: vec![false; count],
@@ -92,9 +88,9 @@ impl StageWitness {
         }
     }
 
-    /// The tick with the states at its end. Of the vehicles in `hidden` no plan is shown: people drive them.
-    pub fn tick(&mut self, scenario: &Scenario, frame: &Frame, states: &[State], hidden: &[usize]) -> StageMoment {
-        self.requests.tick(scenario, frame);
+    /// Converts the frame of a tick with the states at its end. The vehicles in `hidden`, which people drive, have no plans.
+    pub fn convert(&mut self, scenario: &Scenario, frame: &Frame, states: &[State], hidden: &[usize]) -> StageFrame {
+        self.requests.observe(scenario, frame);
         let vehicles = || frame.vehicles.iter().enumerate();
         let plan = |(index, vehicle): (usize, &VehicleFrame)| -> Vec<[f64; 2]> {
             if hidden.contains(&index) || vehicle.is_absent {
@@ -103,9 +99,9 @@ impl StageWitness {
             vehicle.plan.trajectory.states.iter().skip(1).map(State::position).collect()
         };
         let side = |(index, vehicle): (usize, &VehicleFrame)| {
-            turn(scenario, &scenario.vehicles[index], vehicle).map(|turn| match turn {
-                Turn::Left => "left",
-                Turn::Right => "right",
+            indicator_side(scenario, &scenario.vehicles[index], vehicle).map(|side| match side {
+                IndicatorSide::Left => "left",
+                IndicatorSide::Right => "right",
             })
         };
         let proposals = vehicles().flat_map(|(index, vehicle)| {
@@ -135,7 +131,7 @@ impl StageWitness {
                 text,
             },
         );
-        StageMoment {
+        StageFrame {
             states: states.iter().map(|state| state.to_array()).collect(),
             inputs: frame.vehicles.iter().map(|vehicle| vehicle.input.to_array()).collect(),
             absent: frame.vehicles.iter().map(|vehicle| vehicle.is_absent).collect(),

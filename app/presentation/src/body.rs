@@ -1,9 +1,72 @@
-//! The shapes that vehicles have from above: the same car in animations and figures, on the same wheels in recordings.
+//! The look of vehicles by class or size, and their shapes from above, which animations, figures and recordings share.
 
 use interplay_planners::Body;
+use interplay_scenarios::{ObstacleKind, Outline, Vehicle, VehicleClass};
 
-use crate::body_style::BodyStyle;
 use crate::palette::{Colour, GLASS, TYRE};
+
+/// Length of the longest vehicle at 1/10 scale \[m\].
+const MAX_SCALE_MODEL_M: f64 = 1.7;
+/// The scale of vehicles of full size.
+const FULL_SIZE_SCALE: f64 = 10.0;
+
+/// The look of a vehicle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyStyle {
+    /// A car with bonnet and boot.
+    Car,
+    /// A van: the windscreen is far ahead and there is no rear window.
+    Van,
+    /// A lorry: a cab and a box.
+    Lorry,
+    /// A bicycle with its rider.
+    Bicycle,
+    /// A pedestrian.
+    Walker,
+    /// An obstacle that is drawn as its outline.
+    Plain,
+}
+
+impl BodyStyle {
+    /// The style of a vehicle: by its class, or without one by its size.
+    pub fn choose(vehicle: &Vehicle) -> BodyStyle {
+        if let Some(obstacle) = &vehicle.obstacle {
+            return match (&obstacle.kind, &obstacle.outline) {
+                (ObstacleKind::ParkedCar, Outline::Box { .. }) => BodyStyle::Car,
+                (ObstacleKind::ParkedVan, Outline::Box { .. }) => BodyStyle::Van,
+                _ => BodyStyle::Plain,
+            };
+        }
+        match vehicle.class {
+            Some(VehicleClass::ScaleCar | VehicleClass::Car) => BodyStyle::Car,
+            Some(VehicleClass::Van) => BodyStyle::Van,
+            Some(VehicleClass::Truck) => BodyStyle::Lorry,
+            Some(VehicleClass::Bus) => BodyStyle::Van,
+            Some(VehicleClass::Pedestrian) => BodyStyle::Walker,
+            Some(VehicleClass::Bicycle) => BodyStyle::Bicycle,
+            None => BodyStyle::of_size(&vehicle.body),
+        }
+    }
+
+    fn of_size(body: &Body) -> BodyStyle {
+        let scale = scale(body);
+        let (length, width) = ((body.front_m + body.rear_m) / scale, body.width_m / scale);
+        match (length, width) {
+            (length, _) if length > 0.8 => BodyStyle::Lorry,
+            (length, _) if length > 0.52 => BodyStyle::Van,
+            (_, width) if width < 0.1 => BodyStyle::Bicycle,
+            _ => BodyStyle::Car,
+        }
+    }
+}
+
+/// The size of a vehicle as a multiple of one at 1/10 scale.
+///
+/// A body with stated lengths may not say its scale. One that is longer than any lorry at 1/10 scale is of full size.
+pub fn scale(body: &Body) -> f64 {
+    let is_large = body.front_m + body.rear_m > MAX_SCALE_MODEL_M;
+    if body.scale == 1.0 && is_large { FULL_SIZE_SCALE } else { body.scale }
+}
 
 /// The material of a part of a vehicle, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +90,7 @@ impl BodyPaint {
     }
 }
 
-/// A filled part of a vehicle. Places are shares of the body: −1 at the rear and right, 1 at the front and left.
+/// A filled part of a vehicle. Coordinates are shares of the body: −1 at the rear and right, 1 at the front and left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyPart {
     /// The corners, along and across.
@@ -44,7 +107,7 @@ pub type BodyArea = [f64; 4];
 /// The rider of a bicycle.
 pub const RIDER: BodyArea = [-0.28, 0.12, -0.8, 0.8];
 
-/// The head of somebody on foot.
+/// The head of a pedestrian.
 const HEAD: BodyArea = [-0.5, 0.5, -0.42, 0.42];
 
 /// The corners of a rectangle along and across a body.
@@ -58,19 +121,19 @@ pub fn place_on(body: &Body, [along, across]: [f64; 2]) -> [f64; 2] {
     [0.5 * (front_m - rear_m) + 0.5 * along * (front_m + rear_m), 0.5 * across * width_m]
 }
 
-/// How deep the lights are, as a share of the body: as deep as those of a car, however long the vehicle is.
+/// Length of the lights as a share of the body. In metres it is the same for all vehicles of one width.
 pub fn light_depth(body: &Body) -> f64 {
     0.24 * body.width_m / (body.front_m + body.rear_m)
 }
 
-/// A lamp at the rear of a body, on the left (1) or the right (−1): deeper while it brakes.
+/// The rear lamp of a body on the left (1) or the right (−1), longer while the vehicle brakes.
 pub fn rear_lamp(body: &Body, side: f64, brakes: bool) -> BodyArea {
     let depth = if brakes { 1.5 } else { 0.9 } * light_depth(body);
     let [right, left] = lamp_across(side);
     [-1.0, -1.0 + depth, right, left]
 }
 
-/// Where a lamp at the front or the rear is across a body, on the left (1) or the right (−1): its right and its left edge.
+/// The right and the left edge of a lamp across a body, on the left (1) or the right (−1).
 pub fn lamp_across(side: f64) -> [f64; 2] {
     let across = [side * 0.88, side * 0.5];
     [across[0].min(across[1]), across[0].max(across[1])]
@@ -81,7 +144,7 @@ pub fn indicators(body: &Body, side: f64) -> [[f64; 2]; 2] {
     [-1.0, 1.0].map(|end| [end * (1.0 - 0.8 * light_depth(body)), side * 0.92])
 }
 
-/// The wheels of a vehicle, which the body does not cover quite.
+/// The wheels of a vehicle, which stand out a little beside the body.
 pub struct Wheels {
     /// Length and thickness of each \[m\].
     pub size_m: [f64; 2],
@@ -90,7 +153,7 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// The wheels of a body; the front ones are turned.
+    /// The wheels of a body, the front ones turned by the steering angle.
     pub fn place(body: &Body, style: BodyStyle, steering_rad: f64) -> Wheels {
         let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *body;
         let length_m = if style == BodyStyle::Lorry { 0.42 } else { 0.38 } * width_m;
@@ -111,7 +174,7 @@ impl Wheels {
     }
 }
 
-/// The body of a vehicle, and what lies on it, from below to above.
+/// The parts of a vehicle, from the lowest to the highest.
 pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
     let part = |ring: &[[f64; 2]], radius, paint| BodyPart { ring: ring.to_vec(), radius, paint };
     let body = |radius| part(&rectangle([-1.0, 1.0, -1.0, 1.0]), radius, BodyPaint::Own);
@@ -145,4 +208,26 @@ pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
 /// A windscreen between two places along the body, `across` at its rear and at its front edge.
 fn windscreen([rear, front]: [f64; 2], across: [f64; 2]) -> [[f64; 2]; 4] {
     [[rear, -across[0]], [rear, across[0]], [front, across[1]], [front, -across[1]]]
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    #[test]
+    fn vehicles_look_like_their_class_or_size() {
+        let full_size = load("full-size/lane-change", &[]).expect("embedded");
+        assert_eq!(BodyStyle::choose(&full_size.vehicles[0]), BodyStyle::Car, "without a class");
+        let scenario = load("on-ramp/five", &[]).expect("embedded");
+        let style = |name: &str| BodyStyle::choose(scenario.vehicle(name).expect("there"));
+        assert_eq!((style("lorry"), style("front")), (BodyStyle::Lorry, BodyStyle::Car));
+        let size = |front_m: f64, rear_m: f64, width_m: f64| {
+            BodyStyle::of_size(&Body { front_m, rear_m, width_m, scale: 10.0, ..Body::default() })
+        };
+        assert_eq!(size(2.8, 3.2, 2.0), BodyStyle::Van);
+        assert_eq!(size(0.9, 0.9, 0.65), BodyStyle::Bicycle);
+        assert_eq!(size(2.2, 2.3, 1.8), BodyStyle::Car);
+    }
 }

@@ -1,10 +1,10 @@
-//! The functions of FMI 3.0 that every instance needs. What they do with pointers is in [`calls`].
+//! The functions of FMI 3.0 that differ from those of FMI 2.0. What they do with pointers is in [`calls`].
 
 use std::ffi::{c_char, c_int, c_void};
 use std::path::PathBuf;
 
-use super::super::calls;
-use super::super::logger::{LogMessage, Logger, status};
+use super::calls;
+use super::logger::{LogMessage, Logger, status};
 use calls::{text, with_instance};
 
 /// `fmi3IntermediateUpdateCallback`, which is never called: time, three requests, whether the step may end early, and what then.
@@ -16,7 +16,7 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-/// Makes an instance; null if the resources do not fit, or if the importer asks for events, which there are none of.
+/// Makes an instance. Returns null if the resources do not fit, or if the importer demands an event mode.
 ///
 /// # Safety
 /// As FMI 3.0 says of `fmi3InstantiateCoSimulation`.
@@ -41,23 +41,13 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         if event_mode_used {
             Err("this FMU has no event mode, as its description says".to_owned())
         } else {
-            // A path as the system writes it, and no URI as in FMI 2.0.
+            // FMI 3.0 gives a path of the system, FMI 2.0 a URI.
             Ok(PathBuf::from(&*path.to_string_lossy()))
         }
     })
 }
 
-/// Frees an instance.
-///
-/// # Safety
-/// The instance is null or one of `fmi3InstantiateCoSimulation`, and is not used any more.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeInstance(instance: *mut c_void) {
-    // SAFETY: what this function demands.
-    unsafe { calls::free_instance(instance) }
-}
-
-/// Logging needs no setting: only errors are logged.
+/// Accepts any log settings: only errors are logged.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3SetDebugLogging(
     _instance: *mut c_void,
@@ -81,32 +71,11 @@ pub extern "C" fn fmi3EnterInitializationMode(
     with_instance(instance, |instance| instance.begin_at(start_time_s))
 }
 
-/// There is nothing to do at the end of the initialisation.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> c_int {
-    with_instance(instance, |_| Ok(()))
-}
-
-/// Ends the simulation; outputs can still be read.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi3Terminate(instance: *mut c_void) -> c_int {
-    with_instance(instance, |_| Ok(()))
-}
-
-/// Returns to the first midnight.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi3Reset(instance: *mut c_void) -> c_int {
-    with_instance(instance, |instance| {
-        instance.plant.reset();
-        Ok(())
-    })
-}
-
 /// Refuses lists of different lengths: each variable has one value.
 fn same_length(instance: *mut c_void, references: usize, values: usize) -> c_int {
     with_instance(instance, |_| {
         let lengths =
-            || format!("there are {references} value references and {values} values; each variable has one value");
+            || format!("the call has {references} value references and {values} values; each variable has one value");
         if references == values { Ok(()) } else { Err(lengths()) }
     })
 }
@@ -114,7 +83,7 @@ fn same_length(instance: *mut c_void, references: usize, values: usize) -> c_int
 /// Reads the values of variables.
 ///
 /// # Safety
-/// Both lists have as many entries as is said.
+/// Both lists have the stated number of entries.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetFloat64(
     instance: *mut c_void,
@@ -133,7 +102,7 @@ pub unsafe extern "C" fn fmi3GetFloat64(
 /// Sets inputs.
 ///
 /// # Safety
-/// Both lists have as many entries as is said.
+/// Both lists have the stated number of entries.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetFloat64(
     instance: *mut c_void,
@@ -149,8 +118,8 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     }
 }
 
-/// Advances the simulation by whole steps. No step ends early or asks for an event; the last time is the end of the step, or its
-/// beginning if it fails.
+/// Advances the simulation by whole steps. No step ends early or raises an event. The last successful time is the end of the step,
+/// or its beginning if it fails.
 ///
 /// # Safety
 /// Each of the last four pointers is null or can be written to.
