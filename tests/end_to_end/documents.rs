@@ -91,7 +91,7 @@ fn is_flag(word: &str) -> bool {
     word.strip_prefix("--").is_some_and(|name| name.starts_with(char::is_alphabetic))
 }
 
-/// Scenarios that the README names are there; `docs/scenarios.md` has all of them.
+/// Scenarios that the README names are there; `docs/reference/scenarios.md` has all of them.
 #[test]
 fn the_readme_names_scenarios_that_exist() {
     let readme = document("README.md");
@@ -109,9 +109,7 @@ fn the_documents_speak_of_files_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut names =
         ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"].map(str::to_owned).to_vec();
-    let pages = fs::read_dir(root.join("docs")).expect("the book");
-    let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
-    names.extend(pages.filter(|name| name.ends_with(".md")));
+    names.extend(crate::book::pages());
     for name in &names {
         for path in document(name).split('`').filter(|word| is_path(word)) {
             assert!(root.join(path.trim_end_matches('/')).exists(), "{name} speaks of `{path}`");

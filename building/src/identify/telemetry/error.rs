@@ -220,7 +220,7 @@ impl TelemetryProblem {
     pub fn remedy(&self) -> String {
         match self {
             Self::Syntax { .. } | Self::WrongType { .. } => {
-                "`interplay identify --help` shows a mapping, docs/identification.md every key".into()
+                "`interplay identify --help` shows a mapping, docs/guide/identification.md every key".into()
             }
             Self::UnknownKey { key, known, .. } => suggestion(key, "the keys here are", known),
             Self::MissingKey { wanted, .. } => format!("it must be {wanted}"),
