@@ -249,6 +249,31 @@ fn links_lead_somewhere_and_the_summary_lists_every_page() {
     }
 }
 
+/// Largest number of words in all pages of the guide together.
+const MAX_GUIDE_WORDS: usize = 45_000;
+
+/// Largest number of words in the summary of a report of measurements.
+const MAX_SUMMARY_WORDS: usize = 200;
+
+#[test]
+fn the_guide_is_short_enough_to_read() {
+    let guide = documents().into_iter().filter(|(name, _)| name.starts_with("docs/guide/"));
+    let words: usize = guide.map(|(_, text)| text.split_whitespace().count()).sum();
+    assert!((10_000..=MAX_GUIDE_WORDS).contains(&words), "{words} words");
+}
+
+#[test]
+fn every_report_begins_with_a_summary() {
+    let mut count = 0;
+    for (name, text) in documents().into_iter().filter(|(name, _)| name.starts_with("docs/evidence/")) {
+        let (_, rest) = text.split_once("\n\n## Summary\n\n").unwrap_or_else(|| panic!("{name} has no summary"));
+        let words = rest.split("\n## ").next().unwrap_or(rest).split_whitespace().count();
+        assert!((20..=MAX_SUMMARY_WORDS).contains(&words), "{name}: {words} words");
+        count += 1;
+    }
+    assert!(count > 10, "{count} reports");
+}
+
 /// The page of all authored scenarios is what they say of themselves. `INTERPLAY_BLESS=1` writes it anew.
 #[test]
 fn the_list_of_scenarios_is_complete() {
