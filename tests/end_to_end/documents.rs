@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use interplay_scenarios::{embedded, from_text};
 use saphyr_parser::Parser;
@@ -48,8 +49,12 @@ fn ci_runs_the_readme_s_test_command() {
     let (ci, readme) = (document(".ci/run"), document("README.md"));
     let test = &blocks(&readme)[1].1;
     assert!(ci.lines().any(|line| line.starts_with(&format!("run {test} "))), "`{test}` is not in .ci/run");
+    assert!(
+        ci.contains("\nrun .ci/lint\n") && document("justfile").contains("\n    .ci/lint\n"),
+        "both check the same"
+    );
     for check in ["cargo fmt", "cargo clippy", "cargo doc"] {
-        assert!(ci.contains(check), "{check} is not in .ci/run");
+        assert!((document(".ci/lint") + &ci).contains(check), "{check} is not in .ci/run");
     }
 }
 
@@ -155,8 +160,47 @@ fn workflows_are_yaml_and_start_what_exists() {
             count += 1;
         }
     }
+    for other in [".github/dependabot.yml", "CITATION.cff"] {
+        for event in Parser::new_from_str(&document(other)) {
+            assert!(event.is_ok(), "{other}: {event:?}");
+        }
+    }
     assert!(count >= 6 && started.contains("\n      - run: .ci/run\n"), "{count} files");
+    for test in
+        ["python/test.sh", "tests/browser/play.mjs", "tests/browser/play_parts.mjs", ".github/check-subjects.sh"]
+    {
+        assert!(started.contains(test), "no workflow runs {test}");
+    }
     for word in started.split_whitespace().filter(|word| is_path(word) && !word.contains('*')) {
         assert!(root.join(word).exists(), "a workflow or the justfile starts `{word}`");
     }
+}
+
+/// The check of subjects accepts imperatives and refuses what is longer, or begins with another word.
+#[cfg(unix)]
+#[test]
+fn subjects_of_commits_are_imperative_and_short() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/check-subjects.sh");
+    let accepts = |subject: &str| {
+        let input = format!("printf '%s\\n' \"$1\" | {} -", script.display());
+        let status = Command::new("bash").args(["-c", &input, "bash", subject]).status().expect("there is a shell");
+        status.success()
+    };
+    let longest = format!("Bound {}", "x".repeat(66));
+    for good in ["Bound steering rate in plans", "Pass the seed on", "Embed the font", longest.as_str()] {
+        assert!(accepts(good), "{good}");
+    }
+    let too_long = format!("{longest}x");
+    let wrong =
+        ["What a dash means", "Plans know their wheels", "Added a test", "bound rates", "Bound rates.", "Adding"];
+    for bad in wrong.into_iter().chain([too_long.as_str()]) {
+        assert!(!accepts(bad), "{bad}");
+    }
+}
+
+/// The version that is cited is that of the program.
+#[test]
+fn the_citation_states_the_version() {
+    let stated = format!("\nversion: {}\n", env!("CARGO_PKG_VERSION"));
+    assert!(document("CITATION.cff").contains(&stated), "no {stated}");
 }
