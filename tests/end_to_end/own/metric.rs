@@ -20,7 +20,7 @@ struct ShortestHeadway {
 
 impl Metric for Headway {
     fn declaration(&self) -> MetricDeclaration {
-        let doc = "Shortest time headway to a vehicle ahead in its lane; none if nobody was ahead";
+        let doc = "Shortest time headway to a vehicle ahead in its lane; none without a vehicle ahead";
         MetricDeclaration::of_vehicle("time_headway_s", MetricKind::Number, doc)
             .compared(MetricComparison::Quantiles)
             .better(Better::Higher)
