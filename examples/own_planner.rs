@@ -3,8 +3,8 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
-use interplay_planners::belief::Outlook;
-use interplay_planners::predict::steady_inputs;
+use interplay_planners::prediction::steady_inputs;
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, Trajectory};
 use interplay_scenarios::{Override, Registry};
 use interplay_simulation::run::run;

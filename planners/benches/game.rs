@@ -7,9 +7,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use interplay_planners::game::equilibrium::{GameSolution, leader_follower, nash};
-use interplay_planners::game::payoff::{Player, Stakes, TabulatedTheory};
-use interplay_planners::game::prospect::ProspectTheory;
+use interplay_planners::drivers::game::equilibrium::{GameSolution, leader_follower, nash};
+use interplay_planners::drivers::game::payoff::{Player, Stakes, TabulatedTheory};
+use interplay_planners::drivers::game::prospect::ProspectTheory;
 
 type Solve = fn(&Player, &Player) -> GameSolution;
 

@@ -8,7 +8,7 @@
 //! (safety weights from 0.01 to 100), so that the ego comes as near to somebody as possible: half of the steps (200 unless stated) are
 //! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says
 //!
-//! - until which tick one of the [last resorts](interplay_planners::certificate::last_resorts) would have avoided it if the others
+//! - until which tick one of the [last resorts](interplay_planners::plan::certificate::last_resorts) would have avoided it if the others
 //!   had moved as they did (*avoidable*), which nobody knows beforehand, and
 //! - whether the same motion of the ego would have touched somebody if the others had done from that tick on what they planned at
 //!   it (*foretold*),
@@ -23,8 +23,9 @@ use std::io::Write;
 
 use common::SplitMix64;
 use common::world::{Vehicle, begin, egos, families};
-use interplay_planners::certificate::{last_resorts, overlap_m};
-use interplay_planners::{Agent, Driver, Scene, State, Trajectory, contingency, human, nash};
+use interplay_planners::drivers::{contingency, human, nash};
+use interplay_planners::plan::certificate::{last_resorts, overlap_m};
+use interplay_planners::{Agent, Driver, Scene, State, Trajectory};
 
 /// Ticks of a run.
 const TICKS: usize = 60;

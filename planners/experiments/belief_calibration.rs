@@ -30,11 +30,12 @@ use std::io::Write;
 use common::SplitMix64;
 use common::wilson::wilson_interval;
 use common::world::{STEP_S, Vehicle, begin, intersection, lane_change, lane_keeping};
-use interplay_planners::belief::{self, Prior};
-use interplay_planners::driver_estimate::{DriverEstimate, DriverModel, SAFETY_WEIGHT_EDGES};
-use interplay_planners::human::{self, Style};
-use interplay_planners::predict::Prediction;
-use interplay_planners::{Driver, Planner, Scene, State, conservative, negotiation};
+use interplay_planners::drivers::human::{self, Style};
+use interplay_planners::drivers::{conservative, negotiation};
+use interplay_planners::perception::belief::{self, Prior};
+use interplay_planners::prediction::Prediction;
+use interplay_planners::scene::driver_estimate::{DriverEstimate, DriverModel, SAFETY_WEIGHT_EDGES};
+use interplay_planners::{Driver, Planner, Scene, State};
 
 /// Ticks in a second.
 const SECOND: usize = 10;

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Drives every family of scenarios from perturbed starts with every planner, in closed loop, and checks every plan
-//! ([`interplay_planners::certificate`]). A row for each driver and condition says in how many plans it is violated, and how many
+//! ([`interplay_planners::plan::certificate`]). A row for each driver and condition says in how many plans it is violated, and how many
 //! steps ahead: the least, the median and the greatest number.
 
 #[path = "../tests/common/mod.rs"]
@@ -19,7 +19,7 @@ use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::Driver;
 use interplay_planners::PlanCondition;
 use interplay_planners::PlanError;
-use interplay_planners::certificate::violations;
+use interplay_planners::plan::certificate::violations;
 
 const SEEDS: u64 = 4;
 /// Ticks of a run.

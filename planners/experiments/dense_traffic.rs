@@ -16,10 +16,12 @@ use std::io::Write;
 use std::time::Instant;
 
 use interplay_common::random::SplitMix64;
-use interplay_planners::human::{REACTION_S, Settings, Style};
+use interplay_planners::drivers::human::{REACTION_S, Settings, Style};
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::trajectory::Term;
-use interplay_planners::{Agent, Body, ComfortLimits, Corridor, Driver, Goal, Limits, Planner, SafetyEllipse, predict};
+use interplay_planners::{
+    Agent, Body, ComfortLimits, Corridor, Driver, Goal, Limits, Planner, SafetyEllipse, prediction,
+};
 use world::{Vehicle, vehicle};
 
 const LANES: usize = 3;
@@ -99,7 +101,7 @@ fn car(index: usize, random: &mut SplitMix64) -> Vehicle {
         comfort: Some(ComfortLimits::default()),
         ..Limits::default()
     };
-    let prediction = predict::constant_velocity(&car.agent.state, HORIZON, STEP_S).into();
+    let prediction = prediction::constant_velocity(&car.agent.state, HORIZON, STEP_S).into();
     car.agent = Agent { body, limits, route: road.into(), prediction, ..car.agent };
     car.goal = Goal { comfort: [0.1, 390.0], safety: SafetyEllipse { along_m: 12.0, across_m: 3.3 }, ..car.goal };
     car

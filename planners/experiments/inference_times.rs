@@ -17,10 +17,11 @@ use std::time::Instant;
 
 use common::starts::perturbed;
 use common::world::{Vehicle, begin, families};
-use interplay_planners::belief::{DriverBeliefs, Settings};
-use interplay_planners::predict::Prediction;
-use interplay_planners::sensing::SensedScene;
-use interplay_planners::{Driver, negotiation};
+use interplay_planners::Driver;
+use interplay_planners::drivers::negotiation;
+use interplay_planners::perception::belief::{DriverBeliefs, Settings};
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::prediction::Prediction;
 
 /// Ticks of a run.
 const TICKS: usize = 80;

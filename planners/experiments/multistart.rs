@@ -28,7 +28,7 @@ use std::time::Instant;
 use common::SplitMix64;
 use common::wilson::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
-use interplay_planners::diagnostic::COST;
+use interplay_planners::plan::diagnostic::COST;
 use interplay_planners::trajectory::{HomotopySearch, Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Input, Plan};
 use recorded::Recorded;

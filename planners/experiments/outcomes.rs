@@ -14,7 +14,8 @@ mod world;
 
 use std::io::Write;
 
-use interplay_planners::{Driver, game};
+use interplay_planners::Driver;
+use interplay_planners::drivers::game;
 use world::{LANES, Run, STEP_S, egos, families, run};
 
 /// How many ticks a family is driven, and what counts as its outcome.

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::Limits;
-use crate::predict::constant_velocity;
+use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
 use crate::{Agent, Body, Corridor, Goal, Input, SafetyEllipse, Scene, State};
 

@@ -3,19 +3,18 @@
 //! Pure functions of plain values: a planner is given a [`Scene`] (what one vehicle knows at a moment) and answers with a
 //! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
 //!
-//! - nouns: [`State`], [`Input`], [`Trajectory`], [`Body`], [`SafetyEllipse`], [`Corridor`], [`Scene`], [`Plan`]
-//! - [`vehicle`]: state, body, limits and the bicycle with its derivatives
-//! - [`road`]: where a vehicle may drive
-//! - [`predict`]: what the others will do
-//! - [`sensing`]: what a driver sees of them; [`belief`]: what it believes of their drivers
-//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`recorded`], [`external`], [`conservative`], [`cooperative`],
-//!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
-//!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
-//! - [`posing`]: from a scene to the terms of a trajectory problem, of one vehicle or of several that decide together
-//! - [`motion_prediction`]: how one vehicle of real traffic goes on, by several models
-//! - [`homotopy`]: before or behind whom a plan leads
-//! - [`trajectory`]: one trajectory optimiser
+//! - [`vehicle`]: state, input, body, limits, and the bicycle with its derivatives
+//! - [`road`]: lanes, routes and the Frenet frame: where a vehicle may drive
+//! - [`scene`]: what a driver is given: its own vehicle, the others, the rules and its goal
+//! - [`plan`]: what a driver answers: a plan with its reasons, its homotopy class, and the certificate that checks it
+//! - [`prediction`]: how other vehicles may move on; [`perception`]: what a driver senses of them and believes about them
+//! - [`rules`]: right of way, lights, speed limits and what blocks a lane
+//! - [`problem`]: from a scene to the terms of a trajectory problem; [`trajectory`]: the optimiser that solves it
+//! - [`drivers`]: one module for each driver; [`Driver`] lists them, [`DriverKind`] is what the settings of each provide,
+//!   and [`Drive`] is what plans with them
+//! - [`planner`]: what every driver has around it: inference, certificate and deadline
 //! - [`traffic`]: the closed loop of all vehicles on a road
+//! - [`motion_prediction`]: predictions of one recorded vehicle, by several models
 //!
 //! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
 //!
@@ -27,11 +26,12 @@
 //! A driver that looks ahead brakes for a slower vehicle in its lane:
 //!
 //! ```
-//! use interplay_planners::belief::Outlook;
-//! use interplay_planners::predict::constant_velocity;
+//! use interplay_planners::drivers::conservative;
+//! use interplay_planners::prediction::constant_velocity;
 //! use interplay_planners::rules::RoadRules;
+//! use interplay_planners::scene::outlook::Outlook;
 //! use interplay_planners::{
-//!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State, conservative,
+//!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State,
 //! };
 //!
 //! let (step_s, horizon) = (0.1, 30);
@@ -68,76 +68,29 @@
 //! # Ok::<(), interplay_planners::PlanError>(())
 //! ```
 
-pub mod bayesian;
-pub mod belief;
-pub mod certificate;
-mod clearance;
-pub mod conservative;
-pub mod contingency;
-pub mod cooperative;
-mod deadline;
-pub mod diagnostic;
-mod drive;
-mod driver;
-pub mod driver_estimate;
-mod driver_setting;
-mod encounter;
-pub mod external;
+pub mod drivers;
 #[cfg(test)]
 mod fixture;
-mod foreign_driver;
-pub mod game;
-mod giving_way;
-pub mod homotopy;
-pub mod human;
-pub mod idm;
-mod input_record;
-pub mod inputs;
-pub mod lanes;
 pub mod motion_prediction;
-pub mod nash;
-pub mod negotiation;
-mod obstacle;
-mod outlook;
-mod permitted_speed;
-mod plan;
-mod plan_time;
-mod plan_violation;
-mod planned_passing;
-mod planner;
-pub mod posing;
-pub mod predict;
-mod receding_horizon;
-mod record;
-pub mod recorded;
-mod relation;
-mod right_of_way;
+pub mod perception;
+pub mod plan;
+pub mod planner;
+pub mod prediction;
+pub mod problem;
 pub mod road;
-mod road_rules;
 pub mod rules;
-mod scene;
-pub mod scripted;
-pub mod sensing;
-mod steering;
+pub mod scene;
 pub mod traffic;
 pub mod trajectory;
-pub mod trigger;
-mod urgency;
 pub mod vehicle;
-pub mod walker;
 
-pub use deadline::PlanDeadline;
-pub use diagnostic::Diagnostic;
-pub use drive::{Drive, DriverKind};
-pub use driver::Driver;
-pub use driver_setting::DriverSettingError;
-pub use foreign_driver::ForeignDriver;
-pub use homotopy::{PassingSide, PlannedPassing, homotopy_class};
-pub use input_record::{InputRecord, WHEEL_KINDS};
-pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
-pub use plan_time::PlanTime;
-pub use plan_violation::{PlanCondition, PlanViolation};
-pub use planner::Planner;
+pub use drivers::{Drive, Driver, DriverKind, DriverSettingError, ForeignDriver};
+pub use plan::homotopy::homotopy_class;
+pub use plan::{
+    Diagnostic, PassingSide, Plan, PlanBranch, PlanCondition, PlanError, PlanEvent, PlanEventKind, PlanTime,
+    PlanViolation, PlannedPassing, Proposal,
+};
+pub use planner::{PlanDeadline, Planner};
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
-pub use scene::{Agent, Goal, Scene};
+pub use scene::{Agent, Goal, InputRecord, Scene, WHEEL_KINDS};
 pub use vehicle::{Bicycle, Body, ComfortLimits, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

@@ -1,7 +1,7 @@
 //! Plans that must not be driven, and what is done without one.
 
-use interplay_planners::certificate::{Harm, last_resorts, refused, violations};
-use interplay_planners::predict::steadily_along;
+use interplay_planners::plan::certificate::{Harm, last_resorts, refused, violations};
+use interplay_planners::prediction::steadily_along;
 use interplay_planners::traffic::{Origin, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Goal, Input, Limits, Plan, PlanCondition, PlanError, Route, SafetyEllipse, Scene, State,
@@ -148,7 +148,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
                 let agent = &traffic.road_users[index].agent;
                 agent.body.corners(&agent.state)
             });
-            nearest = nearest.min(-interplay_planners::certificate::overlap_m(&ego, &other));
+            nearest = nearest.min(-interplay_planners::plan::certificate::overlap_m(&ego, &other));
         }
         assert!(nearest > 0.0, "touched, crossing {crossing}: {origins:?}");
         origins

@@ -6,8 +6,10 @@
 mod common;
 
 use common::world::{Vehicle, intersection, ramp_merge, run};
-use interplay_planners::human::{self, Style::Nice};
-use interplay_planners::{Driver, bayesian, nash, negotiation};
+use interplay_planners::Driver;
+use interplay_planners::drivers::human;
+use interplay_planners::drivers::human::Style::Nice;
+use interplay_planners::drivers::{bayesian, nash, negotiation};
 
 /// Shares of a vehicle: along its heading, of its speed, of its weight.
 type Shares = [f64; 3];

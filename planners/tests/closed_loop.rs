@@ -3,9 +3,10 @@
 mod common;
 
 use common::world::{LANES, Run, Vehicle, human, run, vehicle};
-use interplay_planners::human::Style;
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style;
+use interplay_planners::drivers::{conservative, negotiation};
 use interplay_planners::road::centre_line::FrenetPoint;
-use interplay_planners::{Driver, conservative, negotiation};
 
 /// The ego changes lanes ahead of, between or behind two faster humans.
 fn lane_change(driver: Driver, styles: [Style; 2]) -> Run {

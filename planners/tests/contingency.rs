@@ -3,11 +3,14 @@
 mod common;
 
 use common::world::{self, Vehicle, lane_keeping, run_inferring};
-use interplay_planners::belief::{self, Alternative, DriverBeliefs, Outlook};
-use interplay_planners::contingency::{self, diagnostics::FUTURES, futures, shared_steps};
-use interplay_planners::human::Style;
-use interplay_planners::sensing::SensedScene;
-use interplay_planners::{Driver, Plan, Scene, conservative};
+use interplay_planners::drivers::conservative;
+use interplay_planners::drivers::contingency::diagnostics::FUTURES;
+use interplay_planners::drivers::contingency::{self, futures, shared_steps};
+use interplay_planners::drivers::human::Style;
+use interplay_planners::perception::belief::{self, DriverBeliefs};
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::scene::outlook::{Alternative, Outlook};
+use interplay_planners::{Driver, Plan, Scene};
 
 const TICKS: usize = 70;
 

@@ -3,11 +3,11 @@
 mod common;
 
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, run, vehicle};
-use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
-use interplay_planners::cooperative::{self, cooperators};
-use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
-use interplay_planners::human::Style;
-use interplay_planners::posing::{JointVehicle, joint_problem};
+use interplay_planners::drivers::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
+use interplay_planners::drivers::cooperative::{self, cooperators};
+use interplay_planners::drivers::human::Style;
+use interplay_planners::plan::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
+use interplay_planners::problem::{JointVehicle, joint_problem};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 

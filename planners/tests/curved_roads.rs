@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use common::world::{Run, begin, egos, lane_change, moved_to, run};
 use common::{HORIZON, SplitMix64, iterate, lane_change as change_of_lanes};
-use interplay_planners::human::Style::{Nice, Tough};
+use interplay_planners::drivers::human::Style::{Nice, Tough};
+use interplay_planners::drivers::idm;
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, StopLine};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term, check_derivatives};
-use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State, idm};
+use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State};
 
 /// A road of two lanes of 0.37 m along a line.
 fn road(line: CentreLine) -> Arc<Route> {

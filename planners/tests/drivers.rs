@@ -3,8 +3,9 @@
 mod common;
 
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, vehicle};
-use interplay_planners::predict::{Prediction, constant_velocity};
-use interplay_planners::{Driver, Plan, Scene, State, conservative, human};
+use interplay_planners::drivers::{conservative, human};
+use interplay_planners::prediction::{Prediction, constant_velocity};
+use interplay_planners::{Driver, Plan, Scene, State};
 use serde_json::json;
 
 /// The kinds of drivers, from the schema of scenario files.

@@ -3,14 +3,13 @@
 mod common;
 
 use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, intersection, run, vehicle};
-use interplay_planners::belief::Outlook;
-use interplay_planners::human::{Human, Settings, Style};
-use interplay_planners::predict::{Prediction, constant_velocity};
-use interplay_planners::scripted::{self, Order};
+use interplay_planners::drivers::conservative;
+use interplay_planners::drivers::human::{Human, Settings, Style};
+use interplay_planners::drivers::scripted::{self, Order};
+use interplay_planners::prediction::{Prediction, constant_velocity};
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::trajectory::HomotopySearch;
-use interplay_planners::{
-    Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State, conservative,
-};
+use interplay_planners::{Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State};
 use proptest::prelude::*;
 
 const STEADY: [f64; 4] = [0.0, 4.0, 1.0, 1.0];

@@ -3,12 +3,13 @@
 mod common;
 
 use common::world::{self, Run, Vehicle};
-use interplay_planners::belief::{self, DriverBeliefs, Prior};
-use interplay_planners::driver_estimate::DriverModel;
-use interplay_planners::human::Style;
-use interplay_planners::predict::Prediction;
-use interplay_planners::sensing::{self, SensedScene, Sensor};
-use interplay_planners::{Driver, bayesian, conservative, game, negotiation, scripted};
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style;
+use interplay_planners::drivers::{bayesian, conservative, game, negotiation, scripted};
+use interplay_planners::perception::belief::{self, DriverBeliefs, Prior};
+use interplay_planners::perception::sensing::{self, SensedScene, Sensor};
+use interplay_planners::prediction::Prediction;
+use interplay_planners::scene::driver_estimate::DriverModel;
 
 const TICKS: usize = 70;
 /// A second, within which a style is to be named.

@@ -3,18 +3,16 @@
 mod common;
 
 use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, egos, human, intersection, lane_change, ramp_merge, run};
-use interplay_planners::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation, RUNNER_UP_COST};
-use interplay_planners::game::ExpressedBounds;
-use interplay_planners::game::diagnostics::{
+use interplay_planners::drivers::game::ExpressedBounds;
+use interplay_planners::drivers::game::diagnostics::{
     ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EGO_TEMPTATION, EXPRESSION_SLACK, OTHER_TEMPTATION,
 };
-use interplay_planners::game::expression::wanted_posterior;
-use interplay_planners::human::Style::{self, Nice, Tough};
-use interplay_planners::predict::constant_velocity;
-use interplay_planners::{
-    Diagnostic, Driver, PassingSide, PlanEvent, PlanEventKind, bayesian, conservative, cooperative, game, idm,
-    negotiation,
-};
+use interplay_planners::drivers::game::expression::wanted_posterior;
+use interplay_planners::drivers::human::Style::{self, Nice, Tough};
+use interplay_planners::drivers::{bayesian, conservative, cooperative, game, idm, negotiation};
+use interplay_planners::plan::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation, RUNNER_UP_COST};
+use interplay_planners::prediction::constant_velocity;
+use interplay_planners::{Diagnostic, Driver, PassingSide, PlanEvent, PlanEventKind};
 
 const AHEAD: usize = 0;
 const BETWEEN: usize = 1;

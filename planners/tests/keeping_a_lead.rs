@@ -4,8 +4,9 @@ mod common;
 
 use common::starts::perturbed;
 use common::world::{Run, families, run};
-use interplay_planners::game::ExpressedBounds;
-use interplay_planners::{Driver, bayesian, game};
+use interplay_planners::Driver;
+use interplay_planners::drivers::game::ExpressedBounds;
+use interplay_planners::drivers::{bayesian, game};
 
 /// Ticks of a run.
 const TICKS: usize = 60;

@@ -5,7 +5,7 @@ mod common;
 use common::world::{LANES, human, vehicle};
 use interplay_common::random::Random;
 use interplay_planners::Driver;
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 use interplay_planners::traffic::{Neighbours, RoadUser, Traffic};
 
 const STEP_S: f64 = 0.1;

@@ -5,9 +5,10 @@ mod common;
 use std::collections::BTreeSet;
 
 use common::world::{LANES, egos, intersection, lane_change, run, vehicle};
-use interplay_planners::human::Style::Nice;
-use interplay_planners::scripted::Order;
-use interplay_planners::{Driver, human, idm, negotiation, scripted};
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style::Nice;
+use interplay_planners::drivers::scripted::Order;
+use interplay_planners::drivers::{human, idm, negotiation, scripted};
 
 fn idm() -> Driver {
     Driver::Idm(idm::Settings::default())

@@ -4,7 +4,8 @@ mod common;
 
 use common::starts::perturbed;
 use common::world::{families, run};
-use interplay_planners::{Driver, conservative, negotiation};
+use interplay_planners::Driver;
+use interplay_planners::drivers::{conservative, negotiation};
 
 /// Ticks of a run.
 const TICKS: usize = 60;

@@ -5,9 +5,10 @@ mod common;
 
 use common::junction::{crossing, on_route, routes};
 use common::world::{Run, human, run};
-use interplay_planners::human::Style;
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style;
+use interplay_planners::drivers::idm;
 use interplay_planners::road::network::{ConflictKind, Precedence, RightOfWay};
-use interplay_planners::{Driver, idm};
 
 const PRIORITY_ROAD: [RightOfWay; 4] =
     [RightOfWay::Priority, RightOfWay::Yield, RightOfWay::Priority, RightOfWay::Yield];

@@ -5,7 +5,7 @@ mod common;
 use std::sync::Arc;
 
 use common::{HORIZON, SplitMix64, iterate, lane_change};
-use interplay_planners::predict::steadily_along;
+use interplay_planners::prediction::steadily_along;
 use interplay_planners::road::centre_line::Piece;
 use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, Tracking};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, StageQp, Term, exact_model};

@@ -3,8 +3,9 @@
 mod common;
 
 use common::world::{Vehicle, begin, intersection, lane_change, run};
-use interplay_planners::human::Style::{Nice, Tough};
-use interplay_planners::negotiation::{self, diagnostics::ACCEPTANCE};
+use interplay_planners::drivers::human::Style::{Nice, Tough};
+use interplay_planners::drivers::negotiation;
+use interplay_planners::drivers::negotiation::diagnostics::ACCEPTANCE;
 use interplay_planners::{Driver, Plan, Proposal, SafetyEllipse, State};
 
 fn negotiator(partners_at_most: usize) -> Driver {

@@ -52,89 +52,79 @@
 //! # Ok::<(), interplay_scenarios::LoadError>(())
 //! ```
 
-mod budget;
-mod check;
-mod classes;
 mod commonroad;
-mod defaults;
-mod error;
-mod file_format;
-mod files;
-mod flows;
-mod json_schema;
+mod format;
 mod load;
-mod metric;
-mod read;
-mod recorded_traffic;
-mod registry;
+mod model;
+mod plans;
 mod resolve;
-mod road;
-mod scenario;
-mod standard_changes;
+mod roads;
 mod streets;
-mod sweep_plan;
 mod text;
 mod write;
 
-pub use budget::RunCost;
-pub use classes::{NamedScale, ScenarioScale, VehicleClass};
+pub use commonroad::recorded_traffic::{
+    RecordedLane, RecordedMoment, RecordedTraffic, RecordedVehicle, recorded_traffic_in_table, recorded_traffic_in_text,
+};
 pub use commonroad::{
     CommonRoadExport, DrivenVehicle, Exported, ImportOptions, Imported, Replacement, import_commonroad,
     import_commonroad_file, is_commonroad, recorded_traffic_in_commonroad,
 };
-pub use error::{Fault, LoadError};
-pub use file_format::boptest_forecast::BoptestForecast;
-pub use file_format::boptest_plant::{BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone};
-pub use file_format::budget_limits::BudgetLimits;
-pub use file_format::building::{BuildingConfig, FloorPlan, Grid, Preset};
-pub use file_format::building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
-pub use file_format::counterfactual::CounterfactualConfig;
-pub use file_format::detail::Detail;
-pub use file_format::detector::DetectorConfig;
-pub use file_format::expect::{
+pub use format::flow::{FlowConfig, FlowGoal, FlowShare, Headways};
+pub use format::obstacle::ObstacleConfig;
+pub use format::read::embedded::{Embedded, embedded};
+pub use format::read::overrides::Override;
+pub use format::read::regular_file::{open_regular, read_regular};
+pub use format::read::source::Source;
+pub use format::registry::{Registry, RegistryError, schema};
+pub use format::scenario_file::ScenarioFile;
+pub use format::start::StartConfig;
+pub use format::stated::Stated;
+pub use format::vehicle_config::VehicleConfig;
+pub use format::vehicle_defaults::{GoalDefaults, VehicleDefaults};
+pub use format::weather::WeatherConfig;
+pub use load::files::{files, files_below};
+pub use load::{from_text, load};
+pub use model::budget_limits::BudgetLimits;
+pub use model::building::boptest_forecast::BoptestForecast;
+pub use model::building::boptest_plant::{
+    BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone,
+};
+pub use model::building::config::{BuildingConfig, FloorPlan, Grid, Preset};
+pub use model::building::gains::{GainsConfig, RecordedGainsFile};
+pub use model::building::plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
+pub use model::building::weather::{CsvWeather, EpwFile, EpwWeather, Synthetic, WeatherSource};
+pub use model::classes::{NamedScale, ScenarioScale, VehicleClass};
+pub use model::derived::conflict_zones::ConflictZone;
+pub use model::derived::detector_line::DetectorLine;
+pub use model::derived::timetable::TimetableError;
+pub use model::expectations::counterfactual::CounterfactualConfig;
+pub use model::expectations::expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedMetric,
     ExpectedSpeed, ExpectedYield, ExpectedZone,
 };
-pub use file_format::flow::{FlowConfig, FlowGoal, FlowShare, Headways};
-pub use file_format::gains::{GainsConfig, RecordedGainsFile};
-pub use file_format::goal::GoalConfig;
-pub use file_format::lane_reference::LaneReference;
-pub use file_format::light::LightConfig;
-pub use file_format::metric_bound::{MetricBound, MetricLimit};
-pub use file_format::obstacle::ObstacleConfig;
-pub use file_format::plant::{Dynamic, Kinematic, Plant};
-pub use file_format::real_time::{Deadline, RealTime};
-pub use file_format::scenario_file::ScenarioFile;
-pub use file_format::start::StartConfig;
-pub use file_format::start_jitter::StartJitter;
-pub use file_format::stated::Stated;
-pub use file_format::vehicle_config::VehicleConfig;
-pub use file_format::vehicle_defaults::{GoalDefaults, VehicleDefaults};
-pub use file_format::weather::{CsvWeather, EpwFile, EpwWeather, Synthetic, WeatherConfig, WeatherSource};
-pub use file_format::weights::Weights;
-pub use files::{files, files_below};
-pub use load::{from_text, load};
-pub use metric::{
+pub use model::expectations::metric_bound::{MetricBound, MetricLimit};
+pub use model::metric::{
     Better, DeclaredMetric, MetricComparison, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics,
 };
-pub use read::embedded::{Embedded, embedded};
-pub use read::overrides::Override;
-pub use read::regular_file::{open_regular, read_regular};
-pub use read::source::Source;
-pub use recorded_traffic::{
-    RecordedLane, RecordedMoment, RecordedTraffic, RecordedVehicle, recorded_traffic_in_table, recorded_traffic_in_text,
-};
-pub use registry::{Registry, RegistryError, schema};
-pub use road::*;
-pub use scenario::conflict_zones::ConflictZone;
-pub use scenario::detector_line::DetectorLine;
-pub use scenario::obstacle::{ObstacleForm, ObstacleKind, Outline};
-pub use scenario::remark::{ScenarioRemark, ScenarioRemarks};
-pub use scenario::timetable::TimetableError;
-pub use scenario::{Counterfactual, Scenario, Stay, Vehicle};
-pub use standard_changes::StandardChange;
+pub use model::remark::{ScenarioRemark, ScenarioRemarks};
+pub use model::scenario::{Counterfactual, Scenario, Stay, Vehicle};
+pub use model::traffic::detail::Detail;
+pub use model::traffic::detector::DetectorConfig;
+pub use model::traffic::goal::GoalConfig;
+pub use model::traffic::lane_reference::LaneReference;
+pub use model::traffic::light::LightConfig;
+pub use model::traffic::obstacle::{ObstacleForm, ObstacleKind, Outline};
+pub use model::traffic::plant::{Dynamic, Kinematic, Plant};
+pub use model::traffic::real_time::{Deadline, RealTime};
+pub use model::traffic::start_jitter::StartJitter;
+pub use model::traffic::weights::Weights;
+pub use plans::standard_changes::StandardChange;
+pub use plans::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
+pub use resolve::budget::RunCost;
+pub use roads::*;
 pub use streets::Street;
-pub use sweep_plan::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
+pub use text::error::{Fault, LoadError};
 pub use text::plain_text::is_plain;
 pub use text::readable::readable;
 pub use write::reference::key_reference;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use interplay_common::random::SplitMix64;
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_scenarios::{
     ImportOptions, Imported, LoadError, Registry, Replacement, Scenario, files_below, import_commonroad, is_commonroad,
     load,

@@ -3,7 +3,8 @@
 mod common;
 
 use common::Catalogue;
-use interplay_planners::{Driver, human::Style};
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style;
 use interplay_scenarios::{Override, Registry, Scenario, embedded, from_text, load};
 
 /// A variant with one counterfactual, whose table is `stated`.

@@ -7,8 +7,9 @@ use std::fs;
 use std::path::Path;
 
 use interplay_common::bounds::Bound;
+use interplay_planners::Driver;
+use interplay_planners::drivers::human::Style;
 use interplay_planners::trajectory::HomotopySearch;
-use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{
     Override, ParallelLanes, Registry, Road, Scenario, ScenarioFile, Source, embedded, from_text, load, schema,
 };

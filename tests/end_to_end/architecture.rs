@@ -20,7 +20,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/files", &[]),
     ("app/recordings", &["common", "planners", "scenarios"]),
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
-    ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
+    ("app/tables", &["scenarios", "app/files", "app/simulation"]),
+    ("app/sweep", &["common", "scenarios", "app/files", "app/simulation", "app/tables"]),
     (
         "app/presentation",
         &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
@@ -57,7 +58,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("bevy", "app/simulation"),
     ("rapier", "app/simulation"),
     ("parry", "app/simulation"),
-    ("parquet", "app/sweep"),
+    ("parquet", "app/tables"),
     ("rerun", "app/presentation"),
     ("re_sdk", "app/presentation"),
     ("plotters", "app/presentation"),
@@ -75,7 +76,7 @@ const OWNERS: &[(&str, &str)] = &[
 const PARTS: &[(&str, &str)] = &[
     ("rapier2d", "app/simulation/src/physics"),
     ("parry2d", "app/simulation/src/physics"),
-    ("parquet", "app/sweep/src/table"),
+    ("parquet", "app/tables/src/table"),
     ("roxmltree", "scenarios/src/commonroad"),
     ("rerun", "app/presentation/src/record"),
     ("re_sdk_types", "app/presentation/src/record"),
@@ -89,9 +90,9 @@ const PARTS: &[(&str, &str)] = &[
 /// Nouns of the planners, and what their files may name of the optimiser (`trajectory`): problems are posed, solved and checked
 /// beside them, not in them.
 const NOUNS: &[(&str, &[&str])] = &[
-    ("planners/src/scene.rs", &[]),
-    ("planners/src/plan.rs", &["Problem", "Statistics"]),
-    ("planners/src/plan_violation.rs", &[]),
+    ("planners/src/scene/mod.rs", &[]),
+    ("planners/src/plan/mod.rs", &["Problem", "Statistics"]),
+    ("planners/src/plan/violation.rs", &[]),
 ];
 
 /// The most lines of a file, and of a function.

@@ -2,9 +2,10 @@
 //!
 //! No scenario file makes a planner fail on purpose, so a driver takes over that does for a while.
 
-use interplay_planners::belief::Outlook;
-use interplay_planners::predict::steady;
-use interplay_planners::{Drive, DriverKind, Limits, Plan, PlanError, Scene, human};
+use interplay_planners::drivers::human;
+use interplay_planners::prediction::steady;
+use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::{Drive, DriverKind, Limits, Plan, PlanError, Scene};
 use interplay_simulation::Simulation;
 use interplay_simulation::frame::{Frame, Level, Origin};
 use interplay_simulation::run::run;

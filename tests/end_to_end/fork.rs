@@ -305,7 +305,9 @@ fn a_snapshot_is_written_and_read() {
     assert!(matches!(read(&text.replacen("\"format\": 1", "\"format\": 7", 1)), Err(SavedRunError::Format { .. })));
     assert!(matches!(read(&text[..text.len() / 2]), Err(SavedRunError::Text(_))));
     let mut taken = Simulation::new(&authored("lane-change/front-nice", &changes)).expect("a world");
-    taken.drive_with("ego", interplay_planners::human::Human::new(Default::default())).expect("there is an ego");
+    taken
+        .drive_with("ego", interplay_planners::drivers::human::Human::new(Default::default()))
+        .expect("there is an ego");
     taken.step().expect("it drives itself");
     let refused = taken.snapshot().expect("ours forks").to_json().expect_err("the scenario does not name it");
     assert!(refused.to_string().starts_with("the driver that has taken over `ego` cannot be copied"), "{refused}");

@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
-use interplay_planners::predict::{steadily_along, without_plans};
-use interplay_planners::sensing::Sensor;
+use interplay_planners::perception::sensing::Sensor;
+use interplay_planners::prediction::{steadily_along, without_plans};
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};

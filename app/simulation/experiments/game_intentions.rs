@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::sync::mpsc::{Sender, channel};
 
-use interplay_planners::game::best_response::{MAX_INTENTION, MIN_INTENTION};
-use interplay_planners::game::diagnostics::{
+use interplay_planners::drivers::game::best_response::{MAX_INTENTION, MIN_INTENTION};
+use interplay_planners::drivers::game::diagnostics::{
     ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EXPRESSION_SLACK,
 };
-use interplay_planners::game::expression::wanted_posterior;
+use interplay_planners::drivers::game::expression::wanted_posterior;
 use interplay_planners::{Driver, Plan};
 use interplay_scenarios::{Override, load};
 use interplay_simulation::frame::Frame;

@@ -2,8 +2,8 @@
 
 use interplay_scenarios::{DrivenVehicle, Scenario};
 
-use crate::frame::Frame;
 use crate::report::Report;
+use crate::state::frame::Frame;
 
 /// What every vehicle did while it was on the road, from the frames of all ticks of a run and its report.
 ///

@@ -26,40 +26,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod act;
 pub mod climate;
-pub mod components;
-pub mod day;
-mod detail;
 pub mod driven;
 pub mod environment;
-mod external;
-pub mod frame;
 pub mod measure;
-mod not_copied;
 pub mod phases;
 pub mod physics;
-pub mod plan;
-pub mod predict;
-mod presence;
+pub mod plants;
 pub mod report;
 pub mod run;
-mod run_error;
-pub mod sense;
 mod simulation;
-pub mod spawn;
-pub mod standing;
-pub mod time_points;
-pub mod watch;
-pub mod whole_run;
+mod state;
 pub mod why;
-mod world_state;
-pub mod worst_zones;
 
 /// The lines of the README that use the library are compiled and run.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
-pub use not_copied::NotCopied;
-pub use simulation::{SavedRunError, Simulation, Snapshot, ZoneNow};
+pub use phases::{act, plan, predict, sense, time_points, watch};
+pub use simulation::{SavedRunError, Simulation, Snapshot, ZoneNow, spawn};
+pub use state::not_copied::NotCopied;
+pub use state::{components, day, frame, standing, whole_run, worst_zones};

@@ -3,11 +3,11 @@
 use interplay_scenarios::{Counterfactual, Scenario};
 use rayon::prelude::*;
 
+use crate::phases::watch::Watcher;
 use crate::report::Report;
 use crate::simulation::Simulation;
-use crate::watch::Watcher;
 
-pub use crate::run_error::RunError;
+pub use crate::simulation::run_error::RunError;
 
 /// Runs `scenario`, called `name` in the report, in front of `watchers`.
 ///

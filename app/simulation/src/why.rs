@@ -5,9 +5,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::report::Report;
-use crate::run_error::RunError;
 use crate::simulation::Simulation;
 use crate::simulation::Snapshot;
+use crate::simulation::run_error::RunError;
 
 /// The smallest change of a completion time that is spoken of \[s\].
 const NOTICEABLE_S: f64 = 0.3;

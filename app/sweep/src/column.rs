@@ -7,34 +7,10 @@
 use interplay_scenarios::{Better, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics, Scenario};
 use interplay_simulation::measure::{Passage, metrics_of};
 use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
+use interplay_tables::{Cell, ColumnKind, TableSchema};
 use serde_json::{Value as Json, json};
 
 use crate::row::SweepRow;
-
-/// The type of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColumnKind {
-    /// True or false.
-    Flag,
-    /// A whole number.
-    Count,
-    /// A number.
-    Number,
-    /// A text.
-    Text,
-}
-
-/// The name and the type of each column of a table.
-pub(crate) type TableSchema = Vec<(String, ColumnKind)>;
-
-/// A value of a row; none where there is nothing to say.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
-    Flag(Option<bool>),
-    Count(Option<u64>),
-    Number(Option<f64>),
-    Text(Option<String>),
-}
 
 /// A column of what tells a row apart, or of the run as a whole.
 type RowColumn = (&'static str, ColumnKind, fn(&SweepRow) -> Json);
@@ -268,19 +244,17 @@ pub(crate) fn cells(row: &SweepRow, schema: &TableSchema, inputs: &TableSchema) 
         }
     };
     let columns = schema.iter().enumerate();
-    columns.map(|column| Cell::of(column.1.1, value(column).unwrap_or(Json::Null))).collect()
+    columns.map(|column| cell_of(column.1.1, value(column).unwrap_or(Json::Null))).collect()
 }
 
-impl Cell {
-    /// A value in a column of a type; none if it is of another type. In a column of texts everything is a text.
-    fn of(kind: ColumnKind, value: Json) -> Cell {
-        match (kind, value) {
-            (Flag, value) => Cell::Flag(value.as_bool()),
-            (Count, value) => Cell::Count(value.as_u64()),
-            (Number, value) => Cell::Number(value.as_f64()),
-            (Text, Json::Null) => Cell::Text(None),
-            (Text, Json::String(text)) => Cell::Text(Some(text)),
-            (Text, other) => Cell::Text(Some(other.to_string())),
-        }
+/// A value in a column of a type; none if it is of another type. In a column of texts everything is a text.
+fn cell_of(kind: ColumnKind, value: Json) -> Cell {
+    match (kind, value) {
+        (Flag, value) => Cell::Flag(value.as_bool()),
+        (Count, value) => Cell::Count(value.as_u64()),
+        (Number, value) => Cell::Number(value.as_f64()),
+        (Text, Json::Null) => Cell::Text(None),
+        (Text, Json::String(text)) => Cell::Text(Some(text)),
+        (Text, other) => Cell::Text(Some(other.to_string())),
     }
 }

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use interplay_scenarios::LoadError;
+use interplay_tables::TableError;
 use thiserror::Error;
 
 /// Why a sweep, a merge or a comparison gave up.
@@ -84,11 +85,15 @@ impl SweepError {
     pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> SweepError + 'a {
         move |reason| SweepError::File { what, path: path.to_owned(), reason }
     }
+}
 
-    pub(crate) fn table<'a, E: Error + Send + Sync + 'static>(
-        what: &'static str,
-        path: &'a Path,
-    ) -> impl Fn(E) -> SweepError + 'a {
-        move |reason| SweepError::Table { what, path: path.to_owned(), reason: Box::new(reason) }
+/// What is wrong with a table of rows is wrong with the sweep that reads or writes it.
+impl From<TableError> for SweepError {
+    fn from(error: TableError) -> SweepError {
+        match error {
+            TableError::File { what, path, reason } => SweepError::File { what, path, reason },
+            TableError::Table { what, path, reason } => SweepError::Table { what, path, reason },
+            TableError::Input(message) => SweepError::Input(message),
+        }
     }
 }

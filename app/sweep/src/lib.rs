@@ -38,7 +38,6 @@
 
 mod column;
 pub mod compare;
-mod detectors;
 mod error;
 mod journal;
 mod journal_line;
@@ -48,25 +47,20 @@ mod merge;
 mod people;
 mod people_rows;
 mod row;
-mod row_file;
-mod series;
+mod row_table;
 mod shard;
 mod statistics;
 mod sweep;
-mod table;
-mod trajectories;
 mod version;
 
-pub use detectors::DetectorWriter;
 pub use error::SweepError;
+pub use interplay_tables::{
+    DetectorWriter, RowTable, SeriesWriter, TableColumn, TableFile, TableFormat, TableFormatError, TrajectoryWriter,
+};
 pub use key::RunKey;
 pub use merge::{MergedSweep, merge};
 pub use people::{PeopleRows, PersonRun};
 pub use row::SweepRow;
-pub use row_file::{TableFile, TableFormat, TableFormatError};
-pub use series::SeriesWriter;
 pub use shard::{Shard, ShardError};
 pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
-pub use table::{RowTable, TableColumn};
-pub use trajectories::TrajectoryWriter;
 pub use version::program_version;

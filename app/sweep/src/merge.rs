@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::column::{Cell, ColumnKind, TIMINGS, TableSchema};
+use interplay_tables::{Cell, ColumnKind, RowTable, TableReader, TableSchema, TableWriter};
+
+use crate::column::TIMINGS;
 use crate::error::SweepError;
 use crate::shard::Shard;
 use crate::sweep::{PLAN_NOTE, RUNS_FILE, SHARD_NOTE, table_path};
-use crate::table::{RowTable, TableReader, TableWriter};
 
 /// What became of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
+use interplay_tables::{ColumnKind, TableFile, TableSchema};
 use rayon::prelude::*;
 
-use crate::column::{ColumnKind, TableSchema, schema};
+use crate::column::schema;
 use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
 use crate::people_rows::{COLUMNS, rows};
 use crate::row::SweepRow;
-use crate::row_file::TableFile;
+use crate::row_table::write_rows;
 use crate::shard::Shard;
-use crate::table::write_rows;
 
 /// The file with the rows of a whole plan.
 pub const RUNS_FILE: &str = "runs.parquet";

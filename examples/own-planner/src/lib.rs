@@ -5,7 +5,7 @@ mod metric;
 pub use metric::WAITING_SHARE;
 
 // shown from here
-use interplay_planners::belief::Outlook;
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, State, Trajectory};
 use schemars::JsonSchema;

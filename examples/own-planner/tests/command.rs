@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use interplay_planners::belief::Outlook;
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
 use interplay_scenarios::{Override, Registry, RegistryError};
 use own_planner::GapAcceptance;

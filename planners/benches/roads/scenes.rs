@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use interplay_planners::human::Style::Nice;
+use interplay_planners::drivers::human::Style::Nice;
 use interplay_planners::road::centre_line::Piece;
 use interplay_planners::{CentreLine, Driver, Profile, Route, Scene};
 

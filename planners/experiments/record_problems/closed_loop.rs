@@ -1,6 +1,6 @@
 //! Lane changes, ramp merges, intersections and curved roads in the loop of the application, with the bicycle as the plant.
 
-use interplay_planners::human::Style::{self, Nice, Tough};
+use interplay_planners::drivers::human::Style::{self, Nice, Tough};
 use interplay_planners::{Driver, Plan, Scene, Trajectory};
 
 use crate::Result;

@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::road::network::RightOfWay;
 use interplay_planners::trajectory::{Problem, Term};
-use interplay_planners::{Agent, CentreLine, Driver, Profile, Route, State, predict};
+use interplay_planners::{Agent, CentreLine, Driver, Profile, Route, State, prediction};
 
 use crate::junction::{crossing, on_route, routes};
 use crate::world::{HORIZON, STEP_S, Vehicle, human, lane_change, moved_to, ramp_merge};
@@ -129,6 +129,6 @@ fn placed(name: &str, route: &Arc<Route>, along_m: f64, driver: Driver) -> Vehic
     let Vehicle { agent, goal, driver } = on_route(name, route, 0.0, 0.8, driver);
     let [x_m, y_m] = route.position(along_m, 0.0);
     let state = State { x_m, y_m, heading_rad: route.centre.at(along_m).heading_rad, ..agent.state };
-    let prediction = predict::steadily_along(route, &agent.body, &state, HORIZON, STEP_S).into();
+    let prediction = prediction::steadily_along(route, &agent.body, &state, HORIZON, STEP_S).into();
     Vehicle { agent: Agent { state, prediction, ..agent }, goal, driver }
 }

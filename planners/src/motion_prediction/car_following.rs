@@ -1,7 +1,7 @@
 //! The intelligent driver model as a prediction.
 
 use super::{LateralMotion, PredictedMotion, STEP_S, STEPS, TrafficMoment};
-use crate::idm;
+use crate::drivers::idm;
 
 /// Steps of the model within a step of the prediction.
 const SUBSTEPS: usize = 2;

@@ -1,16 +1,16 @@
 //! Our human driver as a prediction: one plan of it, made on the straightened lane.
 //!
-//! The plan is that of [`human`](crate::human) itself, with all its terms, for a real car among real cars. The lane and those beside it
+//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those beside it
 //! are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A driver in traffic
 //! wants about the speed that it has: what it would want on a free road, nobody can see.
 
 use std::sync::Arc;
 
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
-use crate::belief::Outlook;
-use crate::human::{self, Human};
-use crate::predict::constant_velocity;
+use crate::drivers::human::{self, Human};
+use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
+use crate::scene::outlook::Outlook;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
 
 /// Stages of the plan: 8 s, as people have on real roads.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use super::obliged::Obliged;
 use crate::Agent;
-use crate::giving_way::{car_length_m, front_m, signed_lines};
-use crate::relation::is_standing;
+use crate::rules::giving_way::{car_length_m, front_m, signed_lines};
+use crate::scene::relation::is_standing;
 
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;

@@ -2,8 +2,8 @@
 
 use super::obliged::Obliged;
 use crate::Agent;
-use crate::relation::is_standing;
 use crate::road::centre_line::FrenetPoint;
+use crate::scene::relation::is_standing;
 
 /// Of the lane, a vehicle that stays in it may be beyond the line by this much now, for 1/10 scale cars \[m\].
 const BEYOND_LINE_M: f64 = 0.02;

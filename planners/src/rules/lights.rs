@@ -1,8 +1,8 @@
 //! Where traffic lights ask a vehicle to stop.
 
 use crate::Agent;
-use crate::giving_way::{can_stop, front_m, stopping_distance_m};
 use crate::road::network::{LightColour, RouteLeg};
+use crate::rules::giving_way::{can_stop, front_m, stopping_distance_m};
 
 /// At amber, who would have to brake harder than this goes on \[m/s²\].
 const AMBER_BRAKING_MPS2: f64 = 3.0;

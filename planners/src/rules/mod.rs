@@ -17,9 +17,14 @@
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
 
 mod arrivals;
+pub(crate) mod giving_way;
 mod lane;
 mod lights;
 mod obliged;
+pub(crate) mod obstacle;
+pub(crate) mod permitted_speed;
+pub(crate) mod right_of_way;
+pub(crate) mod urgency;
 mod waiting;
 
 use arrivals::Arrivals;
@@ -28,10 +33,10 @@ pub(crate) use obliged::Obliged;
 use std::collections::BTreeMap;
 
 use crate::Scene;
-use crate::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
-use crate::obstacle::{Manoeuvre, ObstacleMemory};
-use crate::relation::is_standing;
-pub use crate::road_rules::{Obstacle, RoadRules, RuleKeeping};
+use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
+use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
+use crate::scene::relation::is_standing;
+pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: who has arrived where, and when.

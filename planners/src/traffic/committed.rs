@@ -3,8 +3,8 @@
 use std::iter::repeat;
 use std::sync::Arc;
 
-use crate::certificate::{last_resorts, least_harmful, rolled_out};
-use crate::predict::{steadily_along, steady_inputs};
+use crate::plan::certificate::{last_resorts, least_harmful, rolled_out};
+use crate::prediction::{steadily_along, steady_inputs};
 use crate::{Agent, Scene, Trajectory};
 
 /// The plan that a vehicle follows since its last decision.

@@ -39,7 +39,7 @@ pub use neighbours::Neighbours;
 pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
-use crate::predict::without_plans;
+use crate::prediction::without_plans;
 use crate::rules::{Obliged, RuleBook};
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
 

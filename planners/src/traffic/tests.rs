@@ -4,9 +4,9 @@ use super::*;
 use crate::Agent;
 use crate::State;
 use crate::Trajectory;
-use crate::certificate::rolled_out;
 use crate::fixture::{agent, scene};
-use crate::predict::{constant_velocity, steady};
+use crate::plan::certificate::rolled_out;
+use crate::prediction::{constant_velocity, steady};
 use proptest::prelude::*;
 
 const STEP_S: f64 = 0.1;

@@ -1,11 +1,10 @@
 //! Which constraints hold a plan back: at how many of its steps each kind is active.
 
-use super::cost::Violation;
-use super::iterate::Iterate;
-use super::participant::Participant;
-use super::problem::Problem;
-use super::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape};
-use crate::diagnostic::{Diagnostic, STEPS_AT_EDGE, STEPS_AT_ELLIPSE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND};
+use crate::trajectory::cost::Violation;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::participant::Participant;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape};
 use crate::vehicle::PoseExpansion;
 
 /// A bound that is closer than this is active (in the unit of what it bounds; `d²` for ellipses).
@@ -39,16 +38,6 @@ impl Activity {
             activity.input += usize::from(is_at_input_bound(own, iterate, participant, stage));
         }
         activity
-    }
-
-    /// The numbers as diagnostics.
-    pub(crate) fn diagnostics(&self) -> [Diagnostic; 4] {
-        [
-            STEPS_AT_ELLIPSE.is(self.safety as f64),
-            STEPS_AT_EDGE.is(self.edge as f64),
-            STEPS_AT_INPUT_BOUND.is(self.input as f64),
-            STEPS_AT_SPEED_BOUND.is(self.speed as f64),
-        ]
     }
 }
 

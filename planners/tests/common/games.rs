@@ -3,9 +3,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use interplay_planners::posing::{self, JointVehicle};
+use interplay_planners::drivers::conservative;
+use interplay_planners::problem::{self, JointVehicle};
 use interplay_planners::trajectory::Problem;
-use interplay_planners::{Corridor, Driver, Route, Scene, State, conservative};
+use interplay_planners::{Corridor, Driver, Route, Scene, State};
 
 use super::SplitMix64;
 use super::world::{HORIZON, LANES, STEP_S, Vehicle, vehicle};
@@ -42,7 +43,7 @@ pub fn game(random: &mut SplitMix64, players: usize) -> (Scene, Vec<JointVehicle
 /// The joint problem of a random game.
 pub fn joint_problem(random: &mut SplitMix64, players: usize) -> Problem {
     let (scene, players) = game(random, players);
-    posing::joint_problem(&scene, &players)
+    problem::joint_problem(&scene, &players)
 }
 
 fn driver() -> Driver {
@@ -70,7 +71,7 @@ fn crossing(random: &mut SplitMix64, index: usize) -> Vehicle {
     vehicle.agent.route = Route::from(Corridor { heading_rad, right_m: -0.185, left_m: 0.185, end: None }).into();
     vehicle.agent.state = State { x_m: from_m * cos, y_m: from_m * sin, heading_rad, speed_mps };
     vehicle.agent.prediction =
-        interplay_planners::predict::constant_velocity(&vehicle.agent.state, HORIZON, STEP_S).into();
+        interplay_planners::prediction::constant_velocity(&vehicle.agent.state, HORIZON, STEP_S).into();
     vehicle.goal.target.heading_rad = heading_rad;
     vehicle.goal.safety.across_m = 0.5;
     vehicle

@@ -71,7 +71,7 @@ pub fn on_route(name: &str, route: &Arc<Route>, before_m: f64, speed_mps: f64, d
     let along_m = ARM_M - before_m - agent.body.front_m;
     let [x_m, y_m] = route.position(along_m, 0.0);
     let state = State { x_m, y_m, heading_rad: route.centre.at(along_m).heading_rad, speed_mps };
-    let prediction = interplay_planners::predict::steadily_along(route, &agent.body, &state, 30, 0.1).into();
+    let prediction = interplay_planners::prediction::steadily_along(route, &agent.body, &state, 30, 0.1).into();
     let goal = Goal { target: state, ..goal };
     Vehicle { agent: Agent { state, route: Arc::clone(route), prediction, ..agent }, goal, driver }
 }

@@ -11,9 +11,10 @@ mod warm_start_record;
 
 use std::path::{Path, PathBuf};
 
+use interplay_planners::drivers::negotiation;
 use interplay_planners::trajectory::terms::{Comfort, RoadEdge, SpeedMeasure, Tracking};
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term, WarmStart};
-use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, State, negotiation};
+use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, State};
 use serde::{Deserialize, Serialize};
 
 use recorded_curve::{Curve, RoadGoal, curve_alone};

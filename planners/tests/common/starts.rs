@@ -1,6 +1,6 @@
 //! Perturbed starts of a family of scenarios.
 
-use interplay_planners::predict::constant_velocity;
+use interplay_planners::prediction::constant_velocity;
 
 use super::SplitMix64;
 use super::world::{HORIZON, STEP_S, Vehicle};

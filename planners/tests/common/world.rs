@@ -5,13 +5,14 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 use std::time::Instant;
 
-use interplay_planners::human::{self, Style};
-use interplay_planners::predict::{constant_velocity, steadily_along};
-use interplay_planners::sensing::Sensor;
+use interplay_planners::drivers::human::{self, Style};
+use interplay_planners::drivers::{bayesian, conservative, cooperative, game, negotiation};
+use interplay_planners::perception::belief;
+use interplay_planners::perception::sensing::Sensor;
+use interplay_planners::prediction::{constant_velocity, steadily_along};
 use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, Route, SafetyEllipse, State,
-    bayesian, belief, conservative, cooperative, game, negotiation,
 };
 
 /// Two lanes along x.

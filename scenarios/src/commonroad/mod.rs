@@ -12,6 +12,7 @@ mod map;
 mod model;
 mod moved;
 mod options;
+pub(crate) mod recorded_traffic;
 mod traffic;
 mod xml;
 
@@ -21,12 +22,12 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
-use crate::error::{Fault, LoadError, Place};
-use crate::file_format::scenario_file::ScenarioFile;
-use crate::read::regular_file::open_regular;
-use crate::read::source::imported_text;
-use crate::read::tree::{self, TomlNode};
+use crate::format::read::regular_file::open_regular;
+use crate::format::read::source::imported_text;
+use crate::format::read::tree::{self, TomlNode};
+use crate::format::scenario_file::ScenarioFile;
 use crate::resolve::records;
+use crate::text::error::{Fault, LoadError, Place};
 pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::model::{CommonRoad, Lanelet, Obstacle, Role, SignMeaning};
 use super::xml::{Unread, Xml};
-use crate::error::{Fault, LoadError};
-use crate::read::source::imported_text;
-use crate::recorded_traffic::{RecordedLane, RecordedMoment, RecordedTraffic, RecordedVehicle};
+use crate::commonroad::recorded_traffic::{RecordedLane, RecordedMoment, RecordedTraffic, RecordedVehicle};
+use crate::format::read::source::imported_text;
+use crate::text::error::{Fault, LoadError};
 
 /// Reads the recorded traffic of a scenario of CommonRoad: every lanelet for vehicles, and every dynamic obstacle with a trajectory.
 ///

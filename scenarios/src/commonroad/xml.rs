@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use roxmltree::{Node, ParsingOptions};
 
-use crate::error::{Document, Fault, Place, quoted};
+use crate::text::error::{Document, Fault, Place, quoted};
 
 /// The most elements, attributes and texts of a file; the largest published scenarios have fewer than a million.
 const MAX_NODES: u32 = 8_000_000;

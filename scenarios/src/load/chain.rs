@@ -1,11 +1,11 @@
 //! A file and all that it extends, as one tree.
 
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
-use crate::error::{Fault, Place, quoted};
-use crate::json_schema::SchemaNode;
-use crate::read::merge::merge_tables;
-use crate::read::source::Source;
-use crate::read::tree::{self, Table, TomlNode, TomlValue};
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::merge::merge_tables;
+use crate::format::read::source::Source;
+use crate::format::read::tree::{self, Table, TomlNode, TomlValue};
+use crate::text::error::{Fault, Place, quoted};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;

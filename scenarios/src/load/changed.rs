@@ -5,12 +5,12 @@
 
 use std::sync::Arc;
 
-use crate::error::{Document, Fault, Place};
-use crate::json_schema::SchemaNode;
-use crate::read::overrides::{lay_paths, lay_planner};
-use crate::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
-use crate::registry::Registry;
-use crate::scenario::Scenario;
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::overrides::{lay_paths, lay_planner};
+use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
+use crate::format::registry::Registry;
+use crate::model::scenario::Scenario;
+use crate::text::error::{Document, Fault, Place};
 
 /// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
 const RANK: usize = 0;

@@ -2,6 +2,7 @@
 
 mod chain;
 mod changed;
+pub(crate) mod files;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,25 +11,25 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json};
 
 use self::chain::{NamedBy, blamed_on, extended, read_link};
-use crate::budget;
-use crate::check::{consistency, shape};
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
-use crate::defaults::{expand, with_defaults};
-use crate::error::{Document, Fault, LoadError, Place};
-use crate::file_format::counterfactual::CounterfactualConfig;
-use crate::file_format::scenario_file::ScenarioFile;
-use crate::flows::with_flows;
-use crate::json_schema::SchemaNode;
-use crate::read::degrees;
-use crate::read::overrides::Override;
-use crate::read::source::Source;
-use crate::read::tree::{self, Table, TomlNode, TomlValue};
-use crate::registry::Registry;
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::degrees;
+use crate::format::read::overrides::Override;
+use crate::format::read::source::Source;
+use crate::format::read::tree::{self, Table, TomlNode, TomlValue};
+use crate::format::registry::Registry;
+use crate::format::scenario_file::ScenarioFile;
+use crate::model::expectations::counterfactual::CounterfactualConfig;
+use crate::model::remark::ScenarioRemark;
+use crate::model::scenario::{Counterfactual, Scenario};
+use crate::resolve::budget;
+use crate::resolve::check::{consistency, shape};
+use crate::resolve::defaults::{expand, with_defaults};
+use crate::resolve::flows::with_flows;
 use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
 use crate::resolve::weather_file::is_embedded_weather;
-use crate::scenario::remark::ScenarioRemark;
-use crate::scenario::{Counterfactual, Scenario};
+use crate::text::error::{Document, Fault, LoadError, Place};
 
 /// How errors call a scenario without title.
 const UNTITLED: &str = "without title";

@@ -5,10 +5,10 @@ use interplay_building::series::SeriesError;
 use interplay_common::spelling::suggestion;
 
 use super::series_file::SeriesFile;
-use crate::error::Fault;
-use crate::file_format::gains::{GainsConfig, RecordedGainsFile};
-use crate::read::tree::TomlNode;
-use crate::scenario::Scenario;
+use crate::format::read::tree::TomlNode;
+use crate::model::building::gains::{GainsConfig, RecordedGainsFile};
+use crate::model::scenario::Scenario;
+use crate::text::error::Fault;
 
 /// Errors in gains are listed after those in the scenario.
 const RANK: usize = 1002;

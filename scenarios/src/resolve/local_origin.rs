@@ -8,12 +8,12 @@ use interplay_planners::Driver;
 use serde_json::{Value as Json, json};
 
 use super::records;
-use crate::error::Fault;
-use crate::file_format::obstacle::ObstacleConfig;
-use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::VehicleConfig;
-use crate::read::tree::TomlNode;
-use crate::road::{LaneConfig, Road};
+use crate::format::obstacle::ObstacleConfig;
+use crate::format::read::tree::TomlNode;
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::roads::{LaneConfig, Road};
+use crate::text::error::Fault;
 
 /// Coordinates up to this are left as they are \[m\].
 const MAX_COORDINATE_M: f64 = 10_000.0;

@@ -3,9 +3,9 @@
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::Driver;
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 
-use crate::scenario::Vehicle;
+use crate::model::scenario::Vehicle;
 
 /// Writes into the settings of measured drivers which member of the population they are, where none is stated.
 pub(super) fn draw(vehicles: &mut [Vehicle], seed: u64) {

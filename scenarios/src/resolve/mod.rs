@@ -1,5 +1,10 @@
-//! From the file to the scenario: what is stated is read, the road is built, and the vehicles are placed on it.
+//! From the file to the scenario: flows become vehicles (`flows`), what is left out is added (`defaults`), what is stated is read, the road is
+//! built, the vehicles are placed on it, and all is checked (`check`, `budget`).
 
+pub(crate) mod budget;
+pub(crate) mod check;
+pub(crate) mod defaults;
+pub(crate) mod flows;
 mod gains_file;
 pub(crate) mod local_origin;
 mod measured_drivers;
@@ -17,20 +22,21 @@ use serde::de::DeserializeOwned;
 use interplay_planners::Driver;
 use interplay_planners::road::network::RoadNetwork;
 
-use crate::check::{consistency, remarks};
-use crate::error::Fault;
-use crate::file_format::building_plant::BuildingPlant;
-use crate::file_format::gains::GainsConfig;
-use crate::file_format::scenario_file::{ScenarioFile, defaults};
-use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::{VehicleConfig, default_driver};
-use crate::file_format::weather::{WeatherConfig, WeatherSource};
-use crate::read::tree::TomlNode;
-use crate::registry::Registry;
+use crate::format::read::tree::TomlNode;
+use crate::format::registry::Registry;
+use crate::format::scenario_file::{ScenarioFile, defaults};
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::{VehicleConfig, default_driver};
+use crate::format::weather::WeatherConfig;
+use crate::model::building::gains::GainsConfig;
+use crate::model::building::plant::BuildingPlant;
+use crate::model::building::weather::WeatherSource;
+use crate::model::remark::{ScenarioRemark, ScenarioRemarks};
+use crate::model::scenario::{Scenario, Stay, Vehicle};
+use crate::resolve::check::{consistency, remarks};
 use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
-use crate::road::Road;
-use crate::scenario::remark::{ScenarioRemark, ScenarioRemarks};
-use crate::scenario::{Scenario, Stay, Vehicle};
+use crate::roads::Road;
+use crate::text::error::Fault;
 use crate::text::readable::readable;
 
 /// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.

@@ -9,12 +9,12 @@ use interplay_common::cell::shown_cell;
 use interplay_common::spelling::listed;
 use serde_json::{Value as Json, json};
 
-use crate::error::{Fault, quoted};
-use crate::file_format::vehicle_config::VehicleConfig;
-use crate::read::regular_file::read_regular;
-use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::line_without_text;
-use crate::read::tree::TomlNode;
+use crate::format::read::regular_file::read_regular;
+use crate::format::read::stated_path::{base_in_words, path_beside};
+use crate::format::read::text_line::line_without_text;
+use crate::format::read::tree::TomlNode;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::text::error::{Fault, quoted};
 
 /// The largest table that is read; a hundred vehicles over ten minutes in steps of 0.1 s take less \[bytes\].
 const MAX_FILE_BYTES: u64 = 1 << 26;

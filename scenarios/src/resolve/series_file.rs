@@ -3,13 +3,13 @@
 use interplay_building::calendar::local_days;
 use interplay_building::series::{HeldSeries, SeriesColumn, SeriesError, SeriesTable};
 
-use crate::error::{Fault, Place, quoted};
-use crate::file_format::building::DAY_S;
-use crate::read::regular_file::read_regular;
-use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::{line_of, line_without_text};
-use crate::read::tree::TomlNode;
-use crate::scenario::Scenario;
+use crate::format::read::regular_file::read_regular;
+use crate::format::read::stated_path::{base_in_words, path_beside};
+use crate::format::read::text_line::{line_of, line_without_text};
+use crate::format::read::tree::TomlNode;
+use crate::model::building::config::DAY_S;
+use crate::model::scenario::Scenario;
+use crate::text::error::{Fault, Place, quoted};
 
 /// The largest table that is read; a year by the minute takes less \[bytes\].
 const MAX_FILE_BYTES: u64 = 1 << 27;

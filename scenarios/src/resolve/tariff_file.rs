@@ -4,10 +4,10 @@ use interplay_building::energy::Tariff;
 use interplay_building::series::{SeriesColumn, SeriesError};
 
 use super::series_file::SeriesFile;
-use crate::error::Fault;
-use crate::file_format::building::DAY_S;
-use crate::read::tree::TomlNode;
-use crate::scenario::Scenario;
+use crate::format::read::tree::TomlNode;
+use crate::model::building::config::DAY_S;
+use crate::model::scenario::Scenario;
+use crate::text::error::Fault;
 use crate::text::readable::readable;
 
 /// The most prices, as of a list in the scenario.

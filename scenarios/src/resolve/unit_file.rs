@@ -1,8 +1,8 @@
 //! Finds the functional mock-up unit that is a scenario's building, when the scenario is loaded.
 
-use crate::error::{Fault, quoted};
-use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::tree::TomlNode;
+use crate::format::read::stated_path::{base_in_words, path_beside};
+use crate::format::read::tree::TomlNode;
+use crate::text::error::{Fault, quoted};
 
 /// The absolute path of the unit that is called `name` at `building.plant.fmu`. What is in it is read when the run begins.
 pub(crate) fn find(name: &str, tree: &TomlNode) -> Result<String, Fault> {

@@ -8,16 +8,16 @@ use interplay_building::weather::{Epw, EpwError, Forecast, ReadWeather, Recorded
 use interplay_common::spelling::suggestion;
 
 use super::series_file::SeriesFile;
-use crate::error::{Fault, Place, quoted};
-use crate::file_format::building::DAY_S;
-use crate::file_format::building_plant::BuildingPlant;
-use crate::file_format::weather::{CsvWeather, EpwFile, EpwWeather};
-use crate::read::regular_file::read_regular;
-use crate::read::stated_path::{base_in_words, path_beside};
-use crate::read::text_line::{line_of, line_without_text};
-use crate::read::tree::TomlNode;
-use crate::scenario::Scenario;
-use crate::scenario::remark::ScenarioRemark;
+use crate::format::read::regular_file::read_regular;
+use crate::format::read::stated_path::{base_in_words, path_beside};
+use crate::format::read::text_line::{line_of, line_without_text};
+use crate::format::read::tree::TomlNode;
+use crate::model::building::config::DAY_S;
+use crate::model::building::plant::BuildingPlant;
+use crate::model::building::weather::{CsvWeather, EpwFile, EpwWeather};
+use crate::model::remark::ScenarioRemark;
+use crate::model::scenario::Scenario;
+use crate::text::error::{Fault, Place, quoted};
 
 /// Weather files in the binary, by the name that a scenario gives as `file`.
 static EMBEDDED: &[(&str, &str)] = &[("tropical-july.epw", include_str!("../../weather/tropical-july.epw"))];

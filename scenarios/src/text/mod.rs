@@ -1,5 +1,6 @@
-//! Rules of texts: names, plain text, and numbers in messages.
+//! Rules of texts: names, plain text, numbers in messages, and errors that have a place in a text.
 
+pub(crate) mod error;
 pub(crate) mod name;
 pub(crate) mod pattern;
 pub(crate) mod plain_text;

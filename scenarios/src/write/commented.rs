@@ -10,10 +10,10 @@ use interplay_common::bounds::Bound;
 use interplay_common::spelling::listed;
 use serde_json::{Map, Value as Json};
 
-use crate::error::LoadError;
-use crate::json_schema::{Concern, SchemaNode};
+use crate::format::json_schema::{Concern, SchemaNode};
+use crate::format::registry::Registry;
 use crate::load::{make_paths_absolute, tree};
-use crate::registry::Registry;
+use crate::text::error::LoadError;
 use crate::text::toml_value::toml;
 
 /// Columns of a comment.

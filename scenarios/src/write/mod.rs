@@ -6,16 +6,16 @@ pub(crate) mod reference;
 use interplay_planners::Driver;
 use serde_json::{Map, Value as Json};
 
-use crate::file_format::obstacle::ObstacleConfig;
-use crate::file_format::scenario_file::ScenarioFile;
-use crate::file_format::start::StartConfig;
-use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::VehicleConfig;
-use crate::read::degrees;
-use crate::registry::Registry;
-use crate::scenario::Counterfactual;
-use crate::scenario::obstacle::{ObstacleForm, Outline};
-use crate::scenario::{Scenario, Vehicle};
+use crate::format::obstacle::ObstacleConfig;
+use crate::format::read::degrees;
+use crate::format::registry::Registry;
+use crate::format::scenario_file::ScenarioFile;
+use crate::format::start::StartConfig;
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::model::scenario::Counterfactual;
+use crate::model::scenario::{Scenario, Vehicle};
+use crate::model::traffic::obstacle::{ObstacleForm, Outline};
 use crate::write::commented::plain;
 
 impl Scenario {

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use interplay_common::bounds::Bound;
 use serde_json::Value as Json;
 
-use crate::json_schema::{SchemaNode, in_degrees};
-use crate::registry::Registry;
+use crate::format::json_schema::{SchemaNode, in_degrees};
+use crate::format::registry::Registry;
 use crate::text::toml_value::toml;
 use crate::write::commented::inline;
 

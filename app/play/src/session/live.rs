@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use interplay_planners::{Driver, State, external};
+use interplay_planners::drivers::external;
+use interplay_planners::{Driver, State};
 use interplay_presentation::stage::{Stage, StageMoment, StageWitness};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::Frame;

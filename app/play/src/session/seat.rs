@@ -1,7 +1,7 @@
 //! A seat: what its person wishes, and what was done.
 
-use interplay_planners::inputs::{self, WheelHandOver};
-use interplay_planners::lanes::{RoadLanes, towards};
+use interplay_planners::drivers::inputs::{self, WheelHandOver};
+use interplay_planners::drivers::lanes::{RoadLanes, towards};
 use interplay_planners::{Driver, Input, Scene};
 use interplay_simulation::Simulation;
 

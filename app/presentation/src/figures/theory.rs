@@ -8,8 +8,8 @@ use interplay_building::identify::{
 };
 use interplay_building::network::Network;
 use interplay_planners::Limits;
-use interplay_planners::game::payoff::Stakes;
-use interplay_planners::game::prospect::{ProspectTheory, weighting};
+use interplay_planners::drivers::game::payoff::Stakes;
+use interplay_planners::drivers::game::prospect::{ProspectTheory, weighting};
 use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 

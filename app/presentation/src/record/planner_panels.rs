@@ -1,8 +1,8 @@
 //! Panels for the numbers that planners report. The planners declare what they report and what of it belongs together
-//! ([`interplay_planners::diagnostic`]); here that becomes paths, panels and a text.
+//! ([`interplay_planners::plan::diagnostic`]); here that becomes paths, panels and a text.
 
-use interplay_planners::belief::diagnostics::PANELS as BELIEF_PANELS;
-use interplay_planners::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
+use interplay_planners::perception::belief::diagnostics::PANELS as BELIEF_PANELS;
+use interplay_planners::plan::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
 use interplay_scenarios::{Scenario, Vehicle};
 
 /// Space above and below a curve that runs along its bound, as a share of the range.
@@ -70,8 +70,8 @@ pub fn slug(quantity: &DiagnosticQuantity) -> String {
 mod tests {
     use std::collections::BTreeSet;
 
-    use interplay_planners::belief::diagnostics::QUANTITIES as BELIEF_QUANTITIES;
-    use interplay_planners::diagnostic::{COMMON_QUANTITIES, ValueSet};
+    use interplay_planners::perception::belief::diagnostics::QUANTITIES as BELIEF_QUANTITIES;
+    use interplay_planners::plan::diagnostic::{COMMON_QUANTITIES, ValueSet};
     use interplay_scenarios::{Override, Registry, load};
 
     use super::*;

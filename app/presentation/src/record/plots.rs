@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
+use interplay_planners::plan::diagnostic::{DiagnosticQuantity, Explanation};
 use interplay_planners::{Diagnostic, PlanEventKind};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};

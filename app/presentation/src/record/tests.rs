@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use interplay_planners::diagnostic::{COMMON_PANELS, COST, RUNNER_UP_COST};
-use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
+use interplay_planners::drivers::negotiation::diagnostics::CONCESSION_WEIGHT;
+use interplay_planners::plan::diagnostic::{COMMON_PANELS, COST, RUNNER_UP_COST};
 use interplay_planners::{PassingSide, Plan, PlannedPassing, Proposal, State, Trajectory};
 use interplay_scenarios::{Override, Registry, Scenario, load};
 use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};

@@ -1,6 +1,6 @@
 //! The drivers that are tried.
 
-use interplay_planners::human::{Settings, Style};
+use interplay_planners::drivers::human::{Settings, Style};
 use interplay_planners::motion_prediction::{LateralMotion, PredictedDriver};
 
 /// By this ratio intervals of time gaps are wider than the bootstrap has them: candidates are discrete. It was chosen on the simulated
@@ -63,7 +63,7 @@ pub(super) fn least(grid: &[[usize; 2]], errors: &[Vec<f64>], counts: &[u32]) ->
 
 #[cfg(test)]
 mod tests {
-    use interplay_planners::human::safety_weight_keeping;
+    use interplay_planners::drivers::human::safety_weight_keeping;
 
     use super::*;
 

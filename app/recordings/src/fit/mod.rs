@@ -12,7 +12,7 @@ mod candidates;
 mod evidence;
 
 use interplay_planners::ComfortLimits;
-use interplay_planners::human::safety_weight_keeping;
+use interplay_planners::drivers::human::safety_weight_keeping;
 use interplay_planners::motion_prediction::PredictedDriver;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! Bodies of vehicles as rectangles.
 
-use interplay_planners::certificate::overlap_m;
+use interplay_planners::plan::certificate::overlap_m;
 
 /// A rectangle in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Each model with the parameters that are fitted.
 
+use interplay_planners::drivers::{human, idm};
 use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionModel, PredictedDriver, STEP_S};
-use interplay_planners::{human, idm};
 
 use super::search::{self, Parameter};
 use crate::start::Start;

@@ -3,10 +3,10 @@
 use bevy_ecs::prelude::*;
 use interplay_building::day::Heat;
 
-use super::plant::StepInputs;
 use super::{Building, Equipment, Gains, Node, Temperature};
-use crate::components::CurrentFrame;
-use crate::frame::{BuildingFrame, ZoneFrame};
+use crate::plants::StepInputs;
+use crate::state::components::CurrentFrame;
+use crate::state::frame::{BuildingFrame, ZoneFrame};
 
 /// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller or the plant has
 /// failed.

@@ -8,8 +8,8 @@ use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Ob
 use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Node, Temperature};
-use crate::components::CurrentFrame;
-use crate::frame::{Event, Level};
+use crate::state::components::CurrentFrame;
+use crate::state::frame::{Event, Level};
 
 /// Source of the log entry.
 const CONTROLLER_SOURCE: &str = "controller";

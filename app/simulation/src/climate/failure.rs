@@ -3,7 +3,7 @@
 use interplay_building::control::ControlError;
 use thiserror::Error;
 
-use super::plant::PlantError;
+use crate::plants::PlantError;
 
 /// Why the run of a building cannot go on.
 #[derive(Debug, Error)]

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The systems copy temperatures and heat between the entities and [`interplay_building::day`], which defines the order of
-//! a day. When the day is over, it is handed on to be measured. What the heat acts on is a [`plant`]: the network itself, or
+//! a day. When the day is over, it is handed on to be measured. What the heat acts on is a [plant](crate::plants): the network itself, or
 //! another program.
 
 mod balance;
@@ -13,7 +13,6 @@ mod control;
 mod disturbance;
 mod failure;
 mod learn;
-pub mod plant;
 mod spawn;
 
 use bevy_ecs::prelude::*;
@@ -22,14 +21,14 @@ use interplay_building::control::Control;
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
 
+use crate::plants::ThermalPlant;
 pub use balance::balance;
 pub use control::control;
 pub use disturbance::disturb;
 pub use failure::BuildingFailure;
 pub use learn::learn;
-use plant::ThermalPlant;
 
-use crate::not_copied::NotCopied;
+use crate::state::not_copied::NotCopied;
 pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.

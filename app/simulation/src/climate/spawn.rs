@@ -9,8 +9,8 @@ use interplay_building::occupancy::{People, RecordedGains};
 use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario, TimetableError};
 use thiserror::Error;
 
-use super::plant::{BoptestPlant, NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 use super::{Building, Equipment, Gains, Node, NodeState, Temperature};
+use crate::plants::{BoptestPlant, NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 
 /// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
 const OCCUPANCY_SEED_BIT: u64 = 1 << 40;

@@ -1,11 +1,11 @@
 //! What an agent decides, as numbers, and what its vehicle does with it.
 
-use interplay_planners::lanes::{RoadLanes, towards};
+use interplay_planners::drivers::lanes::{RoadLanes, towards};
 use interplay_planners::{Agent, Body, Input, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::components::HandedIn;
+use crate::state::components::HandedIn;
 
 /// What an agent decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

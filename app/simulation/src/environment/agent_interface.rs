@@ -1,14 +1,14 @@
 //! What stands between an agent and its vehicle: what it sees as numbers, and what its numbers make the vehicle do.
 
-use interplay_planners::belief::{self, DriverBeliefs};
-use interplay_planners::driver_estimate::DriverEstimate;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::belief::{self, DriverBeliefs};
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::scene::driver_estimate::DriverEstimate;
 use interplay_planners::{Plan, Scene};
 
 use super::action::{MetaTarget, handed_in, row_of};
 use super::observation::{AgentView, ObservationSpace, Seen};
 use super::{Action, ActionSpace, DiscreteMeta};
-use crate::components::HandedIn;
+use crate::state::components::HandedIn;
 
 /// What stands between an agent and its vehicle. It remembers what it believes of the others, if that is seen, and to which lane and
 /// speed meta-actions have led.

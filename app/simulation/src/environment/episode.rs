@@ -5,9 +5,9 @@ use interplay_scenarios::{Scenario, Vehicle};
 
 use super::RewardTerm;
 use super::reward::TermValues;
-use crate::frame::Frame;
 use crate::measure::{Measures, VehicleMeasures};
 use crate::physics::gap_m;
+use crate::state::frame::Frame;
 
 /// How an episode has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

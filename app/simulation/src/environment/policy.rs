@@ -3,14 +3,14 @@
 use std::fmt;
 use std::sync::Arc;
 
-use interplay_planners::belief::Outlook;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::scene::outlook::Outlook;
 use interplay_planners::{Drive, Input, Plan, PlanError, Scene};
 use thiserror::Error;
 
 use super::AgentInterface;
-use crate::components::HandedIn;
-use crate::external;
+use crate::phases::external;
+use crate::state::components::HandedIn;
 
 /// A function from what an agent sees to what it does, such as a trained network. The same observation gives the same action.
 pub trait Policy: Send + Sync {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{Action, AgentView, RewardWeights, StartDraw};
-use crate::run_error::RunError;
+use crate::simulation::run_error::RunError;
 
 /// What is chosen of an environment beside its scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,7 +1,7 @@
 //! What is drawn anew for every episode.
 
 use interplay_common::random::{Random, SplitMix64};
-use interplay_planners::human::Style;
+use interplay_planners::drivers::human::Style;
 use interplay_planners::{Body, Driver};
 use interplay_scenarios::{Scenario, StartJitter};
 use schemars::JsonSchema;

@@ -1,8 +1,9 @@
 //! One scenario, one world, some agents.
 
 use interplay_common::random::SplitMix64;
-use interplay_planners::sensing::SensedScene;
-use interplay_planners::{Driver, DriverKind, Planner, external};
+use interplay_planners::drivers::external;
+use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::{Driver, DriverKind, Planner};
 use interplay_scenarios::Scenario;
 
 use super::agent_interface::{AgentInterface, goes_on};

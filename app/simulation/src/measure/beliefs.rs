@@ -1,6 +1,6 @@
 //! What a driver believes of the others, and since when.
 
-use interplay_planners::driver_estimate::DriverEstimate;
+use interplay_planners::scene::driver_estimate::DriverEstimate;
 
 /// The latest beliefs of one vehicle's driver about the others.
 #[derive(Clone, Debug, Default)]
@@ -40,7 +40,7 @@ impl Beliefs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use interplay_planners::driver_estimate::DriverModel;
+    use interplay_planners::scene::driver_estimate::DriverModel;
 
     fn estimate(model: DriverModel, entropy: f64) -> DriverEstimate {
         DriverEstimate {

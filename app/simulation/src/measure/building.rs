@@ -10,13 +10,13 @@ use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
 
 use super::milestones::Today;
-use crate::climate::plant::Benchmark;
 use crate::climate::{Building, Node, Temperature};
-use crate::components::CurrentFrame;
-use crate::day::{DayAheadErrors, DayFigures, ExchangeFigures};
-use crate::frame::{BuildingFrame, Frame};
-use crate::whole_run::WholeRun;
-use crate::worst_zones::WorstZones;
+use crate::plants::Benchmark;
+use crate::state::components::CurrentFrame;
+use crate::state::day::{DayAheadErrors, DayFigures, ExchangeFigures};
+use crate::state::frame::{BuildingFrame, Frame};
+use crate::state::whole_run::WholeRun;
+use crate::state::worst_zones::WorstZones;
 
 /// Why a day had no plan of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -8,7 +8,7 @@ use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::frame::Frame;
+use crate::state::frame::Frame;
 
 /// Running digests of what each phase produced.
 #[derive(Clone, Default)]
@@ -99,7 +99,7 @@ fn numbers(hasher: &mut Xxh3, values: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::VehicleFrame;
+    use crate::state::frame::VehicleFrame;
 
     /// A tick of one vehicle that plans in the light of a prediction.
     fn tick(speed_mps: f64) -> (Frame, Vec<State>) {

@@ -8,7 +8,7 @@ use interplay_planners::{Input, State};
 use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
 
 use super::values::Measured;
-use crate::frame::{Frame, VehicleFrame};
+use crate::state::frame::{Frame, VehicleFrame};
 
 /// A metric. It is declared once, here: reports, rows of sweeps, comparisons, expectations and the reference follow.
 ///

@@ -9,7 +9,7 @@ use interplay_planners::{Limits, Proposal};
 use interplay_scenarios::Scenario;
 
 use crate::climate::Building;
-use crate::frame::{BuildingFrame, Event, Frame, Level, VehicleFrame};
+use crate::state::frame::{BuildingFrame, Event, Frame, Level, VehicleFrame};
 
 /// A vehicle begins to brake above this share of its strongest deceleration.
 const BRAKING_BEGINS_SHARE: f64 = 0.4;

@@ -43,9 +43,9 @@ pub use values::{Measured, MetricValue, MetricValues};
 pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
-use crate::components::{Clock, CurrentFrame, Identity, Motion};
-use crate::frame::Collision;
-use crate::standing::Standing;
+use crate::state::components::{Clock, CurrentFrame, Identity, Motion};
+use crate::state::frame::Collision;
+use crate::state::standing::Standing;
 
 /// Everything that is measured in a run.
 #[derive(Resource, Clone, Debug)]

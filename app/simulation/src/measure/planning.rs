@@ -1,6 +1,6 @@
 //! How a planner does: how often it fails and how long it takes.
 
-use crate::frame::{Origin, VehicleFrame};
+use crate::state::frame::{Origin, VehicleFrame};
 
 /// Counts and times of one vehicle's plans.
 #[derive(Clone, Debug, Default)]

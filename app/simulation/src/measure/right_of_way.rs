@@ -4,8 +4,8 @@ use interplay_planners::Body;
 use interplay_scenarios::{ConflictZone, Scenario};
 use serde::Serialize;
 
-use crate::components::to_nanosecond;
-use crate::standing::STANDING_MPS;
+use crate::state::components::to_nanosecond;
+use crate::state::standing::STANDING_MPS;
 
 /// Who has become slower by this has slowed down, for a real car \[m/s\].
 const SLOWED_MPS: f64 = 1.0;

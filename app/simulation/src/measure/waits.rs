@@ -6,9 +6,9 @@ use interplay_planners::PassingSide;
 use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
-use crate::components::to_nanosecond;
-use crate::frame::{Event, Frame, Level, VehicleFrame};
-use crate::standing::{Standing, StandingReason};
+use crate::state::components::to_nanosecond;
+use crate::state::frame::{Event, Frame, Level, VehicleFrame};
+use crate::state::standing::{Standing, StandingReason};
 
 /// Shorter stops are not told, for a real car \[s\].
 const LEAST_S: f64 = 0.5;

@@ -6,9 +6,9 @@ use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 
 use super::step;
 use super::tyres::GRAVITY_MPS2;
-use crate::components::{CurrentFrame, Motion};
-use crate::frame::Collision;
-use crate::world_state::WorldState;
+use crate::simulation::world_state::WorldState;
+use crate::state::components::{CurrentFrame, Motion};
+use crate::state::frame::Collision;
 
 const STEP_S: f64 = 0.1;
 

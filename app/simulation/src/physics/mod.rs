@@ -23,7 +23,7 @@ mod time_to_collision;
 mod tyres;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::recorded::next_to;
+use interplay_planners::drivers::recorded::next_to;
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Outline, Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
@@ -33,8 +33,8 @@ pub(crate) use footprint::radius_m;
 pub(crate) use near_pairs::near_pairs;
 pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
-use crate::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
-use crate::frame::{Collision, Event, Level, PairGap};
+use crate::state::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
+use crate::state::frame::{Collision, Event, Level, PairGap};
 use dynamic::DynamicPlant;
 use footprint::{Footprint, length_m};
 use gap::{Closest, FootprintGaps};

@@ -6,9 +6,9 @@ use interplay_scenarios::from_text;
 
 use super::path::MIN_STEP_TICKS;
 use super::step;
-use crate::components::{CurrentFrame, Motion};
-use crate::frame::Collision;
-use crate::world_state::WorldState;
+use crate::simulation::world_state::WorldState;
+use crate::state::components::{CurrentFrame, Motion};
+use crate::state::frame::Collision;
 
 const TWO_CARS: &str = r#"
     title = "Two cars"

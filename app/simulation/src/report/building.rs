@@ -4,10 +4,10 @@ use interplay_building::day::ZoneFigures;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
 
-use crate::climate::plant::Benchmark;
-use crate::day::DayFigures;
 use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
-use crate::whole_run::WholeRun;
+use crate::plants::Benchmark;
+use crate::state::day::DayFigures;
+use crate::state::whole_run::WholeRun;
 
 /// The outcome for a building.
 #[derive(Clone, Debug, Serialize)]

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::building::BuildingReport;
 use super::expectation::Expectation;
-use crate::day::DayFigures;
-use crate::worst_zones::WorstZones;
+use crate::state::day::DayFigures;
+use crate::state::worst_zones::WorstZones;
 
 /// Judges what is expected of a building; the worst of the days that count.
 pub(super) fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -> Vec<Expectation> {

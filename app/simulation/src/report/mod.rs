@@ -18,8 +18,8 @@ pub use building::{BuildingReport, ZoneOutcome};
 pub use expectation::Expectation;
 pub use outcome::{CounterfactualReport, PlansReport, Report, VehicleReport};
 
-use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
+use crate::state::components::to_nanosecond;
 
 impl Report {
     /// Puts the measures of a run together and judges them. `wall_s` is how long it took; `ended_early_s` where it was ended before

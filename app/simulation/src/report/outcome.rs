@@ -7,8 +7,8 @@ use serde::{Serialize, Serializer};
 use super::belief::BeliefReport;
 use super::building::BuildingReport;
 use super::expectation::Expectation;
-use crate::frame::Collision;
 use crate::measure::{Deadlock, MetricValues, Passage, PhaseDigests, VehicleMeasures, Wait};
+use crate::state::frame::Collision;
 
 /// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
 /// that without vehicles, and `building` without a building.

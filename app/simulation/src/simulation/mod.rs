@@ -1,8 +1,11 @@
 //! A world that is stepped from outside.
 
+pub(crate) mod run_error;
 mod saved_run;
 mod snapshot;
+pub mod spawn;
 mod wheel;
+pub(crate) mod world_state;
 mod zones;
 
 pub use saved_run::SavedRunError;
@@ -13,24 +16,24 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::sensing::SensedScene;
+use interplay_planners::perception::sensing::SensedScene;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
 use self::saved_run::HandedInput;
 use crate::climate::Building;
-use crate::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, VehicleGoal};
-use crate::detail::LevelOfDetail;
-use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
-use crate::run_error::RunError;
+use crate::simulation::run_error::RunError;
+use crate::state::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, VehicleGoal};
+use crate::state::detail::LevelOfDetail;
+use crate::state::frame::Frame;
 
-use crate::not_copied::NotCopied;
-use crate::time_points::TimePoints;
-use crate::watch::{Watcher, Watchers};
-use crate::world_state::WorldState;
-use crate::{phases, sense};
+use crate::phases::time_points::TimePoints;
+use crate::phases::watch::{Watcher, Watchers};
+use crate::phases::{self, sense};
+use crate::simulation::world_state::WorldState;
+use crate::state::not_copied::NotCopied;
 
 /// A scenario as a world that can be stepped, looked at, steered from outside, copied and resumed.
 ///

@@ -11,9 +11,9 @@ use thiserror::Error;
 
 use super::Simulation;
 use super::snapshot::Snapshot;
-use crate::components::HandedIn;
-use crate::not_copied::NotCopied;
-use crate::run_error::RunError;
+use crate::simulation::run_error::RunError;
+use crate::state::components::HandedIn;
+use crate::state::not_copied::NotCopied;
 
 /// The version of the form below.
 const FORMAT: u32 = 1;

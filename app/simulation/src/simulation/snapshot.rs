@@ -8,9 +8,9 @@ use interplay_scenarios::Scenario;
 use super::Simulation;
 use super::saved_run::HandedInput;
 use crate::measure::{BuildingMeasures, Measures};
-use crate::run_error::RunError;
-use crate::time_points::TimePoints;
-use crate::world_state::WorldState;
+use crate::phases::time_points::TimePoints;
+use crate::simulation::run_error::RunError;
+use crate::simulation::world_state::WorldState;
 
 /// A copy of all state of a simulation between two of its steps: what the planners remember and believe, the bodies and who touches
 /// whom, the noise of sensors, the building in the middle of its day, what was measured, and what was handed in from outside.

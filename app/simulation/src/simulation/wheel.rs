@@ -3,8 +3,8 @@
 use interplay_planners::{Drive, Driver, Input};
 
 use super::Simulation;
-use crate::components::{Clock, Driving, HandedIn, Identity};
-use crate::run_error::RunError;
+use crate::simulation::run_error::RunError;
+use crate::state::components::{Clock, Driving, HandedIn, Identity};
 
 impl Simulation {
     /// From the next plan on a planner has the wheel of a vehicle that is driven from outside, or, without one, whoever hands in inputs
@@ -68,7 +68,7 @@ impl Simulation {
 mod tests {
     use interplay_planners::Driver;
     use interplay_planners::Input;
-    use interplay_planners::inputs::{Settings, WheelHandOver};
+    use interplay_planners::drivers::inputs::{Settings, WheelHandOver};
     use interplay_scenarios::{Override, load};
 
     use crate::Simulation;

@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::climate::{Building, Node, Temperature};
 use crate::measure::BuildingMeasures;
-use crate::run_error::RunError;
+use crate::simulation::run_error::RunError;
 
 /// A zone of a building before its next step.
 #[derive(Clone, Debug, PartialEq)]

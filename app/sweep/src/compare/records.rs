@@ -4,9 +4,10 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
+use interplay_tables::{RowTable, TableColumn};
+
 use crate::error::SweepError;
 use crate::sweep::RUNS_FILE;
-use crate::table::{RowTable, TableColumn};
 
 /// The columns that every table of runs has, whichever version made it.
 const TEXTS: [&str; 6] = ["version", "scenario", "family", "style", "planner", "digest"];

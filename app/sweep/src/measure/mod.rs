@@ -7,13 +7,12 @@ use interplay_scenarios::{Scenario, SweepPoint};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
 use interplay_simulation::watch::Watcher;
+use interplay_tables::{TableFile, TrajectoryWriter};
 
 use crate::column::{EgoRun, building_values};
 use crate::error::SweepError;
 use crate::key::RunKey;
 use crate::row::{RunResult, SweepRow};
-use crate::row_file::TableFile;
-use crate::trajectories::TrajectoryWriter;
 use crate::version::program_version;
 
 /// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.

@@ -10,8 +10,8 @@ use super::driven::DrivenVehicle;
 use super::goal::GoalPlaces;
 use super::ids::{Ids, number_in};
 use super::xml_text::{escaped, number, state};
-use crate::classes::VehicleClass;
-use crate::scenario::Scenario;
+use crate::model::classes::VehicleClass;
+use crate::model::scenario::Scenario;
 
 /// Roads and planning problem of an exported scenario, as text.
 #[derive(Clone, Debug, Default)]

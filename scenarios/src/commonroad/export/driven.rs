@@ -2,7 +2,7 @@
 
 use interplay_planners::{Body, State};
 
-use crate::classes::VehicleClass;
+use crate::model::classes::VehicleClass;
 
 /// The version of the format that is written.
 pub(super) const VERSION: &str = "2020a";

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use super::super::model::{Goal, Lanelet, Region};
-use crate::recorded_traffic::is_inside;
+use crate::commonroad::recorded_traffic::is_inside;
 
 /// The goals of a planning problem, with the outlines of the lanelets that they name.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, 
 use super::base::Base;
 use super::ids::number_in;
 use super::xml_text::bound;
-use crate::scenario::Vehicle;
+use crate::model::scenario::Vehicle;
 
 /// The largest distance between two points of a bound \[m\].
 const POINTS_M: f64 = 1.0;

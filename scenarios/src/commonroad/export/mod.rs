@@ -20,8 +20,8 @@ mod xml_text;
 
 use std::path::Path;
 
-use crate::error::LoadError;
-use crate::scenario::Scenario;
+use crate::model::scenario::Scenario;
+use crate::text::error::LoadError;
 use base::Base;
 pub use driven::{DrivenVehicle, Exported};
 

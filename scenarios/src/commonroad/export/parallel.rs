@@ -3,8 +3,8 @@
 use super::base::Base;
 use super::driven::DrivenVehicle;
 use super::lanelets::LaneletText;
-use crate::road::Branch;
-use crate::scenario::Scenario;
+use crate::model::scenario::Scenario;
+use crate::roads::Branch;
 
 /// How far lanelets go on beyond the places where somebody was \[m\].
 const BEYOND_M: f64 = 50.0;

@@ -2,8 +2,8 @@
 
 use super::base::Base;
 use super::driven::{DrivenVehicle, VERSION};
-use crate::road::Road;
-use crate::scenario::Scenario;
+use crate::model::scenario::Scenario;
+use crate::roads::Road;
 
 /// The roads of a scenario that was not imported.
 pub(super) fn base(scenario: &Scenario, name: &str) -> Base {

@@ -9,9 +9,9 @@ use super::base::Base;
 use super::driven::VERSION;
 use super::goal::GoalPlaces;
 use super::ids::Ids;
-use crate::error::Fault;
-use crate::read::source::imported_text;
-use crate::scenario::Scenario;
+use crate::format::read::source::imported_text;
+use crate::model::scenario::Scenario;
+use crate::text::error::Fault;
 
 /// Attributes of the outermost element that stay.
 const ATTRIBUTES: [&str; 6] = ["timeStepSize", "benchmarkID", "author", "affiliation", "source", "date"];

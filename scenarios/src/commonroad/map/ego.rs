@@ -9,10 +9,10 @@ use super::lanes::Lanes;
 use super::notes::{NOT_YET, Notes};
 use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
-use crate::classes::VehicleClass;
-use crate::file_format::goal::GoalConfig;
-use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::VehicleConfig;
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::model::classes::VehicleClass;
+use crate::model::traffic::goal::GoalConfig;
 use crate::text::name::EGO;
 
 /// Who is slower when the run begins wants to drive as fast as is permitted \[m/s\].

@@ -9,8 +9,8 @@ use super::line::{self, Line};
 use super::names::Names;
 use super::notes::{NOT_YET, Notes};
 use super::rights::Signs;
-use crate::error::{Fault, Place};
-use crate::road::{LaneConfig, LaneNetwork, LaneWidth, NeighbourConfig, NeighbourTable};
+use crate::roads::{LaneConfig, LaneNetwork, LaneWidth, NeighbourConfig, NeighbourTable};
+use crate::text::error::{Fault, Place};
 
 /// The largest gap between a lane and its successor that is closed by moving the begin of the successor \[m\].
 const MAX_CLOSED_GAP_M: f64 = 1.0;

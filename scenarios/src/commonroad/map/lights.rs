@@ -6,7 +6,7 @@ use super::super::model::{CommonRoad, Light};
 use super::lanes::Lanes;
 use super::notes::Notes;
 use super::vehicles::rounded;
-use crate::file_format::light::LightConfig;
+use crate::model::traffic::light::LightConfig;
 
 /// The shortest and the longest phase \[s\], and the latest begin.
 const PHASES_S: [f64; 2] = [0.001, 10_000.0];

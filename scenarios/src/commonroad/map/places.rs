@@ -1,6 +1,6 @@
 //! Places of vehicles that drive along lanes: their state at the start, and the lanes before them.
 
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, Route, State};
 

@@ -1,17 +1,18 @@
 //! Obstacles become vehicles that follow their record, or that a driver of ours takes over.
 
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, Obstacle, Role};
 use super::names::Names;
 use super::notes::{NOT_YET, Notes};
-use crate::classes::VehicleClass;
-use crate::error::Place;
-use crate::file_format::obstacle::{ObstacleConfig, ObstacleKind};
-use crate::file_format::start::StartConfig;
-use crate::file_format::stated::Stated;
-use crate::file_format::vehicle_config::VehicleConfig;
+use crate::format::obstacle::ObstacleConfig;
+use crate::format::start::StartConfig;
+use crate::format::stated::Stated;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::model::classes::VehicleClass;
+use crate::model::traffic::obstacle::ObstacleKind;
+use crate::text::error::Place;
 
 /// The smallest and the largest side of a body \[m\].
 const SIDES_M: [f64; 2] = [0.1, 100.0];

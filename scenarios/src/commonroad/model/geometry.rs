@@ -1,7 +1,7 @@
 //! Points and shapes.
 
 use super::super::xml::Element;
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// A rectangle: length and width \[m\], the direction of its length \[rad\], and its middle \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Intersections: groups of lanelets that lead into one place.
 
 use super::super::xml::{Element, Unread};
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// An intersection.
 pub(crate) struct Intersection {

@@ -2,7 +2,7 @@
 
 use super::super::xml::{Element, Unread};
 use super::geometry::points;
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// A lanelet.
 pub(crate) struct Lanelet<'a> {

@@ -3,7 +3,7 @@
 use interplay_planners::road::network::LightColour;
 
 use super::super::xml::{Element, Unread};
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// A traffic light.
 pub(crate) struct Light {

@@ -21,7 +21,7 @@ pub(super) use planning_problem::{Goal, PlanningProblem};
 pub(super) use sign::{Sign, SignMeaning};
 
 use super::xml::{Element, Unread};
-use crate::error::{Fault, quoted};
+use crate::text::error::{Fault, quoted};
 
 /// The name of the outermost element.
 pub(super) const ROOT: &str = "commonRoad";

@@ -3,7 +3,7 @@
 use super::super::xml::{Element, Unread};
 use super::geometry::Region;
 use super::state::StateAt;
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// An obstacle.
 pub(crate) struct Obstacle<'a> {

@@ -1,7 +1,7 @@
 //! Traffic signs.
 
 use super::super::xml::Element;
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// A traffic sign, which may consist of several.
 pub(crate) struct Sign {

@@ -2,7 +2,7 @@
 
 use super::super::xml::Element;
 use super::geometry::Region;
-use crate::error::Fault;
+use crate::text::error::Fault;
 
 /// A state at a time. What is stated as an interval or region is taken at its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]

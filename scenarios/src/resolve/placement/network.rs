@@ -5,10 +5,10 @@ use std::sync::Arc;
 use interplay_common::spelling::suggestion;
 use interplay_planners::road::network::{Lane, LaneFault, NeighbourRelation, RoadNetwork, RoadNetworkError};
 
-use crate::error::{Fault, quoted};
-use crate::file_format::light::LightConfig;
-use crate::read::tree::TomlNode;
-use crate::road::{Road, RoadFault, to_centimetres};
+use crate::format::read::tree::TomlNode;
+use crate::model::traffic::light::LightConfig;
+use crate::roads::{Road, RoadFault, to_centimetres};
+use crate::text::error::{Fault, quoted};
 
 /// The network of a road; none for a road of parallel lanes.
 ///

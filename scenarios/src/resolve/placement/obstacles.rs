@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use interplay_common::spelling::suggestion;
-use interplay_planners::recorded;
+use interplay_planners::drivers::recorded;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Driver, Limits, Route, SafetyEllipse, State};
 
-use crate::error::{Fault, quoted};
-use crate::file_format::lane_reference::LaneReference;
-use crate::file_format::obstacle::ObstacleConfig;
-use crate::read::tree::TomlNode;
-use crate::road::{Branch, Road};
-use crate::scenario::obstacle::{ObstacleForm, Outline};
-use crate::scenario::{Stay, Vehicle};
+use crate::format::obstacle::ObstacleConfig;
+use crate::format::read::tree::TomlNode;
+use crate::model::scenario::{Stay, Vehicle};
+use crate::model::traffic::lane_reference::LaneReference;
+use crate::model::traffic::obstacle::{ObstacleForm, Outline};
+use crate::roads::{Branch, Road};
+use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
 
 /// Ratio of lengths of real cars to those of 1/10 scale.
@@ -69,8 +69,8 @@ impl Written<'_> {
             start,
             start_acceleration_mps2: 0.0,
             route,
-            goal: crate::file_format::goal::GoalConfig::default(),
-            weights: crate::file_format::weights::Weights::default(),
+            goal: crate::model::traffic::goal::GoalConfig::default(),
+            weights: crate::model::traffic::weights::Weights::default(),
             body: outline.body(scale),
             limits: Limits::default(),
             safety: SafetyEllipse::default(),

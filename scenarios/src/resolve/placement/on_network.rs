@@ -8,10 +8,10 @@ use interplay_planners::{Route, State};
 
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
-use crate::classes::VehicleClass;
-use crate::error::{Fault, quoted};
-use crate::file_format::lane_reference::LaneReference;
-use crate::road::to_centimetres;
+use crate::model::classes::VehicleClass;
+use crate::model::traffic::lane_reference::LaneReference;
+use crate::roads::to_centimetres;
+use crate::text::error::{Fault, quoted};
 
 /// Cosine of the largest angle between a start and its lane.
 const MIN_COS_OF_START: f64 = 0.5;

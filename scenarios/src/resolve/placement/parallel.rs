@@ -5,10 +5,10 @@ use std::sync::Arc;
 use interplay_planners::{Route, State};
 
 use super::written::{Start, VehicleAsWritten, next_to};
-use crate::check::consistency::no_such_lane;
-use crate::error::Fault;
-use crate::file_format::lane_reference::LaneReference;
-use crate::road::Road;
+use crate::model::traffic::lane_reference::LaneReference;
+use crate::resolve::check::consistency::no_such_lane;
+use crate::roads::Road;
+use crate::text::error::Fault;
 
 /// The state of a vehicle at its start.
 ///

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use interplay_planners::Driver;
-use interplay_planners::recorded::Record;
+use interplay_planners::drivers::recorded::Record;
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Corridor, Route, State};
 
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
-use crate::error::{Fault, quoted};
 use crate::resolve::records;
+use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
 
 /// Cosine of the largest angle between a vehicle and the lane that it is taken to follow.

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use interplay_planners::{Route, State};
 
-use crate::error::{Fault, quoted};
-use crate::file_format::start::StartConfig;
-use crate::file_format::vehicle_config::VehicleConfig;
-use crate::json_schema::SchemaNode;
-use crate::read::tree::TomlNode;
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::tree::TomlNode;
+use crate::format::start::StartConfig;
+use crate::format::vehicle_config::VehicleConfig;
+use crate::text::error::{Fault, quoted};
 
 /// The state in which a vehicle starts, and its route.
 pub(crate) type Start = (State, Arc<Route>);

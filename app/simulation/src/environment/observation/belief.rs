@@ -1,6 +1,6 @@
 //! How nice the nearest others are, as our inference learns it from their motion.
 
-use interplay_planners::driver_estimate::DriverModel;
+use interplay_planners::scene::driver_estimate::DriverModel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

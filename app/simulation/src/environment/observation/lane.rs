@@ -1,7 +1,7 @@
 //! The own lane, the lanes beside it, and who is ahead and behind in each of them.
 
 use interplay_planners::Scene;
-use interplay_planners::lanes::{RoadLanes, follower, leader};
+use interplay_planners::drivers::lanes::{RoadLanes, follower, leader};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

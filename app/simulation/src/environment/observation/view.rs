@@ -1,6 +1,6 @@
 //! What all views have in common: their spaces, what they are made of, and by what numbers are divided.
 
-use interplay_planners::driver_estimate::DriverEstimate;
+use interplay_planners::scene::driver_estimate::DriverEstimate;
 use interplay_planners::{Agent, Body, Limits, Scene};
 
 /// The numbers of a view: its shape, what its last axis is called, and between which values they lie.

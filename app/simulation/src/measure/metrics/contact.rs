@@ -18,7 +18,7 @@ use interplay_scenarios::{Scenario, Vehicle};
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
-use crate::standing::STANDING_MPS;
+use crate::state::standing::STANDING_MPS;
 
 /// Who has stood for so long is run into, for a real car \[s\].
 const STOOD_S: f64 = 1.0;
@@ -200,8 +200,8 @@ impl Measurement for FirstContact {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Collision, Frame, VehicleFrame};
     use crate::measure::metric::SharedStates;
+    use crate::state::frame::{Collision, Frame, VehicleFrame};
 
     /// A vehicle that drives along the road.
     fn at(name: &str, x_m: f64, speed_mps: f64) -> VehicleFrame {

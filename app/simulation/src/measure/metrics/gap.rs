@@ -34,8 +34,8 @@ const SMALLEST_GAP: LeastOfRun = LeastOfRun {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Frame, PairGap};
     use crate::measure::metrics::tests::of_frames;
+    use crate::state::frame::{Frame, PairGap};
 
     #[test]
     fn the_first_of_the_smallest_gaps_counts() {

@@ -11,7 +11,7 @@ use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario,
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::Measured;
-use crate::standing::STANDING_MPS;
+use crate::state::standing::STANDING_MPS;
 
 /// Who is further away than this is neither ahead nor behind, for a real car \[m\].
 const NEAR_M: f64 = 90.0;
@@ -240,8 +240,8 @@ fn braking_mps2(tick: &ObservedTick<'_>, vehicle: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Frame, VehicleFrame};
     use crate::measure::metric::SharedStates;
+    use crate::state::frame::{Frame, VehicleFrame};
     use interplay_scenarios::load;
 
     /// Seconds, states before and after a tick of three vehicles: the ego, one in the new lane ahead of it and one behind it.

@@ -38,9 +38,9 @@ mod tests {
     use interplay_scenarios::{Vehicle, load};
 
     use super::*;
-    use crate::frame::{Frame, VehicleFrame};
     use crate::measure::metric::{ObservedMoment, ObservedTick};
     use crate::measure::values::Measured;
+    use crate::state::frame::{Frame, VehicleFrame};
 
     pub(super) fn peak(value: f64, time_s: Option<f64>) -> Measured {
         Measured { time_s, is_peak: true, ..Measured::number(Some(value)) }

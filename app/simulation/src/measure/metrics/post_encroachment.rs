@@ -144,9 +144,9 @@ fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::Frame;
-    use crate::frame::VehicleFrame;
     use crate::measure::metric::SharedStates;
+    use crate::state::frame::Frame;
+    use crate::state::frame::VehicleFrame;
     use interplay_scenarios::load;
 
     /// The ego drives along x through the origin, which its centre reaches at `ego_s`, and the other along a heading, at 10 m/s.

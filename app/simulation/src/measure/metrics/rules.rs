@@ -16,7 +16,7 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario, Vehicle
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
-use crate::standing::STANDING_MPS;
+use crate::state::standing::STANDING_MPS;
 
 /// Above a limit by this a real car speeds \[m/s\].
 const SPEEDING_MPS: f64 = 0.5;

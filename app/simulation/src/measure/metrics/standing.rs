@@ -6,7 +6,7 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 use crate::measure::waits::STUCK_S;
-use crate::standing::Standing;
+use crate::state::standing::Standing;
 
 const DOC_LONGEST: &str =
     "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";

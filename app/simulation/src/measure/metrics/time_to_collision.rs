@@ -68,9 +68,9 @@ mod tests {
     use interplay_scenarios::load;
 
     use super::*;
-    use crate::frame::{Frame, VehicleFrame};
     use crate::measure::metric::ObservedMoment;
     use crate::measure::values::MetricValue;
+    use crate::state::frame::{Frame, VehicleFrame};
 
     /// The ego behind and beside the others, seen once a second; only the front car is in its way.
     #[test]

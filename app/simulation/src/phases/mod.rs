@@ -1,0 +1,70 @@
+//! The loop as one visible list. Each phase is one file here, or a folder beside this one: physics, climate and measure.
+
+pub mod act;
+pub(crate) mod external;
+pub mod plan;
+pub mod predict;
+pub(crate) mod presence;
+pub mod sense;
+pub mod time_points;
+pub mod watch;
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+
+use crate::{climate, measure, physics};
+
+/// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Components become plain values that planners can be given, and sensors measure them.
+    Sense,
+    /// The motion of each vehicle is predicted.
+    Predict,
+    /// Every driver decides; failures fall back.
+    Plan,
+    /// The first input of each plan is applied.
+    Act,
+    /// Bodies move; contacts become collisions.
+    Physics,
+    /// The building's heat balance: disturbance, control, temperatures, learning at the day's end.
+    Climate,
+    /// What happened is measured.
+    Measure,
+    /// What happened is written down.
+    Record,
+}
+
+/// The schedule of a world.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Tick;
+
+/// The loop: phases in order, one thread inside a world (worlds run side by side), ambiguity an error.
+pub fn schedule() -> Schedule {
+    use Phase::{Act, Climate, Measure, Physics, Plan, Predict, Record, Sense};
+    let mut schedule = Schedule::new(Tick);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.set_build_settings(ScheduleBuildSettings {
+        ambiguity_detection: LogLevel::Error,
+        ..ScheduleBuildSettings::default()
+    });
+    schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
+    schedule.add_systems((
+        (
+            (sense::sense, (presence::come_and_go, sense::look).chain().run_if(sense::plans_now)).chain().in_set(Sense),
+            predict::predict.in_set(Predict).run_if(sense::plans_now),
+            plan::plan.in_set(Plan).run_if(sense::plans_now),
+            act::act.in_set(Act),
+            physics::step.in_set(Physics),
+            measure::measure.in_set(Measure),
+        )
+            .run_if(time_points::vehicles),
+        (
+            (climate::disturb, climate::control, climate::balance, climate::learn).chain().in_set(Climate),
+            measure::measure_building.in_set(Measure).after(measure::measure),
+        )
+            .run_if(time_points::building),
+        watch::show.in_set(Record),
+    ));
+    schedule
+}

@@ -1,0 +1,95 @@
+//! A server of BOPTEST: its requests over HTTP.
+
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use super::bench::{Bench, Signals};
+use super::http::Server;
+use crate::plants::boptest::boptest_error::BoptestError;
+
+/// How much of a message of the server an error shows \[characters\].
+const MAX_SHOWN_CHARACTERS: usize = 300;
+
+/// A test at a server.
+#[derive(Debug)]
+pub struct Test {
+    server: Server,
+    /// `/` and the identifier of the test; empty where the server has one case only.
+    suffix: String,
+}
+
+impl Test {
+    /// Begins a test: of the case of that name, or of the only one at the server.
+    ///
+    /// # Errors
+    /// [`BoptestError`] if the server does not answer as agreed.
+    pub fn select(url: &str, case: Option<&str>, timeout: Duration) -> Result<Self, BoptestError> {
+        let rest = url.strip_prefix("http://").unwrap_or(url);
+        let (authority, path) = rest.split_once('/').unwrap_or((rest, ""));
+        let port = if authority.rsplit(']').next().is_some_and(|end| end.contains(':')) { "" } else { ":80" };
+        let prefix = if path.is_empty() { String::new() } else { format!("/{}", path.trim_end_matches('/')) };
+        let server = Server { authority: format!("{authority}{port}"), prefix, timeout };
+        let mut test = Self { server, suffix: String::new() };
+        if let Some(case) = case {
+            let path = format!("/testcases/{case}/select");
+            let answer = test.call("POST", &path, Some(&json!({})))?;
+            let identifier = answer.get("testid").and_then(Value::as_str);
+            let plain = |text: &&str| !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
+            let identifier = identifier.filter(plain).ok_or_else(|| BoptestError::Invalid {
+                request: format!("POST {path}"),
+                reason: "it has no `testid`".to_owned(),
+            })?;
+            test.suffix = format!("/{identifier}");
+        }
+        Ok(test)
+    }
+
+    /// The payload of an answer: what stands in `payload`, or all of it.
+    fn call(&self, method: &str, path: &str, body: Option<&Value>) -> Result<Value, BoptestError> {
+        let request = || format!("{method} {path}");
+        let answer = self.server.request(method, path, body.map(Value::to_string).as_deref())?;
+        let parsed: Option<Value> = serde_json::from_slice(&answer.body).ok();
+        let stated = parsed.as_ref().and_then(|value| value.get("status")).and_then(Value::as_u64);
+        let status = stated.and_then(|status| u16::try_from(status).ok()).unwrap_or(answer.status);
+        if answer.status != 200 || status != 200 {
+            let message = parsed.as_ref().and_then(|value| value.get("message")).map(Value::to_string);
+            let message = message.unwrap_or_else(|| String::from_utf8_lossy(&answer.body).into_owned());
+            let status = if answer.status == 200 { status } else { answer.status };
+            return Err(BoptestError::Refused { request: request(), status, message: shown(&message) });
+        }
+        match parsed {
+            Some(Value::Object(mut object)) => match object.remove("payload") {
+                Some(payload) => Ok(payload),
+                None => Ok(Value::Object(object)),
+            },
+            Some(value) => Ok(value),
+            None => Err(BoptestError::Invalid { request: request(), reason: "it is no JSON".to_owned() }),
+        }
+    }
+}
+
+impl Bench for Test {
+    fn ask(&mut self, method: &str, name: &str, body: Option<&Value>) -> Result<Signals, BoptestError> {
+        let path = format!("/{name}{}", self.suffix);
+        match self.call(method, &path, body)? {
+            Value::Object(signals) => Ok(signals),
+            other => Err(BoptestError::Invalid {
+                request: format!("{method} {path}"),
+                reason: format!("it is {}; wanted is an object", shown(&other.to_string())),
+            }),
+        }
+    }
+
+    /// Only servers of several cases know of this: it lets the server serve another one.
+    fn stop(&mut self) {
+        if !self.suffix.is_empty() {
+            // The run is over, whatever the server says.
+            let _ = self.call("PUT", &format!("/stop{}", self.suffix), None);
+        }
+    }
+}
+
+fn shown(text: &str) -> String {
+    text.chars().take(MAX_SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
+}

@@ -1,0 +1,21 @@
+//! A test case of BOPTEST as the plant: at a server, through its interface over HTTP, or as an FMU that is run here.
+//!
+//! ```text
+//! select -> step -> scenario | initialize -> measurements        forecast -> Foreseen
+//! advance, once a step                                           results, kpi -> Benchmark
+//! ```
+//!
+//! Both are a [`bench::Bench`], which answers the same requests. The heat of a zone becomes the inputs that the scenario maps to it; all
+//! other inputs stay those of the case's own controller. At the end its indicators are read, and computed again from what it measured. `docs/guide/foreign-plants.md` describes the settings.
+
+mod api;
+mod bench;
+mod boptest_error;
+mod fmu;
+mod forecast;
+mod http;
+mod indicators;
+mod plant;
+
+pub use boptest_error::BoptestError;
+pub use plant::BoptestPlant;

@@ -1,0 +1,26 @@
+//! What the heat of the equipment acts on: our own network, or another program.
+//!
+//! ```text
+//! start: temperatures at the first midnight        step: heat, people, weather -> temperatures at the step's end
+//! ```
+//!
+//! The other program answers lines of JSON behind a socket, or the requests of BOPTEST. [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
+
+mod answer;
+mod benchmark;
+mod boptest;
+mod error;
+mod foreseen;
+mod interface;
+mod lines;
+mod network;
+mod socket;
+mod walls;
+
+pub use benchmark::Benchmark;
+pub use boptest::{BoptestError, BoptestPlant};
+pub use error::PlantError;
+pub use foreseen::Foreseen;
+pub use interface::{StepInputs, ThermalPlant};
+pub use network::NetworkPlant;
+pub use socket::{SocketPlant, SocketPlantStart};

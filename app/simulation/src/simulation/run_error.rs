@@ -1,0 +1,92 @@
+//! Why a run could not be finished, or a simulation not be asked for something.
+
+use thiserror::Error;
+
+use crate::climate::{BuildingError, BuildingFailure};
+use crate::phases::watch::WatchError;
+use crate::state::not_copied::NotCopied;
+
+/// Why a run could not be finished.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// A watcher could not keep what it was shown.
+    #[error("{0}")]
+    Watch(WatchError),
+    /// The building cannot be built.
+    #[error("the building cannot be simulated: {0}")]
+    Building(#[from] BuildingError),
+    /// The building's controller gave up, or the program that is the building did not answer as agreed.
+    #[error("the run ended on day {day}: {reason}")]
+    Climate {
+        /// Number of the day, from 1.
+        day: usize,
+        /// The reason.
+        reason: BuildingFailure,
+    },
+    /// A run beside the scenario's own could not be finished.
+    #[error("the counterfactual \"{name}\" could not be finished: {reason}")]
+    Counterfactual {
+        /// Claim of the counterfactual.
+        name: String,
+        /// The reason.
+        reason: Box<RunError>,
+    },
+    /// No vehicle has this name.
+    #[error("there is no vehicle `{vehicle}`; the vehicles are {names}")]
+    NoVehicle {
+        /// The name.
+        vehicle: String,
+        /// The names that there are.
+        names: String,
+    },
+    /// A vehicle whose driver is external was given no input.
+    #[error("`{vehicle}` is driven from outside, and was given no input for the tick at {time_s} s")]
+    NoInput {
+        /// The vehicle.
+        vehicle: String,
+        /// Time at which the tick begins \[s\].
+        time_s: f64,
+    },
+    /// An input was handed in for a vehicle that decides for itself.
+    #[error("`{vehicle}` has a driver of its own; `driver = {{ kind = \"external\" }}` lets it be driven from outside")]
+    NotExternal {
+        /// The vehicle.
+        vehicle: String,
+    },
+    /// An input is not a finite number.
+    #[error("the input for `{vehicle}` is not finite")]
+    NotFinite {
+        /// The vehicle.
+        vehicle: String,
+    },
+    /// A plan has the wrong length.
+    #[error("the plan for `{vehicle}` has {found} inputs, and the horizon is {steps} steps")]
+    WrongPlan {
+        /// The vehicle.
+        vehicle: String,
+        /// The inputs that it has.
+        found: usize,
+        /// The steps of the scenario's horizon.
+        steps: usize,
+    },
+    /// The scenario has no building.
+    #[error("the scenario has no building")]
+    NoBuilding,
+    /// Heat was handed in for another number of zones.
+    #[error("the number of heats handed in is {found}, and that of the building's zones {zones}")]
+    WrongHeats {
+        /// The heats that were handed in.
+        found: usize,
+        /// The zones of the building.
+        zones: usize,
+    },
+    /// A part of the world cannot be copied.
+    #[error(transparent)]
+    NotCopied(#[from] NotCopied),
+    /// An earlier step has failed.
+    #[error("the run has ended with an error: restore a snapshot, or begin anew")]
+    Ended,
+    /// The loop could not be run.
+    #[error("the loop could not be built: {0}")]
+    Loop(String),
+}

@@ -1,0 +1,233 @@
+//! All state of a world as one typed list: what a scenario begins with, what a snapshot holds, and what a world is made of.
+//!
+//! A world is only ever made by [`WorldState::into_world`], so whatever a world has is a part of this list, and a snapshot cannot
+//! miss it. Watchers are no state: they stay with the world that runs.
+
+use bevy_ecs::prelude::*;
+use interplay_scenarios::Scenario;
+
+use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
+use crate::measure::{BuildingMeasures, Measures};
+use crate::phases::presence::Presence;
+use crate::phases::time_points::TimePoint;
+use crate::phases::watch::{Watcher, Watchers};
+use crate::physics::{Physics, VehicleBody};
+use crate::simulation::spawn::{self, VehicleState};
+use crate::state::components::{
+    Clock, Committed, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, Sensed, VehicleGoal,
+    VehicleParameters,
+};
+use crate::state::not_copied::NotCopied;
+
+/// All state of a world, watchers apart.
+pub struct WorldState {
+    /// Every vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleState>,
+    /// Every temperature of the building, in the order of the network; empty without a building.
+    pub nodes: Vec<NodeState>,
+    /// Simulated time.
+    pub clock: Clock,
+    /// The time point of the last tick.
+    pub time_point: TimePoint,
+    /// The traffic as it was sensed last.
+    pub sensed: Sensed,
+    /// The vehicles as they were in the last tick that had any.
+    pub last_vehicles: LastVehicles,
+    /// The last frame.
+    pub current_frame: CurrentFrame,
+    /// Measures of the vehicles so far.
+    pub measures: Measures,
+    /// The bodies.
+    pub physics: Physics,
+    /// The building and what was measured of it; none without one.
+    pub building: Option<(Building, BuildingMeasures)>,
+}
+
+impl WorldState {
+    /// The state in which a run of `scenario` begins.
+    ///
+    /// # Errors
+    /// [`BuildingError`], for a building that was not checked when it was loaded, or whose plant does not answer.
+    pub fn initial(scenario: &Scenario) -> Result<Self, BuildingError> {
+        let mut physics = Physics::new(scenario);
+        let vehicles = spawn::vehicles(scenario, &mut physics);
+        let climate = ClimateState::initial(scenario)?;
+        let (building, nodes) = match climate {
+            Some(ClimateState { building, nodes }) => (Some(building), nodes),
+            None => (None, Vec::new()),
+        };
+        let measured = |building: Building| {
+            let measures = BuildingMeasures::new(&building, &scenario.controller());
+            (building, measures)
+        };
+        Ok(WorldState {
+            vehicles,
+            nodes,
+            clock: Clock {
+                tick: 0,
+                step_s: scenario.step_s,
+                horizon: scenario.horizon_steps,
+                ticks_per_plan: scenario.ticks_per_plan,
+            },
+            time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
+            sensed: Sensed::default(),
+            last_vehicles: LastVehicles::default(),
+            current_frame: CurrentFrame::default(),
+            measures: Measures::new(scenario),
+            physics,
+            building: building.map(measured),
+        })
+    }
+
+    /// Copies the state out of a world.
+    ///
+    /// # Errors
+    /// [`NotCopied`] names what has no copy.
+    pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
+        let mut vehicles: Vec<VehicleState> = Vec::new();
+        for (identity, motion, presence, parameters, goal, driving, handed_in, committed, body) in
+            world.try_query::<VehicleParts>().iter_mut().flat_map(|query| query.iter(world))
+        {
+            vehicles.push(VehicleState {
+                identity: identity.clone(),
+                motion: *motion,
+                presence: *presence,
+                parameters: parameters.clone(),
+                goal: *goal,
+                driving: driving.fork(&identity.name)?,
+                handed_in: handed_in.clone(),
+                committed: committed.clone(),
+                body: *body,
+            });
+        }
+        vehicles.sort_by_key(|vehicle| vehicle.identity.index);
+        let mut nodes: Vec<NodeState> = Vec::new();
+        for (node, temperature, zone) in world.try_query::<NodeParts>().iter_mut().flat_map(|query| query.iter(world)) {
+            let zone = zone.map(|(equipment, gains)| (*equipment, *gains));
+            nodes.push(NodeState { node: *node, temperature: *temperature, zone });
+        }
+        nodes.sort_by_key(|node| node.node.index);
+        let building = match (world.get_resource::<Building>(), world.get_resource::<BuildingMeasures>()) {
+            (Some(building), Some(measures)) => Some((building.fork()?, measures.clone())),
+            _ => None,
+        };
+        Ok(WorldState {
+            vehicles,
+            nodes,
+            clock: *world.resource(),
+            time_point: *world.resource(),
+            sensed: world.resource::<Sensed>().clone(),
+            last_vehicles: world.resource::<LastVehicles>().clone(),
+            current_frame: world.resource::<CurrentFrame>().clone(),
+            measures: world.resource::<Measures>().clone(),
+            physics: world.resource::<Physics>().fork(),
+            building,
+        })
+    }
+
+    /// The world in this state, seen by `watchers` from now on.
+    pub fn into_world(self, watchers: Vec<Box<dyn Watcher>>) -> World {
+        let mut world = World::new();
+        world.spawn_batch(self.vehicles);
+        for NodeState { node, temperature, zone } in self.nodes {
+            let mut entity = world.spawn((node, temperature));
+            if let Some(zone) = zone {
+                entity.insert(zone);
+            }
+        }
+        world.insert_resource(self.clock);
+        world.insert_resource(self.time_point);
+        world.insert_resource(self.sensed);
+        world.insert_resource(self.last_vehicles);
+        world.insert_resource(self.current_frame);
+        world.insert_resource(self.measures);
+        world.insert_resource(self.physics);
+        world.insert_resource(Watchers::new(watchers));
+        if let Some((building, measures)) = self.building {
+            world.insert_resource(building);
+            world.insert_resource(measures);
+        }
+        world
+    }
+}
+
+/// The components of [`NodeState`].
+type NodeParts = (&'static Node, &'static Temperature, Option<(&'static Equipment, &'static Gains)>);
+
+/// The components of [`VehicleState`].
+type VehicleParts = (
+    &'static Identity,
+    &'static Motion,
+    &'static Presence,
+    &'static VehicleParameters,
+    &'static VehicleGoal,
+    &'static Driving,
+    &'static HandedIn,
+    &'static Committed,
+    &'static VehicleBody,
+);
+
+#[cfg(test)]
+mod tests {
+    use std::any::TypeId;
+    use std::collections::BTreeMap;
+
+    use interplay_scenarios::{Override, load};
+
+    use super::*;
+    use crate::simulation::Simulation;
+
+    /// How many entities have each component, by its type. Resources are components of entities of their own.
+    fn census(world: &World) -> BTreeMap<Option<TypeId>, usize> {
+        let components = world.components().iter_registered();
+        let held = components.map(|component| {
+            let archetypes = world.archetypes().iter().filter(|archetype| archetype.contains(component.id()));
+            (component.type_id(), archetypes.map(|archetype| archetype.len() as usize).sum())
+        });
+        held.filter(|(_, count)| *count > 0).collect()
+    }
+
+    /// Of a world with vehicles, a building and sensors that has run for a while, the copy has every component and resource as often.
+    #[test]
+    fn a_copy_has_every_component() {
+        let scenario = load("mixed/garage", &[]).expect("authored");
+        let mut simulation = Simulation::new(&scenario).expect("a world");
+        for _ in 0..40 {
+            simulation.step().expect("the run goes on");
+        }
+        let mut resumed = simulation.snapshot().expect("everything of ours can be copied").resume().expect("a copy");
+        // Both take a step more: what the engine adds when a schedule runs is then in both.
+        for world in [&mut simulation, &mut resumed] {
+            world.step().expect("the run goes on");
+        }
+        let (running, copied) = (census(&simulation.world), census(&resumed.world));
+        let known =
+            [TypeId::of::<Driving>(), TypeId::of::<Temperature>(), TypeId::of::<Physics>(), TypeId::of::<Building>()];
+        assert!(known.iter().all(|known| running.contains_key(&Some(*known))), "{running:?}");
+        assert!(running.len() >= 20, "{running:?}");
+        assert_eq!(running, copied);
+    }
+
+    /// Vehicles are in the frames of their own ticks only, and in all of these, whether they plan in each of them or follow a plan.
+    #[test]
+    fn steps_of_the_building_alone_have_no_vehicles() {
+        for period_s in ["0.1", "0.2"] {
+            let changes =
+                [Override::Set("iterations=1".to_owned()), Override::Set(format!("planning_period_s={period_s}"))];
+            let scenario = load("mixed/garage", &changes).expect("authored");
+            let mut simulation = Simulation::new(&scenario).expect("a world");
+            let mut driven = 0;
+            while let Some(frame) = simulation.step().expect("the run goes on") {
+                let drives = frame.time_s < scenario.duration_s;
+                assert_eq!(
+                    frame.vehicles.len(),
+                    if drives { scenario.vehicles.len() } else { 0 },
+                    "{} s",
+                    frame.time_s
+                );
+                driven += usize::from(drives);
+            }
+            assert_eq!(driven, scenario.tick_count());
+        }
+    }
+}

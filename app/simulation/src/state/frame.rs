@@ -1,0 +1,170 @@
+//! What one tick looked like: plain values, handed from the world to whoever watches it.
+
+use std::sync::Arc;
+
+use interplay_building::control::Design;
+use interplay_planners::plan::diagnostic;
+use interplay_planners::rules::RoadRules;
+pub use interplay_planners::traffic::Origin;
+use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
+use serde::Serialize;
+
+use crate::state::day::DayFigures;
+
+/// One tick of a run as plain values: all that metrics, recorders and tests see of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Ticks before this one; of a building alone, its steps.
+    pub tick: usize,
+    /// Simulated time at which the plans were made and the states hold \[s\].
+    pub time_s: f64,
+    /// Every vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleFrame>,
+    /// Whether the vehicles planned in this tick; otherwise they follow their last plans.
+    pub plans: bool,
+    /// Events of the tick, in order.
+    pub events: Vec<Event>,
+    /// The contacts that began during the tick, in order.
+    pub collisions: Vec<Collision>,
+    /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
+    pub gap_m: Option<f64>,
+    /// The smallest such distance during the tick, its end included \[m\].
+    pub smallest_gap_m: Option<f64>,
+    /// The two vehicles that came closest to each other during the tick, its end included; none if there is only one.
+    pub closest: Option<PairGap>,
+    /// The building, if this is one of its steps.
+    pub building: Option<BuildingFrame>,
+}
+
+/// A building at one of its steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BuildingFrame {
+    /// The day, from 0: the iteration.
+    pub day: usize,
+    /// The step within the day, from 0.
+    pub step: usize,
+    /// Every zone, in the scenario's order.
+    pub zones: Vec<ZoneFrame>,
+    /// Outdoor temperature during the step \[°C\].
+    pub ambient_c: f64,
+    /// Outdoor temperature that was forecast at midnight for the step \[°C\].
+    pub forecast_c: f64,
+    /// Temperatures of the walls that store heat, at the start of the step \[°C\].
+    pub walls_c: Vec<f64>,
+    /// Global radiation on a horizontal plane during the step \[W/m²\].
+    pub sun_w_per_m2: f64,
+    /// The price of electricity in the step \[currency/kWh\]; none without a tariff.
+    pub price_per_kwh: Option<f64>,
+    /// The controller's description of its plan for the day, at the first step of the day.
+    pub design: Option<Box<Design>>,
+    /// The key figures of the day, at its last step.
+    pub figures: Option<DayFigures>,
+}
+
+/// One zone at one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ZoneFrame {
+    /// Temperature at the start of the step \[°C\].
+    pub temperature_c: f64,
+    /// Temperature at its end \[°C\].
+    pub next_c: f64,
+    /// The wanted temperature at its start \[°C\]; none where it is free.
+    pub reference_c: Option<f64>,
+    /// Deviations from it that are comfortable \[K\]; none while nobody is there.
+    pub band_k: Option<f64>,
+    /// Heat that the controller requested \[kW\].
+    pub requested_kw: f64,
+    /// Heat from the equipment, negative for cooling \[kW\].
+    pub heat_kw: f64,
+    /// Heat from people, sun and machines \[kW\].
+    pub gains_kw: f64,
+    /// The part of it that is the sun's \[kW\].
+    pub sun_kw: f64,
+    /// Electricity that its heat takes \[kW\].
+    pub electric_kw: f64,
+}
+
+/// One vehicle at one tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VehicleFrame {
+    /// Name of the vehicle.
+    pub name: String,
+    /// Whether it is not on the road: it has not come yet, or has left. Then the rest means nothing.
+    pub is_absent: bool,
+    /// State of the vehicle when it planned.
+    pub state: State,
+    /// Input that the vehicle applies during the tick.
+    pub input: Input,
+    /// The plan that it follows; after a failure, the fallback.
+    pub plan: Plan,
+    /// Where the plan comes from.
+    pub origin: Origin,
+    /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
+    /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
+    pub prediction: Arc<Trajectory>,
+    /// What the rules of the road ask of it.
+    pub rules: RoadRules,
+    /// How many times harder than is comfortable it had to brake when it planned; 1 where comfort was enough.
+    pub urgency: f64,
+    /// Wall time of planning \[ms\]; never part of a digest.
+    pub plan_ms: f64,
+}
+
+impl VehicleFrame {
+    /// The cost of the plan; none of a plan that no cost chose.
+    pub fn plan_cost(&self) -> Option<f64> {
+        self.plan.value_of(&diagnostic::COST)
+    }
+
+    /// With whom its planner deals from this tick on, or that it deals with nobody; none where that has not changed.
+    pub fn new_partner(&self) -> Option<Option<&str>> {
+        self.plan.events.iter().rev().find_map(|event| match &event.kind {
+            PlanEventKind::Partner(partner) => Some(partner.as_deref()),
+            _ => None,
+        })
+    }
+}
+
+/// The distance between the footprints of two vehicles.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairGap {
+    /// The distance; 0 where they touch \[m\].
+    pub m: f64,
+    /// The names of both vehicles, in the scenario's order.
+    pub between: [String; 2],
+    /// Simulated time \[s\].
+    pub time_s: f64,
+}
+
+/// Two vehicles that began to touch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Collision {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// The names of both vehicles, in the scenario's order.
+    pub between: [String; 2],
+    /// Impulse of the contact \[N s\].
+    pub impulse_ns: f64,
+}
+
+/// An event of a run: something that is worth a line in its log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// The source of the event: a vehicle, or `controller` for that of the building.
+    pub vehicle: String,
+    /// How serious it is.
+    pub level: Level,
+    /// The event in words.
+    pub text: String,
+}
+
+/// How serious an event is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Worth knowing.
+    Note,
+    /// A planner failed or a filter intervened.
+    Warning,
+    /// A collision.
+    Alarm,
+}

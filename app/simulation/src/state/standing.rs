@@ -1,0 +1,239 @@
+//! Why somebody stands who wants to drive, as far as that shows: from where everybody is and from what the rules ask.
+
+use interplay_planners::road::network::LightColour;
+use interplay_planners::{Driver, Route, State};
+use interplay_scenarios::Vehicle;
+
+use crate::state::frame::Frame;
+
+/// Slower than this a real car stands \[m/s\].
+pub(crate) const STANDING_MPS: f64 = 0.3;
+/// Who stops at a light is at most so far before it, of a real car \[m\].
+const LIGHT_M: f64 = 5.0;
+/// Who wants to drive no faster than this does not want to drive, of a real car \[m/s\].
+const LEAST_WANTED_MPS: f64 = 0.5;
+/// A line or a vehicle that somebody waits at is within this distance of its front, for a real car \[m\].
+const NEAR_M: f64 = 15.0;
+/// Who comes the other way keeps a real car from passing an obstacle from this distance on \[m\].
+const ONCOMING_M: f64 = 150.0;
+/// Space that passing takes beside both bodies, for a real car \[m\].
+const ASIDE_M: f64 = 0.7;
+
+/// Why somebody stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StandingReason {
+    /// A sign asks for it.
+    Sign,
+    /// A traffic light asks for it.
+    Light,
+    /// It gives way to these vehicles.
+    GivesWay(Vec<String>),
+    /// Somebody stands or drives ahead of it.
+    Behind(String),
+    /// It waits for somebody before it passes an obstacle.
+    Passing {
+        /// For whom.
+        waits_for: String,
+        /// What stands in the way.
+        obstacle: String,
+    },
+    /// There is no room beside an obstacle.
+    NoRoom(String),
+}
+
+impl StandingReason {
+    /// Those whom it names, for whom somebody waits.
+    fn waits_for(&self) -> Vec<&str> {
+        match self {
+            StandingReason::Sign | StandingReason::Light | StandingReason::NoRoom(_) => Vec::new(),
+            StandingReason::GivesWay(names) => names.iter().map(String::as_str).collect(),
+            StandingReason::Behind(name) | StandingReason::Passing { waits_for: name, .. } => vec![name],
+        }
+    }
+}
+
+impl std::fmt::Display for StandingReason {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            StandingReason::Sign => write!(formatter, "stops at the sign"),
+            StandingReason::Light => write!(formatter, "stops at the traffic light"),
+            StandingReason::GivesWay(names) => write!(formatter, "gives way to {}", names.join(", ")),
+            StandingReason::Behind(name) => write!(formatter, "waits behind {name}"),
+            StandingReason::Passing { waits_for, obstacle } => {
+                write!(formatter, "waits for {waits_for} before it passes {obstacle}")
+            }
+            StandingReason::NoRoom(name) => write!(formatter, "has no room to pass {name}"),
+        }
+    }
+}
+
+/// All vehicles of a moment, of whom some may stand.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing<'a> {
+    vehicles: &'a [Vehicle],
+    frame: &'a Frame,
+}
+
+impl<'a> Standing<'a> {
+    /// The vehicles of a frame.
+    pub fn of(vehicles: &'a [Vehicle], frame: &'a Frame) -> Self {
+        Standing { vehicles, frame }
+    }
+
+    /// A vehicle as the scenario states it.
+    pub(crate) fn vehicle(&self, index: usize) -> &'a Vehicle {
+        &self.vehicles[index]
+    }
+
+    /// Whether a vehicle stands although it wants to drive.
+    pub fn stands(&self, index: usize) -> bool {
+        let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());
+        self.wants_to_drive(index)
+            && !self.is_absent(index)
+            && self.state(index).speed_mps < STANDING_MPS * times
+            && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
+    }
+
+    /// Why a vehicle stands; none where nothing says so, or where those who wait for one another wait in a circle.
+    pub fn reason(&self, index: usize) -> Option<StandingReason> {
+        self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
+    }
+
+    /// All who stand and wait for one another together with a vehicle, itself among them, in ascending order; nobody where they do not.
+    pub fn circle(&self, index: usize) -> Vec<usize> {
+        let together = |other: &usize| self.reaches(*other).contains(&index);
+        let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();
+        circle.sort_unstable();
+        circle
+    }
+
+    /// Those who stand and for whom a vehicle waits, or for whom those wait, and so on.
+    fn reaches(&self, index: usize) -> Vec<usize> {
+        let mut found: Vec<usize> = Vec::new();
+        let mut next = vec![index];
+        while let Some(vehicle) = next.pop() {
+            let reason = self.plain_reason(vehicle).filter(|_| self.stands(vehicle));
+            let names = reason.iter().flat_map(StandingReason::waits_for);
+            let waited_for = names.filter_map(|name| self.vehicles.iter().position(|other| other.name == name));
+            let new: Vec<usize> = waited_for.filter(|other| self.stands(*other) && !found.contains(other)).collect();
+            found.extend(&new);
+            next.extend(new);
+        }
+        found
+    }
+
+    /// Whether whoever is waited for moves, or waits for somebody who does.
+    fn ends(&self, reason: &StandingReason, passed: &mut Vec<usize>) -> bool {
+        let names = reason.waits_for();
+        let indices = names.iter().filter_map(|name| self.vehicles.iter().position(|vehicle| vehicle.name == *name));
+        names.is_empty()
+            || indices.into_iter().any(|index| {
+                if passed.contains(&index) {
+                    return false;
+                }
+                passed.push(index);
+                !self.stands(index) || self.plain_reason(index).is_some_and(|reason| self.ends(&reason, passed))
+            })
+    }
+
+    /// Why a vehicle stands, whatever those do for whom it waits.
+    pub fn plain_reason(&self, index: usize) -> Option<StandingReason> {
+        let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
+        let front_m = self.along_m(index) + vehicle.body.front_m;
+        let rules = &self.frame.vehicles[index].rules;
+        if let Some(obstacle) = self.ahead(index, NEAR_M * scale) {
+            if self.wants_to_drive(obstacle) {
+                return Some(StandingReason::Behind(self.vehicles[obstacle].name.clone()));
+            }
+            if let Some(reason) = self.before_passing(index, obstacle) {
+                return Some(reason);
+            }
+        }
+        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
+        line_m.map(|line_m| match rules.waits_for.as_slice() {
+            [] if self.is_lit(index, line_m) => StandingReason::Light,
+            [] => StandingReason::Sign,
+            names => StandingReason::GivesWay(names.to_vec()),
+        })
+    }
+
+    /// Whether a traffic light that is not green stands right behind a line \[m\].
+    fn is_lit(&self, index: usize, line_m: f64) -> bool {
+        let near_m = LIGHT_M * self.scale(index);
+        self.vehicles[index].route.legs.iter().any(|leg| {
+            let colour = leg.light.as_ref().map(|light| light.colour_at(self.frame.time_s));
+            (0.0..near_m).contains(&(leg.to_m - line_m))
+                && colour.is_some_and(|colour| !matches!(colour, LightColour::Green | LightColour::Off))
+        })
+    }
+
+    /// Why an obstacle is not passed.
+    fn before_passing(&self, index: usize, obstacle: usize) -> Option<StandingReason> {
+        let (own, other) = (&self.vehicles[index], &self.vehicles[obstacle]);
+        let at = own.route.locate(self.state(obstacle).position(), None);
+        let [right_m, left_m] = own.route.edges_before_end_m(at.along_m);
+        let needed_m = 0.5 * other.body.width_m + own.body.width_m + ASIDE_M * self.scale(index);
+        let name = || other.name.clone();
+        if left_m - at.across_m < needed_m && at.across_m - right_m < needed_m {
+            return Some(StandingReason::NoRoom(name()));
+        }
+        let reach_m = ONCOMING_M * self.scale(index);
+        let others = self.others(index).filter(|other| *other != obstacle);
+        let comes = |other: &usize| {
+            let place = own.route.locate(self.state(*other).position(), None);
+            let beside = (place.across_m - at.across_m).abs() > 0.5 * self.vehicles[*other].body.width_m;
+            let speed_mps = self.state(*other).speed_mps;
+            let is_near = (place.along_m - at.along_m).abs() < reach_m;
+            is_near && beside && speed_mps > STANDING_MPS && (right_m..=left_m).contains(&place.across_m)
+        };
+        let waits_for = others.into_iter().find(comes)?;
+        Some(StandingReason::Passing { waits_for: self.vehicles[waits_for].name.clone(), obstacle: name() })
+    }
+
+    /// The nearest vehicle ahead in the same lane, within a distance between bumpers.
+    fn ahead(&self, index: usize, within_m: f64) -> Option<usize> {
+        let (own, own_m) = (&self.vehicles[index], self.along_m(index));
+        let across_m = own.route.across(self.state(index).position());
+        let others = self.others(index).filter_map(|other| {
+            let body = &self.vehicles[other].body;
+            let at = own.route.locate(self.state(other).position(), None);
+            let gap_m = at.along_m - own_m - own.body.front_m - body.rear_m.max(body.front_m);
+            let reach_m = 0.5 * (own.body.width_m + body.width_m);
+            let is_ahead = at.along_m > own_m && gap_m < within_m && (at.across_m - across_m).abs() < reach_m;
+            is_ahead.then_some((other, gap_m))
+        });
+        others.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+    }
+
+    /// Those who are on the road besides a vehicle.
+    fn others(&self, index: usize) -> impl Iterator<Item = usize> {
+        (0..self.vehicles.len()).filter(move |other| *other != index && !self.is_absent(*other))
+    }
+
+    fn is_absent(&self, index: usize) -> bool {
+        self.frame.vehicles[index].is_absent
+    }
+
+    fn wants_to_drive(&self, index: usize) -> bool {
+        let vehicle = &self.vehicles[index];
+        // Who is on foot may stand.
+        if matches!(vehicle.driver, Driver::Walker(_)) {
+            return false;
+        }
+        let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
+        wanted_mps > LEAST_WANTED_MPS * self.scale(index).sqrt()
+    }
+
+    fn state(&self, index: usize) -> &State {
+        &self.frame.vehicles[index].state
+    }
+
+    fn along_m(&self, index: usize) -> f64 {
+        let route: &Route = &self.vehicles[index].route;
+        route.along(self.state(index).position())
+    }
+
+    fn scale(&self, index: usize) -> f64 {
+        self.vehicles[index].body.real_ratio()
+    }
+}

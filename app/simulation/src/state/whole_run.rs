@@ -1,0 +1,53 @@
+//! The optimum of a whole run of a building, beside what the run cost.
+
+use interplay_building::day::RunHistory;
+use interplay_building::discretise::Model;
+use serde::Serialize;
+
+use crate::state::day::DayFigures;
+
+/// A run beside the cheapest one with perfect foresight of all days, the true model and the same end; its serialisation is part of the
+/// output contract.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WholeRun {
+    /// Cost J of the run.
+    pub cost: f64,
+    /// The least cost J.
+    pub least_cost: f64,
+    /// Cost minus the least cost.
+    pub regret: f64,
+    /// Discomfort of the run \[K·h per zone\].
+    pub discomfort_k_h: f64,
+    /// What the electricity of the run cost \[currency\]; none without a tariff. Without the demand charge.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_cost: Option<f64>,
+    /// The least that the electricity can cost without discomfort \[currency\]; none without a tariff or with a demand charge.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_energy_cost: Option<f64>,
+    /// Discomfort that not even that run can prevent \[K·h per zone\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_discomfort_k_h: Option<f64>,
+}
+
+impl WholeRun {
+    /// Compares the days of a run; `None` if an optimum is not found.
+    pub fn compute(model: &Model, history: &RunHistory, days: &[DayFigures]) -> Option<Self> {
+        if days.is_empty() {
+            return None;
+        }
+        let cost: f64 = days.iter().map(|day| day.figures.cost).sum();
+        let energy_cost: Option<f64> = days.iter().map(|day| day.figures.energy_cost).sum();
+        let least_cost = history.least_cost(model).ok()?.cost;
+        let cheapest =
+            energy_cost.filter(|_| !history.has_demand_charge()).and_then(|_| history.least_money(model).ok());
+        Some(Self {
+            cost,
+            least_cost,
+            regret: cost - least_cost,
+            discomfort_k_h: days.iter().map(|day| day.figures.discomfort_k_h).sum(),
+            energy_cost,
+            least_energy_cost: cheapest.as_ref().map(|cheapest| cheapest.energy_cost),
+            least_discomfort_k_h: cheapest.as_ref().map(|cheapest| cheapest.discomfort_k_h),
+        })
+    }
+}

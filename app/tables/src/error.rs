@@ -1,0 +1,48 @@
+//! Why a table cannot be read or written.
+
+use std::error::Error;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a table cannot be read or written.
+#[derive(Debug, Error)]
+pub enum TableError {
+    /// A file cannot be read or written.
+    #[error("cannot {what} `{}`: {reason}", path.display())]
+    File {
+        /// What was tried.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// Why it failed.
+        reason: io::Error,
+    },
+    /// A table cannot be read or written.
+    #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
+    Table {
+        /// What was tried.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// Why it failed.
+        reason: Box<dyn Error + Send + Sync>,
+    },
+    /// What the user gave does not fit together.
+    #[error("{0}")]
+    Input(String),
+}
+
+impl TableError {
+    pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> TableError + 'a {
+        move |reason| TableError::File { what, path: path.to_owned(), reason }
+    }
+
+    pub(crate) fn table<'a, E: Error + Send + Sync + 'static>(
+        what: &'static str,
+        path: &'a Path,
+    ) -> impl Fn(E) -> TableError + 'a {
+        move |reason| TableError::Table { what, path: path.to_owned(), reason: Box::new(reason) }
+    }
+}

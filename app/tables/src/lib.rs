@@ -1,0 +1,18 @@
+//! Tables of rows, as Parquet or comma-separated values, and the tables that a run writes while it goes on: what vehicles did
+//! ([`TrajectoryWriter`]), what detectors counted ([`DetectorWriter`]), and how the building fared ([`SeriesWriter`]).
+
+mod cell;
+mod detectors;
+mod error;
+mod row_file;
+mod series;
+mod table;
+mod trajectories;
+
+pub use cell::{Cell, ColumnKind, TableSchema};
+pub use detectors::DetectorWriter;
+pub use error::TableError;
+pub use row_file::{TableFile, TableFormat, TableFormatError};
+pub use series::SeriesWriter;
+pub use table::{RowTable, TableColumn, TableReader, TableWriter};
+pub use trajectories::TrajectoryWriter;

@@ -1,0 +1,143 @@
+//! A table that a run writes row by row, as CSV or Parquet.
+
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use interplay_files::{NewFolders, WholeFile};
+use interplay_simulation::watch::WatchError;
+use thiserror::Error;
+
+use crate::cell::{Cell, ColumnKind, TableSchema};
+use crate::error::TableError;
+use crate::table::TableWriter;
+
+/// The formats of tables that a run writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// Comma-separated values.
+    Csv,
+    /// Parquet.
+    Parquet,
+}
+
+/// A file that a run writes rows to; its ending is its format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableFile {
+    path: PathBuf,
+    format: TableFormat,
+}
+
+/// A file whose ending is no format of a table.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("`{0}` has no ending of a table; use .csv or .parquet")]
+pub struct TableFormatError(String);
+
+impl TableFile {
+    /// Path of the file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file of a run in the folder of a sweep, by the key of the run.
+    pub fn of_run(folder: &Path, key: impl std::fmt::Display) -> TableFile {
+        let path = folder.join("trajectories").join(format!("{key}.parquet"));
+        TableFile { path, format: TableFormat::Parquet }
+    }
+}
+
+impl FromStr for TableFile {
+    type Err = TableFormatError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let path = PathBuf::from(text);
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let format = match ending.as_deref() {
+            Some("csv") => TableFormat::Csv,
+            Some("parquet") => TableFormat::Parquet,
+            _ => return Err(TableFormatError(text.to_owned())),
+        };
+        Ok(TableFile { path, format })
+    }
+}
+
+/// Rows that are being written. The file appears when all are there; nothing of a run that is given up stays.
+pub(crate) struct RowFile {
+    rows: Rows,
+    folders: NewFolders,
+}
+
+/// Where rows go.
+enum Rows {
+    Csv(PathBuf, BufWriter<WholeFile>),
+    Parquet(Box<TableWriter>),
+}
+
+impl RowFile {
+    /// Begins a table with these columns.
+    ///
+    /// # Errors
+    /// For a file that cannot be written.
+    pub fn begin(target: &TableFile, columns: &[(&str, ColumnKind)]) -> Result<RowFile, TableError> {
+        let path = target.path();
+        interplay_files::check(path).map_err(TableError::file("write", path))?;
+        let folders = NewFolders::make_above(path).map_err(TableError::file("write", path))?;
+        let rows = match target.format {
+            TableFormat::Csv => {
+                let mut file = BufWriter::new(WholeFile::begin(path).map_err(TableError::file("write", path))?);
+                let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
+                writeln!(file, "{}", names.join(",")).map_err(TableError::file("write", path))?;
+                Rows::Csv(path.to_owned(), file)
+            }
+            TableFormat::Parquet => {
+                let schema: TableSchema = columns.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
+                Rows::Parquet(Box::new(TableWriter::new(path, schema, &[])?))
+            }
+        };
+        Ok(RowFile { rows, folders })
+    }
+
+    /// Appends a row, a value for each column in their order.
+    pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), WatchError> {
+        match &mut self.rows {
+            Rows::Csv(path, file) => {
+                let cells: Vec<String> = cells.into_iter().map(|cell| in_csv(&cell)).collect();
+                writeln!(file, "{}", cells.join(",")).map_err(TableError::file("write", path))?;
+            }
+            Rows::Parquet(table) => table.push(cells)?,
+        }
+        Ok(())
+    }
+
+    /// All rows are there.
+    pub fn finish(self) -> Result<(), WatchError> {
+        match self.rows {
+            Rows::Csv(path, file) => {
+                let whole = file.into_inner().map_err(std::io::IntoInnerError::into_error);
+                whole.and_then(WholeFile::replace).map_err(TableError::file("write", &path))?;
+            }
+            Rows::Parquet(table) => table.finish()?,
+        }
+        self.folders.keep();
+        Ok(())
+    }
+}
+
+/// A value as comma-separated values have it. Numbers have as many digits as it takes to read the same number again.
+fn in_csv(cell: &Cell) -> String {
+    match cell {
+        Cell::Flag(value) => value.map(|value| value.to_string()),
+        Cell::Count(value) => value.map(|value| value.to_string()),
+        Cell::Number(value) => value.map(|value| value.to_string()),
+        Cell::Text(value) => value.as_deref().map(quoted),
+    }
+    .unwrap_or_default()
+}
+
+/// A text in quotes, where it would be read as something else without them.
+fn quoted(text: &str) -> String {
+    if text.contains(['"', ',', '\n', '\r']) {
+        return format!("\"{}\"", text.replace('"', "\"\""));
+    }
+    text.to_owned()
+}

@@ -1,0 +1,204 @@
+//! Reads a table, whole or a row group at a time.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use parquet::basic::{LogicalType, Type as PhysicalType};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{ByteArray, DataType};
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
+
+use super::checksums::Checksums;
+use super::guard::guarded;
+use super::{RowTable, TableColumn};
+use crate::cell::{ColumnKind, TableSchema};
+use crate::error::TableError;
+
+/// A table that is open.
+pub struct TableReader {
+    path: PathBuf,
+    reader: SerializedFileReader<File>,
+    checksums: Checksums,
+}
+
+impl TableReader {
+    /// Opens a table.
+    pub fn open(path: &Path) -> Result<TableReader, TableError> {
+        let file = File::open(path).map_err(TableError::file("read", path))?;
+        let opened = guarded(|| SerializedFileReader::new(file)).ok_or_else(|| strange(path, DAMAGED))?;
+        let reader = opened.map_err(TableError::table("read", path))?;
+        let checksums = Checksums::of_file(reader.metadata().file_metadata());
+        let reader = TableReader { path: path.to_owned(), reader, checksums };
+        let is_sound = reader.has_places() && reader.checksums.agree_on_names(&reader.schema()?);
+        if is_sound { Ok(reader) } else { Err(strange(path, DAMAGED)) }
+    }
+
+    /// Whether all columns have a place and a size: the library ends the process at a damaged file where they are negative.
+    fn has_places(&self) -> bool {
+        let groups = self.reader.metadata().row_groups().iter();
+        groups.flat_map(|group| group.columns()).all(|column| {
+            let places = [column.data_page_offset(), column.compressed_size(), column.num_values()];
+            places.into_iter().chain(column.dictionary_page_offset()).all(|number| number >= 0)
+        })
+    }
+
+    /// The columns.
+    ///
+    /// # Errors
+    /// One of a type that no table of rows has.
+    pub fn schema(&self) -> Result<TableSchema, TableError> {
+        let columns = self.reader.metadata().file_metadata().schema_descr().columns();
+        let kinds = columns.iter().map(|column| {
+            let kind = match column.physical_type() {
+                // A column in which nothing was ever stated: other programs give it this type.
+                PhysicalType::INT32 if is_null(column) => ColumnKind::Text,
+                PhysicalType::BOOLEAN => ColumnKind::Flag,
+                PhysicalType::INT64 => ColumnKind::Count,
+                PhysicalType::DOUBLE => ColumnKind::Number,
+                PhysicalType::BYTE_ARRAY => ColumnKind::Text,
+                other => {
+                    return Err(strange(&self.path, &format!("the column `{}` has the type {other}", column.name())));
+                }
+            };
+            if column.max_def_level() > 1 || column.max_rep_level() > 0 {
+                return Err(strange(&self.path, &format!("the column `{}` is nested", column.name())));
+            }
+            Ok((column.name().to_owned(), kind))
+        });
+        kinds.collect()
+    }
+
+    /// What the file says about the whole.
+    pub fn about(&self, key: &str) -> Option<String> {
+        let all = self.reader.metadata().file_metadata().key_value_metadata()?;
+        all.iter().find(|entry| entry.key == key)?.value.clone()
+    }
+
+    /// How many row groups there are.
+    pub fn group_count(&self) -> usize {
+        self.reader.num_row_groups()
+    }
+
+    /// One row group: the columns of these names, in their order; a column that is not there is left out.
+    pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, TableError> {
+        guarded(|| self.decoded(group, names)).ok_or_else(|| strange(&self.path, DAMAGED))?
+    }
+
+    fn decoded(&self, group: usize, names: &[String]) -> Result<RowTable, TableError> {
+        let failed = TableError::table::<ParquetError>("read", &self.path);
+        let schema = self.schema()?;
+        let reader = self.reader.get_row_group(group).map_err(&failed)?;
+        let row_count = usize::try_from(reader.metadata().num_rows()).unwrap_or(0);
+        let mut columns = Vec::new();
+        for name in names {
+            let Some(at) = schema.iter().position(|(known, _)| known == name) else { continue };
+            let column = reader.get_column_reader(at).and_then(|column| read_column(column, row_count));
+            let column = column.map_err(&failed)?;
+            if !self.checksums.agree(group * schema.len() + at, &column) {
+                return Err(strange(
+                    &self.path,
+                    &format!("its column `{name}` is not as it was written; make the table again"),
+                ));
+            }
+            columns.push((name.clone(), column));
+        }
+        Ok(RowTable { columns, row_count })
+    }
+}
+
+/// What is said of a table that cannot be decoded.
+const DAMAGED: &str = "it is damaged";
+
+fn strange(path: &Path, what: &str) -> TableError {
+    TableError::Input(format!("`{}` is no table of runs: {what}", path.display()))
+}
+
+/// Whether a column holds nothing but missing values by its type.
+fn is_null(column: &ColumnDescriptor) -> bool {
+    column.logical_type_ref() == Some(&LogicalType::Unknown)
+}
+
+fn read_column(column: ColumnReader, rows: usize) -> Result<TableColumn, ParquetError> {
+    let text = |bytes: ByteArray| String::from_utf8_lossy(bytes.data()).into_owned();
+    match column {
+        ColumnReader::BoolColumnReader(reader) => Ok(TableColumn::Flags(values(reader, rows, |value| value)?)),
+        ColumnReader::Int64ColumnReader(reader) => {
+            Ok(TableColumn::Counts(values(reader, rows, |value: i64| value.cast_unsigned())?))
+        }
+        ColumnReader::DoubleColumnReader(reader) => Ok(TableColumn::Numbers(values(reader, rows, |value| value)?)),
+        ColumnReader::Int32ColumnReader(reader) => {
+            Ok(TableColumn::Texts(values(reader, rows, |value: i32| value.to_string())?))
+        }
+        ColumnReader::ByteArrayColumnReader(reader) => Ok(TableColumn::Texts(values(reader, rows, text)?)),
+        _ => Err(ParquetError::General("a column of an unknown type".to_owned())),
+    }
+}
+
+/// All values of a column of a row group.
+fn values<D: DataType, T>(
+    mut reader: ColumnReaderImpl<D>,
+    rows: usize,
+    convert: impl Fn(D::T) -> T,
+) -> Result<Vec<Option<T>>, ParquetError> {
+    let (mut found, mut levels) = (Vec::new(), Vec::new());
+    let mut all = Vec::with_capacity(rows);
+    while all.len() < rows {
+        found.clear();
+        levels.clear();
+        let (records, _, _) = reader.read_records(rows - all.len(), Some(&mut levels), None, &mut found)?;
+        if records == 0 {
+            return Err(ParquetError::General(format!("a column ends after {} of {rows} rows", all.len())));
+        }
+        let mut found = found.drain(..);
+        if levels.is_empty() {
+            // A column in which every row must have a value has no levels.
+            all.extend(found.map(|value| Some(convert(value))));
+        } else {
+            all.extend(levels.iter().map(|level| if *level > 0 { found.next().map(&convert) } else { None }));
+        }
+    }
+    Ok(all)
+}
+
+impl RowTable {
+    /// Reads the columns of these names of a whole file.
+    ///
+    /// # Errors
+    /// What cannot be read, or is no table of rows.
+    pub fn read(path: &Path, names: &[String]) -> Result<RowTable, TableError> {
+        let reader = TableReader::open(path)?;
+        let mut whole = RowTable::default();
+        for group in 0..reader.group_count() {
+            let part = reader.group(group, names)?;
+            whole.row_count += part.row_count;
+            if whole.columns.is_empty() {
+                whole.columns = part.columns;
+                continue;
+            }
+            for ((_, column), (_, more)) in whole.columns.iter_mut().zip(part.columns) {
+                column.append(more);
+            }
+        }
+        Ok(whole)
+    }
+
+    /// The column of a name.
+    pub fn column(&self, name: &str) -> Option<&TableColumn> {
+        self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
+    }
+}
+
+impl TableColumn {
+    fn append(&mut self, more: TableColumn) {
+        match (self, more) {
+            (TableColumn::Flags(all), TableColumn::Flags(more)) => all.extend(more),
+            (TableColumn::Counts(all), TableColumn::Counts(more)) => all.extend(more),
+            (TableColumn::Numbers(all), TableColumn::Numbers(more)) => all.extend(more),
+            (TableColumn::Texts(all), TableColumn::Texts(more)) => all.extend(more),
+            // The columns of one file have one type in all of its groups.
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The field's baseline of a human driver: the intelligent driver model along the road (`car_following`), and MOBIL for lane
+//! changes (`mobil`).
+//!
+//! On a network it keeps to the right of way (module `right_of_way`): a line at which it must wait counts as a standing
+//! vehicle. On straight roads that cross it ignores whoever crosses.
+
+mod car_following;
+pub mod diagnostics;
+mod mobil;
+mod motion;
+mod settings;
+
+pub use settings::{Mobil, Settings};
+
+use std::borrow::Cow;
+
+use crate::drivers::drive::{Drive, DriverKind, settings_of};
+use crate::drivers::lanes::{RoadLanes, leader};
+use crate::road::network::ConflictKind;
+use crate::rules::obstacle::ObstacleMemory;
+use crate::rules::right_of_way::ArrivalMemory;
+use crate::scene::outlook::Outlook;
+use crate::scene::relation::{Relation, is_on_strip};
+use crate::scene::road_rules::Obstacle;
+use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
+use diagnostics::{GAP, INCENTIVE, LANE};
+use motion::Motion;
+
+/// Free space beside what stands, for 1/10 scale cars \[m\].
+const BESIDE_OBSTACLE_M: f64 = 0.02;
+
+/// A driver that follows the intelligent driver model (IDM) and changes lanes by MOBIL.
+#[derive(Clone, Debug)]
+pub struct Idm {
+    settings: Settings,
+    /// Lateral position on its route of the centre of the lane it drives in or changes to \[m\]. On a network, lanes beside the
+    /// route come and go, and with them the number of a lane.
+    lane_centre_m: Option<f64>,
+    arrivals: ArrivalMemory,
+    obstacles: ObstacleMemory,
+}
+
+impl Idm {
+    /// A driver who has not chosen a lane yet.
+    pub fn new(settings: Settings) -> Self {
+        Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default(), obstacles: ObstacleMemory::default() }
+    }
+
+    /// The lane it is in: the chosen one, while that is near.
+    fn lane(&self, scene: &Scene, lanes: &RoadLanes) -> usize {
+        let route = &scene.ego.route;
+        let nearest = lanes.at(route.across(scene.ego.state.position()));
+        let is_near = |lane: &usize| !route.is_in_network() || lane.abs_diff(nearest) <= 1;
+        self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).unwrap_or(nearest)
+    }
+}
+
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "idm"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Idm::new(*self))
+    }
+
+    fn explanation(&self) -> &'static crate::plan::diagnostic::Explanation {
+        &diagnostics::EXPLANATION
+    }
+
+    fn plan_time(&self) -> PlanTime {
+        PlanTime::SIMPLE
+    }
+
+    fn prediction(&self) -> Option<crate::prediction::Prediction> {
+        Some(self.prediction)
+    }
+
+    fn goes_first(&self) -> bool {
+        true
+    }
+
+    fn can_be_asked(&self) -> bool {
+        false
+    }
+}
+
+impl Drive for Idm {
+    /// Chooses a lane and makes a plan along it.
+    ///
+    /// # Errors
+    /// Never.
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+        let mut seen = Cow::Borrowed(scene);
+        let was_passing = self.obstacles.passing().map(str::to_owned);
+        let passed = if scene.ego.rules.are_kept {
+            let manoeuvre = self.obstacles.judge(scene);
+            let met = manoeuvre.map(|manoeuvre| manoeuvre.laid_over(&mut seen));
+            met.filter(|(_, is_passed)| *is_passed).map(|(obstacle, _)| obstacle)
+        } else {
+            if let Some(line_m) = self.arrivals.stop_line_m(scene) {
+                seen.to_mut().ego.rules.stop_before(line_m);
+            }
+            None
+        };
+        let whole = self.settings.prediction.applied_to(&along_the_road(scene)).into_owned();
+        let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
+        let is_minded =
+            |other: &&Agent| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name);
+        let minded = with_others(&whole, is_minded);
+        let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
+        let now = self.lane(&minded, &lanes);
+        let choice = mobil::choose(&minded, &self.settings, now);
+        self.lane_centre_m = Some(lanes.centre_m(choice.lane));
+        let line_m = seen.ego.rules.stop_line_m;
+        let from_to = [now, choice.lane];
+        let motion =
+            Motion { settings: &self.settings, scene: &minded, lanes, from_to, line_m, passed: passed.as_ref() };
+        let mut trajectory = motion.driven();
+        // Who has begun to pass goes on unless it would touch.
+        let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
+        let is_touched = |obstacle: &&Obstacle| obstacle.is_touched_by(&whole, &trajectory, spaces(obstacle));
+        if let Some(obstacle) = passed.as_ref().filter(is_touched) {
+            let behind_m = obstacle.line_m(&whole);
+            let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
+            trajectory = Motion { scene: &whole, line_m, passed: None, ..motion }.driven();
+        }
+        let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
+        let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
+        diagnostics.extend(ahead.map(|leader| GAP.is(leader.gap_m)));
+        let events = (choice.lane != now)
+            .then(|| PlanEvent::note(format!("changes to lane {}", choice.lane)))
+            .into_iter()
+            .collect();
+        Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
+    }
+
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+
+    fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
+        let settings = *settings_of::<Settings>(settings)?;
+        Some(Box::new(Idm { settings, ..self.clone() }))
+    }
+}
+
+/// Whether an obstacle reaches into the path of the planning vehicle, or so near that it would touch it.
+fn is_on_path(scene: &Scene, obstacle: &Agent) -> bool {
+    let ego = &scene.ego;
+    let at_m = ego.route.across(obstacle.state.position());
+    let reach_m = 0.5 * (ego.body.width_m + obstacle.body.width_m) + BESIDE_OBSTACLE_M * ego.body.scale;
+    let paths_m = [ego.state.position(), scene.goal.target.position()].map(|place| ego.route.across(place));
+    paths_m.iter().any(|path_m| (at_m - path_m).abs() < reach_m)
+}
+
+/// The scene with those others only that are on the same road; to a driver who knows comfort also those on it whose way joins the own
+/// only ahead.
+fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
+    let ego = &scene.ego;
+    let joins =
+        |other: &Agent| matches!(ego.relation(other), Relation::Conflict(at) if at.kind == ConflictKind::Merging);
+    let joins_ahead = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
+    with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
+}
+
+/// The scene with those others only of whom something holds.
+fn with_others(scene: &Scene, holds: impl Fn(&&Agent) -> bool) -> Cow<'_, Scene> {
+    if scene.others.iter().all(|other| holds(&other)) {
+        return Cow::Borrowed(scene);
+    }
+    let others = scene.others.iter().filter(&holds).cloned().collect();
+    Cow::Owned(Scene { others, ego: scene.ego.clone(), ..*scene })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Corridor;
+    use crate::fixture::{agent, scene};
+
+    fn in_lanes(mut ego: Agent, others: Vec<Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
+        ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None }.into();
+        let mut scene = scene(ego, others);
+        (scene.goal.target.y_m, scene.goal.target.speed_mps) = (lane_m, wanted_mps);
+        scene
+    }
+
+    #[test]
+    fn a_slow_leader_is_followed_and_a_standing_one_is_not_hit() {
+        let leader = agent(1.2, 0.185, 0.0, 0.0);
+        let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 0.8), vec![leader], 0.185, 1.0);
+        scene.horizon = 100;
+        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+        let end = plan.trajectory.states.last().expect("states");
+        assert!(end.x_m + 0.4 < 1.2 && end.speed_mps < 0.05, "{end:?}");
+    }
+
+    #[test]
+    fn the_goal_s_lane_is_taken_when_its_follower_is_far_and_not_when_it_is_near() {
+        for (behind_m, lane) in [(-3.0, 1.0), (-0.7, 0.0)] {
+            let follower = agent(behind_m, 0.555, 0.0, 1.2);
+            let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![follower], 0.555, 1.0);
+            let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+            assert_eq!(plan.value_of(&LANE), Some(lane), "follower at {behind_m}");
+        }
+    }
+
+    #[test]
+    fn a_slow_leader_is_overtaken_by_one_who_does_not_insist_on_its_lane() {
+        let leader = agent(0.9, 0.185, 0.0, 0.3);
+        let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
+        let lane = |bias_mps2: f64| {
+            let mobil = Mobil { bias_mps2, ..Mobil::default() };
+            Idm::new(Settings { mobil, ..Settings::default() })
+                .plan(&scene, &Outlook::default())
+                .expect("a plan")
+                .value_of(&LANE)
+        };
+        assert_eq!((lane(0.0), lane(100.0)), (Some(1.0), Some(0.0)));
+    }
+
+    #[test]
+    fn a_lane_that_ends_is_left_or_stopped_in() {
+        // Somebody stays beside it, so that it cannot leave.
+        let beside = agent(0.0, 0.555, 0.0, 1.0);
+        let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![beside], 0.555, 1.0);
+        let end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+        scene.ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end }.into();
+        scene.horizon = 100;
+        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+        let end = plan.trajectory.states.last().expect("states");
+        assert!(end.x_m + 0.21 < 2.6 && end.speed_mps < 0.05, "{end:?}");
+    }
+}

@@ -1,0 +1,84 @@
+//! Which vehicles the ego negotiates with.
+//!
+//! The source asks the front vehicle first and the rear one when the front one has refused for too long ([`Patience`]). A
+//! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
+//! crossed, or that the ego has crossed before. With one that a safe fallback passes ahead of no negotiation is begun: it need not be
+//! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of
+//! nobody outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
+//! When all have refused nobody is asked: the ego drives by its fallback.
+
+use super::patience::{FallbackPrice, Patience};
+use super::settings::Settings;
+use crate::drivers::encounter::{from_front_to_rear, is_settled};
+use crate::{Agent, Scene};
+
+/// The order in which vehicles are asked, and how long those that are asked have not accepted.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PartnerSelection {
+    /// Names from the front of the road to its rear; fixed at the first step.
+    order: Vec<String>,
+    /// Vehicles that refused for too long and are no longer asked.
+    refused: Vec<String>,
+    asked: Vec<AskedVehicle>,
+    fallback: FallbackPrice,
+}
+
+/// A vehicle that is asked, and the patience with it.
+#[derive(Clone, Debug)]
+struct AskedVehicle {
+    name: String,
+    patience: Patience,
+}
+
+impl PartnerSelection {
+    /// The vehicles to ask now, from the front to the rear. Those in `passed`, ahead of which the ego gets anyway, are not asked
+    /// unless they are being asked already.
+    pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings, passed: &[String]) -> Vec<&'a Agent> {
+        if self.order.is_empty() {
+            self.order = from_front_to_rear(scene);
+        }
+        let open = self
+            .order
+            .iter()
+            .filter(|name| !self.refused.contains(name))
+            .filter_map(|name| scene.others.iter().find(|other| other.name == *name))
+            .filter(|other| other.can_be_asked && (self.asks(&other.name) || !passed.contains(&other.name)))
+            .filter(|other| !is_settled(scene, other, settings.clear_lead_m));
+        let chosen: Vec<&Agent> = open.take(settings.partners_at_most).collect();
+        let known = |name: &str| self.asked.iter().find(|asked| asked.name == name).map(|asked| asked.patience.clone());
+        let asked = |name: &String| AskedVehicle { name: name.clone(), patience: known(name).unwrap_or_default() };
+        self.asked = chosen.iter().map(|agent| asked(&agent.name)).collect();
+        chosen
+    }
+
+    /// Whether a vehicle was asked last.
+    fn asks(&self, name: &str) -> bool {
+        self.asked.iter().any(|asked| asked.name == name)
+    }
+
+    /// Asks those that are asked no more.
+    pub(super) fn give_up(&mut self) {
+        self.refused.extend(self.asked.drain(..).map(|asked| asked.name));
+    }
+
+    /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
+    /// fallback costs now. Who has been asked long enough is not asked again.
+    pub(super) fn record(
+        &mut self,
+        accepted: &[Option<f64>],
+        fallback_cost: Option<f64>,
+        (settings, answer_steps): (&Settings, usize),
+    ) {
+        let pairs = self.asked.iter_mut().zip(accepted);
+        let had_time = pairs.map(|(asked, accepted)| accepted.is_some() && asked.patience.has_answered(answer_steps));
+        let had_time: Vec<bool> = had_time.collect();
+        let counts = answer_steps == 0 || had_time.contains(&true);
+        let dearer = if counts { self.fallback.dearer(fallback_cost) } else { 0.0 };
+        let answers = accepted.iter().zip(&had_time).map(|(accepted, had_time)| accepted.filter(|_| *had_time));
+        for (asked, accepted) in self.asked.iter_mut().zip(answers) {
+            if accepted.is_some_and(|accepted| asked.patience.ends(accepted, dearer, settings)) {
+                self.refused.push(asked.name.clone());
+            }
+        }
+    }
+}

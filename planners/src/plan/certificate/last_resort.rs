@@ -1,0 +1,138 @@
+//! What a vehicle can still do when it has no plan, and how harmful that is.
+
+use std::sync::Arc;
+
+use super::violation::{expected, first_contact, first_off_road};
+use crate::prediction::steady_inputs;
+use crate::prediction::steering::{admissible, roll_out, steer};
+use crate::{Input, Scene, State, Trajectory};
+
+/// Accelerations of the last resorts, as shares of the strongest braking and acceleration.
+const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
+/// Lateral positions of the last resorts besides straight on, in widths of the body to the left of the present one.
+const ASIDE_WIDTHS: [f64; 5] = [0.0, 1.0, -1.0, 2.0, -2.0];
+/// Corners may be beyond the edge by this share of the vehicle's length before that is called harmful.
+const SHOULDER: f64 = 0.1;
+/// Impacts that differ by less are equally harmful \[m/s\].
+const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
+
+/// The harm of a motion if everybody else moves as predicted: the first impact, and leaving the road.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Harm {
+    /// The largest relative speed at which it first touches somebody \[m/s\]; none if it touches nobody.
+    pub impact_mps: Option<f64>,
+    /// Whether it leaves the road by more than a tenth of its length.
+    pub leaves_road: bool,
+}
+
+impl Harm {
+    /// Measures the harm of a motion of the planning vehicle.
+    pub fn measure(scene: &Scene, motion: &Trajectory) -> Harm {
+        let impacts = scene.others.iter().filter_map(|other| {
+            let stage = first_contact(scene, motion, other)?;
+            Some(relative_speed_mps(&motion.states[stage], expected(other, stage)?))
+        });
+        // What is no number is as bad as can be.
+        let impacts = impacts.map(|mps| if mps.is_nan() { f64::INFINITY } else { mps });
+        Harm {
+            impact_mps: impacts.max_by(f64::total_cmp),
+            leaves_road: first_off_road(scene, motion, SHOULDER).is_some(),
+        }
+    }
+
+    /// Whether the motion touches nobody and stays on the road.
+    pub fn is_none(&self) -> bool {
+        *self == Harm::default()
+    }
+
+    /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road.
+    pub fn is_less_than(&self, other: &Harm) -> bool {
+        match (self.impact_mps, other.impact_mps) {
+            (None, Some(_)) => true,
+            (Some(_), None) => false,
+            (Some(own), Some(others)) if (own - others).abs() > IMPACT_TOLERANCE_MPS => own < others,
+            _ => !self.leaves_road && other.leaves_road,
+        }
+    }
+}
+
+fn relative_speed_mps(one: &State, other: &State) -> f64 {
+    let velocity = |state: &State| {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        [state.speed_mps * cos, state.speed_mps * sin]
+    };
+    let ([a, b], [c, d]) = (velocity(one), velocity(other));
+    libm::hypot(a - c, b - d)
+}
+
+/// Simple motions that need no planner: from full braking to full acceleration, straight on or to a lateral position.
+pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
+    let (ego, limits) = (&scene.ego, scene.ego.limits);
+    let here_m = ego.route.across(ego.state.position());
+    let accelerations = ACCELERATION_SHARES
+        .map(|share| share * if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 });
+    let straight_on = accelerations.into_iter().map(|mps2| rolled_out(scene, steady_inputs(scene, mps2)));
+    let aside = ASIDE_WIDTHS.into_iter().flat_map(move |widths| {
+        let across_m = here_m + widths * ego.body.width_m;
+        accelerations.into_iter().map(move |mps2| {
+            roll_out(scene, |_, state| Input {
+                acceleration_mps2: admissible(ego, state, mps2, scene.step_s),
+                steering_rad: steer(ego, state, across_m),
+            })
+        })
+    });
+    straight_on.chain(aside)
+}
+
+/// The least harmful of some motions with its index, the first of equals; `None` without motions.
+pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory>) -> Option<(usize, Trajectory)> {
+    let mut best: Option<(usize, Trajectory, Harm)> = None;
+    for (number, motion) in motions.into_iter().enumerate() {
+        let harm = Harm::measure(scene, &motion);
+        if harm.is_none() && best.is_none() {
+            return Some((number, motion));
+        }
+        if best.as_ref().is_none_or(|(.., least)| harm.is_less_than(least)) {
+            best = Some((number, motion, harm));
+        }
+    }
+    best.map(|(number, motion, _)| (number, motion))
+}
+
+/// Whether a plan gives away the last way out: it touches somebody before the vehicle could stand, some last resort from here is
+/// harmless, and from the place after its first step none is any more.
+///
+/// Where no harmless motion is left now, the plan is driven: of two motions that touch somebody, the one that was planned counts on
+/// what the others will do next, and the other one on nothing.
+pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
+    let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
+    let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
+    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
+    if contact.is_none_or(|stage| stage > could_stand) {
+        return false;
+    }
+    let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
+    // Who touches somebody with the first step has no way out after it.
+    let is_over = contact <= Some(1);
+    is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
+}
+
+/// The scene after the first step of a plan, if everybody does what is expected.
+fn after_first_step(scene: &Scene, plan: &Trajectory) -> Scene {
+    let mut later = scene.clone();
+    if let (Some(state), Some(input)) = (plan.states.get(1), plan.inputs.first()) {
+        (later.ego.state, later.ego.previous_input) = (*state, *input);
+    }
+    for other in &mut later.others {
+        other.prediction = Arc::new(other.prediction.shifted());
+        other.state = other.prediction.states.first().copied().unwrap_or(other.state);
+    }
+    later
+}
+
+/// Where inputs lead the planning vehicle of a scene.
+pub(crate) fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
+    let mut states = Vec::new();
+    scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
+    Trajectory { states, inputs }
+}

@@ -1,0 +1,131 @@
+//! What a plan violates: the checks.
+
+use super::rectangles::overlap_m;
+use crate::prediction::straight_on;
+use crate::{Agent, Body, PlanCondition, PlanViolation, Scene, State, Trajectory};
+
+/// States may differ from those that follow from the inputs by this share of the vehicle's length.
+const STATE_TOLERANCE: f64 = 1e-6;
+/// Inputs and speeds may exceed their limits by this.
+const LIMIT_TOLERANCE: f64 = 1e-6;
+/// Bodies may overlap, and corners be beyond the edge, by this share of the vehicle's length: planners see both as soft.
+const PLACE_TOLERANCE: f64 = 5e-3;
+
+/// Checks a plan of the planning vehicle. Returns each violated condition once, with the first stage at which it is
+/// violated.
+pub fn violations(scene: &Scene, plan: &Trajectory) -> Vec<PlanViolation> {
+    let clear =
+        scene.others.iter().map(|other| (PlanCondition::Clear(other.name.clone()), first_contact(scene, plan, other)));
+    let stages = [
+        (PlanCondition::Dynamics, first_wrong_state(scene, plan)),
+        (PlanCondition::InputLimits, first_input_beyond(scene, plan)),
+        (PlanCondition::SpeedLimits, first_speed_beyond(scene, plan)),
+        (PlanCondition::Road, first_off_road(scene, plan, PLACE_TOLERANCE)),
+    ];
+    let found = stages.into_iter().chain(clear);
+    found.filter_map(|(condition, stage)| stage.map(|stage| PlanViolation { condition, stage })).collect()
+}
+
+fn length_m(agent: &Agent) -> f64 {
+    agent.body.front_m + agent.body.rear_m
+}
+
+fn first_wrong_state(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    if plan.states.len() != plan.inputs.len() + 1 {
+        return Some(0);
+    }
+    let model = scene.model();
+    let tolerance = STATE_TOLERANCE * length_m(&scene.ego);
+    let expected = |stage: usize| match stage {
+        0 => scene.ego.state,
+        _ => model.step(&plan.states[stage - 1], &plan.inputs[stage - 1]),
+    };
+    let is_wrong = |stage: &usize| {
+        let off = plan.states[*stage].to_array().into_iter().zip(expected(*stage).to_array());
+        off.into_iter()
+            .any(|(found, expected)| (found - expected).abs().partial_cmp(&tolerance).is_none_or(|order| order.is_gt()))
+    };
+    (0..plan.states.len()).find(is_wrong)
+}
+
+fn first_input_beyond(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    let limits = &scene.ego.limits;
+    let accelerations = limits.acceleration_min_mps2 - LIMIT_TOLERANCE..=limits.acceleration_max_mps2 + LIMIT_TOLERANCE;
+    let steering = -limits.steering_max_rad - LIMIT_TOLERANCE..=limits.steering_max_rad + LIMIT_TOLERANCE;
+    plan.inputs
+        .iter()
+        .position(|input| !accelerations.contains(&input.acceleration_mps2) || !steering.contains(&input.steering_rad))
+}
+
+/// The first speed beyond the limits that is further beyond them than the present one.
+fn first_speed_beyond(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    let (limits, now_mps) = (&scene.ego.limits, scene.ego.state.speed_mps);
+    let low = limits.speed_min_mps.min(now_mps) - LIMIT_TOLERANCE;
+    let high = limits.speed_max_mps.max(now_mps) + LIMIT_TOLERANCE;
+    plan.states.iter().position(|state| !(low..=high).contains(&state.speed_mps))
+}
+
+/// The first stage at which the body is beyond the edge of its road by more than a share of its length.
+pub(super) fn first_off_road(scene: &Scene, plan: &Trajectory, share: f64) -> Option<usize> {
+    let ego = &scene.ego;
+    let is_off = |state: &State| !ego.route.contains(&ego.body, state, share * length_m(ego));
+    if is_off(&ego.state) { None } else { plan.states.iter().position(is_off) }
+}
+
+/// How far the corners of a body are from its position \[m\]: bodies further apart than both cannot touch.
+fn farthest_corner_m(body: &Body) -> f64 {
+    libm::hypot(body.front_m.max(body.rear_m), 0.5 * body.width_m)
+}
+
+/// How far two vehicles can be from each other and touch \[m\].
+fn reach_m(one: &Agent, other: &Agent) -> f64 {
+    [one, other].map(|agent| farthest_corner_m(&agent.body)).iter().sum::<f64>()
+}
+
+fn is_farther(x_m: f64, y_m: f64, reach_m: f64) -> bool {
+    x_m * x_m + y_m * y_m > reach_m * reach_m
+}
+
+/// The others whom a plan may touch where they are if they keep their speed and heading, which is found out without predictions:
+/// all others where their roads are curved.
+pub(crate) fn within_touch(scene: &Scene, plan: &Trajectory) -> Vec<Agent> {
+    let may_touch = |other: &&Agent| {
+        let (place, reach_m) = (straight_on(other.state, scene.step_s), reach_m(&scene.ego, other));
+        let is_near = |(stage, here): (usize, &State)| {
+            let there = place(stage.min(scene.horizon));
+            !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
+        };
+        other.route.straight().is_none() || plan.states.iter().enumerate().any(is_near)
+    };
+    scene.others.iter().filter(may_touch).cloned().collect()
+}
+
+/// Where a vehicle is expected to be.
+pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
+    let states = &other.prediction.states;
+    states.get(stage).or(states.last())
+}
+
+/// The first stage at which the body touches that of another where it is expected to be.
+pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> Option<usize> {
+    let tolerance_m = PLACE_TOLERANCE * length_m(&scene.ego);
+    let reach_m = reach_m(&scene.ego, other);
+    let touches = |stage: usize| {
+        let here = &plan.states[stage];
+        expected(other, stage).is_some_and(|there| {
+            !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
+                && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
+        })
+    };
+    let mut stages = 0..plan.states.len();
+    if stages.next().is_none_or(touches) { None } else { stages.find(|stage| touches(*stage)) }
+}
+
+/// Whether a motion of the planning vehicle touches another where that is expected to be, and that one is ahead then.
+pub(crate) fn touches_ahead(scene: &Scene, motion: &Trajectory, other: &Agent) -> bool {
+    first_contact(scene, motion, other).is_some_and(|stage| {
+        let (here, there) = (&motion.states[stage], expected(other, stage));
+        let (sin, cos) = libm::sincos(here.heading_rad);
+        there.is_some_and(|there| (there.x_m - here.x_m) * cos + (there.y_m - here.y_m) * sin > 0.0)
+    })
+}

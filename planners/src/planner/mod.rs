@@ -1,0 +1,156 @@
+//! A driver at work: what every kind of driver has around it.
+
+pub(crate) mod deadline;
+
+pub use deadline::PlanDeadline;
+
+use std::borrow::Cow;
+
+use crate::drivers::Driver;
+use crate::drivers::drive::{Drive, DriverKind};
+use crate::perception::belief::{self, DriverBeliefs};
+use crate::perception::sensing::SensedScene;
+use crate::plan::certificate::{refused, violations, within_touch};
+use crate::plan::homotopy::HomotopyLog;
+use crate::prediction::Prediction;
+use crate::scene::outlook::Outlook;
+use crate::{Plan, PlanError, Scene};
+
+/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
+///
+/// It is the same for all kinds of drivers, and knows them only through [`DriverKind`] and [`Drive`].
+#[derive(Debug)]
+pub struct Planner {
+    driver: Box<dyn Drive>,
+    /// What it believes of the others, if it is not told their plans.
+    beliefs: Option<Box<DriverBeliefs>>,
+    /// Whether the driver is given what each of the others may do.
+    branches: bool,
+    homotopy_log: HomotopyLog,
+    /// What its certificates take for where the others will be.
+    prediction: Prediction,
+    /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
+    may_be_refused: bool,
+    /// When a plan is too late; never by default.
+    deadline: Option<PlanDeadline>,
+}
+
+impl Driver {
+    /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
+    pub fn planner(&self) -> Planner {
+        self.planner_believing(&belief::Settings::default())
+    }
+
+    /// As [`Driver::planner`], with settings for how it infers plans.
+    pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
+        Planner::new(&**self, inference)
+    }
+}
+
+impl Planner {
+    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it is told none.
+    pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
+        Planner {
+            driver: kind.driver(),
+            beliefs: (!kind.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference))),
+            branches: kind.branches(),
+            homotopy_log: HomotopyLog::default(),
+            prediction: kind.prediction().unwrap_or_default(),
+            may_be_refused: kind.may_be_refused(),
+            deadline: None,
+        }
+    }
+
+    /// The same planner, whose plans have this deadline, or none.
+    pub fn with_deadline(self, deadline: Option<PlanDeadline>) -> Self {
+        Planner { deadline, ..self }
+    }
+
+    /// Another driver takes over. What follows from the kind of the former one stays: what the driver is told, and whether its plans
+    /// may be refused.
+    pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
+        self.driver = driver;
+    }
+
+    /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
+    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it is told none.
+    pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
+        let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
+        self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
+        self.beliefs = beliefs.filter(|_| !kind.knows_plans());
+        self.branches = kind.branches();
+        self.prediction = kind.prediction().unwrap_or_default();
+        self.may_be_refused = kind.may_be_refused();
+    }
+
+    /// A copy that remembers the same; `None` if its driver cannot be copied.
+    pub fn fork(&self) -> Option<Self> {
+        Some(Planner {
+            driver: self.driver.fork()?,
+            beliefs: self.beliefs.clone(),
+            homotopy_log: self.homotopy_log.clone(),
+            ..*self
+        })
+    }
+
+    /// Plans the next move in a scene in which everybody is seen as it is. Whoever can neither reach the vehicle nor be reached by it
+    /// within the horizon has no part in the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] if there is no plan; the caller falls back.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let near = scene.within_reach();
+        match self.beliefs {
+            Some(_) => self.plan_sensed(&SensedScene::perfect(&near)),
+            None => self.plan_as_told(&near, &Outlook::default()),
+        }
+    }
+
+    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver is told no plans.
+    ///
+    /// # Errors
+    /// As [`Planner::plan`].
+    pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
+        let Some(beliefs) = &mut self.beliefs else {
+            return self.plan_as_told(&sensed.scene, &Outlook::default());
+        };
+        let inferred = beliefs.infer(sensed);
+        let outlook = Outlook {
+            alternatives: if self.branches { beliefs.alternatives(sensed, &inferred.scene) } else { Vec::new() },
+            estimates: inferred.estimates,
+            delay: sensed.oldest_sighting(),
+        };
+        let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
+        plan.diagnostics.extend(inferred.diagnostics);
+        plan.events.splice(0..0, inferred.events);
+        plan.beliefs = outlook.estimates;
+        Ok(plan)
+    }
+
+    /// The scene as the driver expects it, with those at least whom the plan touches in it.
+    fn expected_to_touch<'a>(&self, scene: &'a Scene, plan: &Plan) -> Cow<'a, Scene> {
+        if self.prediction != Prediction::ConstantVelocity {
+            return Cow::Borrowed(scene);
+        }
+        let others = within_touch(scene, &plan.trajectory);
+        Cow::Owned(self.prediction.applied_to(&Scene { others, ego: scene.ego.clone(), ..*scene }).into_owned())
+    }
+
+    /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
+    fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+        let mut plan = self.driver.plan(scene, outlook)?;
+        self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
+        plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
+        let may_be_refused = self.may_be_refused && !plan.violations.is_empty();
+        let refused = may_be_refused
+            .then(|| refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations))
+            .flatten();
+        if let Some(violation) = refused {
+            return Err(PlanError::Refused(violation.clone()));
+        }
+        if plan.problem.is_some() {
+            self.homotopy_log.note(scene, &mut plan);
+        }
+        Ok(plan)
+    }
+}

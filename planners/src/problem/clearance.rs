@@ -1,0 +1,193 @@
+//! The time gap that drivers who know comfort keep to those on the same road.
+//!
+//! Of recorded people, gaps between bumpers in steady following are 3.5 m + 1.15 s · v, and time gaps spread from 0.6 to 3.7 s
+//! (`docs/guide/people.md`). A human keeps the more, the more safety weighs for it. Nobody pulls into a gap below a least one,
+//! ahead or behind.
+
+use crate::road::network::ConflictKind;
+use crate::scene::relation::Relation;
+use crate::trajectory::Penalty;
+use crate::trajectory::terms::KeepOut;
+use crate::vehicle::OrientedEllipse;
+use crate::{Agent, Route, SafetyEllipse, Scene, Trajectory};
+
+/// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
+const STANDSTILL_GAP_M: f64 = 0.35;
+/// A driver of safety weight 0 keeps this share of the usual time gap, and a nice one this one.
+const GAP_SHARES: [f64; 2] = [0.6, 1.4];
+/// The weight of a nice driver, up to which shares grow with the logarithm.
+const NICE_WEIGHT: f64 = 50.0;
+/// Nobody drives nearer than this share of the usual time gap who can help it.
+const FIRM_SHARE: f64 = 0.45;
+/// The least gap ahead or behind for a change of lane, as a share of the usual time gap: 1 s.
+const ACCEPTED_SHARE: f64 = 0.85;
+/// A planner keeps this share of the usual time gap besides its safety ellipse.
+const PLANNER_SHARE: f64 = 0.7;
+/// A gap that is shorter grows by this much in a second.
+const OPENING: f64 = 0.1;
+/// An ellipse that contains two bodies is so many times as long as they are.
+const CONTAINING_RATIO: f64 = 1.8;
+/// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
+const ASIDE_M: f64 = 0.04;
+/// Somebody beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
+const BEYOND_LINE_M: f64 = 0.03;
+
+/// The share of the usual time gap that a driver keeps, by its safety weight.
+fn share_of(weight: f64) -> f64 {
+    let [tough, nice] = GAP_SHARES;
+    let politeness = (libm::log1p(weight) / libm::log1p(NICE_WEIGHT)).min(1.0);
+    tough + (nice - tough) * politeness
+}
+
+/// The safety weight of which a human keeps a share of the usual time gap; those of shares beyond all weights are the outermost ones.
+pub fn safety_weight_keeping(share: f64) -> f64 {
+    let [tough, nice] = GAP_SHARES;
+    let politeness = ((share - tough) / (nice - tough)).clamp(0.0, 1.0);
+    libm::expm1(politeness * libm::log1p(NICE_WEIGHT))
+}
+
+impl Scene {
+    /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
+    /// Each ellipse lies along `route`.
+    pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
+        let centres = self.centres(prediction);
+        KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
+    }
+
+    /// Half the length of an ellipse around another vehicle at whose end there is a gap between bumpers \[m\].
+    fn half_axis_m(&self, other: &Agent, gap_m: f64) -> f64 {
+        let (ego, body) = (&self.ego.body, &other.body);
+        0.5 * (ego.front_m + ego.rear_m + body.front_m + body.rear_m) + gap_m
+    }
+
+    /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, who may
+    /// state which multiple of the usual time gap it keeps, and the firm one; none for a driver who knows no comfort \[m\].
+    pub(crate) fn following_axes_m(&self, leader: &Agent, (weight, ratio): (f64, Option<f64>)) -> Option<[f64; 2]> {
+        let time_gap_s = self.ego.limits.comfort?.time_gap_s;
+        let (standstill_m, speed_mps) = (STANDSTILL_GAP_M * self.ego.body.scale, self.ego.state.speed_mps);
+        let comfortable_m = standstill_m + ratio.unwrap_or_else(|| share_of(weight)) * time_gap_s * speed_mps;
+        let firm_m = 0.5 * standstill_m + FIRM_SHARE * time_gap_s * speed_mps;
+        Some([comfortable_m, firm_m].map(|gap_m| self.half_axis_m(leader, gap_m)))
+    }
+
+    /// What keeps a driver who knows comfort from pulling out right ahead of somebody in another lane of its road, or right behind: an
+    /// ellipse as wide as both bodies.
+    pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
+        let ego = &self.ego;
+        let is_same_way = libm::cos(other.state.heading_rad - ego.route.heading_at(other.state.position())) > 0.0;
+        let is_aside = matches!(ego.relation(other), Relation::Alongside) && !ego.shares_lane_with(other);
+        if !is_aside || !is_same_way || other.is_obstacle {
+            return None;
+        }
+        let along_m = self.accepted_axis_m(other, weight)?;
+        let across_m = 0.5 * (ego.body.width_m + other.body.width_m) + ASIDE_M * ego.body.scale;
+        Some(self.around(other, SafetyEllipse { along_m, across_m }, Penalty::EXACT))
+    }
+
+    /// Half the length of an ellipse at whose end there is the least gap for a change of lane that a driver of a safety weight accepts;
+    /// none for a driver who knows no comfort \[m\].
+    fn accepted_axis_m(&self, other: &Agent, weight: f64) -> Option<f64> {
+        let time_gap_s = self.ego.limits.comfort?.time_gap_s;
+        let least_s = ACCEPTED_SHARE * time_gap_s * (0.5 + 0.5 * share_of(weight));
+        Some(self.half_axis_m(other, least_s * self.ego.state.speed_mps.max(other.state.speed_mps)))
+    }
+
+    /// What a driver of a safety weight keeps free for somebody who is predicted to come into its way: the safety ellipse, and for one
+    /// ahead in another lane of its road as much as that one needs in order to come.
+    pub(crate) fn room_for(&self, other: &Agent, prediction: &Trajectory, weight: f64, penalty: Penalty) -> KeepOut {
+        let mut room = self.keep_out(prediction, &other.route, penalty);
+        let ego = &self.ego;
+        let is_ahead = matches!(ego.relation(other), Relation::Alongside) && ego.lead_of(other) > 0.0;
+        if let Some(accepted_m) = self.accepted_axis_m(other, weight).filter(|_| is_ahead) {
+            let SafetyEllipse { along_m, across_m } = self.goal.safety;
+            let safety = SafetyEllipse { along_m: along_m.max(accepted_m), across_m };
+            room.ellipses = ellipses(safety, &other.route, &room.centres);
+        }
+        room
+    }
+
+    /// An ellipse around a prediction of another vehicle.
+    fn around(&self, other: &Agent, ellipse: SafetyEllipse, penalty: Penalty) -> KeepOut {
+        let centres = self.centres(&other.prediction);
+        KeepOut { vehicle: 0, ellipses: ellipses(ellipse, &other.route, &centres), centres, penalty }
+    }
+
+    /// Whether somebody comes the other way, whom a driver who knows comfort passes side by side.
+    pub(crate) fn meets_in_its_lane(&self, other: &Agent) -> bool {
+        let is_head_on =
+            |relation| matches!(relation, Relation::Conflict(conflict) if conflict.kind == ConflictKind::HeadOn);
+        self.ego.limits.comfort.is_some() && is_head_on(self.ego.relation(other))
+    }
+
+    /// Whether somebody who comes the other way, or who waits for the planning vehicle, is not expected in the lane in which that one
+    /// stays: its lines alone keep the two apart.
+    pub(crate) fn is_parted_by_lane_line(&self, other: &Agent) -> bool {
+        let ego = &self.ego;
+        if !ego.rules.stays_in_lane || !(self.meets_in_its_lane(other) || ego.is_waited_for_by(other)) {
+            return false;
+        }
+        let (tolerance_m, body) = (BEYOND_LINE_M * ego.body.scale, &other.body);
+        let positions: Vec<[f64; 2]> = other.prediction.states.iter().map(|state| state.position()).collect();
+        ego.route.locate_all(&positions).zip(&other.prediction.states).all(|(at, state)| {
+            let (sin, cos) = libm::sincos(state.heading_rad - at.heading_rad);
+            let reach_m = 0.5 * body.width_m * cos.abs() + body.front_m.max(body.rear_m) * sin.abs();
+            at.across_m.abs() + tolerance_m > ego.route.half_width.value(at.along_m) + reach_m
+        })
+    }
+
+    /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way, or what nobody drives.
+    pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
+        let beside_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
+        self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
+    }
+
+    /// Whether the safety ellipse around another vehicle concerns the planning vehicle; to somebody who knows comfort it does not once
+    /// their ways do not meet any more, nor where a line parts it from somebody who waits.
+    pub(crate) fn minds(&self, other: &Agent) -> bool {
+        let ego = &self.ego;
+        let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
+        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside()
+    }
+
+    /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
+    /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
+    pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
+        if self.ego.is_waited_for_by(other) || other.is_obstacle {
+            return self.beside(other, penalty);
+        }
+        let keep_out = self.keep_out(&other.prediction, &other.route, penalty);
+        let Some(comfort) = self.ego.limits.comfort else { return keep_out };
+        let (ego, lead_m) = (&self.ego, self.ego.lead_of(other));
+        let is_in_lane = ego.shares_lane_with(other);
+        if !matches!(ego.relation(other), Relation::Alongside) || (is_in_lane && lead_m < 0.0) {
+            return keep_out;
+        }
+        let speed_mps = if lead_m < 0.0 { other.state.speed_mps } else { ego.state.speed_mps };
+        let wanted_m = PLANNER_SHARE * comfort.time_gap_s * speed_mps;
+        let now_m = (lead_m - self.goal.safety.along_m).max(0.0);
+        let longer_m = |stage: usize| {
+            let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
+            if is_in_lane { wanted_m.min(now_m + opened_m) } else { wanted_m }
+        };
+        let longer = |(stage, ellipse): (usize, &OrientedEllipse)| {
+            let SafetyEllipse { along_m, across_m } = ellipse.shape();
+            SafetyEllipse { along_m: along_m + longer_m(stage), across_m }.oriented(ellipse.heading_rad())
+        };
+        KeepOut { ellipses: keep_out.ellipses.iter().enumerate().map(longer).collect(), ..keep_out }
+    }
+}
+
+/// The ellipse that contains the rectangle of a half length and a half width, and is not much wider beside its middle \[m\].
+pub(crate) fn containing(half_length_m: f64, half_width_m: f64) -> SafetyEllipse {
+    // The corner is on it: `(1/1.8)² + (w/b)² = 1`.
+    let share = (1.0 - CONTAINING_RATIO.powi(-2)).sqrt();
+    SafetyEllipse { along_m: CONTAINING_RATIO * half_length_m, across_m: half_width_m / share }
+}
+
+/// A safety ellipse around each centre, along a road.
+pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
+    match route.straight() {
+        Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
+        None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
+    }
+}

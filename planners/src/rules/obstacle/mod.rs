@@ -1,0 +1,172 @@
+//! What stands in the way: whether it is passed, where, and for whom a driver waits before.
+//!
+//! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind somebody: then it is
+//! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to somebody else. That is
+//! done only while nobody else comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind.
+//! The condition is hard, whatever the driver's style, and is checked again at each tick: a driver who is not beside the obstacle yet
+//! goes back behind it.
+
+mod room;
+mod standing;
+
+pub(crate) use standing::swing_m;
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use crate::scene::relation::is_standing;
+use crate::scene::road_rules::Obstacle;
+use crate::{Agent, Scene};
+
+/// A vehicle in the way reaches within this distance of the path, for 1/10 scale cars \[m\].
+const NEAR_PATH_M: f64 = 0.02;
+/// Further than this from its lateral goal a 1/10 scale car is out of its lane \[m\].
+const OUT_OF_LANE_M: f64 = 0.08;
+/// An obstacle is looked for as far ahead as a driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
+const LOOK_AHEAD_S: f64 = 2.5;
+/// Somebody who stands for longer than this is no part of a queue any more, for 1/10 scale cars \[s\].
+const PARKED_S: f64 = 4.0;
+/// Somebody who has another one ahead within this many lengths of a car stands in a queue.
+const QUEUE_LENGTHS: f64 = 2.5;
+
+/// What a driver does about an obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Manoeuvre {
+    /// There is room: it passes.
+    Pass(Obstacle),
+    /// It waits behind, for a vehicle if there is one, or since the road is too narrow.
+    Wait(Obstacle, Option<String>),
+}
+
+impl Manoeuvre {
+    /// The obstacle, and whether it is passed; if it is not, the planning vehicle of `scene` has to stay behind it.
+    pub(crate) fn laid_over(self, scene: &mut Cow<'_, Scene>) -> (Obstacle, bool) {
+        match self {
+            Manoeuvre::Pass(obstacle) => (obstacle, true),
+            Manoeuvre::Wait(obstacle, _) => {
+                let line_m = obstacle.line_m(scene);
+                scene.to_mut().ego.rules.stop_before(line_m);
+                (obstacle, false)
+            }
+        }
+    }
+}
+
+/// A manoeuvre that has begun.
+#[derive(Clone, Debug, PartialEq)]
+struct Passing {
+    /// The nearest obstacle of the row.
+    name: String,
+    /// Where the row ends that there was room to pass, along the driver's route \[m\].
+    until_m: f64,
+}
+
+/// What a driver remembers of those who stand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ObstacleMemory {
+    /// Since which tick each has been standing; 0 if it stood when it was first seen.
+    standing_since: BTreeMap<String, usize>,
+    /// Who is being passed.
+    passing: Option<Passing>,
+}
+
+impl ObstacleMemory {
+    /// The name of what is being passed.
+    pub(crate) fn passing(&self) -> Option<&str> {
+        self.passing.as_ref().map(|passing| &*passing.name)
+    }
+
+    /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
+    pub(crate) fn judge(&mut self, scene: &Scene) -> Option<Manoeuvre> {
+        // Straight roads have no lanes of which one is somebody else's.
+        if !scene.ego.route.is_in_network() {
+            return None;
+        }
+        self.note(scene);
+        let found = self.nearest(scene);
+        let Some(obstacle) = found else {
+            self.passing = None;
+            return None;
+        };
+        let out_m =
+            scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
+        let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
+        // Whoever has begun to pass a row goes on to the next one of it. Nor does one come back who overtakes somebody slow, who stops.
+        let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
+            || is_out && obstacle.is_beyond_braking(scene);
+        let Some(obstacle) = obstacle.with_side(scene) else {
+            return Some(Manoeuvre::Wait(obstacle, None));
+        };
+        let until_m = room::end_of_row_m(scene, &obstacle);
+        match room::in_the_way(scene, &obstacle, until_m, is_under_way) {
+            None => {
+                self.passing = Some(Passing { name: obstacle.name.clone(), until_m });
+                Some(Manoeuvre::Pass(obstacle))
+            }
+            Some(other) => {
+                self.passing = None;
+                Some(Manoeuvre::Wait(obstacle, Some(other.name.clone())))
+            }
+        }
+    }
+
+    fn note(&mut self, scene: &Scene) {
+        let is_first = self.standing_since.is_empty() && scene.tick == 0;
+        for other in &scene.others {
+            if is_standing(other) {
+                let since = if is_first { 0 } else { scene.tick };
+                self.standing_since.entry(other.name.clone()).or_insert(since);
+            } else {
+                self.standing_since.remove(&other.name);
+            }
+        }
+    }
+
+    /// The nearest obstacle whose end is not passed yet.
+    fn nearest(&self, scene: &Scene) -> Option<Obstacle> {
+        let ego = &scene.ego;
+        let (own_m, wanted_mps) = (ego.route.along(ego.state.position()), scene.goal.target.speed_mps);
+        let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * wanted_mps.max(ego.state.speed_mps) + ego.body.front_m;
+        let goal_m = ego.route.across(scene.goal.target.position());
+        let here_m = ego.route.across(ego.state.position());
+        let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
+        let obstacles = candidates.filter_map(|other| {
+            let at = ego.route.locate(other.state.position(), None);
+            let reach = [
+                0.5 * (ego.body.front_m + ego.body.rear_m + other.body.front_m + other.body.rear_m),
+                0.5 * (ego.body.width_m + other.body.width_m),
+            ];
+            let blocks = |lateral_m: f64| (at.across_m - lateral_m).abs() < reach[1] + NEAR_PATH_M * ego.body.scale;
+            let along_m = [at.along_m - other.body.rear_m, at.along_m + other.body.front_m];
+            let is_ahead = along_m[1] > own_m - ego.body.rear_m && along_m[0] < own_m + reach_m;
+            let found = Obstacle {
+                name: other.name.clone(),
+                along_m,
+                across_m: at.across_m,
+                pass_at_m: at.across_m,
+                reach_m: reach,
+            };
+            (is_ahead && (blocks(goal_m) || (blocks(here_m) && at.along_m > own_m))).then_some(found)
+        });
+        obstacles.min_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]))
+    }
+
+    /// Whether a vehicle that stands waits in a queue: at a line, or behind somebody.
+    fn is_queueing(&self, scene: &Scene, other: &Agent) -> bool {
+        if other.is_obstacle {
+            return false;
+        }
+        let since = self.standing_since.get(&other.name).copied().unwrap_or(scene.tick);
+        let stood_s = (scene.tick - since) as f64 * scene.step_s;
+        if since == 0 || stood_s > PARKED_S * scene.ego.body.time_ratio() {
+            return other.rules.stop_line_m.is_some();
+        }
+        let length_m = scene.ego.body.front_m + scene.ego.body.rear_m;
+        let others = scene.others.iter().filter(|third| third.name != other.name);
+        let is_next = |third: &Agent| {
+            let lead_m = other.lead_of(third);
+            other.shares_lane_with(third) && lead_m > 0.0 && lead_m < (QUEUE_LENGTHS + 1.0) * length_m
+        };
+        other.rules.stop_line_m.is_some() || others.into_iter().any(is_next)
+    }
+}

@@ -1,0 +1,101 @@
+//! A vehicle that stands in the way: where it is, and how it is passed.
+
+use crate::plan::certificate::touches_ahead;
+use crate::prediction::steering::{admissible, roll_out, steer};
+use crate::problem::clearance::{containing, ellipses};
+use crate::scene::road_rules::Obstacle;
+use crate::trajectory::Penalty;
+use crate::trajectory::terms::KeepOut;
+use crate::{Agent, Body, Input, Scene, Trajectory};
+
+/// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.9 m of a real one.
+const SIDE_M: f64 = 0.09;
+/// Of it, a plan keeps at least this share.
+const KEPT_SIDE_SHARE: f64 = 0.75;
+/// A driver waits this many lengths of its body behind an obstacle.
+pub(super) const WAITING_LENGTHS: f64 = 2.2;
+/// The guessed motion accelerates with at most this share of the strongest acceleration.
+const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
+/// A driver swings out over this many lengths of its body,
+const SWING_LENGTHS: f64 = 1.5;
+/// and over what it drives in this time of 1/10 scale cars \[s\].
+const SWING_S: f64 = 0.6;
+
+impl Obstacle {
+    /// The obstacle with the side on which there is room for a body on the road, the left one first; none if there is on neither.
+    pub(super) fn with_side(&self, scene: &Scene) -> Option<Obstacle> {
+        let ego = &scene.ego;
+        let beside_m = self.reach_m[1] + SIDE_M * ego.body.scale;
+        let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
+        let [right_m, left_m] = ego.route.edges_before_end_m(middle_m);
+        let half_m = 0.5 * ego.body.width_m;
+        let sides = [self.across_m + beside_m, self.across_m - beside_m];
+        let pass_at_m = sides.into_iter().find(|at_m| (right_m + half_m..=left_m - half_m).contains(at_m))?;
+        Some(Obstacle { pass_at_m, ..self.clone() })
+    }
+
+    /// How far the front of a driver comes who waits behind it, with room to swing out later \[m\].
+    pub(crate) fn line_m(&self, scene: &Scene) -> f64 {
+        self.along_m[0] - WAITING_LENGTHS * (scene.ego.body.front_m + scene.ego.body.rear_m)
+    }
+
+    /// Whether a driver could not stop before it any more, however hard it brakes.
+    pub(super) fn is_beyond_braking(&self, scene: &Scene) -> bool {
+        let ego = &scene.ego;
+        let room_m = self.along_m[0] - ego.route.along(ego.state.position()) - ego.body.front_m;
+        ego.state.speed_mps * ego.state.speed_mps > -2.0 * ego.limits.acceleration_min_mps2 * room_m
+    }
+
+    /// The inputs of a driver who passes it, accelerating a little: a guess from which plans begin.
+    pub(crate) fn guess(&self, scene: &Scene) -> Vec<Input> {
+        let ego = &scene.ego;
+        let (swing_m, own_m) = (swing_m(scene, ego.state.speed_mps), ego.route.across(scene.goal.target.position()));
+        let most_mps2 = GUESSED_ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
+        let motion = roll_out(scene, |_, state| {
+            let along_m = ego.route.along(state.position());
+            let wanted_mps2 = (scene.goal.target.speed_mps - state.speed_mps) / scene.step_s;
+            Input {
+                acceleration_mps2: admissible(ego, state, wanted_mps2.min(most_mps2), scene.step_s),
+                steering_rad: steer(ego, state, self.lateral_m(along_m + ego.body.front_m, own_m, swing_m)),
+            }
+        });
+        motion.inputs
+    }
+
+    /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays
+    /// there.
+    pub(crate) fn keeps_back(&self, scene: &Scene, plan: &Trajectory) -> bool {
+        let (body, ends) = (&scene.ego.body, plan.states.first().zip(plan.states.last()));
+        ends.is_none_or(|(from, to)| libm::hypot(to.x_m - from.x_m, to.y_m - from.y_m) < body.front_m + body.rear_m)
+    }
+
+    /// Whether a motion of the planning vehicle touches it, or comes nearer than half of a free space at each side.
+    pub(crate) fn is_touched_by(&self, scene: &Scene, motion: &Trajectory, spaces: f64) -> bool {
+        let Some(other) = scene.others.iter().find(|other| other.name == self.name) else { return false };
+        let body = Body { width_m: other.body.width_m + spaces * SIDE_M * scene.ego.body.scale, ..other.body };
+        touches_ahead(scene, motion, &Agent { body, ..other.clone() })
+    }
+
+    /// What keeps the driver beside it: the middle of its body stays out of an ellipse that contains all places at which the bodies would be
+    /// nearer to each other than the free space to the side.
+    pub(crate) fn keep_out(&self, scene: &Scene) -> KeepOut {
+        let route = &scene.ego.route;
+        let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
+        let centres = vec![route.position(middle_m, self.across_m); scene.horizon];
+        let [length_m, width_m] = self.reach_m;
+        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * SIDE_M * scene.ego.body.scale);
+        KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
+    }
+
+    /// The lateral position at which a driver is who passes it, at an arc length \[m\]; `own_m` is where it is otherwise.
+    pub(crate) fn lateral_m(&self, along_m: f64, own_m: f64, swing_m: f64) -> f64 {
+        let [from_m, to_m] = [self.along_m[0] - swing_m, self.along_m[1] + self.reach_m[0]];
+        if (from_m..to_m).contains(&along_m) { self.pass_at_m } else { own_m }
+    }
+}
+
+/// The length in which a driver changes to the position beside an obstacle, at a speed \[m\].
+pub(crate) fn swing_m(scene: &Scene, speed_mps: f64) -> f64 {
+    let ego = &scene.ego;
+    SWING_LENGTHS * (ego.body.front_m + ego.body.rear_m) + SWING_S * ego.body.time_ratio() * speed_mps
+}

@@ -1,0 +1,144 @@
+//! How the ways of two vehicles are related: side by side, meeting ahead, or apart.
+//!
+//! On routes of one network this follows from where the routes meet ([`RouteConflict`]). On straight roads, which know nothing
+//! of each other, it follows from their directions where the other vehicle is.
+
+use crate::road::network::{ConflictKind, RouteConflict};
+use crate::{Agent, Route, State};
+
+/// Paths that meet at a smaller angle than this run side by side \[rad\].
+pub(crate) const PARALLEL_RAD: f64 = 0.1;
+
+/// Headings that differ by more than this belong to different roads \[rad\].
+const SAME_ROAD_RAD: f64 = 0.1;
+/// Ways on one strip at a larger angle cross \[rad\].
+const ACROSS_RAD: f64 = 1.05;
+
+/// A vehicle whose heading differs by at most this from a lane drives along it \[rad\].
+const ALONG_LANE_RAD: f64 = std::f64::consts::FRAC_PI_6;
+
+/// A 1/10 scale car below this speed stands \[m/s\].
+const STANDING_MPS: f64 = 0.085;
+
+/// How the ways of two vehicles are related where they are now, seen by the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Relation<'a> {
+    /// One is, or may come, in the other's lane, before or behind it.
+    Alongside,
+    /// Their straight roads cross, or meet head-on.
+    CrossingRoads,
+    /// Their routes meet in a conflict that is still ahead of both, or under way.
+    Conflict(&'a RouteConflict),
+    /// Their routes have nothing in common that is still ahead.
+    Apart,
+}
+
+impl Agent {
+    /// How the way of another vehicle is related to this one's.
+    pub(crate) fn relation(&self, other: &Agent) -> Relation<'_> {
+        if other.is_obstacle {
+            return if touches_strip(self, other) { Relation::Alongside } else { Relation::Apart };
+        }
+        if !(self.route.is_in_network() && other.route.is_in_network()) {
+            let place = other.state.position();
+            let difference = self.route.heading_at(place) - other.route.heading_at(place);
+            let is_same = libm::cos(difference) >= libm::cos(SAME_ROAD_RAD);
+            return if is_same { Relation::Alongside } else { Relation::CrossingRoads };
+        }
+        let (own_m, their_m) = (rear_m(self), rear_m(other));
+        let is_open = |conflict: &&RouteConflict| own_m <= conflict.own_m[1] && their_m <= conflict.their_m[1];
+        let conflict = self.route.conflicts_with(&other.route).find(is_open);
+        let follows = || follows_in_lane(self, other) || follows_in_lane(other, self);
+        match conflict {
+            Some(conflict) if conflict.kind == ConflictKind::Merging && follows() => Relation::Alongside,
+            Some(conflict) => Relation::Conflict(conflict),
+            None if is_on_strip(self, other) || is_on_strip(other, self) => Relation::Alongside,
+            None => Relation::Apart,
+        }
+    }
+
+    /// Whether two vehicles' ways cross, merge or meet head-on ahead rather than run side by side.
+    pub fn crosses(&self, other: &Agent) -> bool {
+        matches!(self.relation(other), Relation::CrossingRoads | Relation::Conflict(_))
+    }
+
+    /// Whether the vehicle could come in another one's way: not if their routes have nothing in common ahead.
+    pub(crate) fn may_meet(&self, other: &Agent) -> bool {
+        self.relation(other) != Relation::Apart
+    }
+
+    /// How far `other`'s centre is ahead along this vehicle's road \[m\].
+    pub fn lead_of(&self, other: &Agent) -> f64 {
+        self.route.along(other.state.position()) - self.route.along(self.state.position())
+    }
+
+    /// How far ahead another vehicle is in the order in which a planner turns to its partners: along the road, or, where the
+    /// routes meet, the more the nearer the other is to the meeting \[m\].
+    pub(crate) fn lead_or_nearness_of(&self, other: &Agent) -> f64 {
+        match self.relation(other) {
+            Relation::Conflict(conflict) => other.route.along(other.state.position()) - conflict.their_meeting_m,
+            Relation::Alongside | Relation::CrossingRoads | Relation::Apart => self.lead_of(other),
+        }
+    }
+
+    /// Whether two vehicles on one road overlap across it, so that one would run into the other.
+    pub fn shares_lane_with(&self, other: &Agent) -> bool {
+        let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());
+        self.relation(other) == Relation::Alongside
+            && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
+            && (!self.route.is_in_network() || other.is_obstacle || is_along(&self.route, &other.state))
+    }
+}
+
+impl Agent {
+    /// Whether the rules hold another vehicle for this one.
+    pub(crate) fn is_waited_for_by(&self, other: &Agent) -> bool {
+        other.rules.waits_for.contains(&self.name)
+    }
+
+    /// Whether the rules say which of two vehicles goes first now: there is nothing to negotiate.
+    pub(crate) fn has_order_with(&self, other: &Agent) -> bool {
+        self.is_waited_for_by(other) || other.is_waited_for_by(self)
+    }
+}
+
+/// Whether a vehicle stands, or as good as stands.
+pub(crate) fn is_standing(agent: &Agent) -> bool {
+    agent.state.speed_mps < STANDING_MPS * agent.body.time_ratio()
+}
+
+/// The arc length of a vehicle's rear on its own route \[m\].
+fn rear_m(agent: &Agent) -> f64 {
+    agent.route.along(agent.state.position()) - agent.body.rear_m
+}
+
+/// Whether `other` is in the lane of `agent`, ahead of it.
+fn follows_in_lane(agent: &Agent, other: &Agent) -> bool {
+    let at = agent.route.locate(other.state.position(), None);
+    let reach_m = 0.5 * (agent.body.width_m + other.body.width_m);
+    at.along_m > agent.route.along(agent.state.position())
+        && at.across_m.abs() < reach_m
+        && is_along(&agent.route, &other.state)
+}
+
+/// Whether a vehicle drives about in the direction of a route.
+fn is_along(route: &Route, state: &State) -> bool {
+    libm::cos(state.heading_rad - route.heading_at(state.position())) > libm::cos(ALONG_LANE_RAD)
+}
+
+/// Whether any part of `other` is on the strip that `agent` may use, and its way does not lead across it there.
+pub(crate) fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
+    let at = agent.route.locate(other.state.position(), None);
+    if libm::cos(other.route.heading_at(other.state.position()) - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
+        return false;
+    }
+    touches_strip(agent, other)
+}
+
+/// Whether any part of `other`, which is along the road, is on the strip that `agent` may use.
+fn touches_strip(agent: &Agent, other: &Agent) -> bool {
+    let at = agent.route.locate(other.state.position(), None);
+    let [right_m, left_m] = agent.route.edges_before_end_m(at.along_m);
+    let half_m = 0.5 * other.body.width_m;
+    (right_m - half_m..=left_m + half_m).contains(&at.across_m)
+}

@@ -1,0 +1,85 @@
+//! The files that a scenario is made of, and those in a folder.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::commonroad::is_commonroad;
+use crate::format::read::overrides::Override;
+use crate::format::read::source::Source;
+use crate::format::read::stated_path::path_beside;
+use crate::format::read::tree::{self, TomlNode, TomlValue};
+use crate::format::registry::Registry;
+use crate::load;
+
+/// The files of which a scenario is made, as far as they can be read: its own, those that it extends, and those that any of them or
+/// of `overrides` names, such as its weather. Scenarios in the binary never change and are not among them.
+pub fn files(registry: &Registry, name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut next = Source::find(name_or_path).ok();
+    while let Some(source @ Source::File(path)) = &next {
+        if found.contains(path) {
+            break;
+        }
+        found.push(path.clone());
+        next = parent(source);
+    }
+    let Ok(mut tree) = load::tree(registry, name_or_path) else { return found };
+    if let TomlValue::Table(root) = &mut tree.value {
+        // One that is wrong is refused when the scenario is loaded.
+        overrides.iter().for_each(|change| drop(change.apply(root, registry.complete())));
+    }
+    add_named(&tree, &mut found);
+    found
+}
+
+/// Adds the files that a tree names, wherever it does.
+fn add_named(node: &TomlNode, found: &mut Vec<PathBuf>) {
+    match &node.value {
+        TomlValue::Table(table) => {
+            for (key, entry) in table {
+                match entry.node.text().filter(|_| key == "file" || key.ends_with(".file")) {
+                    Some(file) => found.push(path_beside(&entry.node.place, file)),
+                    None => add_named(&entry.node, found),
+                }
+            }
+        }
+        TomlValue::Array(items) => items.iter().for_each(|item| add_named(item, found)),
+        _ => {}
+    }
+}
+
+/// What a file extends, if it can be read that far.
+fn parent(source: &Source) -> Option<Source> {
+    if matches!(source, Source::File(path) if is_commonroad(path)) {
+        return None;
+    }
+    let (document, text) = source.read(1).ok()?;
+    let node = tree::parse(&document, &text).ok()?;
+    source.parent(node.table()?.get("extends")?.node.text()?).ok()
+}
+
+/// Whether a file is to be taken for a scenario: TOML, or XML of CommonRoad.
+fn is_scenario(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml") || is_commonroad(path)
+}
+
+/// All .toml files below a folder, and scenarios of CommonRoad, sorted by name.
+///
+/// # Errors
+/// That of the system, if a folder cannot be read.
+pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder)? {
+            let entry = entry?;
+            if entry.file_type()?.is_dir() {
+                folders.push(entry.path());
+            } else if is_scenario(&entry.path()) {
+                found.push(entry.path());
+            }
+        }
+    }
+    // By name: `distributed` before `distributed-hundred`.
+    found.sort_by_key(|path| path.with_extension(""));
+    Ok(found)
+}

@@ -1,0 +1,54 @@
+//! Where the ways of two vehicles cross or merge.
+
+use interplay_planners::road::network::ConflictKind;
+
+use crate::model::scenario::Vehicle;
+use crate::roads::Road;
+
+/// A place where the ways of two vehicles overlap without being the same lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConflictZone {
+    /// From where to where it reaches along the route of the first vehicle \[m\].
+    pub first_m: [f64; 2],
+    /// From where to where it reaches along the route of the second \[m\].
+    pub second_m: [f64; 2],
+    /// Where the front of the first comes into the way of the second, and where its rear has left it \[m\]; where ways merge,
+    /// the place at which they do.
+    pub first_way_m: [f64; 2],
+    /// The same of the second \[m\].
+    pub second_way_m: [f64; 2],
+}
+
+impl Road {
+    /// The places where the ways of two vehicles cross, merge or meet head-on, in the order of the first one's route; none
+    /// where both drive along one road.
+    ///
+    /// Routes of one network know where they meet: a zone begins where their centre lines do, for whoever waits before that, with
+    /// its front in the outer part of the other's lane, lets the other pass. Of the roads of an intersection, it is where one lies on the other.
+    pub fn conflict_zones(&self, first: &Vehicle, second: &Vehicle) -> Vec<ConflictZone> {
+        if first.route.is_in_network() && second.route.is_in_network() {
+            let conflicts = first.route.conflicts_with(&second.route);
+            return conflicts
+                .map(|conflict| ConflictZone {
+                    first_m: [conflict.own_meeting_m, conflict.own_m[1]],
+                    second_m: [conflict.their_meeting_m, conflict.their_m[1]],
+                    first_way_m: way_m(conflict.kind, conflict.own_m, conflict.own_meeting_m),
+                    second_way_m: way_m(conflict.kind, conflict.their_m, conflict.their_meeting_m),
+                })
+                .collect();
+        }
+        let zones = self.conflict_zone_m(first.road).zip(self.conflict_zone_m(second.road));
+        let zones = zones.filter(|_| first.road != second.road);
+        let zone =
+            |(first_m, second_m)| ConflictZone { first_m, second_m, first_way_m: first_m, second_way_m: second_m };
+        zones.map(zone).into_iter().collect()
+    }
+}
+
+/// The part of a route on which a vehicle is in the way of another one that comes through a conflict \[m\].
+fn way_m(kind: ConflictKind, overlap_m: [f64; 2], meeting_m: f64) -> [f64; 2] {
+    match kind {
+        ConflictKind::Merging => [meeting_m; 2],
+        ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => overlap_m,
+    }
+}

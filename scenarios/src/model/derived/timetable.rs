@@ -1,0 +1,35 @@
+//! The schedules of a scenario on the days of its run.
+
+use interplay_building::calendar::CalendarError;
+use interplay_building::network::NetworkError;
+use interplay_building::schedule::{ScheduleError, Timetable};
+use thiserror::Error;
+
+use crate::model::scenario::Scenario;
+
+/// Why a scenario has no timetable. One that was loaded has been checked for all of this.
+#[derive(Debug, Error)]
+pub enum TimetableError {
+    /// A text is no date.
+    #[error(transparent)]
+    Calendar(#[from] CalendarError),
+    /// Schedules contradict one another, or fit no building.
+    #[error(transparent)]
+    Schedule(#[from] ScheduleError),
+    /// Zones and walls make no network.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+}
+
+impl Scenario {
+    /// The schedules of the zones by day; empty without a building.
+    ///
+    /// # Errors
+    /// [`TimetableError`]; never for a scenario that was loaded.
+    pub fn timetable(&self) -> Result<Timetable, TimetableError> {
+        let Some(building) = &self.building else { return Ok(Timetable::default()) };
+        let days = self.calendar.clone().unwrap_or_default().days(self.weather.first_weekday())?;
+        let network = building.network()?;
+        Ok(Timetable::new(&self.schedules, &network.names()[..network.zone_count()], days)?)
+    }
+}

@@ -1,0 +1,6 @@
+//! What is expected of a run and of its counterfactuals.
+
+pub(crate) mod counterfactual;
+pub(crate) mod expect;
+pub(crate) mod expectation_names;
+pub(crate) mod metric_bound;

@@ -1,0 +1,346 @@
+//! The nouns of a scenario that is ready to run: what is simulated, on which road, by which vehicles.
+//!
+//! Everything here is plain data in SI units. A [`Scenario`] that came from [`load`](crate::load) or
+//! [`ScenarioFile::resolve`](crate::ScenarioFile::resolve) has been checked: it keeps every promise of the format.
+
+use std::sync::Arc;
+
+use interplay_building::calendar::Calendar;
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Controller;
+use interplay_building::control::pid::PidSettings;
+use interplay_building::energy::{HeatPump, Tariff};
+use interplay_building::occupancy::Occupancy;
+use interplay_building::schedule::ZoneSchedule;
+use interplay_common::random::SplitMix64;
+use interplay_planners::perception::belief;
+use interplay_planners::perception::sensing::{self, Sensor};
+use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::rules::RuleKeeping;
+use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State};
+
+use crate::model::budget_limits::BudgetLimits;
+use crate::model::building::config::BuildingConfig;
+use crate::model::building::gains::RecordedGainsFile;
+use crate::model::building::weather::WeatherSource;
+use crate::model::classes::{ScenarioScale, VehicleClass};
+use crate::model::expectations::counterfactual::CounterfactualConfig;
+use crate::model::expectations::expect::Expect;
+use crate::model::metric::RegisteredMetrics;
+use crate::model::remark::ScenarioRemarks;
+use crate::model::traffic::conduct::Conduct;
+use crate::model::traffic::detail::Detail;
+use crate::model::traffic::detector::DetectorConfig;
+use crate::model::traffic::goal::GoalConfig;
+use crate::model::traffic::light::LightConfig;
+use crate::model::traffic::obstacle::{ObstacleForm, Outline};
+use crate::model::traffic::plant::Plant;
+use crate::model::traffic::real_time::RealTime;
+use crate::model::traffic::start_jitter::StartJitter;
+use crate::model::traffic::weights::Weights;
+use crate::roads::{Branch, Road};
+use crate::text::name::EGO;
+
+/// So many vehicles and fewer are no crowd.
+pub(crate) const MOST_TOLD: usize = 40;
+
+/// A scenario that is ready to run: agents, their world, and the expectations of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// What the scenario is called, in a few words.
+    pub title: String,
+    /// What it shows, in one sentence.
+    pub shows: String,
+    /// The figure of the dissertation that it reproduces.
+    pub figure: Option<String>,
+    /// The size to which its defaults are scaled; none for the defaults of 1/10 scale as they are.
+    pub scale: Option<ScenarioScale>,
+    /// How drivers behave where the file says nothing of it, if it states that.
+    pub conduct: Option<Conduct>,
+    /// Simulated time of the vehicles \[s\].
+    pub duration_s: f64,
+    /// Time from one tick of the vehicles to the next \[s\].
+    pub step_s: f64,
+    /// How many ticks there are from one plan to the next.
+    pub ticks_per_plan: usize,
+    /// Horizon of every plan, in ticks.
+    pub horizon_steps: usize,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// How long a plan may take; none where there is no limit.
+    pub real_time: Option<RealTime>,
+    /// What moves the vehicles.
+    pub plant: Plant,
+    /// Where vehicles may drive.
+    pub road: Road,
+    /// The lanes of the road, if they have names.
+    pub network: Option<Arc<RoadNetwork>>,
+    /// Its traffic lights; the lanes of the network hold them.
+    pub lights: Vec<LightConfig>,
+    /// Where traffic is counted.
+    pub detectors: Vec<DetectorConfig>,
+    /// How closely the traffic far from the ego is simulated; like all other traffic without it.
+    pub detail: Option<Detail>,
+    /// Random change of every start, drawn from the seed.
+    pub start_jitter: StartJitter,
+    /// The vehicles, in the order of the file, and after them the obstacles.
+    pub vehicles: Vec<Vehicle>,
+    /// The building, if there is one.
+    pub building: Option<BuildingConfig>,
+    /// The weather around the building.
+    pub weather: WeatherSource,
+    /// The people in the building; by default office hours with real deviations.
+    pub occupancy: Option<Occupancy>,
+    /// Recorded heat of people and machines.
+    pub gains: Vec<RecordedGainsFile>,
+    /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
+    pub setpoints: Option<Setpoints>,
+    /// Schedules of zones that have other hours, wanted temperatures or people than the others.
+    pub schedules: Vec<ZoneSchedule>,
+    /// The date of the first day and the holidays.
+    pub calendar: Option<Calendar>,
+    /// The price of electricity by the hour; without it energy costs no money. Prices from a file are among them.
+    pub tariff: Option<Tariff>,
+    /// The heat pump or chiller that supplies all zones; without it a kilowatt-hour of heat takes one of electricity.
+    pub heat_pump: Option<HeatPump>,
+    /// The controller of the building; by default PID control in each zone.
+    pub controller: Option<Controller>,
+    /// How many days of the building are simulated; by default 10.
+    pub iterations: Option<usize>,
+    /// How much work the run may be, its counterfactuals included.
+    pub budget: BudgetLimits,
+    /// The conditions under which the run passes.
+    pub expect: Expect,
+    /// Runs beside this one in which something is changed, each with the scenario that is run.
+    pub counterfactuals: Vec<Counterfactual>,
+    /// Counterfactuals that flags have made impossible, each with the reason: a setting that another planner does not have.
+    pub left_out: Vec<[String; 2]>,
+    /// What is allowed and may not have been meant.
+    pub remarks: ScenarioRemarks,
+    /// The metrics of the registry that it was loaded with; a run measures them beside those that Interplay has.
+    pub metrics: RegisteredMetrics,
+}
+
+/// How many days are simulated unless the scenario says so.
+const ITERATIONS: usize = 10;
+
+impl Scenario {
+    /// Index of the ego in [`Scenario::vehicles`]: the vehicle called `ego` if there is one, otherwise the first.
+    pub fn ego_index(&self) -> usize {
+        self.index_of(EGO).unwrap_or(0)
+    }
+
+    /// The scenario without its counterfactuals: they are claims about its own planner, and nothing to somebody else at the wheel.
+    pub fn without_counterfactuals(self) -> Scenario {
+        Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..self }
+    }
+
+    /// The scenario's traffic alone, without its building and what is stated for that.
+    pub fn without_building(self) -> Scenario {
+        Scenario {
+            building: None,
+            weather: WeatherSource::default(),
+            occupancy: None,
+            gains: Vec::new(),
+            setpoints: None,
+            schedules: Vec::new(),
+            calendar: None,
+            tariff: None,
+            heat_pump: None,
+            controller: None,
+            iterations: None,
+            ..self
+        }
+    }
+
+    /// Whether there are so many vehicles that recordings and pictures tell of those near the ego alone.
+    pub fn is_crowd(&self) -> bool {
+        self.vehicles.len() > MOST_TOLD
+    }
+
+    /// The level of detail of a vehicle: it concerns humans beside the ego; none for all others.
+    pub fn detail_of(&self, index: usize) -> Option<Detail> {
+        let is_concerned = index != self.ego_index() && matches!(self.vehicles[index].driver, Driver::Human(_));
+        self.detail.filter(|_| is_concerned)
+    }
+
+    /// Index in [`Scenario::vehicles`] of the vehicle of that name.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.vehicles.iter().position(|vehicle| vehicle.name == name)
+    }
+
+    /// The ego: the vehicle called `ego` if there is one, otherwise the first; `None` only without vehicles.
+    pub fn ego(&self) -> Option<&Vehicle> {
+        self.vehicles.get(self.ego_index())
+    }
+
+    /// The vehicle of that name.
+    pub fn vehicle(&self, name: &str) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+
+    /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
+    pub fn tick_count(&self) -> usize {
+        if self.vehicles.is_empty() {
+            return 0;
+        }
+        (self.duration_s / self.step_s).round() as usize
+    }
+
+    /// How often each vehicle plans.
+    pub fn plan_count(&self) -> usize {
+        self.tick_count().div_ceil(self.ticks_per_plan)
+    }
+
+    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    pub fn planning_period_s(&self) -> f64 {
+        self.step_s * self.ticks_per_plan as f64
+    }
+
+    /// How many days of the building are simulated; 0 without a building.
+    pub fn days(&self) -> usize {
+        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+    }
+
+    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    pub fn controller(&self) -> Controller {
+        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+    }
+
+    /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
+    pub fn main_route(&self) -> Arc<Route> {
+        let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
+        let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
+        let route = vehicle.map(|vehicle| Arc::clone(&vehicle.route));
+        route.or_else(|| self.road.route(Branch::Main)).unwrap_or_else(straight_route)
+    }
+
+    /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
+    /// same seed gives the same starts. Who follows a record starts where it begins.
+    pub fn starts(&self) -> Vec<State> {
+        let mut random = SplitMix64::new(self.seed);
+        let jitter = self.start_jitter;
+        let start = |vehicle: &Vehicle| {
+            let changed = jitter.changed(vehicle.start, &vehicle.limits, &mut random);
+            if vehicle.driver.record().is_some() { vehicle.start } else { changed }
+        };
+        self.vehicles.iter().map(start).collect()
+    }
+}
+
+/// The x axis, without width.
+fn straight_route() -> Arc<Route> {
+    Arc::new(Route::from(Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.0, end: None }))
+}
+
+/// One vehicle: start, route, goal, body, limits and driver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    /// Its name, unique in the scenario; it becomes part of paths in the recording.
+    pub name: String,
+    /// What sort of vehicle it is, if that is stated.
+    pub class: Option<VehicleClass>,
+    /// The road it drives on; there is another than the main one at intersections only.
+    pub road: Branch,
+    /// Where it starts, in world coordinates, and its speed there.
+    pub start: State,
+    /// The acceleration with which it has come to its start \[m/s²\].
+    pub start_acceleration_mps2: f64,
+    /// Its way along the road.
+    pub route: Arc<Route>,
+    /// Its goal; what is not stated stays as at the start.
+    pub goal: GoalConfig,
+    /// Weights of deviations from its goal and of changes of its inputs.
+    pub weights: Weights,
+    /// Its size and axles.
+    pub body: Body,
+    /// The bounds of its inputs and its speed.
+    pub limits: Limits,
+    /// The ellipse around each other vehicle that it keeps out of.
+    pub safety: SafetyEllipse,
+    /// Its driver.
+    pub driver: Driver,
+    /// Whether it keeps the rules of the road, if that is stated; otherwise its kind of driver says so.
+    pub rules: Option<RuleKeeping>,
+    /// When it is on the road.
+    pub stay: Stay,
+    /// What it is if nobody drives it.
+    pub obstacle: Option<ObstacleForm>,
+    /// What it senses of the others; without it, it sees every state as it is.
+    pub sensing: Option<sensing::Settings>,
+    /// How it learns from the others' motion what they will do, where its driver infers that.
+    pub inference: Option<belief::Settings>,
+}
+
+/// When a vehicle is on the road.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stay {
+    /// When it comes; none if it is there from the start \[s\].
+    pub enters_s: Option<f64>,
+    /// When it leaves; none if it does not \[s\].
+    pub leaves_s: Option<f64>,
+    /// Whether it leaves where its route ends.
+    pub leaves_at_end: bool,
+}
+
+impl Stay {
+    /// Whether the vehicle is on the road for the whole run, whatever happens.
+    pub fn is_permanent(&self) -> bool {
+        *self == Stay::default()
+    }
+}
+
+impl Vehicle {
+    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
+    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
+    /// tracks it.
+    pub fn target(&self, road: &Road) -> State {
+        let route = &self.route;
+        let start = route.locate(self.start.position(), None);
+        let stated_m = self.goal_lane_centre_m(road).or(self.goal.y_m);
+        let start_m = if road.parallel_lanes().is_some() { start.across_m } else { 0.0 };
+        let [x_m, y_m] = route.centre.position(start.along_m, stated_m.unwrap_or(start_m));
+        State {
+            x_m,
+            y_m,
+            heading_rad: start.heading_rad,
+            speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
+        }
+    }
+}
+
+impl Vehicle {
+    /// Its outline, if it is an obstacle.
+    pub fn outline(&self) -> Option<&Outline> {
+        self.obstacle.as_ref().map(|obstacle| &obstacle.outline)
+    }
+
+    /// Whether it keeps all rules of the road.
+    pub fn keeps_rules(&self) -> bool {
+        self.rules == Some(RuleKeeping::Kept)
+    }
+
+    /// Its planner, which has not planned yet.
+    pub fn planner(&self) -> Planner {
+        self.driver.planner_believing(&self.inference.unwrap_or_default())
+    }
+
+    /// Its sensor with the errors of a seed; none where it sees everybody as it is.
+    pub fn sensor(&self, seed: u64) -> Option<Sensor> {
+        self.sensing.map(|settings| Sensor::new(settings, seed))
+    }
+
+    /// Lateral coordinate of the lane that is the goal, if parallel lanes have one \[m\].
+    pub(crate) fn goal_lane_centre_m(&self, road: &Road) -> Option<f64> {
+        road.lane_centre_m(self.road, self.goal.lane.as_ref()?.number()?)
+    }
+}
+
+/// A counterfactual with the scenario that is run for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterfactual {
+    /// What it claims, what it changes, and what it expects of that.
+    pub stated: CounterfactualConfig,
+    /// The changed scenario; its expectations are the counterfactual's.
+    pub scenario: Scenario,
+}

@@ -1,0 +1,37 @@
+//! A place where traffic is counted, as a file states it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use crate::model::traffic::lane_reference::LaneReference;
+use crate::text::name;
+
+/// A line across some lanes: whoever passes it is counted, lane by lane and together. `interplay run --detectors FILE` writes what it
+/// counts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Detector")]
+pub struct DetectorConfig {
+    /// Its name, unique among detectors.
+    #[schemars(extend("pattern" = name::pattern()), example = &"exit")]
+    pub name: String,
+    /// The lanes, by name or number.
+    #[schemars(length(min = 1, max = 100), example = json!(["main-1", "main-2"]))]
+    pub lanes: Vec<LaneReference>,
+    /// Where on each of the lanes it lies \[m\].
+    #[schemars(range(min = -100_000.0, max = 100_000.0), example = 150.0)]
+    pub along_m: f64,
+    /// What it counts is written for so long each \[s\].
+    #[serde(default = "interval_s")]
+    #[schemars(range(min = 0.1, max = 100_000.0))]
+    pub interval_s: f64,
+    /// The detector before it from which travel times count; by default there are none.
+    #[serde(default)]
+    #[schemars(example = &"entry")]
+    pub after: Option<String>,
+}
+
+fn interval_s() -> f64 {
+    60.0
+}

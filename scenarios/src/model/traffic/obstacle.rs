@@ -1,0 +1,120 @@
+//! What an obstacle of a scenario is.
+
+use interplay_planners::Body;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What an obstacle is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ObstacleKind {
+    /// A car that is parked, 4.5 m × 1.8 m.
+    #[default]
+    ParkedCar,
+    /// A van that is parked, 6 m × 2 m.
+    ParkedVan,
+    /// A traffic cone, a circle of 0.4 m.
+    Cone,
+    /// A wall, 10 m × 0.3 m.
+    Wall,
+    /// Works, 4 m × 2 m.
+    Works,
+}
+
+impl ObstacleKind {
+    /// The usual length and width of a real one \[m\].
+    pub(crate) fn size_m(self) -> [f64; 2] {
+        match self {
+            ObstacleKind::ParkedCar => [4.5, 1.8],
+            ObstacleKind::ParkedVan => [6.0, 2.0],
+            ObstacleKind::Cone => [0.4, 0.4],
+            ObstacleKind::Wall => [10.0, 0.3],
+            ObstacleKind::Works => [4.0, 2.0],
+        }
+    }
+
+    /// Whether its usual shape is a circle.
+    pub(crate) fn is_round(self) -> bool {
+        self == ObstacleKind::Cone
+    }
+}
+
+/// An obstacle: what it is and its shape. It is held by a vehicle that nobody drives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObstacleForm {
+    /// What it is.
+    pub kind: ObstacleKind,
+    /// Its outline around its middle.
+    pub outline: Outline,
+}
+
+/// Turns by less than this are none \[rad\].
+const ROUNDING: f64 = 1e-9;
+
+/// The outline of an obstacle, around its middle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outline {
+    /// A box of a length and a width \[m\].
+    Box {
+        /// To the front \[m\].
+        length_m: f64,
+        /// Across \[m\].
+        width_m: f64,
+    },
+    /// A circle \[m\].
+    Circle {
+        /// Its radius \[m\].
+        radius_m: f64,
+    },
+    /// A convex polygon: corners to the front and to the left, counter-clockwise \[m\].
+    Polygon {
+        /// Its corners \[m\].
+        corners_m: Vec<[f64; 2]>,
+    },
+}
+
+impl Outline {
+    /// The smallest body around it, of an obstacle of a scale ([`Body::scale`]).
+    pub fn body(&self, scale: f64) -> Body {
+        let (front_m, rear_m, width_m) = match self {
+            Outline::Box { length_m, width_m } => (0.5 * length_m, 0.5 * length_m, *width_m),
+            Outline::Circle { radius_m } => (*radius_m, *radius_m, 2.0 * radius_m),
+            Outline::Polygon { corners_m } => {
+                let most = |of: fn(&[f64; 2]) -> f64| corners_m.iter().map(of).fold(0.0, f64::max);
+                (most(|at| at[0]), most(|at| -at[0]), 2.0 * most(|at| at[1].abs()))
+            }
+        };
+        // Nobody drives it: axles lie within it, so that it is a body.
+        let (front_axle_m, rear_axle_m) = (0.6 * front_m.max(1e-3), 0.6 * rear_m.max(1e-3));
+        Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale }
+    }
+
+    /// The outline turned about its middle, counter-clockwise \[rad\].
+    pub(crate) fn turned(self, angle_rad: f64) -> Outline {
+        let (sin, cos) = libm::sincos(angle_rad);
+        let is_same = sin.abs() < ROUNDING && (cos > 0.0 || matches!(self, Outline::Box { .. }));
+        if is_same || matches!(self, Outline::Circle { .. }) {
+            return self;
+        }
+        let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+        Outline::Polygon { corners_m: self.corners_m().into_iter().map(turn).collect() }
+    }
+
+    /// Corners of the outline, counter-clockwise, to the front and to the left; those of a circle by sixteen \[m\].
+    pub fn corners_m(&self) -> Vec<[f64; 2]> {
+        match self {
+            Outline::Box { length_m, width_m } => {
+                let (x, y) = (0.5 * length_m, 0.5 * width_m);
+                vec![[x, -y], [x, y], [-x, y], [-x, -y]]
+            }
+            Outline::Circle { radius_m } => {
+                let corner = |index: u32| {
+                    let (sin, cos) = libm::sincos(f64::from(index) * std::f64::consts::PI / 8.0);
+                    [radius_m * cos, radius_m * sin]
+                };
+                (0..16).map(corner).collect()
+            }
+            Outline::Polygon { corners_m } => corners_m.clone(),
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! A path whose value varies, and the values that it takes.
+
+use interplay_building::control::uncertainty::normal_quantile;
+use interplay_common::spelling::nearest;
+
+use super::draw::UnitDraws;
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::overrides::SettingPath;
+use crate::format::read::tree::{Table, TomlNode, TomlValue, kind_of};
+use crate::plans::plan_file::Sampling;
+use crate::text::error::{Fault, Place, quoted};
+
+/// A path whose value varies.
+#[derive(Clone)]
+pub(super) struct Factor {
+    /// The path.
+    pub path: SettingPath,
+    /// Where its values are written.
+    pub place: Place,
+    values: Values,
+    draws: UnitDraws,
+}
+
+/// The values of a path.
+#[derive(Clone)]
+enum Values {
+    /// One after the other.
+    List(Vec<TomlNode>),
+    /// Evenly spaced whole numbers: the first, the step, and how many.
+    Integers(i128, i128, usize),
+    /// Evenly spaced numbers: the first, the last, and how many.
+    Numbers(f64, f64, usize),
+    /// Evenly distributed between two bounds.
+    Uniform(f64, f64),
+    /// With an evenly distributed logarithm.
+    LogUniform(f64, f64),
+    /// Normally distributed: mean and standard deviation.
+    Normal(f64, f64),
+}
+
+/// The keys of a table that stands for values.
+const DISTRIBUTIONS: [&str; 4] = ["range", "uniform", "normal", "log_uniform"];
+/// The most values of a range.
+const MAX_VALUES: usize = 1_000_000;
+/// What a value may be.
+const EXAMPLE: &str = "write a list of values, or for example `{ range = [0.0, 1.0], count = 11 }`, `{ uniform = [0.0, 1.0] }`, \
+    `{ normal = { mean = 1.0, sd = 0.1 } }` or `{ log_uniform = [0.1, 10.0] }`";
+
+/// How numbers are drawn: the sampling, the seed, and how many samples there are.
+pub(super) type DrawSettings = (Sampling, u64, u64);
+
+/// The factors of a `vary` table, in the order of their paths.
+pub(super) fn factors(vary: &Table, settings: DrawSettings, schema: SchemaNode) -> Result<Vec<Factor>, Vec<Fault>> {
+    let (mut found, mut faults) = (Vec::new(), Vec::new());
+    collect(&SettingPath::root(), vary, (settings, schema), &mut found, &mut faults);
+    if faults.is_empty() { Ok(found) } else { Err(faults) }
+}
+
+fn collect(
+    before: &SettingPath,
+    vary: &Table,
+    (settings, schema): (DrawSettings, SchemaNode),
+    found: &mut Vec<Factor>,
+    faults: &mut Vec<Fault>,
+) {
+    for (key, entry) in vary {
+        let path = match before.join(key, &entry.key) {
+            Ok(path) if path.written() != "seed" => path,
+            Ok(_) => {
+                let fault = Fault::at(&entry.key, "cannot vary", "the seed of a run follows from its sample");
+                faults.push(fault.help("state `samples`, and the `seed` of the first"));
+                continue;
+            }
+            Err(fault) => {
+                faults.push(fault);
+                continue;
+            }
+        };
+        match &entry.node.value {
+            TomlValue::Table(table) if !table.keys().any(|key| DISTRIBUTIONS.contains(&key.as_str())) => {
+                match misspelt(&path, table, schema) {
+                    Some(fault) => faults.push(fault),
+                    None => collect(&path, table, (settings, schema), found, faults),
+                }
+            }
+            _ => match values_of(&entry.node) {
+                Ok(values) => {
+                    let (sampling, seed, samples) = settings;
+                    let draws = UnitDraws::new(seed, &path.written(), sampling, samples);
+                    found.push(Factor { path, place: entry.node.place.clone(), values, draws });
+                }
+                Err(fault) => faults.push(fault),
+            },
+        }
+    }
+}
+
+/// The refusal of a table that can only be meant as a distribution: it stands for a setting below which there is none, or its
+/// first key is all but the name of one.
+fn misspelt(path: &SettingPath, table: &Table, schema: SchemaNode) -> Option<Fault> {
+    let (key, entry) =
+        table.iter().find(|(key, _)| nearest(key, DISTRIBUTIONS).is_some()).or_else(|| table.iter().next())?;
+    let property = path.schema(schema);
+    let is_value =
+        property.is_some_and(|schema| matches!(schema.type_name(), Some("number" | "integer" | "boolean" | "string")));
+    let is_close = nearest(key, DISTRIBUTIONS).is_some_and(|near| key.len().abs_diff(near.len()) <= 2);
+    if !is_value && (!is_close || property.is_none_or(|schema| schema.property(key).is_some())) {
+        return None;
+    }
+    let message = format!("{} is no distribution of the values of {}", quoted(key), quoted(&path.written()));
+    let near = nearest(key, DISTRIBUTIONS).map(|near| format!("did you mean `{near}`? "));
+    Some(Fault::at(&entry.key, "unknown", message).help(format!("{}{EXAMPLE}", near.unwrap_or_default())))
+}
+
+fn values_of(node: &TomlNode) -> Result<Values, Fault> {
+    match &node.value {
+        TomlValue::Array(items) if items.is_empty() => {
+            Err(Fault::at(&node.place, "empty", "a list of values must not be empty").help(EXAMPLE))
+        }
+        TomlValue::Array(items) => Ok(Values::List(items.clone())),
+        TomlValue::Table(table) => distribution(node, table),
+        other => {
+            let message = format!("{} is no list and no distribution", kind_of(other));
+            Err(Fault::at(&node.place, "does not vary", message)
+                .help(format!("{EXAMPLE}; one value belongs in `[set]`")))
+        }
+    }
+}
+
+fn distribution(node: &TomlNode, table: &Table) -> Result<Values, Fault> {
+    let mut stated = DISTRIBUTIONS.iter().filter_map(|key| Some((*key, table.get(*key)?)));
+    let Some((key, entry)) = stated.next() else {
+        return Err(Fault::at(&node.place, "no distribution", "a table of values needs a distribution").help(EXAMPLE));
+    };
+    let allowed: &[&str] = if key == "range" { &["range", "count", "step"] } else { &[key] };
+    if let Some((other, unknown)) = table.iter().find(|(other, _)| !allowed.contains(&other.as_str())) {
+        let message = format!("`{other}` does not belong beside `{key}`");
+        return Err(Fault::at(&unknown.key, "unknown here", message).help(EXAMPLE));
+    }
+    if key == "normal" {
+        let part = |name: &str| entry.node.table().and_then(|table| number(&table.get(name)?.node));
+        return match (part("mean"), part("sd")) {
+            (Some(mean), Some(sd)) if sd > 0.0 => Ok(Values::Normal(mean, sd)),
+            (Some(_), Some(_)) => {
+                Err(Fault::at(&entry.node.place, "not above 0", "`sd` must be above 0").help(EXAMPLE))
+            }
+            _ => {
+                Err(Fault::at(&entry.node.place, "incomplete", "`normal` needs the numbers `mean` and `sd`")
+                    .help(EXAMPLE))
+            }
+        };
+    }
+    let ends = match &entry.node.value {
+        TomlValue::Array(items) => items.iter().map(number).collect::<Option<Vec<f64>>>().unwrap_or_default(),
+        _ => Vec::new(),
+    };
+    let [from, to] = ends.as_slice() else {
+        let message = format!("`{key}` needs two numbers, from and to");
+        return Err(Fault::at(&entry.node.place, "not two numbers", message).help(EXAMPLE));
+    };
+    let refuse = |label: &str, message: String| Err(Fault::at(&entry.node.place, label, message).help(EXAMPLE));
+    match key {
+        "range" if from > to => refuse("empty", format!("a range from {from} to {to} is empty")),
+        "range" => range(entry.node.place.clone(), &entry.node, table, [*from, *to]),
+        _ if from >= to => refuse("empty", format!("`{key}` from {from} to {to} is empty")),
+        "log_uniform" if *from <= 0.0 => refuse("not above 0", "`log_uniform` needs bounds above 0".to_owned()),
+        "log_uniform" => Ok(Values::LogUniform(*from, *to)),
+        _ => Ok(Values::Uniform(*from, *to)),
+    }
+}
+
+/// Evenly spaced values between two ends: so many, or by a step.
+fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> Result<Values, Fault> {
+    let integers = match &ends.value {
+        TomlValue::Array(items) => items.iter().filter_map(integer).collect(),
+        _ => Vec::new(),
+    };
+    let refuse = |place: &Place, label: &str, message: &str| Err(Fault::at(place, label, message).help(EXAMPLE));
+    match (table.get("count"), table.get("step"), integers.as_slice()) {
+        (Some(count), Some(_), _) => refuse(&count.key, "beside `step`", "a range has a `count` or a `step`"),
+        (Some(count), None, _) => match integer(&count.node).and_then(|count| usize::try_from(count).ok()) {
+            Some(1) if from < to => refuse(&count.node.place, "too few", "one value does not reach from end to end"),
+            Some(count @ 1..=MAX_VALUES) => Ok(Values::Numbers(from, to, count)),
+            _ => refuse(&count.node.place, "not 1 to 1000000", "`count` must be a whole number from 1 to 1000000"),
+        },
+        (None, step, [from, to]) if step.is_none_or(|step| integer(&step.node).is_some()) => {
+            let step = step.and_then(|step| integer(&step.node)).unwrap_or(1);
+            match usize::try_from((to - from).checked_div(step).unwrap_or(-1)) {
+                Ok(steps) if step > 0 && steps < MAX_VALUES => Ok(Values::Integers(*from, step, steps + 1)),
+                _ => refuse(&place, "too many, or none", "a range has 1 to 1000000 values, `step` apart"),
+            }
+        }
+        (None, Some(step), _) => match number(&step.node) {
+            Some(width) if width > 0.0 && (to - from) / width < MAX_VALUES as f64 => {
+                // A step that divides the range up to rounding reaches its end.
+                let steps = ((to - from) / width + 1e-9).floor();
+                Ok(Values::Numbers(from, from + steps * width, steps as usize + 1))
+            }
+            _ => refuse(&step.node.place, "no step", "`step` must be a number above 0, with at most 1000000 values"),
+        },
+        (None, None, _) => refuse(&place, "how many?", "a range of numbers needs a `count` or a `step`"),
+    }
+}
+
+fn number(node: &TomlNode) -> Option<f64> {
+    match node.value {
+        TomlValue::Integer(integer) => Some(integer as f64),
+        TomlValue::Float(float) => Some(float).filter(|float| float.is_finite()),
+        _ => None,
+    }
+}
+
+fn integer(node: &TomlNode) -> Option<i128> {
+    match node.value {
+        TomlValue::Integer(integer) => Some(integer),
+        _ => None,
+    }
+}
+
+impl Factor {
+    /// Whether all values are numbers.
+    pub fn is_numeric(&self) -> bool {
+        match &self.values {
+            Values::List(items) => items.iter().all(|item| number(item).is_some()),
+            _ => true,
+        }
+    }
+
+    /// Where the last word of its path is written.
+    pub fn key(&self) -> &Place {
+        self.path.places().last().unwrap_or(&self.place)
+    }
+
+    /// The values of a list.
+    pub fn listed(&self) -> &[TomlNode] {
+        match &self.values {
+            Values::List(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// How many values there are, if they can be counted.
+    pub fn count(&self) -> Option<usize> {
+        match &self.values {
+            Values::List(items) => Some(items.len()),
+            Values::Integers(_, _, count) | Values::Numbers(_, _, count) => Some(*count),
+            Values::Uniform(..) | Values::LogUniform(..) | Values::Normal(..) => None,
+        }
+    }
+
+    /// One of the values that can be counted.
+    pub fn value(&self, index: usize) -> TomlNode {
+        match &self.values {
+            Values::List(items) => items[index].clone(),
+            Values::Integers(first, step, _) => self.node(TomlValue::Integer(first + step * index as i128)),
+            Values::Numbers(first, last, count) => {
+                let share = if *count > 1 { index as f64 / (count - 1) as f64 } else { 0.0 };
+                self.node(TomlValue::Float(if share == 1.0 { *last } else { first + share * (last - first) }))
+            }
+            Values::Uniform(..) | Values::LogUniform(..) | Values::Normal(..) => self.drawn(index as u64),
+        }
+    }
+
+    /// The value of a sample.
+    pub fn drawn(&self, sample: u64) -> TomlNode {
+        let unit = self.draws.at(sample);
+        if let Some(count) = self.count() {
+            return self.value(((unit * count as f64) as usize).min(count - 1));
+        }
+        let number = match self.values {
+            Values::Uniform(from, to) => from + unit * (to - from),
+            Values::LogUniform(from, to) => libm::exp(libm::log(from) + unit * (libm::log(to) - libm::log(from))),
+            Values::Normal(mean, sd) => mean + sd * normal_quantile(unit),
+            Values::List(_) | Values::Integers(..) | Values::Numbers(..) => unit,
+        };
+        self.node(TomlValue::Float(number))
+    }
+
+    /// The values at the ends of what can occur; of a list all values, up to `limit`.
+    pub fn extremes(&self, limit: usize) -> Vec<TomlNode> {
+        let ends = |ends: [f64; 2]| ends.map(|end| self.node(TomlValue::Float(end))).to_vec();
+        match &self.values {
+            Values::List(items) => items.iter().take(limit).cloned().collect(),
+            Values::Integers(_, _, count) | Values::Numbers(_, _, count) => vec![self.value(0), self.value(count - 1)],
+            Values::Uniform(from, to) | Values::LogUniform(from, to) => ends([*from, *to]),
+            // Its tails have no end: every drawn value is checked.
+            Values::Normal(mean, _) => vec![self.node(TomlValue::Float(*mean))],
+        }
+    }
+
+    fn node(&self, value: TomlValue) -> TomlNode {
+        TomlNode { place: self.place.clone(), value }
+    }
+}

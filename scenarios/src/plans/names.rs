@@ -1,0 +1,91 @@
+//! The scenarios that an entry of a plan stands for.
+
+use std::path::Path;
+
+use interplay_common::spelling::suggestion;
+
+use crate::format::read::embedded::embedded;
+use crate::load::files::files_below;
+use crate::streets::Street;
+use crate::text::error::{Fault, Place, quoted};
+use crate::text::pattern::fits;
+
+/// A scenario of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct NamedScenario {
+    /// What it is called in the results.
+    pub name: String,
+    /// What it is compared with: the folder of an embedded scenario, otherwise its name.
+    pub family: String,
+    /// The name of the embedded scenario, or the path of the file.
+    pub source: String,
+}
+
+/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, streets, a file, or all .toml files below
+/// a folder, sorted by name. Paths are relative to `folder`.
+pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<NamedScenario>, Fault> {
+    let matching = |fits: &dyn Fn(&str) -> bool| -> Vec<NamedScenario> {
+        embedded().iter().filter(|file| fits(file.name)).map(|file| embedded_scenario(file.name)).collect()
+    };
+    let family = format!("{}/", entry.trim_end_matches('/'));
+    let found = match matching(&|name| fits(entry, name)) {
+        none if none.is_empty() => matching(&|name| name.starts_with(&family)),
+        found => found,
+    };
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let streets = Street::matching(entry);
+    if !streets.is_empty() {
+        return Ok(streets.iter().map(street).collect());
+    }
+    let path = folder.join(entry);
+    if path.is_dir() {
+        let unreadable = |reason: std::io::Error| {
+            Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
+        };
+        let files = files_below(&path).map_err(unreadable)?;
+        if files.is_empty() {
+            return Err(Fault::at(place, "empty", format!("there is no .toml file in folder {}", quoted(entry))));
+        }
+        if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
+            let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));
+            return Err(Fault::at(place, "a file in this folder", message).help("rename the file"));
+        }
+        return Ok(files.iter().map(|file| in_folder(file, &path)).collect());
+    }
+    if path.is_file() {
+        let name = path.file_stem().map_or_else(|| entry.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let source = path.to_string_lossy().into_owned();
+        return Ok(vec![NamedScenario { family: name.clone(), name, source }]);
+    }
+    let mut names: Vec<&str> = embedded().iter().map(|file| file.name).collect();
+    names.extend(families());
+    let message = format!("there is no scenario, no family and no file {}", quoted(entry));
+    let help = format!("{}; `interplay list` shows all of them", suggestion(entry, "families are", &families()));
+    let near = interplay_common::spelling::nearest(entry, names);
+    let help = near.map_or(help, |near| format!("did you mean `{near}`? `interplay list` shows all of them"));
+    Err(Fault::at(place, "unknown", message).help(help))
+}
+
+fn embedded_scenario(name: &str) -> NamedScenario {
+    let family = name.split('/').next().unwrap_or(name).to_owned();
+    NamedScenario { name: name.to_owned(), family, source: name.to_owned() }
+}
+
+fn street(street: &Street) -> NamedScenario {
+    NamedScenario { name: street.name(), family: street.family(), source: street.name() }
+}
+
+fn in_folder(file: &Path, folder: &Path) -> NamedScenario {
+    let name = file.strip_prefix(folder).unwrap_or(file).with_extension("").to_string_lossy().into_owned();
+    let family = name.split('/').next().unwrap_or(&name).to_owned();
+    NamedScenario { name, family, source: file.to_string_lossy().into_owned() }
+}
+
+/// The folders of the embedded scenarios.
+fn families() -> Vec<&'static str> {
+    let mut found: Vec<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
+    found.dedup();
+    found
+}

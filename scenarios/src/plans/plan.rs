@@ -1,0 +1,304 @@
+//! A plan that has been read, and its runs.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value as Json;
+
+use super::arm::Arm;
+use super::assignment::{Assignment, path_of};
+use super::factor::Factor;
+use super::named_files;
+use super::names::NamedScenario;
+use crate::format::read::tree::{Table, TomlNode, TomlValue};
+use crate::format::registry::Registry;
+use crate::load::assemble_on;
+use crate::model::metric::RegisteredMetrics;
+use crate::model::scenario::Scenario;
+use crate::model::traffic::start_jitter::StartJitter;
+use crate::plans::plan_file::Sampling;
+use crate::resolve::placement::KnownRoads;
+use crate::text::error::{Fault, Place};
+
+/// A plan of many runs. They are numbered from 0, those of one sample next to each other.
+pub struct SweepPlan {
+    pub(super) registry: Registry,
+    pub(super) name: String,
+    pub(super) title: Option<String>,
+    /// The text as it was written.
+    pub(super) text: String,
+    pub(super) scenarios: Vec<PlannedScenario>,
+    pub(super) styles: Vec<Arm>,
+    pub(super) planners: Vec<Arm>,
+    pub(super) changes: Arm,
+    pub(super) sampling: Sampling,
+    pub(super) samples: u64,
+    /// Where their number is stated, if it is.
+    pub(super) samples_place: Option<Place>,
+    pub(super) seed: u64,
+    /// Where a key that no line states is blamed.
+    pub(super) place: Place,
+    /// Where the random change of the starts is stated, if it is.
+    pub(super) jitter_place: Option<Place>,
+    /// What its scenarios have in common of their roads.
+    pub(super) known_roads: KnownRoads,
+}
+
+/// A scenario of a plan, without what the plan changes.
+pub(super) struct PlannedScenario {
+    pub named: NamedScenario,
+    pub tree: TomlNode,
+    /// What the scenario is, in words of which no two that differ have the same.
+    pub canonical: String,
+    /// The random change of its starts, scaled to its vehicles.
+    pub jitter: Option<StartJitter>,
+    /// Planners of this scenario alone, after those of the plan: its counterfactuals, if they are run.
+    pub counterfactuals: Vec<Arm>,
+}
+
+/// One run of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPoint {
+    /// Its number.
+    pub index: u64,
+    /// The scenario's name.
+    pub scenario: String,
+    /// The scenario's family.
+    pub family: String,
+    /// The name of the drivers of the other vehicles.
+    pub style: String,
+    /// The name of the planner.
+    pub planner: String,
+    /// The sample among those of the scenario and style; the runs of all planners have the same values in it.
+    pub sample: u64,
+    /// The seed of the run.
+    pub seed: u64,
+    /// What varies, and its value.
+    pub inputs: Vec<(String, Json)>,
+    pub(super) place: Indices,
+}
+
+/// The parts of a plan that make a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Indices {
+    pub scenario: usize,
+    pub style: usize,
+    pub planner: usize,
+    /// The combination on the grid.
+    pub cell: u64,
+    /// The sample within it.
+    pub draw: u64,
+}
+
+impl SweepPlan {
+    /// The metrics of the registry that it was read with.
+    pub fn metrics(&self) -> &RegisteredMetrics {
+        self.registry.metrics()
+    }
+
+    /// What the plan is for.
+    pub fn title(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+
+    /// The plan as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// How many runs it stands for.
+    pub fn run_count(&self) -> u64 {
+        self.count().unwrap_or(u64::MAX)
+    }
+
+    /// The same; none if they are more than can be counted.
+    pub(super) fn count(&self) -> Option<u64> {
+        let planners = (0..self.scenarios.len()).map(|scenario| self.planner_count(scenario)).sum();
+        self.samples_of_all_styles()?.checked_mul(planners)
+    }
+
+    /// How many runs there are with so many scenarios; none if they are more than can be counted.
+    pub(super) fn count_for(&self, scenarios: usize) -> Option<u64> {
+        self.samples_of_all_styles()?.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
+    }
+
+    fn samples_of_all_styles(&self) -> Option<u64> {
+        (0..self.styles.len()).try_fold(0_u64, |sum, style| sum.checked_add(self.samples_of(style)?))
+    }
+
+    /// How many planners there are in a scenario: those of the plan, then the scenario's counterfactuals.
+    pub(super) fn planner_count(&self, scenario: usize) -> u64 {
+        (self.planners.len() + self.scenarios[scenario].counterfactuals.len()) as u64
+    }
+
+    pub(super) fn planner(&self, place: &Indices) -> &Arm {
+        let own = || &self.scenarios[place.scenario].counterfactuals[place.planner - self.planners.len()];
+        self.planners.get(place.planner).unwrap_or_else(own)
+    }
+
+    /// How many counterfactuals of scenarios are run besides the planners.
+    pub fn counterfactual_count(&self) -> usize {
+        self.scenarios.iter().map(|scenario| scenario.counterfactuals.len()).sum()
+    }
+
+    /// The paths of everything that varies, sorted, each with whether all of its values are numbers.
+    pub fn inputs(&self) -> Vec<(String, bool)> {
+        let mut found = BTreeMap::new();
+        for factor in self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors) {
+            *found.entry(factor.path.written()).or_insert(true) &= factor.is_numeric();
+        }
+        found.into_iter().collect()
+    }
+
+    /// The names of the scenarios, the styles and the planners.
+    pub fn names(&self) -> [Vec<&str>; 3] {
+        [
+            self.scenarios.iter().map(|scenario| scenario.named.name.as_str()).collect(),
+            self.styles.iter().map(|arm| arm.name.as_str()).collect(),
+            self.planners.iter().map(|arm| arm.name.as_str()).collect(),
+        ]
+    }
+
+    /// How many combinations there are with a style.
+    fn cells(&self, style: usize) -> Option<u64> {
+        if self.sampling != Sampling::Grid {
+            return Some(1);
+        }
+        let counts = self.factors(style).filter_map(Factor::count);
+        counts.map(|count| count as u64).try_fold(1_u64, u64::checked_mul)
+    }
+
+    fn samples_of(&self, style: usize) -> Option<u64> {
+        self.cells(style)?.checked_mul(self.samples)
+    }
+
+    pub(super) fn factors(&self, style: usize) -> impl Iterator<Item = &Factor> {
+        self.changes.factors.iter().chain(&self.styles[style].factors)
+    }
+
+    /// A run.
+    ///
+    /// # Panics
+    /// If there are not so many runs.
+    pub fn point(&self, index: u64) -> SweepPoint {
+        assert!(index < self.run_count(), "the plan has no run {index}");
+        let mut rest = index;
+        let mut style = 0;
+        let planners = (0..self.scenarios.len()).map(|scenario| self.planner_count(scenario)).sum::<u64>();
+        // Samples of a style, for one scenario after the other, with all planners of the scenario.
+        while rest >= self.samples_of(style).unwrap_or(u64::MAX).saturating_mul(planners) {
+            rest -= self.samples_of(style).unwrap_or(0) * planners;
+            style += 1;
+        }
+        let of_one = self.samples_of(style).unwrap_or(1);
+        let mut scenario = 0;
+        while rest >= of_one.saturating_mul(self.planner_count(scenario)) {
+            rest -= of_one * self.planner_count(scenario);
+            scenario += 1;
+        }
+        let (sample, planner) = (rest / self.planner_count(scenario), (rest % self.planner_count(scenario)) as usize);
+        let place = Indices { scenario, style, planner, cell: sample / self.samples, draw: sample % self.samples };
+        let named = &self.scenarios[scenario].named;
+        let inputs = self.values(&place).map(|(factor, value)| (factor.path.written(), value.to_json())).collect();
+        SweepPoint {
+            index,
+            scenario: named.name.clone(),
+            family: named.family.clone(),
+            style: self.styles[style].name.clone(),
+            planner: self.planner(&place).name.clone(),
+            sample,
+            seed: self.seed + place.draw,
+            inputs,
+            place,
+        }
+    }
+
+    /// The values of all factors in a run.
+    pub(super) fn values(&self, place: &Indices) -> impl Iterator<Item = (&Factor, TomlNode)> {
+        let (mut cell, draw, is_grid) = (place.cell, place.draw, self.sampling == Sampling::Grid);
+        self.factors(place.style).map(move |factor| {
+            let value = match factor.count().filter(|_| is_grid) {
+                Some(count) => {
+                    let index = cell % count as u64;
+                    cell /= count as u64;
+                    factor.value(index as usize)
+                }
+                None => factor.drawn(draw),
+            };
+            (factor, value)
+        })
+    }
+
+    /// What the scenario of a run is, without what the plan changes, in words of which no two that differ have the same.
+    pub fn canonical_scenario(&self, point: &SweepPoint) -> &str {
+        &self.scenarios[point.place.scenario].canonical
+    }
+
+    /// What is changed for a run, likewise.
+    pub fn canonical_changes(&self, point: &SweepPoint) -> String {
+        let place = &point.place;
+        let jitter = self.scenarios[place.scenario].jitter;
+        let jitter = jitter.map(|jitter| format!("jitter={:?}\n", jitter)).unwrap_or_default();
+        let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
+        let arms = arms.map(Arm::canonical).join("\n;\n");
+        let inputs: Vec<String> = point.inputs.iter().map(|(path, value)| format!("{path}={value}")).collect();
+        let files = self.named_files(place);
+        format!("{jitter}{arms}\n;\n{}\n;\nseed={}\n;\n{files}", inputs.join("\n"), point.seed)
+    }
+
+    /// What the files say that a run names because of the plan; nothing where the plan changes none of them.
+    fn named_files(&self, place: &Indices) -> String {
+        let assignments = self.assignments(place, None);
+        if !assignments.iter().any(|assignment| assignment.is_below(&named_files::SETTINGS)) {
+            return String::new();
+        }
+        self.assembled(place, &assignments).map_or_else(|_| String::new(), |scenario| named_files::contents(&scenario))
+    }
+
+    /// What the plan changes of the scenario in a run, in the order in which it is laid over it: the random change of the starts,
+    /// what is set in all runs, the style, the planner, and what varies; `instead`, if stated, is the value of one of the factors.
+    pub(super) fn assignments(&self, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Vec<Assignment<'_>> {
+        let jitter = self.jitter_place.as_ref().zip(self.scenarios[place.scenario].jitter);
+        let jitter = jitter.into_iter().flat_map(|(written, jitter)| Assignment::of_jitter(jitter, written));
+        let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
+        let varied = self.values(place).enumerate().map(|(index, (factor, value))| {
+            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value.clone());
+            Assignment::varied(&factor.path, other.unwrap_or(value))
+        });
+        jitter.chain(arms.into_iter().flat_map(Arm::assignments)).chain(varied).collect()
+    }
+
+    /// The scenario of a run with these changes and its seed.
+    pub(super) fn assembled<'a>(
+        &self,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<Scenario, Vec<Fault>> {
+        let tree = self.laid(place, assignments).map_err(|fault| vec![fault])?;
+        assemble_on(&self.registry, &tree, &self.known_roads)
+    }
+
+    /// The same, unchecked.
+    pub(super) fn laid<'a>(
+        &self,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<TomlNode, Fault> {
+        let mut tree = self.scenarios[place.scenario].tree.clone();
+        if let TomlValue::Table(root) = &mut tree.value {
+            self.lay(root, place, assignments)?;
+        }
+        Ok(tree)
+    }
+
+    fn lay<'a>(
+        &self,
+        root: &mut Table,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<(), Fault> {
+        let seed = TomlValue::Integer(i128::from(self.seed + place.draw));
+        let (schema, seed) = (self.registry.complete(), TomlNode { place: self.place.clone(), value: seed });
+        path_of("seed", &self.place)?.lay(root, &seed, schema)?;
+        assignments.into_iter().try_for_each(|assignment| assignment.lay(root, schema))
+    }
+}

@@ -1,0 +1,138 @@
+//! The keys of a plan of many runs, as its schema has them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value as Json, json};
+
+use crate::model::traffic::start_jitter::StartJitter;
+
+/// A plan of many runs: scenarios, times drivers of the others, times values that vary, times planners of the ego.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlanFile {
+    /// What the plan is for, in a few words.
+    #[serde(default)]
+    #[schemars(example = &"Planners against styles")]
+    pub title: Option<String>,
+    /// The scenarios: names of embedded ones, which may have `*` in them, their families, streets such as
+    /// `streets/ring/0-19`, files, or folders of files.
+    #[schemars(length(min = 1, max = 1000), example = vec!["lane-change/front-nice", "intersection"])]
+    pub scenario: Vec<String>,
+    /// Who drives the ego: kinds of drivers, or tables with a `name`, a `kind` and changes. Without it, as each file says.
+    #[serde(default)]
+    #[schemars(length(max = 1000), example = vec!["negotiation", "conservative"])]
+    pub planner: Vec<PlannerEntry>,
+    /// Who drives the other vehicles: styles of humans, kinds of drivers, or tables with a `name` and changes. Without it, as
+    /// each file says.
+    #[serde(default)]
+    #[schemars(length(max = 1000), example = vec!["nice", "tough"])]
+    pub style: Vec<StyleEntry>,
+    /// Whether each scenario's own counterfactuals are run besides, as planners of that scenario alone that are called like them.
+    #[serde(default)]
+    pub counterfactuals: bool,
+    /// What is changed in all runs: paths as `--set` has them, each with its new value; `vehicle.*` is every vehicle but the
+    /// ego.
+    #[serde(default)]
+    #[schemars(extend("x-paths" = true))]
+    pub set: Map<String, Json>,
+    /// What varies: paths, each with a list of values, or with a table `{ range = [from, to], count = n }`,
+    /// `{ uniform = [from, to] }`, `{ normal = { mean = m, sd = s } }` or `{ log_uniform = [from, to] }`.
+    #[serde(default)]
+    #[schemars(extend("x-paths" = true))]
+    pub vary: Map<String, Json>,
+    /// Random change of every start at 1/10 scale, drawn from the seed of the sample; for larger vehicles it is scaled by
+    /// Froude's law.
+    #[serde(default)]
+    #[schemars(example = json!({ "position_m": 0.1, "speed_mps": 0.1 }))]
+    pub jitter: Option<StartJitter>,
+    /// How values are chosen: `grid` runs every combination of lists and ranges, and of each as many samples of the
+    /// distributions; `random` and `latin-hypercube` draw all values for each sample.
+    #[serde(default)]
+    pub sampling: Sampling,
+    /// How many samples there are; on a grid, of every combination.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1))]
+    pub samples: u64,
+    /// The seed of the first sample; the next samples have the seeds after it. All that is drawn is drawn from it.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// The most runs that the plan may stand for.
+    #[serde(default = "million")]
+    #[schemars(range(min = 1))]
+    pub max_runs: u64,
+}
+
+/// A planner of the ego.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum PlannerEntry {
+    /// The kind of driver, which is its name too.
+    Kind(String),
+    /// One with changes.
+    Planner(PlannerArm),
+}
+
+/// A planner with a name and changes.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlannerArm {
+    /// Its name, unique in the plan.
+    #[schemars(length(min = 1), example = &"patient")]
+    pub name: String,
+    /// The kind of driver, as `--planner` has it; without it, the scenario's own.
+    #[serde(default)]
+    #[schemars(example = &"negotiation")]
+    pub kind: Option<String>,
+    /// What is changed besides.
+    #[serde(default)]
+    #[schemars(example = json!({ "vehicle.ego.driver.settled_steps": 29 }), extend("x-paths" = true))]
+    pub set: Map<String, Json>,
+}
+
+/// Who drives the other vehicles.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum StyleEntry {
+    /// A style of humans or a kind of driver, which is its name too.
+    Word(String),
+    /// One with changes.
+    Style(StyleArm),
+}
+
+/// Drivers of the other vehicles with a name and changes.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StyleArm {
+    /// Its name, unique in the plan.
+    #[schemars(length(min = 1), example = &"continuum")]
+    pub name: String,
+    /// What is changed.
+    #[serde(default)]
+    #[schemars(example = json!({ "vehicle.*.driver": { "kind": "human" } }), extend("x-paths" = true))]
+    pub set: Map<String, Json>,
+    /// What varies with these drivers, besides what varies in all runs.
+    #[serde(default)]
+    #[schemars(example = json!({ "vehicle.*.driver.safety_weight": { "log_uniform": [0.2, 50.0] } }), extend("x-paths" = true))]
+    pub vary: Map<String, Json>,
+}
+
+/// How the values of a plan are chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Sampling {
+    /// Every combination of lists and ranges; distributions are drawn for each sample.
+    #[default]
+    Grid,
+    /// All values are drawn for each sample.
+    Random,
+    /// The same, each value once from each of as many equally likely parts as there are samples.
+    LatinHypercube,
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn million() -> u64 {
+    1_000_000
+}

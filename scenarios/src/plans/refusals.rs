@@ -1,0 +1,139 @@
+//! What is wrong with the runs of a plan: each fault once.
+
+use std::collections::BTreeMap;
+
+use super::assignment::Assignment;
+use super::plan::{Indices, SweepPlan, SweepPoint};
+use crate::text::error::{Fault, LoadError};
+
+/// How many values of a list are checked as extremes; every value that is run is checked besides.
+const MAX_LISTED: usize = 100;
+
+/// What is wrong with some runs of a plan: of each fault, the first run that has it and how many have it.
+///
+/// Faults of several runs are the same if their words are, but for numbers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RunRefusals(BTreeMap<FaultKey, Count>);
+
+/// Where in the plan a fault lies, as line and column, and its words without numbers.
+type FaultKey = (Option<(usize, usize)>, String);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Count {
+    first_run: u64,
+    runs: u64,
+}
+
+impl RunRefusals {
+    /// Whether nothing is wrong.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What is wrong with these runs or with those, no run being among both.
+    #[must_use]
+    pub fn and(mut self, other: RunRefusals) -> RunRefusals {
+        for (key, count) in other.0 {
+            let own = self.0.entry(key).or_insert(Count { first_run: count.first_run, runs: 0 });
+            *own = Count { first_run: own.first_run.min(count.first_run), runs: own.runs + count.runs };
+        }
+        self
+    }
+}
+
+impl SweepPlan {
+    /// Checks a run.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self, point: &SweepPoint) -> Result<(), RunRefusals> {
+        let outcome = self.assembled(&point.place, &self.assignments(&point.place, None));
+        let count = Count { first_run: point.index, runs: 1 };
+        let keyed = |faults: Vec<Fault>| faults.iter().map(|fault| (self.key_of(fault), count)).collect();
+        outcome.map(|_| ()).map_err(|faults| RunRefusals(keyed(faults)))
+    }
+
+    /// What is wrong with runs of the plan, each fault located in the plan, with the first run that has it.
+    pub fn refusal(&self, refusals: &RunRefusals) -> LoadError {
+        let mut found = Vec::new();
+        for (key, count) in &refusals.0 {
+            let place = self.point(count.first_run).place;
+            let faults = self.assembled(&place, &self.assignments(&place, None)).err().unwrap_or_default();
+            let Some(fault) = faults.iter().find(|fault| self.key_of(fault) == *key) else { continue };
+            let blamed = self.blamed(&place, &faults, fault);
+            found.push(if count.runs > 1 {
+                blamed.ending(&format!("; {} runs have this error", count.runs))
+            } else {
+                blamed
+            });
+        }
+        LoadError::of_plan(&self.name, found)
+    }
+
+    /// What is wrong with the plan's arms, with the values at the ends of what can be drawn, and with the number of samples. It
+    /// stops at the first combination of scenario, style and planner in which something is.
+    ///
+    /// What is owed to a value that differs from run to run, or to the change of the starts, and shows in the first run, is left to
+    /// the check of all runs, which counts those that have it.
+    pub(super) fn check_extremes(&self) -> Vec<Fault> {
+        for scenario in 0..self.scenarios.len() {
+            for style in 0..self.styles.len() {
+                for planner in 0..self.planner_count(scenario) as usize {
+                    let faults = self.extremes_of(&Indices { scenario, style, planner, cell: 0, draw: 0 });
+                    if !faults.is_empty() {
+                        return faults;
+                    }
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    /// The same of one combination, each fault once.
+    fn extremes_of(&self, place: &Indices) -> Vec<Fault> {
+        match self.assembled(place, &self.assignments(place, None)) {
+            Err(faults) => {
+                return faults.iter().filter_map(|fault| self.blamed_on_what_is_fixed(place, &faults, fault)).collect();
+            }
+            Ok(scenario) => {
+                if let Some(fault) = self.equal_samples(place, None, &scenario) {
+                    return vec![fault];
+                }
+            }
+        }
+        let mut found: BTreeMap<FaultKey, Fault> = BTreeMap::new();
+        for (index, factor) in self.factors(place.style).enumerate() {
+            for value in factor.extremes(MAX_LISTED) {
+                let instead = (index, value);
+                let mut refused = |blamed: Fault, message: &str| {
+                    found.entry((blamed.line_and_column(), without_numbers(message))).or_insert(blamed);
+                };
+                match self.assembled(place, &self.assignments(place, Some(&instead))) {
+                    Ok(scenario) => {
+                        let value = Assignment::varied(&factor.path, instead.1.clone());
+                        if let Some(fault) = self.equal_samples(place, Some(&value), &scenario) {
+                            refused(fault, "");
+                        }
+                    }
+                    Err(faults) => {
+                        for fault in &faults {
+                            refused(self.blamed_on_value(place, &instead, fault), fault.message());
+                        }
+                    }
+                }
+            }
+        }
+        found.into_values().collect()
+    }
+
+    fn key_of(&self, fault: &Fault) -> FaultKey {
+        let is_in_plan = fault.file() == Some(&self.name);
+        (fault.line_and_column().filter(|_| is_in_plan), without_numbers(fault.message()))
+    }
+}
+
+/// A message without its numbers.
+fn without_numbers(message: &str) -> String {
+    let is_number = |word: &&str| word.trim_matches(|letter| "`(),;:".contains(letter)).parse::<f64>().is_ok();
+    message.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ")
+}

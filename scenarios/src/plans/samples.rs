@@ -1,0 +1,35 @@
+//! Another number of samples than a plan's own.
+
+use crate::format::read::tree::{TomlEntry, TomlNode, TomlValue};
+use crate::text::error::{Document, Place};
+
+/// The key of a plan that says how many samples there are.
+const KEY: &str = "samples";
+
+/// Replaces the number of samples of a plan by that of the flag `--samples`, which errors then name. Returns the text that says
+/// the same, in which only this number differs.
+///
+/// A table in place of the number stays: it is refused.
+pub(super) fn replace(tree: &mut TomlNode, text: &str, samples: u64) -> String {
+    let TomlValue::Table(root) = &mut tree.value else { return text.to_owned() };
+    let written = samples.to_string();
+    let whole = Place::new(&Document::new("--samples", &written, 0), 0..written.len());
+    let node = TomlNode { place: whole.clone(), value: TomlValue::Integer(i128::from(samples)) };
+    match root.get_mut(KEY) {
+        Some(entry) if entry.node.table().is_some() => text.to_owned(),
+        Some(entry) => {
+            let span = entry.node.place.span.clone();
+            entry.node = node;
+            match (text.get(..span.start), text.get(span.end..)) {
+                (Some(before), Some(behind)) => format!("{before}{written}{behind}"),
+                _ => text.to_owned(),
+            }
+        }
+        None => {
+            root.insert(KEY.to_owned(), TomlEntry { key: whole, node });
+            // At the end it would belong to a table. A byte order mark stays in front.
+            let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
+            format!("{mark}{KEY} = {written} # --samples\n{rest}")
+        }
+    }
+}

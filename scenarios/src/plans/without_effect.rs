@@ -1,0 +1,247 @@
+//! Changes of a plan that others, laid over them, undo.
+//!
+//! In each run a plan lays over the scenario, in this order: the change of the starts, what is set in all runs, the style, the
+//! planner, what varies in all runs, and what varies with the style. A setting is undone by a later one if that states it or what
+//! it is below, excludes it, or is of a kind that does not know it.
+//!
+//! What is set must have an effect in a run at least. What varies must have one wherever it varies, since the rows of all these
+//! runs state its value.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::arm::Arm;
+use super::conflicts::{NO_EFFECT, key_of};
+use super::factor::Factor;
+use super::plan::{PlannedScenario, SweepPlan};
+use super::settings_below::{Removal, Rivals, settings_below};
+use crate::format::json_schema::SchemaNode;
+use crate::format::read::overrides::{OTHER_VEHICLES, SettingPath, ego_kind};
+use crate::format::read::tree::{Table, TomlNode, TomlValue};
+use crate::text::error::{Fault, Place, quoted};
+
+/// The settings that a value of a change replaces in a scenario; of a `kind`, with its word.
+type Settings = BTreeMap<String, Option<String>>;
+
+/// A scenario as it is written, and the schema of scenarios.
+type Root<'a, 'r> = (&'r Table, SchemaNode<'a>);
+
+/// A change of a plan in one scenario.
+struct Change<'a> {
+    /// The part of the plan that states it, in words.
+    by: String,
+    /// Where it is written.
+    key: &'a Place,
+    is_varied: bool,
+    /// Whether it is of every vehicle but the ego.
+    is_of_others: bool,
+    /// The settings that it states, as the plan writes them, each with what removes it from the vehicles that it is about.
+    settings: BTreeMap<String, Vec<Rivals<'a>>>,
+    /// What each of its values replaces, equal ones once.
+    values: BTreeSet<Settings>,
+}
+
+/// The changes of one arm.
+type Changes<'a> = Vec<Change<'a>>;
+
+/// What becomes of a setting that a plan states at a place.
+#[derive(Default)]
+struct Effect {
+    is_seen: bool,
+    /// Why it has none, in the first run without.
+    undone: Option<Fault>,
+}
+
+/// The settings of a plan by where they are written.
+type Effects = BTreeMap<(usize, usize, String), Effect>;
+
+impl SweepPlan {
+    /// What the plan sets without effect in any run, and what varies without effect in some.
+    pub(super) fn without_effect(&self) -> Vec<Fault> {
+        let mut effects = Effects::new();
+        let mut varied: BTreeMap<(usize, usize), Fault> = BTreeMap::new();
+        for scenario in &self.scenarios {
+            let TomlValue::Table(root) = &scenario.tree.value else { continue };
+            let root = (root, self.registry.complete());
+            let everywhere = changes(&self.changes, "the plan", root);
+            let (fixed, factors) = everywhere.split_at(everywhere.len() - self.changes.factors.len());
+            let (planners, counterfactuals) = self.planners_of(scenario, root);
+            for style in &self.styles {
+                let own = changes(style, &format!("the style {}", quoted(&style.name)), root);
+                let (set, own_factors) = own.split_at(own.len() - style.factors.len());
+                let factors: Vec<&Change> = factors.iter().chain(own_factors).collect();
+                for (index, factor) in factors.iter().enumerate() {
+                    if let Some(fault) = factor.undone_in_part(&factors[index + 1..]) {
+                        varied.entry(span(factor.key)).or_insert(fault);
+                    }
+                }
+                for planner in &planners {
+                    let laid: Vec<&Change> = fixed.iter().chain(set).chain(planner).collect();
+                    note(&laid, laid.len(), &factors, &mut effects);
+                }
+                for counterfactual in &counterfactuals {
+                    let laid: Vec<&Change> = fixed.iter().chain(set).chain(counterfactual).collect();
+                    note(&laid, laid.len() - counterfactual.len(), &factors, &mut effects);
+                    for change in counterfactual {
+                        if let Some((factor, fault)) = change.undone_by_factor(&factors) {
+                            varied.entry(span(factor.key)).or_insert(fault);
+                        }
+                    }
+                }
+            }
+        }
+        let idle = effects.into_values().filter(|effect| !effect.is_seen).filter_map(|effect| effect.undone);
+        // One for each change, though it states several settings.
+        let mut found: BTreeMap<(usize, usize), Fault> = varied;
+        for fault in idle {
+            if let Some(place) = fault.place() {
+                found.entry(span(place)).or_insert(fault);
+            }
+        }
+        found.into_values().collect()
+    }
+
+    /// The changes of the planners and of the counterfactuals of a scenario.
+    fn planners_of<'a>(
+        &'a self,
+        scenario: &'a PlannedScenario,
+        root: Root<'a, '_>,
+    ) -> (Vec<Changes<'a>>, Vec<Changes<'a>>) {
+        let named = |what: &str, arm: &'a Arm| changes(arm, &format!("{what} {}", quoted(&arm.name)), root);
+        let planners = self.planners.iter().map(|arm| named("the planner", arm));
+        let of_scenario = format!("{} with its counterfactual", quoted(&scenario.named.name));
+        let counterfactuals = scenario.counterfactuals.iter().map(|arm| named(&of_scenario, arm));
+        (planners.collect(), counterfactuals.collect())
+    }
+}
+
+/// Notes of each setting of the first `count` changes of one run whether it has an effect.
+fn note(laid: &[&Change], count: usize, factors: &[&Change], effects: &mut Effects) {
+    for (index, change) in laid[..count].iter().enumerate() {
+        let later = || laid[index + 1..].iter().chain(factors).copied();
+        for (setting, places) in &change.settings {
+            let (from, to) = span(change.key);
+            let effect = effects.entry((from, to, setting.clone())).or_default();
+            if effect.is_seen || places.is_empty() {
+                continue;
+            }
+            let mut undone = None;
+            effect.is_seen = !places.iter().all(|rivals| {
+                undone = later().find_map(|other| Some((other, other.removal_by_all(rivals)?)));
+                undone.is_some()
+            });
+            if let Some((other, removal)) = undone.filter(|_| !effect.is_seen) {
+                effect.undone.get_or_insert_with(|| change.fault(setting, other, &removal));
+            }
+        }
+    }
+}
+
+fn span(place: &Place) -> (usize, usize) {
+    (place.span.start, place.span.end)
+}
+
+/// The changes of an arm in a scenario: who drives the ego, its settings, then what varies.
+fn changes<'a>(arm: &'a Arm, by: &str, root: Root<'a, '_>) -> Changes<'a> {
+    let change = |path: &SettingPath, key, values: &mut dyn Iterator<Item = &TomlNode>, is_varied| {
+        Change::new(by, path, key, values, is_varied, root)
+    };
+    let kind =
+        arm.kind().map(|kind| change(&ego_kind(root.0, &kind.place), &kind.place, &mut [kind].into_iter(), false));
+    let set =
+        arm.settings().iter().map(|(path, value)| change(path, key_of(path, value), &mut [value].into_iter(), false));
+    let varied = arm.factors.iter().map(|factor: &Factor| {
+        let number = TomlNode { place: factor.place.clone(), value: TomlValue::Float(0.0) };
+        let values = if factor.listed().is_empty() { std::slice::from_ref(&number) } else { factor.listed() };
+        change(&factor.path, factor.key(), &mut values.iter(), true)
+    });
+    kind.into_iter().chain(set).chain(varied).collect()
+}
+
+impl<'a> Change<'a> {
+    fn new(
+        by: &str,
+        path: &SettingPath,
+        key: &'a Place,
+        values: &mut dyn Iterator<Item = &TomlNode>,
+        is_varied: bool,
+        (root, schema): Root<'a, '_>,
+    ) -> Change<'a> {
+        let (mut settings, mut all) = (BTreeMap::new(), BTreeSet::new());
+        let (written, paths) = (path.written(), path.in_scenario(root));
+        for value in values {
+            for setting in settings_below(&written, value, schema).into_keys() {
+                let below = setting.strip_prefix(&written).unwrap_or_default();
+                let of = |path: &SettingPath| Rivals::find(&format!("{}{below}", path.written()), schema);
+                let rivals = || paths.iter().map(of).collect();
+                settings.entry(setting.clone()).or_insert_with(rivals);
+            }
+            all.insert(paths.iter().flat_map(|path| settings_below(&path.written(), value, schema)).collect());
+        }
+        Change { by: by.to_owned(), key, is_varied, is_of_others: path.is_of_others(), settings, values: all }
+    }
+
+    /// A path of one of its settings in a scenario as the plan writes it.
+    fn written(&self, path: &str) -> String {
+        let mut words: Vec<&str> = path.split('.').collect();
+        if let Some(name) = words.get_mut(1).filter(|_| self.is_of_others) {
+            *name = OTHER_VEHICLES;
+        }
+        words.join(".")
+    }
+
+    /// How all of its values remove a setting, if they do: as the first does.
+    fn removal_by_all(&self, rivals: &Rivals) -> Option<Removal> {
+        let removals: Option<Vec<Removal>> = self.values.iter().map(|value| rivals.removal(value)).collect();
+        removals?.into_iter().next()
+    }
+
+    /// What is wrong with a factor of which some value is undone in all vehicles by some value of later ones.
+    fn undone_in_part(&self, later: &[&Change]) -> Option<Fault> {
+        self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
+            let by = |rivals: &Rivals| {
+                later
+                    .iter()
+                    .find_map(|other| Some((*other, other.values.iter().find_map(|value| rivals.removal(value))?)))
+            };
+            let undone: Option<Vec<(&Change, Removal)>> = places.iter().map(by).collect();
+            let (other, removal) = undone?.into_iter().next()?;
+            Some(self.fault(setting, other, &removal))
+        })
+    }
+
+    /// What is wrong with a factor that undoes this change of a counterfactual.
+    fn undone_by_factor<'b>(&self, factors: &[&'b Change<'b>]) -> Option<(&'b Change<'b>, Fault)> {
+        self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
+            let by = |rivals: &Rivals| factors.iter().find(|factor| factor.removal_by_all(rivals).is_some()).copied();
+            let factor = places.iter().map(by).collect::<Option<Vec<_>>>()?.into_iter().next()?;
+            let message = format!("{} sets `{setting}`, and what varies here is laid over it", self.by);
+            let help = "leave it out of `vary`, or run without the counterfactuals";
+            Some((factor, Fault::at(factor.key, "the counterfactual is without effect", message).help(help)))
+        })
+    }
+
+    /// The refusal of a setting that another change removes.
+    fn fault(&self, setting: &str, other: &Change, removal: &Removal) -> Fault {
+        let (states, verb) =
+            (if self.is_varied { "varies" } else { "is set" }, if other.is_varied { "varies" } else { "sets" });
+        let by = |path: &str| format!("{} {verb} `{}`", other.by, other.written(path));
+        let wins = match removal {
+            Removal::Replaced(_) if other.is_varied && !self.is_varied => {
+                "varies: what varies is laid over it".to_owned()
+            }
+            Removal::Replaced(path) => format!("{}, which is laid over it", by(path)),
+            Removal::Excluded(path) => format!("{}, which excludes it and is laid over it", by(path)),
+            Removal::Unknown(path, kind) => {
+                format!("{}, of which the kind `{kind}` is laid over it and does not know it", by(path))
+            }
+        };
+        let message = format!("`{setting}` {states} here, and {wins}");
+        let fault = Fault::at(self.key, NO_EFFECT, message);
+        let wins = if other.is_varied { "varies here" } else { "wins" };
+        fault.also(other.key, wins).help(HELP)
+    }
+}
+
+/// What to do about a change without effect.
+const HELP: &str = "leave one of both out; the later wins of: `set` of all runs, the style, the planner with its `kind` before its \
+    `set`, what varies in all runs, what varies with the style";

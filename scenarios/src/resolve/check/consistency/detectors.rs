@@ -1,0 +1,39 @@
+//! Detectors: whether their lanes are there, and those before them.
+
+use super::checker::Checker;
+use crate::text::error::quoted;
+
+impl Checker<'_> {
+    pub(super) fn detectors(&mut self) {
+        let detectors = &self.scenario.detectors;
+        for (index, detector) in detectors.iter().enumerate() {
+            let key = |key: &str| format!("detector.{index}.{key}");
+            let name = quoted(&detector.name);
+            if detectors[..index].iter().any(|other| other.name == detector.name) {
+                self.refuse(
+                    &key("name"),
+                    "a second one",
+                    format!("there are two detectors {name}"),
+                    "name one otherwise",
+                );
+            }
+            let is_missing = |lane| self.scenario.detector_line(lane, detector.along_m).is_none();
+            if detector.lanes.iter().any(is_missing) {
+                let message =
+                    format!("a lane of detector {name} is not there, or does not reach {} m", detector.along_m);
+                self.refuse(
+                    &key("lanes"),
+                    "no such place",
+                    message,
+                    "name lanes of the road, and a place on all of them",
+                );
+            }
+            if let Some(after) = &detector.after
+                && !detectors.iter().any(|other| other.name == *after && other.name != detector.name)
+            {
+                let message = format!("there is no other detector {} before {name}", quoted(after));
+                self.refuse(&key("after"), "no such detector", message, "name another `[[detector]]`");
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
+//! which that shows.
+
+use interplay_planners::ComfortLimits;
+use interplay_planners::drivers::{human, idm};
+use serde_json::{Map, Value as Json, json};
+
+use super::fill::scaled;
+use crate::format::json_schema::SchemaNode;
+use crate::model::classes::FULL_SCALE;
+use crate::model::traffic::conduct::Conduct;
+
+/// Time from one tick to the next, and from one plan to the next, for real cars \[s\].
+const STEPS_S: [f64; 2] = [0.1, 0.2];
+
+/// Stages of a plan: 8 s of a real car.
+const HORIZON_STEPS: usize = 40;
+
+/// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
+/// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
+fn driver_defaults(kind: &str) -> Json {
+    let idm::Settings { headway_s, gap_m, acceleration_mps2, braking_mps2, .. } = idm::Settings::literature();
+    match kind {
+        "human" => json!({ "reaction_s": human::REACTION_S }),
+        "idm" => json!({
+            "headway_s": headway_s, "gap_m": gap_m, "acceleration_mps2": acceleration_mps2, "braking_mps2": braking_mps2,
+            "mobil": { "safe_braking_mps2": 2.0 },
+        }),
+        "negotiation" => json!({ "answer_s": 0.9, "concedes": "order" }),
+        "bayesian" | "game" => json!({ "answer_s": 0.9 }),
+        _ => json!({}),
+    }
+}
+
+/// Whether drivers are people: as stated, or else where everything is of full size and no figure of the source is reproduced.
+pub(super) fn are_people(root: &Map<String, Json>, is_full: bool) -> bool {
+    let stated: Option<Conduct> = root.get("conduct").and_then(|stated| serde_json::from_value(stated.clone()).ok());
+    stated.map_or(is_full && !root.contains_key("figure"), |stated| stated == Conduct::People)
+}
+
+/// Writes the time steps into a scenario that states none.
+pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
+    if root.contains_key("step_s") {
+        return;
+    }
+    let times = STEPS_S.map(|full_s| full_s * (scale / FULL_SCALE).sqrt());
+    for (key, time_s) in ["step_s", "planning_period_s"].into_iter().zip(times) {
+        root.entry(key).or_insert(json!(time_s));
+    }
+    root.entry("horizon_steps").or_insert(json!(HORIZON_STEPS));
+}
+
+/// Writes into a vehicle what its driver does; `schema` is that of vehicles.
+pub(super) fn state_habits(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
+    let ratio = scale / FULL_SCALE;
+    // A record is judged by no rule.
+    let is_recorded =
+        vehicle.get("driver").and_then(|driver| driver.get("kind")).is_some_and(|kind| kind == "recorded");
+    vehicle.entry("rules").or_insert(json!(if is_recorded { "ignored" } else { "kept" }));
+    if let Some(limits) = vehicle.entry("limits").or_insert_with(|| json!({})).as_object_mut() {
+        let comfort = schema.property("limits").and_then(|limits| limits.property("comfort"));
+        let real = serde_json::to_value(ComfortLimits::default()).unwrap_or_default();
+        limits
+            .entry("comfort")
+            .or_insert_with(|| comfort.map_or_else(|| real.clone(), |key| scaled(key, &real, ratio)));
+    }
+    let Some(driver) = vehicle.get_mut("driver").and_then(Json::as_object_mut) else { return };
+    let Some(kind) = driver.get("kind").and_then(Json::as_str).map(str::to_owned) else { return };
+    let of_kind = schema.property("driver").and_then(|driver| driver.of_kind(&kind));
+    let Json::Object(defaults) = driver_defaults(&kind) else { return };
+    for (key, value) in defaults {
+        let property = of_kind.and_then(|kind| kind.property(&key));
+        driver.entry(key).or_insert_with(|| property.map_or_else(|| value.clone(), |key| scaled(key, &value, ratio)));
+    }
+}
