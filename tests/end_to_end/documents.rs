@@ -1,5 +1,6 @@
 //! The documents say what is so: the README's commands, its example and its sample output, and what CI runs.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -7,7 +8,7 @@ use std::process::Command;
 use interplay_scenarios::{embedded, from_text};
 use saphyr_parser::Parser;
 
-use crate::command::{interplay, scratch};
+use crate::command::{contents, interplay, scratch};
 
 fn document(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
@@ -61,8 +62,10 @@ fn ci_runs_the_readme_s_test_command() {
 /// The sample in the README is the command's own output, but for the numbers.
 #[test]
 fn the_readme_s_sample_is_what_the_command_prints() {
-    let sample = block(&document("README.md"), "text", "[lane-change/front-nice]");
-    let printed = interplay(&scratch("sample"), &["run", "--no-record"]).stdout;
+    let sample = block(&document("README.md"), "text", "[people/intersection]");
+    let folder = scratch("sample");
+    let outcome = interplay(&folder, &[]);
+    let printed = outcome.stdout;
     let masked = |text: &str| -> Vec<String> {
         let lines = text.lines().map(|line| {
             let words = line.split_whitespace().map(|word| {
@@ -74,6 +77,12 @@ fn the_readme_s_sample_is_what_the_command_prints() {
         lines.collect()
     };
     assert_eq!(masked(&sample), masked(&printed), "paste the output anew:\n{printed}");
+    // The first run fits a screen, leaves no file behind, and ends with what to try next.
+    let said = outcome.stderr.lines().collect::<Vec<_>>();
+    assert!(printed.lines().count() + said.len() <= 15 && contents(&folder).is_empty(), "{printed}{said:?}");
+    let next = ["why", "play", "new"].map(|command| format!(" {command} "));
+    assert!(said.len() == 3 && said.iter().zip(&next).all(|(line, next)| line.contains(next)), "{said:?}");
+    assert!(!printed.contains('{'), "no JSON on the first screen: {printed}");
 }
 
 #[test]
@@ -100,9 +109,11 @@ fn is_flag(word: &str) -> bool {
 #[test]
 fn the_readme_names_scenarios_that_exist() {
     let readme = document("README.md");
-    let rows = readme.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
-    let named: Vec<&str> = rows.filter(|word| !word.ends_with('/')).collect();
-    assert!(named.len() > 8, "{named:?}");
+    let families: BTreeSet<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
+    let is_name = |word: &&str| word.split_once('/').is_some_and(|(family, _)| families.contains(family));
+    let words = readme.split(|c: char| c.is_whitespace() || "`\"()[]".contains(c));
+    let named: BTreeSet<&str> = words.filter(is_name).collect();
+    assert!(named.len() >= 3, "{named:?}");
     for name in named {
         assert!(embedded().iter().any(|file| file.name == name), "there is no {name}");
     }
@@ -174,6 +185,13 @@ fn workflows_are_yaml_and_start_what_exists() {
     for word in started.split_whitespace().filter(|word| is_path(word) && !word.contains('*')) {
         assert!(root.join(word).exists(), "a workflow or the justfile starts `{word}`");
     }
+}
+
+/// The description of the architecture is short enough to read.
+#[test]
+fn the_architecture_is_described_on_few_pages() {
+    let words = document("ARCHITECTURE.md").split_whitespace().count();
+    assert!((1_000..=2_500).contains(&words), "{words} words");
 }
 
 /// The check of subjects accepts imperatives and refuses what is longer, or begins with another word.
