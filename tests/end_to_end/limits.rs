@@ -134,8 +134,11 @@ fn a_zone_has_a_temperature_and_nothing_else() {
 
 #[test]
 fn a_flow_has_at_most_10_000_vehicles() {
-    let flow = "[road]\nkind = 'lanes'\nlane_count = 2\nlane_width_m = 3.5\n[[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\n";
-    let said = refused(&format!("{flow}vehicles_per_h = 7200000.0\n"));
+    let flow = "title = 'Limits'\nshows = 'A crowd'\nduration_s = 400.0\ndefaults = { class = 'car' }\n\
+                road = { kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }\n\
+                [[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\nvehicles_per_h = 100000.0\n";
+    let error = from_text("crowd.toml", flow, &[]).expect_err("refused");
+    let said = error.faults()[0].message();
     assert!(said.contains("10000") || said.contains("10,000"), "{said}");
 }
 
