@@ -4,7 +4,7 @@
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
 use interplay_planners::prediction::steady_inputs;
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, Trajectory};
 use interplay_scenarios::{Override, Registry};
 use interplay_simulation::run::run;
@@ -37,7 +37,7 @@ impl DriverKind for Careful {
 }
 
 impl Drive for Careful {
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let ego = &scene.ego;
         let ahead = scene.others.iter().filter(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
         let gap_m = ahead.map(|other| ego.lead_of(other) - ego.body.front_m - other.body.rear_m).min_by(f64::total_cmp);

@@ -1,16 +1,16 @@
-//! A search for encounters in which a planner touches somebody.
+//! Searches for scenarios in which a planner touches another vehicle.
 //!
 //! ```sh
 //! cargo run --release -p interplay-planners --example adversary -- [STEPS [seed=NUMBER] [WORD ...]]
 //! ```
 //!
-//! For each planner and family of scenarios it varies where everybody starts, how fast, and how much each human minds others
-//! (safety weights from 0.01 to 100), so that the ego comes as near to somebody as possible: half of the steps (200 unless stated) are
+//! For each planner and family of scenarios it varies the starts of all vehicles, their speeds, and how much each human minds others
+//! (safety weights from 0.01 to 100), so that the ego comes as near to another vehicle as possible: half of the steps (200 unless stated) are
 //! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says
 //!
 //! - until which tick one of the [last resorts](interplay_planners::plan::certificate::last_resorts) would have avoided it if the others
-//!   had moved as they did (*avoidable*), which nobody knows beforehand, and
-//! - whether the same motion of the ego would have touched somebody if the others had done from that tick on what they planned at
+//!   had moved as they did (*avoidable*), which no planner knows beforehand, and
+//! - whether the same motion of the ego would have touched another vehicle if the others had done from that tick on what they planned at
 //!   it (*foretold*),
 //! - and who caused it (*by the ego*): the ego if it moved towards the other at least as fast as the other towards it, as in sweeps.
 //!
@@ -32,7 +32,7 @@ const TICKS: usize = 60;
 /// How far starts and speeds vary to either side \[m\], \[m/s\].
 const ALONG_M: f64 = 0.5;
 const SPEED_MPS: f64 = 0.3;
-/// Everybody starts at least so far apart \[m\].
+/// Vehicles start at least this far apart \[m\].
 const FIRST_GAP_M: f64 = 0.1;
 /// Words of a verdict.
 const AVOIDABLE: &str = "avoidable";
@@ -43,11 +43,11 @@ const NUMBERS: usize = 3;
 
 /// One run.
 struct Encounter {
-    /// The smallest gap between the ego and anybody \[m\]; not positive at a contact.
+    /// The smallest gap between the ego and any other vehicle \[m\]; not positive at a contact.
     gap_m: f64,
     /// The tick at which it was smallest.
     tick: usize,
-    /// Per tick, the ego's scene before anybody plans.
+    /// Per tick, the ego's scene before any driver plans.
     scenes: Vec<Scene>,
     /// Per tick, what the others plan then, in the order of the scene.
     told: Vec<Vec<Trajectory>>,
@@ -126,7 +126,7 @@ fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize, seed: u64) -> (usiz
     (runs, best_m, contacts)
 }
 
-/// A run from a start that numbers from 0 to 1 choose; none if somebody starts too near to another.
+/// A run from a start that numbers from 0 to 1 choose; none if two vehicles start too near to each other.
 fn drive(mut vehicles: Vec<Vehicle>, numbers: &[f64]) -> Option<Encounter> {
     let within = |share: f64, bound: f64| bound * (2.0 * share - 1.0);
     for (vehicle, numbers) in vehicles.iter_mut().zip(numbers.chunks(NUMBERS)) {
@@ -151,7 +151,7 @@ fn drive(mut vehicles: Vec<Vehicle>, numbers: &[f64]) -> Option<Encounter> {
         encounter.scenes.push(traffic.scene(0));
         let mut decisions = traffic.drive(|index, scene| planners[index].plan(scene));
         decisions.sort_by_key(|decision| decision.vehicle);
-        encounter.told.push(decisions.into_iter().skip(1).map(|decision| decision.plan.trajectory).collect());
+        encounter.told.push(decisions.into_iter().skip(1).map(|decision| decision.plan.trajectory.clone()).collect());
         let gap_m = gap_m(&traffic.scene(0));
         if gap_m < encounter.gap_m {
             (encounter.gap_m, encounter.tick) = (gap_m, tick + 1);
@@ -171,7 +171,7 @@ fn gap_m(scene: &Scene) -> f64 {
     gaps.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the ego drives into somebody at the end.
+/// Whether the ego drives into another vehicle at the end.
 fn is_by_ego(encounter: &Encounter) -> bool {
     encounter.scenes.last().is_some_and(|scene| {
         let own = scene.ego.body.corners(&scene.ego.state);
@@ -180,7 +180,7 @@ fn is_by_ego(encounter: &Encounter) -> bool {
     })
 }
 
-/// The last tick from which a last resort touches nobody until the contact, if the others move as they did.
+/// The last tick from which a last resort touches no vehicle until the contact, if the others move as they did.
 fn avoidable_until(encounter: &Encounter) -> Option<usize> {
     let end = encounter.scenes.len() - 1;
     (0..end).rev().find(|from| {
@@ -204,7 +204,7 @@ fn avoidable_until(encounter: &Encounter) -> Option<usize> {
     })
 }
 
-/// Whether the ego's motion from a tick on touches somebody if the others do what they planned at that tick.
+/// Whether the ego's motion from a tick on touches another vehicle if the others do what they planned at that tick.
 fn touches_as_told(encounter: &Encounter, tick: usize) -> bool {
     encounter.scenes[tick..].iter().enumerate().skip(1).any(|(stage, scene)| {
         let ego = scene.ego.body.corners(&scene.ego.state);

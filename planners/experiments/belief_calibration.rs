@@ -7,7 +7,7 @@
 //! In each run an ego that infers meets one human of the families `lane keeping`, `intersection` and `lane change`, from a random start.
 //! The *interaction* begins at the first tick at which this human, in its own scene, would do something else as a tough driver than
 //! as a nice one: the two first plans are more than 2 cm apart after a second. A run in which that never happens tells nothing
-//! and is counted apart. What is believed a second later is compared with the truth:
+//! and is counted apart. The belief a second later is compared with the truth:
 //!
 //! - with humans of a named style (tough, normal or nice, in equal shares), the kind for which the human is taken, and whether it is
 //!   one of the kinds that it may well be ([`DriverEstimate::credible_models`]);
@@ -164,7 +164,7 @@ fn believed(
         if let Some((_, edges)) = began.filter(|(began, _)| tick >= began + SECOND) {
             let own = decisions.into_iter().find(|decision| decision.vehicle == 0)?;
             let of = |belief: &DriverEstimate| belief.vehicle == vehicles[observed].agent.name;
-            return own.plan.beliefs.into_iter().find(of).map(|estimate| (estimate, edges));
+            return own.plan.beliefs.iter().cloned().find(of).map(|estimate| (estimate, edges));
         }
     }
     None

@@ -14,7 +14,6 @@ mod common;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use common::SplitMix64;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::Driver;
 use interplay_planners::PlanCondition;
@@ -32,7 +31,7 @@ fn main() -> std::io::Result<()> {
         for ego in egos() {
             for seed in 0..SEEDS {
                 let mut vehicles = pose(ego.clone());
-                perturb(&mut vehicles, seed);
+                common::starts::perturb(&mut vehicles, seed);
                 if let Driver::Cooperative(_) = ego {
                     vehicles[1].drive(ego.clone());
                 }
@@ -51,17 +50,6 @@ fn main() -> std::io::Result<()> {
         writeln!(out, "| {kind} | {} | {condition} | {} | {low}, {middle}, {high} |", plans[kind], stages.len())?;
     }
     writeln!(out, "{plans:?}")
-}
-
-fn perturb(vehicles: &mut [Vehicle], seed: u64) {
-    let mut random = SplitMix64::new(1000 + seed);
-    for vehicle in vehicles {
-        let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
-        let along = random.uniform(-0.3, 0.3);
-        vehicle.agent.state.x_m += along * cos;
-        vehicle.agent.state.y_m += along * sin;
-        vehicle.agent.state.speed_mps += random.uniform(-0.1, 0.1);
-    }
 }
 
 fn drive<'a>(

@@ -4,7 +4,7 @@
 //! cargo run --release -p interplay-planners --example inference_times -- [STARTS [SEED]]
 //! ```
 //!
-//! A negotiating ego that is told no plans meets the humans of every family. In each tick its observations are given to a second,
+//! A negotiating ego that knows no plans meets the humans of every family. In each tick its observations are given to a second,
 //! equal belief, which is timed. A start is driven twice, with the same beliefs, and the shorter time of each tick counts, so that other
 //! load on the machine shows less. *First* is the tick in which the others are first seen: nothing has been planned for them yet.
 

@@ -140,7 +140,7 @@ fn search_closed_loop(words: &[String]) -> std::io::Result<()> {
             }
             for seed in 0..SEEDS {
                 let mut vehicles = pose(ego.clone());
-                perturb(&mut vehicles, seed);
+                common::starts::perturb(&mut vehicles, seed);
                 if let Driver::Cooperative(_) = ego {
                     vehicles[1].drive(ego.clone());
                 }
@@ -163,17 +163,6 @@ fn search_closed_loop(words: &[String]) -> std::io::Result<()> {
         *entry = (entry.0 + count, entry.1 + of);
     }
     writeln!(out, "{total:?}")
-}
-
-fn perturb(vehicles: &mut [Vehicle], seed: u64) {
-    let mut random = SplitMix64::new(1000 + seed);
-    for vehicle in vehicles {
-        let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
-        let along = random.uniform(-0.3, 0.3);
-        vehicle.agent.state.x_m += along * cos;
-        vehicle.agent.state.y_m += along * sin;
-        vehicle.agent.state.speed_mps += random.uniform(-0.1, 0.1);
-    }
 }
 
 fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<String, Tally>) {

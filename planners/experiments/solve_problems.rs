@@ -40,7 +40,7 @@ struct Outcome {
     id: String,
     /// Cost of the admissible inputs nearest to the guess.
     start_cost: f64,
-    /// Why there is no optimum.
+    /// Why no optimum was found.
     error: Option<String>,
     cost: Option<f64>,
     /// Largest violation of a safety row (1 − d²).

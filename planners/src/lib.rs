@@ -29,7 +29,7 @@
 //! use interplay_planners::drivers::conservative;
 //! use interplay_planners::prediction::constant_velocity;
 //! use interplay_planners::rules::RoadRules;
-//! use interplay_planners::scene::outlook::Outlook;
+//! use interplay_planners::scene::inferred_futures::InferredFutures;
 //! use interplay_planners::{
 //!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State,
 //! };
@@ -61,7 +61,7 @@
 //! };
 //! let scene = Scene { tick: 0, step_s, horizon, ego, goal, others: vec![leader] };
 //!
-//! let plan = conservative::Settings::default().driver().plan(&scene, &Outlook::default())?;
+//! let plan = conservative::Settings::default().driver().plan(&scene, &InferredFutures::default())?;
 //! assert_eq!(plan.trajectory.inputs.len(), horizon);
 //! let slowest_mps = plan.trajectory.states.iter().map(|state| state.speed_mps).fold(f64::INFINITY, f64::min);
 //! assert!(slowest_mps < 0.8, "it brakes to {slowest_mps} m/s");

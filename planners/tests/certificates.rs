@@ -102,10 +102,10 @@ fn each_condition_is_found_where_it_is_violated_first() {
     assert_eq!(refused(&alone, &aside, &found), None);
 }
 
-/// Somebody stands ahead. From 1 m/s with 1 m/s² a vehicle stands after 0.5 m (by eq. 6.3 in steps of 0.1 s after 0.55 m or less), so it
+/// A vehicle stands ahead. From 1 m/s with 1 m/s² a vehicle stands after 0.5 m (by eq. 6.3 in steps of 0.1 s after 0.55 m or less), so it
 /// may keep its speed as long as more room than that is left after the next step, and no longer.
 #[test]
-fn a_plan_may_touch_somebody_as_long_as_there_is_a_way_out() {
+fn a_plan_may_end_in_a_contact_while_a_way_out_remains() {
     let body = Body::default();
     let keeps_speed = |gap_m: f64| {
         let standing = agent("other", [gap_m + body.front_m + body.rear_m, 0.0, 0.0, 0.0]);
@@ -123,7 +123,7 @@ fn a_plan_may_touch_somebody_as_long_as_there_is_a_way_out() {
     assert!(keeps_speed(0.3), "no way out is left to be given away");
 }
 
-/// Without a planner: it brakes before somebody who stands, and does not brake to a stand in the way of somebody who crosses.
+/// Without a planner: it brakes before a stationary vehicle, and does not brake to a stand in the way of a crossing one.
 #[test]
 fn without_a_plan_the_least_harmful_motion_is_driven() {
     let drive = |other: Agent| {
@@ -160,7 +160,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
     assert_eq!(crossing[0], Origin::Continued, "to go on is harmless");
 }
 
-/// Braking would end in the way of somebody who crosses from the right; going on passes ahead.
+/// Braking would end in the way of a vehicle that crosses from the right; going on passes ahead.
 #[test]
 fn where_braking_does_harm_another_acceleration_is_chosen() {
     let crossing = agent("other", [0.45, -1.2, std::f64::consts::FRAC_PI_2, 1.0]);

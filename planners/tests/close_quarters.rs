@@ -98,7 +98,7 @@ fn merges_without_contact(driver: &Driver, starts: &[[Shares; 3]]) {
 /// the road.
 #[test]
 #[ignore = "not solved: the human behind is touched by 0 to 26 mm"]
-fn who_merges_among_humans_that_swerve_touches_nobody() {
+fn merging_among_humans_that_swerve_makes_no_contact() {
     merges_without_contact(&Driver::Bayesian(bayesian::Settings::default()), &BAYESIAN_MERGES);
     merges_without_contact(&Driver::Negotiation(negotiation::Settings::default()), &NEGOTIATED_MERGES);
 }
@@ -106,13 +106,13 @@ fn who_merges_among_humans_that_swerve_touches_nobody() {
 /// The same, of an ego that has waited in vain for the human behind to make room.
 #[test]
 #[ignore = "not solved: the human behind is touched by 0 to 62 mm"]
-fn who_gives_up_on_a_human_behind_touches_nobody() {
+fn giving_up_on_a_human_behind_makes_no_contact() {
     merges_without_contact(&Driver::Nash(nash::Settings::default()), &NASH_MERGES);
 }
 
 /// The same starts, of an ego that never gives up: what the contacts come from is giving up late, not the starts.
 #[test]
-fn who_does_not_give_up_on_a_human_behind_touches_nobody() {
+fn insisting_on_a_human_behind_makes_no_contact() {
     let patient = nash::Settings { patience_steps: usize::MAX, ..nash::Settings::default() };
     merges_without_contact(&Driver::Nash(patient), &NASH_MERGES);
 }
@@ -120,7 +120,7 @@ fn who_does_not_give_up_on_a_human_behind_touches_nobody() {
 /// The ego goes on to expect that a human brakes for it, a little more each time it does not, and gives up too late to stop.
 #[test]
 #[ignore = "not solved: the human is touched by 14 mm"]
-fn who_waits_for_a_human_to_brake_at_a_crossing_touches_nobody() {
+fn waiting_for_a_human_to_brake_at_a_crossing_makes_no_contact() {
     let nash = Driver::Nash(nash::Settings::default());
     let run = run(from_shares(intersection(nash, Nice, 1.9), &NASH_CROSSING), 60);
     assert!(run.collision.is_none(), "{:?}", run.collision);

@@ -71,7 +71,7 @@ fn standing(x_m: f64, y_m: f64) -> Vehicle {
 }
 
 #[test]
-fn everybody_stops_in_front_of_a_blocked_road() {
+fn all_vehicles_stop_in_front_of_a_blocked_road() {
     for ahead_m in [1.5, 2.0, 2.5, 3.0, 3.5] {
         for driver in [human(Style::Tough), Driver::Conservative(conservative::Settings::default())] {
             let kind = driver.kind();

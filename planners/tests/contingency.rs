@@ -9,7 +9,7 @@ use interplay_planners::drivers::contingency::{self, futures, shared_steps};
 use interplay_planners::drivers::human::Style;
 use interplay_planners::perception::belief::{self, DriverBeliefs};
 use interplay_planners::perception::sensing::SensedScene;
-use interplay_planners::scene::outlook::{Alternative, Outlook};
+use interplay_planners::scene::inferred_futures::{Alternative, InferredFutures};
 use interplay_planners::{Driver, Plan, Scene};
 
 const TICKS: usize = 70;
@@ -23,7 +23,7 @@ fn contingency(probability_at_least: f64) -> Driver {
 }
 
 /// The scenes that the ego infers in closed loop, with what the others may do, and its plans.
-fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, Outlook, Plan)> {
+fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
     let (mut traffic, mut planners) = world::begin(vehicles);
     let mut beliefs = DriverBeliefs::new(belief::Settings::default());
     let mut seen = Vec::new();
@@ -35,7 +35,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, Outlook, Plan)> {
                 let inferred = beliefs.infer(&sensed).scene;
                 let alternatives = beliefs.alternatives(&sensed, &inferred);
                 let plan = plan.clone().expect("a plan");
-                seen.push((inferred, Outlook { alternatives, ..Outlook::default() }, plan));
+                seen.push((inferred, InferredFutures { alternatives, ..InferredFutures::default() }, plan));
             }
             plan
         });
@@ -57,9 +57,9 @@ fn without_alternatives_the_problem_is_the_conservative_one() {
 #[test]
 fn every_branch_keeps_out_of_the_ellipses_of_its_future() {
     let mut several = 0;
-    for (scene, outlook, plan) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
+    for (scene, inferred_futures, plan) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
         let problem = plan.problem.as_ref().expect("a problem");
-        let found = futures(&scene, &outlook.alternatives, &settings(0.05));
+        let found = futures(&scene, &inferred_futures.alternatives, &settings(0.05));
         assert_eq!(found.len(), problem.participants.len());
         assert_eq!(plan.branches.len() + 1, found.len());
         assert_eq!(shared_steps(&found, 0.05, 0, scene.horizon), problem.shared_steps);
@@ -105,9 +105,12 @@ fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
 }
 
 #[test]
-fn an_unlikely_driver_who_is_told_apart_at_once_has_a_future_of_its_own() {
-    let (scene, outlook, plan) = seen(&lane_keeping(contingency(0.05), Style::Nice)).swap_remove(0);
+fn an_unlikely_driver_that_shows_itself_at_once_has_a_future_of_its_own() {
+    let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Style::Nice)).swap_remove(0);
     let mass = |known: &[Alternative]| known.iter().map(|one| one.probability).sum::<f64>();
-    assert!(outlook.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));
-    assert_eq!(plan.value_of(&FUTURES), Some(futures(&scene, &outlook.alternatives, &settings(0.05)).len() as f64));
+    assert!(inferred_futures.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));
+    assert_eq!(
+        plan.value_of(&FUTURES),
+        Some(futures(&scene, &inferred_futures.alternatives, &settings(0.05)).len() as f64)
+    );
 }

@@ -1,4 +1,4 @@
-//! Vehicles that share one problem: the same solution whoever solves it, Pareto optimal, and driven to the end.
+//! Vehicles that share one problem: the same solution whichever vehicle solves it, Pareto optimal, and driven to the end.
 
 mod common;
 
@@ -48,7 +48,7 @@ fn number(plan: &Plan, what: DiagnosticQuantity) -> f64 {
 }
 
 #[test]
-fn everybody_finds_the_same_solution() {
+fn all_vehicles_find_the_same_solution() {
     for count in [2, 3] {
         let vehicles = convoy(count);
         let plans: Vec<Plan> = (0..count)
@@ -85,7 +85,7 @@ fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
     (own, weighted)
 }
 
-/// Nobody is served better at other weights without the other being served worse.
+/// At other weights no vehicle is better off without another being worse off.
 #[test]
 fn solutions_are_pareto_optimal() {
     let vehicles = convoy(2);
@@ -138,7 +138,7 @@ fn five_vehicles_share_a_problem() {
     assert!(number(&plan, SAFETY_SLACK) < 1e-3);
 }
 
-/// A human among those who cooperate is an obstacle to both.
+/// A human between cooperating vehicles is an obstacle to both.
 #[test]
 fn strangers_are_kept_out_of() {
     let mut vehicles = convoy(3);

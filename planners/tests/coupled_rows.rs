@@ -77,7 +77,7 @@ fn descents_end_at_optima() {
             assert!(gained <= 1e-5, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
         }
     }
-    // Descents may give up, but not so many that nothing is tested.
+    // Few descents may give up: enough must be left to test.
     assert!(8 * confirmed >= 7 * SEEDS && 12 * compared >= SEEDS, "{confirmed} and {compared} of {SEEDS}");
 }
 

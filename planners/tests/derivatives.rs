@@ -56,7 +56,7 @@ fn ellipse(heading_rad: f64) -> OrientedEllipse {
 }
 
 #[test]
-fn tracking() {
+fn tracking_derivatives_match_differences() {
     check_all(|random| {
         let target = State { x_m: 1.0, y_m: 0.5, heading_rad: 0.2, speed_mps: 1.3 };
         let axes = Axes::along(random.uniform(-3.0, 3.0));
@@ -66,12 +66,12 @@ fn tracking() {
 }
 
 #[test]
-fn comfort() {
+fn comfort_derivatives_match_differences() {
     check_all(|random| alone(Vehicle { comfort: [0.2, 0.5], ..indifferent(random) }));
 }
 
 #[test]
-fn road_edges() {
+fn road_edges_derivatives_match_differences() {
     // Every right corner is beyond its edge and every left one is inside.
     let end = LaneEnd { end_m: 2.0, height_m: 0.5, taper_m: 0.6 };
     let corridor = Corridor { heading_rad: 0.1, right_m: 1.0, left_m: 9.0, end: Some(end) };
@@ -79,7 +79,7 @@ fn road_edges() {
 }
 
 #[test]
-fn keeping_out_of_ellipses() {
+fn keep_out_derivatives_match_differences() {
     for penalty in [Penalty::EXACT, Penalty::hinge(50.0)] {
         check_all(|random| {
             let keep_out =
@@ -90,7 +90,7 @@ fn keeping_out_of_ellipses() {
 }
 
 #[test]
-fn keeping_apart() {
+fn separation_derivatives_match_differences() {
     check_all(|random| {
         let known_inputs = follower(random, 6).participant.known_inputs;
         let free = indifferent(random);
@@ -102,7 +102,7 @@ fn keeping_apart() {
 }
 
 #[test]
-fn persuasion() {
+fn persuasion_derivatives_match_differences() {
     for strength in [1.0, 1.6] {
         check_all(|random| {
             // Nearer to the reference that it should leave.
@@ -116,7 +116,7 @@ fn persuasion() {
 }
 
 #[test]
-fn mean_speed() {
+fn mean_speed_derivatives_match_differences() {
     // A road that turns by a twentieth of a radian a step.
     let directions = (0..HORIZON).map(|t| 0.05 * t as f64).map(|turn| [turn.cos(), turn.sin()]).collect();
     let measures = [SpeedMeasure::Speeds, SpeedMeasure::AlongRoad { directions, step_s: 0.1 }];

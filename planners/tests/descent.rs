@@ -54,7 +54,7 @@ fn an_optimum_costs_no_more_than_its_guess() {
     assert_nearly_all(solved, problems().count());
 }
 
-/// Without time to end, a descent hands out a motion that costs less than its guess and is no less safe, or fails and keeps the guess.
+/// Without time to end, a descent returns a motion that costs less than its guess and is as safe, or fails and keeps the guess.
 #[test]
 fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
     let (mut handed_out, mut refused) = (0, 0);

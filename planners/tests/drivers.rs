@@ -33,7 +33,7 @@ fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
 #[test]
 fn unknown_settings_are_refused() {
     for kind in kinds() {
-        let error = driver(json!({ "kind": kind, "colour": 1 })).expect_err("nobody has a colour");
+        let error = driver(json!({ "kind": kind, "colour": 1 })).expect_err("no driver has a colour");
         assert!(error.to_string().contains("colour"), "{kind}: {error}");
     }
 }
@@ -70,7 +70,7 @@ fn intending() -> Vehicle {
 }
 
 #[test]
-fn who_knows_plans_reacts_before_who_extrapolates() {
+fn drivers_that_know_plans_react_before_drivers_that_extrapolate() {
     let other = intending();
     let slowest =
         |plan: &Plan| plan.trajectory.states.iter().map(|state| state.speed_mps).fold(f64::INFINITY, f64::min);

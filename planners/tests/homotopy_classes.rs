@@ -1,4 +1,4 @@
-//! Optima on either side of somebody, and a search that sees both.
+//! Optima on either side of a vehicle, and a search that finds both.
 
 mod common;
 
@@ -8,8 +8,8 @@ use interplay_planners::trajectory::terms::KeepOut;
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust};
 use interplay_planners::{Corridor, Input, SafetyEllipse, State};
 
-/// Somebody stands ahead on a wide road, a little to the left of the way.
-fn somebody_ahead(left_m: f64) -> Problem {
+/// A vehicle stands ahead on a wide road, a little to the left of the way.
+fn with_a_vehicle_ahead(left_m: f64) -> Problem {
     let wanted = State { x_m: 0.0, y_m: 0.0, heading_rad: 0.0, speed_mps: 1.2 };
     let keep_out = KeepOut {
         vehicle: 0,
@@ -45,9 +45,9 @@ fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
 }
 
 #[test]
-fn whoever_looks_to_other_sides_passes_on_the_cheaper_side_wherever_the_guess_begins() {
+fn a_search_of_other_classes_passes_on_the_cheaper_side_from_any_guess() {
     for left_m in [-0.12, -0.08, -0.04, -0.02, 0.02, 0.04, 0.08, 0.12] {
-        let problem = somebody_ahead(left_m);
+        let problem = with_a_vehicle_ahead(left_m);
         let far = -left_m.signum();
         let [cheap, still_cheap] = optima(&problem, &swerve(far)).expect("an optimum");
         let [dear, found] = optima(&problem, &swerve(-far)).expect("an optimum");

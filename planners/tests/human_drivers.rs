@@ -7,7 +7,7 @@ use interplay_planners::drivers::conservative;
 use interplay_planners::drivers::human::{Human, Settings, Style};
 use interplay_planners::drivers::scripted::{self, Order};
 use interplay_planners::prediction::{Prediction, constant_velocity};
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State};
 use proptest::prelude::*;
@@ -68,7 +68,7 @@ fn a_hesitant_driver_brakes_only_when_it_decides_anew() {
     assert!((20..=22).contains(&found), "{found}");
 }
 
-/// Hesitation is about whoever might cut in or cross: the vehicle ahead is watched all the time.
+/// Hesitation concerns vehicles that might cut in or cross: the vehicle ahead is watched all the time.
 #[test]
 fn a_hesitant_driver_does_not_run_into_the_vehicle_ahead() {
     for driver in [hesitant(5.0), Settings { style: Some(Style::Tough), ..hesitant(5.0) }] {
@@ -116,7 +116,7 @@ fn a_late_and_hesitant_driver_can_be_replayed() {
             let plan = planners[index].plan(scene);
             if index == 1 {
                 let trajectory = |plan: &Result<Plan, PlanError>| plan.clone().map(|plan| plan.trajectory);
-                assert!(trajectory(&plan) == trajectory(&replayed.plan(scene, &Outlook::default())));
+                assert!(trajectory(&plan) == trajectory(&replayed.plan(scene, &InferredFutures::default())));
             }
             plan
         });
@@ -190,7 +190,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Whatever the settings, and whoever comes, goes and jumps, a driver plans a finite motion or says why it has none.
+    /// Whatever the settings, and whichever vehicles come, go and jump, a driver plans a finite motion or says why it has none.
     #[test]
     fn no_setting_panics(
         settings in any_settings(),
@@ -203,7 +203,7 @@ proptest! {
             tick += later;
             let (ego, goal) = (own.agent.clone(), own.goal);
             let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego, goal, others };
-            if let Ok(plan) = driver.plan(&scene, &Outlook::default()) {
+            if let Ok(plan) = driver.plan(&scene, &InferredFutures::default()) {
                 prop_assert!(plan.trajectory.states.iter().all(State::is_finite));
                 prop_assert_eq!(plan.trajectory.inputs.len(), HORIZON);
             }

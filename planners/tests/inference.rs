@@ -1,4 +1,4 @@
-//! What a planner infers that is told nobody's plan: what it keeps, what it names, and what happens where no hypothesis fits.
+//! What a planner without known plans infers: what it keeps, what it names, and what happens where no hypothesis fits.
 
 mod common;
 
@@ -30,7 +30,7 @@ fn starts(vehicles: impl Fn() -> Vec<Vehicle>, count: i32) -> impl Iterator<Item
     })
 }
 
-/// In how many of some starts the ego is ahead of vehicle 1 in the end; nobody may touch anybody.
+/// In how many of some starts the ego is ahead of vehicle 1 in the end; no vehicles may touch.
 fn wins(vehicles: impl Fn() -> Vec<Vehicle>, settings: &belief::Settings) -> usize {
     let ahead = |vehicles: Vec<Vehicle>| {
         let run = world::run_inferring(vehicles, TICKS, settings, None);
@@ -67,7 +67,7 @@ fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_ve
     assert!(persuades(Prediction::Inferred) + 1 >= persuades(Prediction::Plan));
 }
 
-/// Without learning the prior decides: who takes everybody for tough gives up what a nice driver would grant.
+/// Without learning the prior decides: an ego that takes all drivers for tough gives up what a nice driver would grant.
 #[test]
 fn a_belief_that_does_not_learn_loses_the_wins() {
     let crossing = |learning| {
@@ -78,9 +78,9 @@ fn a_belief_that_does_not_learn_loses_the_wins() {
     assert!(learnt >= frozen + 2, "{learnt} against {frozen}");
 }
 
-/// The other way round it is dangerous: who takes a tough driver for nice runs into it.
+/// The other way round it is dangerous: an ego that takes a tough driver for nice runs into it.
 #[test]
-fn who_learns_lets_a_tough_driver_pass_that_seemed_nice() {
+fn an_ego_that_learns_lets_a_tough_driver_pass_that_seemed_nice() {
     for vehicles in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75), 6) {
         let run = world::run_inferring(vehicles, TICKS, &belief::Settings::default(), None);
         assert_eq!(run.collision, None);
@@ -110,7 +110,7 @@ fn a_tough_driver_is_named_within_a_second_of_interaction() {
 
 /// A nice driver is never taken for tough, whatever is believed first.
 #[test]
-fn a_nice_driver_who_yields_is_not_taken_for_tough() {
+fn a_nice_driver_that_yields_is_not_taken_for_tough() {
     for prior in [Prior::Nice, Prior::Even, Prior::Tough] {
         let vehicles = world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9);
         let settings = belief::Settings { prior, ..belief::Settings::default() };
@@ -141,7 +141,7 @@ fn a_driver_of_no_known_model_is_named_and_not_touched() {
     }
 }
 
-/// Delay, noise and lost measurements: nobody is touched, and most of what is won stays won.
+/// With delay, noise and lost measurements no vehicles touch, and most of what is won stays won.
 #[test]
 fn late_and_noisy_measurements_cost_little() {
     let sensing = sensing::Settings {

@@ -87,7 +87,7 @@ fn keeps_to_its_ramp(driver: Driver, styles: [Style; 2]) -> bool {
 }
 
 #[test]
-fn on_a_ramp_nobody_leaves_the_road() {
+fn on_a_ramp_no_vehicle_leaves_the_road() {
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
         assert!(keeps_to_its_ramp(game(), styles), "game among {styles:?}");
     }
@@ -103,9 +103,9 @@ fn on_a_ramp_bayesian_persuasion_among_nice_drivers_stays_on_the_road() {
     assert!(keeps_to_its_ramp(bayesian(), [Nice, Nice]));
 }
 
-/// The value that follows from the source's own equations repels: the ego does not persuade anybody.
+/// The value that follows from the source's own equations repels: the ego persuades no driver.
 #[test]
-fn the_exact_value_persuades_nobody() {
+fn the_exact_value_persuades_no_driver() {
     let exact = bayesian::Settings { value: bayesian::ReplyValue::Exact, ..bayesian::Settings::default() };
     let run = run(lane_change(Driver::Bayesian(exact), [Nice, Nice]), 100);
     assert!(run.collision.is_none());
@@ -144,7 +144,7 @@ fn crossed(vehicles: Vec<Vehicle>) -> (bool, f64) {
 }
 
 #[test]
-fn at_an_intersection_nice_drivers_yield_to_those_who_persuade() {
+fn at_an_intersection_nice_drivers_yield_to_planners_that_persuade() {
     assert!(crossing_by_persuasion(Nice).0);
     assert!(!crossing_by_persuasion(Tough).0);
     assert!(crossing_by_game(Nice).0);
@@ -152,7 +152,7 @@ fn at_an_intersection_nice_drivers_yield_to_those_who_persuade() {
 }
 
 #[test]
-fn at_an_intersection_everybody_yields_to_the_tough() {
+fn at_an_intersection_all_planners_yield_to_tough_drivers() {
     for driver in [bayesian(), conservative()] {
         let kind = driver.kind();
         let (first, slowest) = crossing(driver, Tough, 1.965);
@@ -233,7 +233,7 @@ fn in_the_corrected_form_the_accident_is_worst_and_intentions_stay_inside_their_
 
 /// Any vehicle may have any driver.
 #[test]
-fn two_who_persuade_may_meet() {
+fn two_persuading_planners_may_meet() {
     for (ego, front) in [(bayesian(), game()), (game(), bayesian()), (bayesian(), negotiator()), (game(), game())] {
         let mut vehicles = lane_change(ego.clone(), [Nice, Nice]);
         vehicles[1].drive(front.clone());
@@ -253,7 +253,7 @@ fn plans_explain_themselves() {
         if kind == "cooperative" {
             vehicles[1].drive(driver);
         }
-        // Long enough for a driver after the model to meet somebody ahead.
+        // Long enough for a driver after the model to meet a vehicle ahead.
         let run = sound(run(vehicles, if kind == "idm" { 100 } else { 40 }));
         for Diagnostic { quantity, value } in run.plans.iter().flat_map(|plan| &plan.diagnostics) {
             let declared = explanation.quantities.contains(quantity) || COMMON_QUANTITIES.contains(quantity);
@@ -264,7 +264,7 @@ fn plans_explain_themselves() {
             explanation.quantities.iter().filter(|of| !is_reported(&run, of)).map(|of| of.name).collect();
         assert!(unseen.is_empty(), "{kind} never reports {unseen:?}");
         let optimises = !["idm", "human"].contains(&kind);
-        // A runner-up there is only where somebody is in the way.
+        // A runner-up exists only where a vehicle is in the way.
         let always = || COMMON_QUANTITIES.iter().filter(|of| **of != RUNNER_UP_COST);
         assert!(always().all(|of| is_reported(&run, of) == optimises), "{kind}");
     }
@@ -294,7 +294,7 @@ fn declarations_of_diagnostics_are_sound() {
     }
 }
 
-/// Every planner says ahead of or behind whom its plans lead, the last time as it then happens, and an event tells of it.
+/// Every planner reports which vehicle its plans pass ahead of or behind; the last report comes true, and an event states it.
 #[test]
 fn plans_say_in_which_order_they_pass() {
     for (ego, style) in egos().into_iter().flat_map(|ego| [(ego.clone(), Nice), (ego, Tough)]) {

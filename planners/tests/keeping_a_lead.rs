@@ -29,7 +29,7 @@ fn assert_later_as_printed(family: &str, ego: &Driver, printed: &Driver, later_s
 
 /// As printed the signal also draws back an ego that is ahead of the other.
 #[test]
-fn an_ego_that_is_drawn_back_to_who_is_behind_merges_later() {
+fn an_ego_drawn_back_to_the_vehicle_behind_merges_later() {
     let with = |ahead_share| Driver::Bayesian(bayesian::Settings { ahead_share, ..bayesian::Settings::default() });
     let (ego, printed) = (Driver::Bayesian(bayesian::Settings::default()), with(1.0));
     for (family, later_s) in [("lane-change/nice-nice", 0.5), ("ramp-merge/tough-nice", 0.15)] {

@@ -1,4 +1,4 @@
-//! Equilibria of several vehicles: nobody gains by leaving, whoever checks it, and what one gains the sum of all costs gains.
+//! Equilibria of several vehicles: none gains by leaving, by several checks, and what one gains the sum of all costs gains.
 
 mod common;
 
@@ -33,7 +33,7 @@ fn moved(random: &mut SplitMix64, iterate: &Iterate, player: usize) -> Vec<Input
 
 /// SplitMix64 deviations, which share nothing with the solver: no player gains by any of them.
 #[test]
-fn nobody_gains_by_a_random_deviation() {
+fn no_player_gains_by_a_random_deviation() {
     let mut random = SplitMix64::new(7);
     for players in 2..=3 {
         for game in 0..GAMES {
@@ -59,7 +59,7 @@ fn nobody_gains_by_a_random_deviation() {
     }
 }
 
-/// Where the descent of the joint problem is cut short, best responses settle at an equilibrium, and nobody gains there by any random
+/// Where the descent of the joint problem is cut short, best responses settle at an equilibrium, and no player gains there by any random
 /// deviation.
 #[test]
 fn replies_settle_where_the_joint_descent_does_not_end() {
@@ -133,7 +133,7 @@ fn most_random_games_have_a_certified_equilibrium() {
     assert!(certified >= GAMES - 1, "{certified} of {GAMES}");
 }
 
-/// A motion that is no equilibrium is not certified: players whose joint descent takes one step for enough would gain by leaving.
+/// A motion that is not an equilibrium is not certified: players whose joint descent takes one step for enough would gain by leaving.
 #[test]
 fn a_motion_far_from_an_optimum_is_not_certified() {
     let mut random = SplitMix64::new(5);

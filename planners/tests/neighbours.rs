@@ -32,7 +32,7 @@ fn street(random: &mut Random, driver: &Driver) -> Traffic {
 }
 
 #[test]
-fn whoever_is_left_out_of_a_scene_changes_no_plan() {
+fn vehicles_left_out_of_a_scene_change_no_plan() {
     let mut random = Random::new(11, 0);
     let kinds = ["human", "idm", "conservative", "negotiation", "bayesian", "contingency"];
     let mut left_out = 0;
@@ -48,5 +48,5 @@ fn whoever_is_left_out_of_a_scene_changes_no_plan() {
         left_out += all.scene(vehicle).others.len() - near.scene(vehicle).others.len();
         assert_eq!(plan(&near), plan(&all), "street {number}, {driver:?}");
     }
-    assert!(left_out > 10 * STREETS, "somebody is left out: {left_out}");
+    assert!(left_out > 10 * STREETS, "vehicles are left out: {left_out}");
 }

@@ -28,7 +28,7 @@ fn every_planner_merges_among_drivers_after_the_model() {
     }
 }
 
-/// Three drivers after the model: one changes lanes, nobody brakes harder than it may, nobody collides.
+/// Three drivers after the model: one changes lanes, none brakes harder than it may, none collides.
 #[test]
 fn drivers_after_the_model_change_lanes_among_themselves() {
     let mut vehicles = lane_change(idm(), [Nice, Nice]);
@@ -38,12 +38,12 @@ fn drivers_after_the_model_change_lanes_among_themselves() {
     assert!(run.collision.is_none() && run.failures.is_empty());
     assert!(run.merged().is_some(), "{:?}", run.states.last());
     let lanes_kept = run.states.iter().all(|states| states.iter().all(|state| (0.09..=0.65).contains(&state.y_m)));
-    assert!(lanes_kept, "somebody left its lane's middle to the outside");
+    assert!(lanes_kept, "a vehicle left its lane's middle to the outside");
 }
 
 /// A script that brakes hard ahead of a follower: planners stay behind it.
 #[test]
-fn everybody_copes_with_a_script() {
+fn all_planners_cope_with_a_script() {
     let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), ..Order::default() };
     let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), ..Order::default() };
     for planner in egos().into_iter().chain([idm()]) {
@@ -62,9 +62,9 @@ fn everybody_copes_with_a_script() {
     }
 }
 
-/// Who drives after the model sees nobody outside its lane: a negotiator asks it for nothing, but the human behind it.
+/// A driver after the model sees no vehicle outside its lane: a negotiator asks the human behind it instead.
 #[test]
-fn a_negotiator_asks_nobody_who_cannot_see_it() {
+fn a_negotiator_asks_only_drivers_that_see_it() {
     let negotiator = Driver::Negotiation(negotiation::Settings::default());
     let asked = |drivers: [Option<Driver>; 2]| {
         let mut vehicles = lane_change(negotiator.clone(), [Nice, Nice]);

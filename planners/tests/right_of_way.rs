@@ -31,7 +31,7 @@ fn precedence(signs: [RightOfWay; 4], own: [&str; 2], other: [&str; 2]) -> Optio
 }
 
 #[test]
-fn signs_and_rules_say_who_goes_first() {
+fn signs_and_rules_decide_which_vehicle_goes_first() {
     use ConflictKind::{Crossing, Merging};
     use Precedence::{ByArrival, Other, Own};
     let at = |own, other| precedence(PRIORITY_ROAD, own, other);
@@ -47,7 +47,7 @@ fn signs_and_rules_say_who_goes_first() {
     assert_eq!(at(["west", "east"], ["north", "south"]), Some((Crossing, ByArrival)));
 }
 
-/// When each vehicle's rear leaves the middle, in ticks, and whether anybody stood on the way.
+/// When each vehicle's rear leaves the middle, in ticks, and whether a vehicle stood on the way.
 fn crossing_ticks(run: &Run, count: usize) -> Vec<Option<usize>> {
     let is_out = |state: &interplay_planners::State| libm::hypot(state.x_m, state.y_m) > 1.5;
     (0..count)
@@ -62,10 +62,10 @@ fn drivers() -> [Driver; 3] {
     [human(Style::Nice), human(Style::Tough), Driver::Idm(idm::Settings::default())]
 }
 
-/// Whatever their styles: who yields waits for both vehicles of the priority road and crosses then. With the signs turned round
+/// Whatever their styles, a vehicle that yields waits for both vehicles of the priority road and crosses then. With the signs turned round
 /// the same vehicle crosses first.
 #[test]
-fn who_yields_crosses_after_those_with_priority() {
+fn a_vehicle_that_yields_crosses_after_those_with_priority() {
     let mut turned_round = PRIORITY_ROAD;
     turned_round.rotate_left(1);
     for (signs, waits) in [(PRIORITY_ROAD, true), (turned_round, false)] {
@@ -87,7 +87,7 @@ fn who_yields_crosses_after_those_with_priority() {
     }
 }
 
-/// At an all-way stop everybody stands once, and they go one after the other as they came.
+/// At an all-way stop each vehicle stands once, and they go in the order of arrival.
 #[test]
 fn an_all_way_stop_is_left_in_the_order_of_arrival() {
     let network = crossing([RightOfWay::AllWayStop; 4]);
@@ -110,7 +110,7 @@ fn an_all_way_stop_is_left_in_the_order_of_arrival() {
     }
 }
 
-/// Without anybody to yield to, a yield sign delays nobody, and a stop sign does.
+/// Without a vehicle to yield to, a yield sign delays none, and a stop sign does.
 #[test]
 fn a_free_junction_is_crossed_without_waiting_unless_a_sign_says_so() {
     for (sign, stands) in [(RightOfWay::Yield, false), (RightOfWay::Stop, true)] {
@@ -124,7 +124,7 @@ fn a_free_junction_is_crossed_without_waiting_unless_a_sign_says_so() {
     }
 }
 
-/// Where all have to let the one from the right pass and all stand, the first to arrive goes, and nobody is touched.
+/// Where all have to let the one from the right pass and all stand, the first to arrive goes, and no vehicles touch.
 #[test]
 fn a_circle_of_yielding_drivers_is_broken_by_the_first_to_arrive() {
     for sign in [RightOfWay::Yield, RightOfWay::Stop, RightOfWay::Priority] {

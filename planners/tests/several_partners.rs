@@ -66,7 +66,7 @@ fn asking_two_costs_no_more_than_asking_one() {
 
 /// Each is believed to accept what it accepts itself, and the planner reports the one that accepts least.
 #[test]
-fn each_answers_for_itself() {
+fn each_asked_vehicle_has_an_acceptance_of_its_own() {
     let plans = run(lane_change(negotiator(2), [Nice, Tough]), 15).plans;
     let both: Vec<[f64; 2]> = plans
         .iter()
@@ -90,9 +90,9 @@ fn one_partner_is_negotiated_with_as_ever() {
     }
 }
 
-/// Closed loop: no plan fails and nobody is touched.
+/// In the closed loop no plan fails and no vehicles touch.
 #[test]
-fn nobody_is_touched() {
+fn no_plan_fails_and_no_vehicles_touch() {
     for styles in [[Nice, Nice], [Nice, Tough], [Tough, Nice], [Tough, Tough]] {
         let run = run(lane_change(negotiator(2), styles), 80);
         assert!(run.collision.is_none() && run.failures.is_empty(), "{styles:?}: {:?}", run.collision);

@@ -171,7 +171,7 @@ fn futures_that_share_their_first_inputs() {
 }
 
 #[test]
-fn a_warm_start_changes_the_way_and_not_the_answer() {
+fn a_warm_start_changes_the_iterations_and_not_the_optimum() {
     for seed in 0..50 {
         let problem = alone(seed);
         let (first, second) = (qp_subproblem(&problem, seed), qp_subproblem(&problem, seed + 1000));

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::prediction::Prediction;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
 use interplay_simulation::environment::{Action, AgentInterface, AgentView, Policy, PolicyDriver, PolicyError};
@@ -108,7 +108,7 @@ struct Waiting {
 }
 
 impl Drive for Waiting {
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, outlook: &InferredFutures) -> Result<Plan, PlanError> {
         if self.driver.is_none() {
             let PythonPolicy { policy, observations, action, decision_s, .. } = &self.settings;
             let policies = POLICIES.read().unwrap_or_else(PoisonError::into_inner);

@@ -35,7 +35,7 @@ occupied_c = [24.0, 26.0]
 kind = "pid"
 "#;
 
-fn refusal(errors: &mut Catalogue, name: &str, (from, to): (&str, &str), fragments: &[&str]) {
+fn refusal(errors: &mut Catalogue, name: &str, from: &str, to: &str, fragments: &[&str]) {
     assert!(GOOD.contains(from), "{from} is not in the good building");
     errors.error(name, from_text("bad.toml", &GOOD.replacen(from, to, 1), &[]), fragments);
 }
@@ -111,7 +111,8 @@ fn days_and_controllers() {
     refusal(
         all,
         "missing_weather",
-        ("[setpoints]", &weather("tropical-juli.epw")),
+        "[setpoints]",
+        &weather("tropical-juli.epw"),
         &["tropical-juli.epw", "tropical-july.epw"],
     );
     refusal(
@@ -153,13 +154,15 @@ fn keys_of_controllers_and_setpoints() {
     refusal(
         all,
         "negative_gain_of_the_feedback",
-        ("kind = \"pid\"", &controller(learning)),
+        "kind = \"pid\"",
+        &controller(learning),
         &["bad.toml:29:38", "`controller.feedback.proportional_kw_per_k` must be at least 0"],
     );
     refusal(
         all,
         "silent_zone_beyond_the_last",
-        ("kind = \"pid\"", &controller("\"distributed\"\nsilent_zone = 2")),
+        "kind = \"pid\"",
+        &controller("\"distributed\"\nsilent_zone = 2"),
         &["bad.toml:28:15", "`silent_zone` is 2; it must be at most 1"],
     );
     refusal(

@@ -53,7 +53,7 @@ goal = { lane = "north-out" }
 "#;
 
 /// Cases that each change one text of a good scenario.
-fn refuse(errors: &mut Catalogue, good: &str, name: &str, (from, to): (&str, &str), fragments: &[&str]) {
+fn refuse(errors: &mut Catalogue, good: &str, name: &str, from: &str, to: &str, fragments: &[&str]) {
     assert!(good.contains(from), "{name}: {from} is not in the good scenario");
     errors.error(name, from_text("bad.toml", &good.replacen(from, to, 1), &[]), fragments);
 }
@@ -62,8 +62,8 @@ fn refuse(errors: &mut Catalogue, good: &str, name: &str, (from, to): (&str, &st
 fn lanes() {
     let mut errors = Catalogue::default();
     from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
-    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
-        refuse(&mut errors, GOOD, name, change, fragments);
+    let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, GOOD, name, from, to, fragments);
     };
     case(
         "gap",
@@ -110,8 +110,8 @@ fn lanes() {
 #[test]
 fn lanes_in_each_others_way() {
     let mut errors = Catalogue::default();
-    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
-        refuse(&mut errors, GOOD, name, change, fragments);
+    let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, GOOD, name, from, to, fragments);
     };
     case(
         "neighbour_across",
@@ -159,8 +159,8 @@ fn loops() {
 #[test]
 fn vehicles_on_lanes() {
     let mut errors = Catalogue::default();
-    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
-        refuse(&mut errors, GOOD, name, change, fragments);
+    let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, GOOD, name, from, to, fragments);
     };
     let start = |to: &'static str| ("start = { lane = \"right\", along_m = 10.0, speed_mps = 1.0 }", to);
     case(
@@ -206,8 +206,8 @@ fn vehicles_on_lanes() {
 fn routes() {
     let mut errors = Catalogue::default();
     from_text("good.toml", CROSSING, &[]).expect("nothing is wrong with it");
-    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
-        refuse(&mut errors, CROSSING, name, change, fragments);
+    let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, CROSSING, name, from, to, fragments);
     };
     let goal = |to: &'static str| ("goal = { lane = \"north-out\" }", to);
     case("fork", goal(""), &["bad.toml:9:8", "lane `west-in-0` forks", "`east-out`"]);
@@ -233,7 +233,7 @@ fn routes() {
     );
     let short = CROSSING.replace("turning_lanes = true", "turning_lanes = true\narm_length_m = 25.0");
     let by_name = goal("route = [\"west-in-0\", \"west-in-1\"]");
-    refuse(&mut errors, &short, "no_room_on_a_route", by_name, &["bad.toml:12:23", "17.5 m are needed"]);
+    refuse(&mut errors, &short, "no_room_on_a_route", by_name.0, by_name.1, &["bad.toml:12:23", "17.5 m are needed"]);
     insta::assert_snapshot!("routes", errors.0);
 }
 
@@ -262,8 +262,8 @@ fn names_on_parallel_lanes() {
     let mut errors = Catalogue::default();
     let good = "title = \"a\"\nshows = \"b\"\n[[vehicle]]\nname = \"car\"\n\
         start = { lane = 0, along_m = 1.0, speed_mps = 1.0 }\n";
-    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
-        refuse(&mut errors, good, name, change, fragments);
+    let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, good, name, from, to, fragments);
     };
     case("start", ("lane = 0", "lane = \"right\""), &["bad.toml:5:18", "counted from the right: 0 to 1"]);
     case("goal", ("1.0 }\n", "1.0 }\ngoal = { lane = \"right\" }\n"), &["bad.toml:6:17", "counted from the right"]);
@@ -271,22 +271,22 @@ fn names_on_parallel_lanes() {
     insta::assert_snapshot!("names_on_parallel_lanes", errors.0);
 }
 
-fn refused(road: (&str, &str), words: &[&str]) {
-    let error = from_text("bad.toml", &GOOD.replace(road.0, road.1), &[]).expect_err("no road");
+fn refused(from: &str, to: &str, words: &[&str]) {
+    let error = from_text("bad.toml", &GOOD.replace(from, to), &[]).expect_err("no road");
     let shown = common::rendered(&error, 2000);
     assert!(words.iter().all(|word| shown.contains(word)), "{words:?} in\n{shown}");
 }
 
 #[test]
 fn a_width_of_zero_is_named_before_the_length_that_it_allows() {
-    let widths = ("[[0.0, 3.5], [60.0, 3.0]]", "[[0.0, 0.0], [60.0, 0.0]]");
-    refused(widths, &["bad.toml:18:18", "a lane has the width 0 m", "widths are at least 0.001 m"]);
+    let (widths, zeros) = ("[[0.0, 3.5], [60.0, 3.0]]", "[[0.0, 0.0], [60.0, 0.0]]");
+    refused(widths, zeros, &["bad.toml:18:18", "a lane has the width 0 m", "widths are at least 0.001 m"]);
 }
 
 #[test]
 fn points_that_double_back_are_told_where() {
-    let points = ("[60.0, 3.5]]", "[60.0, 3.5], [10.0, 3.5], [-5.0, 3.5]]");
-    refused(points, &["bad.toml:17:23", "the line turns back at point 1"]);
+    let (last, back) = ("[60.0, 3.5]]", "[60.0, 3.5], [10.0, 3.5], [-5.0, 3.5]]");
+    refused(last, back, &["bad.toml:17:23", "the line turns back at point 1"]);
 }
 
 /// Lanes of a millimetre would be compared at millions of places before the cars turn out not to fit.

@@ -4,7 +4,7 @@
 
 use interplay_planners::drivers::human;
 use interplay_planners::prediction::steady;
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, DriverKind, Limits, Plan, PlanError, Scene};
 use interplay_simulation::Simulation;
 use interplay_simulation::frame::{Frame, Level, Origin};
@@ -21,7 +21,7 @@ const SPOILT: std::ops::Range<usize> = 10..20;
 struct Undecided(Box<dyn Drive>);
 
 impl Drive for Undecided {
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, outlook: &InferredFutures) -> Result<Plan, PlanError> {
         let mut scene = scene.clone();
         if SPOILT.contains(&scene.tick) {
             scene.goal.target.speed_mps = f64::NAN;

@@ -45,6 +45,6 @@ pub mod why;
 struct Readme;
 
 pub use phases::{act, plan, predict, sense, time_points, watch};
-pub use simulation::{SavedRunError, Simulation, Snapshot, ZoneNow, spawn};
+pub use simulation::{SavedRunError, Simulation, SimulationBuilder, Snapshot, ZoneNow, spawn};
 pub use state::not_copied::NotCopied;
 pub use state::{components, day, frame, standing, whole_run, worst_zones};

@@ -118,7 +118,8 @@ impl WhyRun {
 pub fn why(
     name: &str,
     scenario: &Scenario,
-    (changes, at_s): (&[StandardChange], Option<f64>),
+    changes: &[StandardChange],
+    at_s: Option<f64>,
     advance: &(dyn Fn() + Sync),
 ) -> Result<WhyReport, RunError> {
     let then = at_s.map(|at_s| moment(name, scenario, at_s)).transpose()?;
@@ -139,7 +140,7 @@ pub fn why(
     let reports =
         all.par_iter().with_max_len(1).map(|change| one(*change)).collect::<Result<Vec<Report>, RunError>>()?;
     let runs = reports.iter().zip(all).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
-    Ok(conclude(name, (scenario.seed, then.map(|then| then.time_s())), runs))
+    Ok(conclude(name, scenario.seed, then.map(|then| then.time_s()), runs))
 }
 
 /// The world of a scenario at the first tick at or after a time.
@@ -150,7 +151,7 @@ fn moment(name: &str, scenario: &Scenario, at_s: f64) -> Result<Snapshot, RunErr
 }
 
 /// Sorts the factors; the first run is the scenario's own.
-fn conclude(name: &str, (seed, at_s): (u64, Option<f64>), runs: Vec<WhyRun>) -> WhyReport {
+fn conclude(name: &str, seed: u64, at_s: Option<f64>, runs: Vec<WhyRun>) -> WhyReport {
     let factors = |matters: &dyn Fn(&WhyRun) -> bool| {
         let mut found: Vec<String> = Vec::new();
         for factor in runs.iter().filter(|run| matters(run)).filter_map(|run| run.factor.as_ref()) {
@@ -212,12 +213,12 @@ mod tests {
                 run_of(Some("gamma"), "a b", Some(1.9), true),
             ]
         };
-        let report = conclude("x", (1, None), runs(true));
+        let report = conclude("x", 1, None, runs(true));
         assert_eq!(report.order_depends_on, ["style"]);
         assert_eq!(report.order_does_not_depend_on, ["filter", "belief", "gamma"]);
         assert_eq!(report.times_depend_on, ["filter", "belief"]);
         assert_eq!(report.expectations_depend_on, ["style", "belief"]);
-        let failed = conclude("x", (1, None), runs(false));
+        let failed = conclude("x", 1, None, runs(false));
         assert!(failed.expectations_depend_on.is_empty(), "what fails anyhow depends on nothing");
     }
 }

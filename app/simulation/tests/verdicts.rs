@@ -19,7 +19,7 @@ fn judged(name: &str, changes: &[String], what: &str) -> Expectation {
 }
 
 /// A bound holds at what was measured; not a little beyond, on the side where it is stricter (`sign`).
-fn holds_up_to(name: &str, changes: &[String], path: &str, (what, got): (&str, f64), sign: f64) {
+fn holds_up_to(name: &str, changes: &[String], path: &str, what: &str, got: f64, sign: f64) {
     let bounded = |bound: f64| {
         let changes = [changes, &[format!("{path}={bound:?}")]].concat();
         judged(name, &changes, what)
@@ -39,7 +39,7 @@ fn bounds_of_a_drive() {
     let plain = report(DRIVE, &[]);
     let ego = plain.vehicle("ego").expect("an ego");
     let gap_m = plain.min_gap_m().expect("two vehicles");
-    holds_up_to(DRIVE, &[], "expect.min_gap_m", ("min_gap_m", gap_m), 1.0);
+    holds_up_to(DRIVE, &[], "expect.min_gap_m", "min_gap_m", gap_m, 1.0);
     let [slowest, fastest] = ego.speed_range_mps();
     assert!(slowest < fastest);
     for (key, measured) in [("min", slowest), ("max", fastest)] {
@@ -146,11 +146,11 @@ fn bounds_of_a_building() {
     ];
     for (key, got) in bounds.into_iter().filter(|(_, got)| *got >= 0.0) {
         let what = format!("building.{key}");
-        holds_up_to(BUILDING, &changes, &format!("expect.building.{key}"), (&what, got), -1.0);
+        holds_up_to(BUILDING, &changes, &format!("expect.building.{key}"), &what, got, -1.0);
     }
     let least = days.iter().map(|day| day.early_kwh).fold(f64::INFINITY, f64::min);
     let (path, what) = ("expect.building.early_kwh_at_least", "building.early_kwh_at_least");
-    holds_up_to(BUILDING, &changes, path, (what, least), 1.0);
+    holds_up_to(BUILDING, &changes, path, what, least, 1.0);
     let verdict = |change: &str, what: &str| judged(BUILDING, &[&changes[..], &[change.to_owned()]].concat(), what);
     for (key, truth) in
         [("cost_never_rises", days[1].figures.cost <= days[0].figures.cost), ("exchange_never_rises", true)]

@@ -12,7 +12,8 @@ use crate::row::SweepRow;
 /// Writes rows as a table; `inputs` are the columns of what varies, and `registered` metrics that have columns, too.
 pub(crate) fn write_rows(
     target: &Path,
-    (inputs, registered): (&TableSchema, &RegisteredMetrics),
+    inputs: &TableSchema,
+    registered: &RegisteredMetrics,
     about: &[(&str, String)],
     rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
 ) -> Result<usize, SweepError> {

@@ -104,11 +104,11 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
         }
         journal.lock().unwrap_or_else(PoisonError::into_inner).append(&row)?;
         (options.advance)();
-        Ok(())
+        Ok::<(), SweepError>(())
     })?;
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.sync()?;
-    let (rows, unfinished) = write_table(plan, shard, (folder, &JournalIndex::read(folder)?), &part.runs)?;
+    let (rows, unfinished) = write_table(plan, shard, folder, &JournalIndex::read(folder)?, &part.runs)?;
     Ok(SweepOutcome { table: table_path(folder, shard), rows, made: part.to_make.len() as u64, unfinished, damaged })
 }
 
@@ -244,7 +244,7 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
 pub(crate) fn write_again(plan: &SweepPlan, folder: &Path) -> Result<(), SweepError> {
     let known = JournalIndex::read(folder)?;
     let part = Part::of(plan, Shard::WHOLE, &known, &|| ())?;
-    write_table(plan, Shard::WHOLE, (folder, &known), &part.runs).map(|_| ())
+    write_table(plan, Shard::WHOLE, folder, &known, &part.runs).map(|_| ())
 }
 
 /// Writes the rows of some keys, sorted, from the journals, and with those of a whole plan the rows of people. Returns how many there
@@ -252,7 +252,8 @@ pub(crate) fn write_again(plan: &SweepPlan, folder: &Path) -> Result<(), SweepEr
 fn write_table(
     plan: &SweepPlan,
     shard: Shard,
-    (folder, index): (&Path, &JournalIndex),
+    folder: &Path,
+    index: &JournalIndex,
     runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
     let people = if shard == Shard::WHOLE { rows(folder)? } else { Vec::new() };
@@ -266,6 +267,6 @@ fn write_table(
     let made = made.chain(people.into_iter().map(Ok)).inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
-    let count = write_rows(&table_path(folder, shard), (&inputs, plan.metrics()), &about, made)?;
+    let count = write_rows(&table_path(folder, shard), &inputs, plan.metrics(), &about, made)?;
     Ok((count, unfinished))
 }

@@ -175,16 +175,16 @@ impl Counting {
             self.passings.extract_if(.., |passing| passing.time_s < to_s + EDGE_TOLERANCE_S).collect();
         for (index, (name, _)) in self.lanes.iter().enumerate() {
             let here: Vec<Passing> = passings.iter().filter(|passing| passing.lane == index).copied().collect();
-            rows.push(self.row(name, (to_s, outside), &here))?;
+            rows.push(self.row(name, to_s, outside, &here))?;
         }
         if self.lanes.len() > 1 {
-            rows.push(self.row(ALL, (to_s, outside), &passings))?;
+            rows.push(self.row(ALL, to_s, outside, &passings))?;
         }
         self.over += 1;
         Ok(())
     }
 
-    fn row(&self, lane: &str, (to_s, outside): (f64, u64), passings: &[Passing]) -> [Cell; COLUMNS.len()] {
+    fn row(&self, lane: &str, to_s: f64, outside: u64, passings: &[Passing]) -> [Cell; COLUMNS.len()] {
         let count = passings.len() as f64;
         let mean = |sum: f64| (count > 0.0).then(|| sum / count);
         let mean_mps = mean(passings.iter().map(|passing| passing.speed_mps).sum());

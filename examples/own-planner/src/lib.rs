@@ -13,7 +13,7 @@ pub use obstacle::BOLLARD;
 pub use road::OneWay;
 
 // shown from here
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, State, Trajectory};
 use schemars::JsonSchema;
@@ -54,7 +54,7 @@ struct LaneChanger {
 }
 
 impl Drive for LaneChanger {
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let (ego, mut goal) = (&scene.ego, scene.goal);
         let across_m = |state: &State| ego.route.across(state.position());
         self.has_accepted |= scene.others.iter().all(|other| {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
 use interplay_scenarios::{Override, Registry, RegistryError};
 use own_planner::GapAcceptance;
@@ -116,7 +116,7 @@ impl DriverKind for Lost {
 }
 
 impl Drive for Lost {
-    fn plan(&mut self, _: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, _: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         Err(PlanError::Infeasible("never".to_owned()))
     }
 }

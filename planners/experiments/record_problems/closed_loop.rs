@@ -65,7 +65,7 @@ pub struct Decision<'a> {
     pub plan: &'a Plan,
 }
 
-/// The vehicles of a scenario with `ego` as the ego's driver. A cooperative ego needs somebody to cooperate with: then it
+/// The vehicles of a scenario with `ego` as the ego's driver. A cooperative ego needs a partner: then it
 /// drives the first of the others too.
 fn vehicles(scenario: &Scenario, ego: &Driver) -> Vec<Vehicle> {
     let mut vehicles = match scenario.place {

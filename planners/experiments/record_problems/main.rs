@@ -48,7 +48,7 @@ struct Collection {
     egos: Vec<Driver>,
     /// Which problems may be kept.
     is_wanted: fn(&Problem) -> bool,
-    /// So many first ticks of every run are always kept: there is little to start from yet.
+    /// The number of first ticks of every run that are always kept: there is little to start from yet.
     first_ticks: usize,
 }
 

@@ -7,8 +7,8 @@ use serde_json::{Map, Value as Json};
 
 use crate::plan::diagnostic::Explanation;
 use crate::prediction::Prediction;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::input_record::InputRecord;
-use crate::scene::outlook::Outlook;
 use crate::scene::record::Record;
 use crate::scene::road_rules::RuleKeeping;
 use crate::{DriverSettingError, Goal, Plan, PlanError, PlanTime, Scene};
@@ -42,40 +42,40 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
 
     /// How the driver predicts the others; `None` for one who does not look at them.
     ///
-    /// With [`Prediction::Inferred`] the driver is told nobody's plan: its [`Planner`](crate::Planner) infers what the others
+    /// With [`Prediction::Inferred`] the driver knows no other plan: its [`Planner`](crate::Planner) infers what the others
     /// will do, and the driver is given that.
     fn prediction(&self) -> Option<Prediction> {
         Some(Prediction::Plan)
     }
 
-    /// Whether the driver is told the plans of the others; one who infers them is not.
+    /// Whether the driver knows the plans of the others; one that infers them does not.
     fn knows_plans(&self) -> bool {
         self.prediction() != Some(Prediction::Inferred)
     }
 
-    /// Whether its plans branch: then its [`Outlook`] has what each of the others may do.
+    /// Whether its plans branch: then its [`InferredFutures`] has what each of the others may do.
     fn branches(&self) -> bool {
         false
     }
 
-    /// How long a plan of it takes, roughly, for budgets of scenarios. People, and whoever infers, are counted besides.
+    /// How long a plan of it takes, roughly, for budgets of scenarios. Human drivers and inference are counted separately.
     fn plan_time(&self) -> PlanTime {
         PlanTime::UNKNOWN
     }
 
-    /// Whether the driver plans before those who rely on knowing its plan. Its plans are then never refused: they are what the
+    /// Whether the driver plans before drivers that rely on knowing its plan. Its plans are then never refused: they are what the
     /// others have to live with.
     fn goes_first(&self) -> bool {
         false
     }
 
-    /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Those who go first, and whoever
+    /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Drivers that go first, and drivers that
     /// decides from outside, drive as they do.
     fn may_be_refused(&self) -> bool {
         !self.goes_first() && !self.is_driven_from_outside()
     }
 
-    /// Whether its inputs are handed in from outside, by whoever runs the simulation.
+    /// Whether its inputs are handed in from outside, by the caller of the simulation.
     fn is_driven_from_outside(&self) -> bool {
         self.inputs().is_some()
     }
@@ -173,12 +173,12 @@ impl StandardReplacement {
 pub trait Drive: fmt::Debug + Send + Sync {
     /// Plans the next `scene.horizon` steps; the first input is applied. Called once a tick.
     ///
-    /// `scene` has everybody as the driver senses them, with predictions as [`DriverKind::prediction`] asks for. `outlook` has
-    /// what is inferred of the others' drivers; it is empty for a driver who is told plans.
+    /// `scene` has all vehicles as the driver senses them, with predictions as [`DriverKind::prediction`] asks for. `inferred_futures` has
+    /// what is inferred of the others' drivers; it is empty for a driver that knows plans.
     ///
     /// # Errors
-    /// [`PlanError`] if there is no plan; the vehicle then drives a fallback.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError>;
+    /// [`PlanError`] if no plan was found; the vehicle then drives a fallback.
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError>;
 
     /// A copy that remembers the same, for snapshots of a run. `None` for a driver that cannot be copied, such as one that
     /// asks another program.
@@ -187,7 +187,7 @@ pub trait Drive: fmt::Debug + Send + Sync {
     }
 
     /// The same driver with all that it remembers, and other settings of its kind. `None` if the settings are of another kind, or if it
-    /// cannot change them: whoever asks then goes on with a new driver.
+    /// cannot change them: the caller then goes on with a new driver.
     fn with_settings(&self, _settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
         None
     }

@@ -60,9 +60,9 @@ drivers! {
     Idm(idm),
     /// Does what the scenario says.
     Scripted(scripted),
-    /// Does what a vehicle did that was recorded, and nobody is told what comes.
+    /// Repeats the motion of a recorded vehicle; no other driver knows what comes.
     Recorded(recorded),
-    /// Somebody on foot: walks along its route, waits at the kerb, and sees cars.
+    /// A pedestrian: walks along its route, waits at the kerb, and sees cars.
     Walker(walker),
     /// Its inputs come from outside: from a person or another program, through the library.
     External(external),

@@ -1,13 +1,13 @@
 //! A driver whose inputs come from outside: from a person at the wheel, from another program, from recorded data.
 //!
-//! It plans nothing itself. Whoever runs the simulation hands in an input for each tick; without one there is nothing to drive.
+//! It plans nothing itself. The caller of the simulation hands in an input for each tick; without one the vehicle cannot be driven.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::drivers::drive::{Drive, DriverKind};
 use crate::prediction::Prediction;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Plan, PlanError, PlanTime, Scene};
 
 /// A driver whose inputs come from outside; it has no settings.
@@ -44,7 +44,7 @@ pub struct External;
 impl Drive for External {
     /// # Errors
     /// Always [`PlanError::NoInput`].
-    fn plan(&mut self, _: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, _: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         Err(PlanError::NoInput)
     }
 

@@ -1,6 +1,6 @@
 //! A driver whose inputs were handed in from outside once, by a person at the wheel or by another program, and are repeated.
 //!
-//! It is the external driver with a record. Whoever runs the simulation hands in its rows as they were handed in then; so a run with it is
+//! It is the external driver with a record. The caller of the simulation hands in its rows as they were handed in then; so a run with it is
 //! the run in which they were recorded, bit for bit. Where the wheel was handed over to a planner, that planner drives again.
 
 pub use crate::scene::input_record::{InputRecord as Settings, WheelHandOver};
@@ -38,7 +38,7 @@ impl DriverKind for InputRecord {
         };
         let is_row = |row: &[f64; 3]| row.iter().all(|number| number.is_finite()) && row[0] >= 0.0;
         if let Some(wrong) = self.inputs.iter().position(|row| !is_row(row)) {
-            let reason = format!("row {} of `inputs` is no plan with an input", wrong + 1);
+            let reason = format!("row {} of `inputs` is not a plan with an input", wrong + 1);
             return refused("inputs", reason, "state rows of plan, acceleration and steering angle");
         }
         if let Some(at) = self.inputs.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
@@ -48,7 +48,7 @@ impl DriverKind for InputRecord {
         let is_unknown = |to: &&str| Driver::at_wheel(to).is_none();
         match self.hand_overs.iter().filter_map(|handed| handed.to.as_deref()).find(is_unknown) {
             Some(to) => {
-                let reason = format!("`{to}` is no driver that takes the wheel");
+                let reason = format!("`{to}` is not a driver that can take over");
                 refused("hand_overs", reason, &format!("choose from {}", Driver::wheel_kinds()))
             }
             None => Ok(()),
@@ -68,13 +68,14 @@ mod tests {
     }
 
     #[test]
-    fn planners_take_the_wheel() {
+    fn only_kinds_that_drive_may_take_over() {
         let planners = "human, idm, conservative, negotiation, bayesian, game, cooperative, nash, contingency";
         assert_eq!(Driver::wheel_kinds(), planners);
         for kind in planners.split(", ") {
             assert_eq!(Driver::at_wheel(kind).map(|driver| driver.kind()), Some(kind));
         }
-        assert!(["external", "inputs", "recorded", "unknown"].iter().all(|kind| Driver::at_wheel(kind).is_none()));
+        let others = ["external", "inputs", "recorded", "walker", "no-such-kind"];
+        assert!(others.iter().all(|kind| Driver::at_wheel(kind).is_none()));
     }
 
     #[test]
@@ -84,6 +85,6 @@ mod tests {
         assert!(checked(vec![[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], handed("idm")));
         assert!(!checked(vec![[1.0, 1.0, 0.0], [1.0, 0.0, 0.0]], Vec::new()));
         assert!(!checked(vec![[0.0, f64::NAN, 0.0]], Vec::new()));
-        assert!(!checked(Vec::new(), handed("nobody")));
+        assert!(!checked(Vec::new(), handed("no-such-kind")));
     }
 }

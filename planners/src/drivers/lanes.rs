@@ -12,7 +12,7 @@ const LEAST_LANE_SHARE: f64 = 0.1;
 
 /// A lane beside the route is looked at as far as the driver comes in this time, for 1/10 scale cars \[s\],
 const LOOK_AHEAD_S: f64 = 3.0;
-/// at so many places.
+/// at this many places.
 const LOOKS: usize = 20;
 
 /// Width of lanes where nothing is said of it, for 1/10 scale cars \[m\].
@@ -127,7 +127,7 @@ pub fn leader(scene: &Scene, lanes: &RoadLanes, lane: usize, state: &State, t: u
         let gap_m = ahead - other.body.rear_m - ego.body.front_m;
         (ahead > 0.0).then_some(Leader { gap_m, speed_mps: there.speed_mps })
     });
-    // Three length scales of its taper before the end there is no room left.
+    // Three length scales of its taper before the end no room is left.
     let end = road
         .lane_end()
         .filter(|_| lane == 0)
@@ -146,7 +146,7 @@ pub fn follower<'a>(scene: &'a Scene, lanes: &RoadLanes, lane: usize) -> Option<
 /// Time in which a speed is reached but for a third, for 1/10 scale cars \[s\].
 const SPEED_TIME_S: f64 = 0.2;
 
-/// The input with which a vehicle comes to a lateral position on its route \[m\] and to a speed, whoever is in the way: the steering of
+/// The input with which a vehicle comes to a lateral position on its route \[m\] and to a speed, whatever is in the way: the steering of
 /// our drivers without an optimiser, and an acceleration in proportion to the speed that is missing, both as comfortable as the vehicle's
 /// limits ask.
 pub fn towards(scene: &Scene, lateral_m: f64, speed_mps: f64) -> Input {
@@ -159,6 +159,6 @@ pub fn towards(scene: &Scene, lateral_m: f64, speed_mps: f64) -> Input {
     let missing_mps = speed_mps - state.speed_mps;
     let wanted =
         Input { acceleration_mps2: missing_mps / (SPEED_TIME_S * own.body.time_ratio()).max(step_s), steering_rad };
-    let input = own.comfortably(&own.previous_input, wanted, (state.speed_mps, step_s));
+    let input = own.comfortably(&own.previous_input, wanted, state.speed_mps, step_s);
     Input { acceleration_mps2: admissible(own, state, input.acceleration_mps2, step_s), ..input }
 }

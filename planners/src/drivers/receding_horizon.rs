@@ -44,7 +44,7 @@ pub(crate) fn solve(
     Ok(Solved { problem, optimum, event: None })
 }
 
-/// The same for whoever has no other problem to fall back on ([`Optimiser::optimise_or_improve`]).
+/// The same for drivers without another problem to fall back on ([`Optimiser::optimise_or_improve`]).
 ///
 /// # Errors
 /// [`DescentError`] if the last plan cannot be made better.

@@ -12,7 +12,7 @@ use serde_json::json;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::prediction::Prediction;
 use crate::prediction::steering::{admissible, roll_out, steer};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::trigger::{Trigger, TriggerMemory};
 use crate::{Input, Plan, PlanError, PlanTime, Scene};
 
@@ -108,17 +108,17 @@ impl Drive for Scripted {
     ///
     /// # Errors
     /// Never.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let own = &scene.ego;
         let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.route.across(own.state.position())]);
         self.look(scene);
         let trajectory = roll_out(scene, |t, state| {
             let time_s = scene.step_s * (scene.tick + t) as f64;
-            let order = self.latest((time_s, scene.step_s), |order| order.speed_mps.is_some());
+            let order = self.latest(time_s, scene.step_s, |order| order.speed_mps.is_some());
             let wanted = order.and_then(|order| order.speed_mps).unwrap_or(speed);
             let most = order.and_then(|order| order.acceleration_mps2).unwrap_or(f64::INFINITY);
             let acceleration = ((wanted - state.speed_mps) / scene.step_s).clamp(-most, most);
-            let place = self.latest((time_s, scene.step_s), |order| order.lateral_m.is_some());
+            let place = self.latest(time_s, scene.step_s, |order| order.lateral_m.is_some());
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
                 steering_rad: steer(own, state, place.and_then(|order| order.lateral_m).unwrap_or(lateral)),
@@ -141,7 +141,7 @@ impl Drive for Scripted {
 
 impl Scripted {
     /// The order that rules at a time, of those that `applies` accepts; of orders at one time, the last.
-    fn latest(&self, (time_s, step_s): (f64, f64), applies: impl Fn(&Order) -> bool) -> Option<&Order> {
+    fn latest(&self, time_s: f64, step_s: f64, applies: impl Fn(&Order) -> bool) -> Option<&Order> {
         let orders = self.settings.script.iter().zip(&self.triggers).filter(|(order, _)| applies(order));
         let begins = orders.filter_map(|(order, trigger)| {
             let counts_from_s = match order.when {
@@ -178,7 +178,7 @@ mod tests {
     fn driven(script: Vec<Order>, tick: usize) -> Plan {
         let mut scene = scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new());
         scene.tick = tick;
-        Scripted::new(Settings { script }).plan(&scene, &Outlook::default()).expect("a plan")
+        Scripted::new(Settings { script }).plan(&scene, &InferredFutures::default()).expect("a plan")
     }
 
     #[test]
@@ -208,7 +208,7 @@ mod tests {
         let mut speed_after = |x_m: f64, tick: usize| {
             let bus = Agent { name: "bus".to_owned(), ..agent(x_m, 0.185, 0.0, 1.0) };
             let scene = Scene { tick, ..scene(bus, Vec::new()) };
-            driver.plan(&scene, &Outlook::default()).expect("a plan").trajectory.states[15].speed_mps
+            driver.plan(&scene, &InferredFutures::default()).expect("a plan").trajectory.states[15].speed_mps
         };
         assert_eq!(speed_after(0.0, 0), 1.0);
         // Reached at 2 s, so that it slows down from 2.5 s on.

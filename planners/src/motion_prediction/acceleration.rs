@@ -1,4 +1,4 @@
-//! Motions that look at nobody else: constant velocity, and an acceleration that decays.
+//! Motions that ignore all other vehicles: constant velocity, and an acceleration that decays.
 
 use super::{LateralMotion, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 

@@ -2,7 +2,7 @@
 //!
 //! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those beside it
 //! are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A driver in traffic
-//! wants about the speed that it has: what it would want on a free road, nobody can see.
+//! wants about the speed that it has: what it would want on a free road cannot be seen.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, Traffi
 use crate::drivers::human::{self, Human};
 use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
 
 /// Stages of the plan: 8 s, as people have on real roads.
@@ -19,7 +19,7 @@ const HORIZON: usize = 40;
 const EDGE_M: f64 = 0.2;
 /// Others farther away than this along the lane are not looked at, ahead and behind \[m\].
 const SIGHT_M: [f64; 2] = [150.0, 40.0];
-/// Of those in the lane ahead, at most so many are looked at.
+/// Largest number of vehicles in the lane ahead that are considered.
 const MAX_LEADERS: usize = 4;
 /// Those beside the lane are looked at up to this far across \[m\].
 const BESIDE_M: f64 = 5.5;
@@ -75,7 +75,7 @@ impl PredictedDriver {
     pub(super) fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         let mut scene = self.scene(moment);
         scene.ego.urgency = scene.urgency();
-        let Ok(plan) = Human::new(self.settings).plan(&scene, &Outlook::default()) else {
+        let Ok(plan) = Human::new(self.settings).plan(&scene, &InferredFutures::default()) else {
             let lateral = self.lateral.unwrap_or_default();
             return super::acceleration::predict(moment, None, lateral);
         };
@@ -89,7 +89,7 @@ impl PredictedDriver {
 
     /// The moment as the driver sees it.
     fn scene(&self, moment: &TrafficMoment) -> Scene {
-        // Whoever is beside the road at the start is on a road that reaches there.
+        // A vehicle beside the road at the start is on a road that reaches there.
         let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
         let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
         let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn who_keeps_its_line_is_not_expected_in_the_middle_of_the_lane() {
+    fn a_vehicle_that_keeps_its_line_is_not_predicted_to_the_middle_of_the_lane() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
         let across_m =
             |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];

@@ -1,7 +1,7 @@
 //! Predictions of one vehicle of real traffic from what is known of it and of the vehicles around it at a moment.
 //!
-//! A [`TrafficMoment`] is told in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
-//! middle, positive to the left. Nobody's plan is in it, and nothing that was seen later: everybody else is expected to keep its speed
+//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
+//! middle, positive to the left. It holds no plan, and nothing that was seen later: all others are expected to keep their speeds
 //! along its lane. A [`MotionModel`] answers with places at steps of [`STEP_S`].
 //!
 //! | model | along the lane | across it |
@@ -134,7 +134,7 @@ impl LateralMotion {
 pub(crate) mod tests {
     use super::*;
 
-    /// A car at 20 m/s with somebody ahead.
+    /// A car at 20 m/s behind another one.
     pub(crate) fn behind(gap_m: f64, leader_mps: f64) -> TrafficMoment {
         let leader = NearbyVehicle {
             ahead_m: gap_m + 4.5,
@@ -178,7 +178,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn who_brakes_to_a_stop_stands() {
+    fn a_vehicle_that_brakes_to_a_stop_stands() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
         let model =
             MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };

@@ -68,7 +68,7 @@ pub struct PlanEvent {
 /// The kinds of event that a program may have to tell apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlanEventKind {
-    /// The planner turns to another vehicle, by its name; to none if nobody is left.
+    /// The planner turns to another vehicle, by its name; none if no vehicle is left.
     Partner(Option<String>),
     /// The planner's own problem has no solution, and the plan is the fallback, the conservative one; the optimiser's reason.
     Fallback(String),

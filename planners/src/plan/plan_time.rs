@@ -8,7 +8,7 @@ use crate::trajectory::HomotopySearch;
 /// other runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanTime {
-    /// A plan of 30 stages with nobody near \[s\].
+    /// A plan of 30 stages without other vehicles near \[s\].
     pub alone_s: f64,
     /// By which share of that each other vehicle near makes it longer.
     pub share_of_each_other: f64,

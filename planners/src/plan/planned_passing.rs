@@ -37,7 +37,7 @@ impl fmt::Display for PlannedPassing {
 }
 
 impl PlannedPassing {
-    /// The passing as a sentence about whoever plans it, without the subject.
+    /// The passing as a sentence about the planning vehicle, without the subject.
     pub fn sentence(&self) -> String {
         let verb = match self.side {
             PassingSide::Ahead => "goes",

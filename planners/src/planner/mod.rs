@@ -13,7 +13,7 @@ use crate::perception::sensing::SensedScene;
 use crate::plan::certificate::{refused, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Plan, PlanError, Scene};
 
 /// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
@@ -48,7 +48,7 @@ impl Driver {
 }
 
 impl Planner {
-    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it is told none.
+    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it knows none.
     pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
         Planner {
             driver: kind.driver(),
@@ -66,14 +66,14 @@ impl Planner {
         Planner { deadline, ..self }
     }
 
-    /// Another driver takes over. What follows from the kind of the former one stays: what the driver is told, and whether its plans
+    /// Another driver takes over. What follows from the kind of the former one stays: what the driver knows, and whether its plans
     /// may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
         self.driver = driver;
     }
 
     /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
-    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it is told none.
+    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it knows none.
     pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
         let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
         self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
@@ -93,37 +93,37 @@ impl Planner {
         })
     }
 
-    /// Plans the next move in a scene in which everybody is seen as it is. Whoever can neither reach the vehicle nor be reached by it
+    /// Plans the next move in a scene that shows all vehicles as they are. A vehicle that can neither reach this one nor be reached by it
     /// within the horizon has no part in the plan.
     ///
     /// # Errors
-    /// [`PlanError`] if there is no plan; the caller falls back.
+    /// [`PlanError`] if no plan was found; the caller falls back.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let near = scene.within_reach();
         match self.beliefs {
             Some(_) => self.plan_sensed(&SensedScene::perfect(&near)),
-            None => self.plan_as_told(&near, &Outlook::default()),
+            None => self.plan_as_told(&near, &InferredFutures::default()),
         }
     }
 
-    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver is told no plans.
+    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver knows no plans.
     ///
     /// # Errors
     /// As [`Planner::plan`].
     pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
         let Some(beliefs) = &mut self.beliefs else {
-            return self.plan_as_told(&sensed.scene, &Outlook::default());
+            return self.plan_as_told(&sensed.scene, &InferredFutures::default());
         };
         let inferred = beliefs.infer(sensed);
-        let outlook = Outlook {
+        let inferred_futures = InferredFutures {
             alternatives: if self.branches { beliefs.alternatives(sensed, &inferred.scene) } else { Vec::new() },
             estimates: inferred.estimates,
             delay: sensed.oldest_sighting(),
         };
-        let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
+        let mut plan = self.plan_as_told(&inferred.scene, &inferred_futures)?;
         plan.diagnostics.extend(inferred.diagnostics);
         plan.events.splice(0..0, inferred.events);
-        plan.beliefs = outlook.estimates;
+        plan.beliefs = inferred_futures.estimates;
         Ok(plan)
     }
 
@@ -137,8 +137,8 @@ impl Planner {
     }
 
     /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
-    fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
-        let mut plan = self.driver.plan(scene, outlook)?;
+    fn plan_as_told(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
+        let mut plan = self.driver.plan(scene, inferred_futures)?;
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
         let may_be_refused = self.may_be_refused && !plan.violations.is_empty();

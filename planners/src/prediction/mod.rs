@@ -24,7 +24,7 @@ pub enum Prediction {
     Plan,
     /// At constant velocity with their present headings; along a curved road, with their present angle to it.
     ConstantVelocity,
-    /// By what their motion says of their drivers: nobody's plan is told. `inference` has the settings.
+    /// By what their motion says of their drivers: no plan is known. `inference` has the settings.
     Inferred,
 }
 
@@ -52,7 +52,7 @@ impl Prediction {
     }
 }
 
-/// A scene as somebody sees it who is told neither plans nor inputs nor kinds of drivers: everybody is expected to keep its speed
+/// A scene for an observer that knows neither plans nor inputs nor kinds of drivers: each vehicle is expected to keep its speed
 /// and its angle to the road. Goals that are shared stay.
 pub fn without_plans(scene: Scene) -> Scene {
     let Scene { horizon, step_s, .. } = scene;
@@ -73,7 +73,7 @@ pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajecto
     }
 }
 
-/// Where a vehicle is after so many steps that keeps its present heading and speed.
+/// Where a vehicle that keeps its present heading and speed is after some steps.
 pub(crate) fn straight_on(state: State, step_s: f64) -> impl Fn(usize) -> State {
     let (sin, cos) = libm::sincos(state.heading_rad);
     move |steps| {

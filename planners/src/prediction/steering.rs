@@ -48,7 +48,7 @@ pub(crate) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s:
 
 impl Agent {
     /// The input nearest to a wanted one to which a driver changes comfortably within a time, and harder where it must.
-    pub(crate) fn comfortably(&self, last: &Input, wanted: Input, (speed_mps, step_s): (f64, f64)) -> Input {
+    pub(crate) fn comfortably(&self, last: &Input, wanted: Input, speed_mps: f64, step_s: f64) -> Input {
         let Some(comfort) = self.limits.comfort else { return wanted };
         let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
         let turn_rad = comfort.steering_rate_radps * self.urgency * step_s;

@@ -1,7 +1,7 @@
 //! The time gap that drivers who know comfort keep to those on the same road.
 //!
 //! Of recorded people, gaps between bumpers in steady following are 3.5 m + 1.15 s · v, and time gaps spread from 0.6 to 3.7 s
-//! (`docs/people.md`). A human keeps the more, the more safety weighs for it. Nobody pulls into a gap below a least one,
+//! (`docs/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
 //! ahead or behind.
 
 use crate::road::network::ConflictKind;
@@ -17,7 +17,7 @@ const STANDSTILL_GAP_M: f64 = 0.35;
 const GAP_SHARES: [f64; 2] = [0.6, 1.4];
 /// The weight of a nice driver, up to which shares grow with the logarithm.
 const NICE_WEIGHT: f64 = 50.0;
-/// Nobody drives nearer than this share of the usual time gap who can help it.
+/// Smallest share of the usual time gap to which a driver approaches by choice.
 const FIRM_SHARE: f64 = 0.45;
 /// The least gap ahead or behind for a change of lane, as a share of the usual time gap: 1 s.
 const ACCEPTED_SHARE: f64 = 0.85;
@@ -25,11 +25,11 @@ const ACCEPTED_SHARE: f64 = 0.85;
 const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
 const OPENING: f64 = 0.1;
-/// An ellipse that contains two bodies is so many times as long as they are.
+/// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 const ASIDE_M: f64 = 0.04;
-/// Somebody beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
+/// A vehicle beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
 const BEYOND_LINE_M: f64 = 0.03;
 
 /// The share of the usual time gap that a driver keeps, by its safety weight.
@@ -62,7 +62,7 @@ impl Scene {
 
     /// The half axes along the road of the ellipses around the vehicle ahead: the comfortable one of a driver of a safety weight, who may
     /// state which multiple of the usual time gap it keeps, and the firm one; none for a driver who knows no comfort \[m\].
-    pub(crate) fn following_axes_m(&self, leader: &Agent, (weight, ratio): (f64, Option<f64>)) -> Option<[f64; 2]> {
+    pub(crate) fn following_axes_m(&self, leader: &Agent, weight: f64, ratio: Option<f64>) -> Option<[f64; 2]> {
         let time_gap_s = self.ego.limits.comfort?.time_gap_s;
         let (standstill_m, speed_mps) = (STANDSTILL_GAP_M * self.ego.body.scale, self.ego.state.speed_mps);
         let comfortable_m = standstill_m + ratio.unwrap_or_else(|| share_of(weight)) * time_gap_s * speed_mps;
@@ -70,7 +70,7 @@ impl Scene {
         Some([comfortable_m, firm_m].map(|gap_m| self.half_axis_m(leader, gap_m)))
     }
 
-    /// What keeps a driver who knows comfort from pulling out right ahead of somebody in another lane of its road, or right behind: an
+    /// What keeps a driver who knows comfort from pulling out right ahead of a vehicle in another lane of its road, or right behind: an
     /// ellipse as wide as both bodies.
     pub(crate) fn lane_change_keep_out(&self, other: &Agent, weight: f64) -> Option<KeepOut> {
         let ego = &self.ego;
@@ -92,7 +92,7 @@ impl Scene {
         Some(self.half_axis_m(other, least_s * self.ego.state.speed_mps.max(other.state.speed_mps)))
     }
 
-    /// What a driver of a safety weight keeps free for somebody who is predicted to come into its way: the safety ellipse, and for one
+    /// What a driver of a safety weight keeps free for a vehicle that is predicted to come into its way: the safety ellipse, and for one
     /// ahead in another lane of its road as much as that one needs in order to come.
     pub(crate) fn room_for(&self, other: &Agent, prediction: &Trajectory, weight: f64, penalty: Penalty) -> KeepOut {
         let mut room = self.keep_out(prediction, &other.route, penalty);
@@ -112,14 +112,14 @@ impl Scene {
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, &other.route, &centres), centres, penalty }
     }
 
-    /// Whether somebody comes the other way, whom a driver who knows comfort passes side by side.
+    /// Whether a vehicle is oncoming: a driver that knows comfort passes it side by side.
     pub(crate) fn meets_in_its_lane(&self, other: &Agent) -> bool {
         let is_head_on =
             |relation| matches!(relation, Relation::Conflict(conflict) if conflict.kind == ConflictKind::HeadOn);
         self.ego.limits.comfort.is_some() && is_head_on(self.ego.relation(other))
     }
 
-    /// Whether somebody who comes the other way, or who waits for the planning vehicle, is not expected in the lane in which that one
+    /// Whether a vehicle that is oncoming, or waits for the planning vehicle, is not expected in the lane in which that one
     /// stays: its lines alone keep the two apart.
     pub(crate) fn is_parted_by_lane_line(&self, other: &Agent) -> bool {
         let ego = &self.ego;
@@ -135,14 +135,14 @@ impl Scene {
         })
     }
 
-    /// What keeps the planning vehicle from touching somebody who waits for it, or who comes the other way, or what nobody drives.
+    /// What keeps the planning vehicle from touching a vehicle that waits for it or is oncoming, or an obstacle.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let beside_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
         self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
     }
 
-    /// Whether the safety ellipse around another vehicle concerns the planning vehicle; to somebody who knows comfort it does not once
-    /// their ways do not meet any more, nor where a line parts it from somebody who waits.
+    /// Whether the safety ellipse around another vehicle concerns the planning vehicle; for a driver that knows comfort it does not once
+    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
         let ego = &self.ego;
         let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
@@ -150,7 +150,7 @@ impl Scene {
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
-    /// driver knows comfort. A gap that is too short now, behind somebody in the same lane, opens slowly.
+    /// driver knows comfort. A gap that is too short now, behind a vehicle in the same lane, opens slowly.
     pub(crate) fn safety_around(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         if self.ego.is_waited_for_by(other) || other.is_obstacle {
             return self.beside(other, penalty);

@@ -14,7 +14,7 @@ pub struct JointVehicle {
 }
 
 /// The joint problem: the inputs of all `vehicles` are decision variables, and its cost is the sum of theirs. The safety ellipses
-/// around the predictions of everybody else are soft constraints with an exact penalty, as for the conservative planner. (The
+/// around the predictions of all others are soft constraints with an exact penalty, as for the conservative planner. (The
 /// source has two vehicles and no others.)
 ///
 /// A pair has two separation constraints, one for the ellipse of each vehicle. If both ellipses have the same size and
@@ -37,7 +37,7 @@ pub fn joint_problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
         for j in 0..i {
             let ([first, second], mutual) = ([j, i], is_mutual(&vehicles[i], &vehicles[j]));
             let separation = |vehicle: usize, from: usize| {
-                scene.separation(vehicles[vehicle].goal.safety, vehicle, (from, &vehicles[from].agent))
+                scene.separation(vehicles[vehicle].goal.safety, vehicle, from, &vehicles[from].agent)
             };
             terms.push(separation(first, second));
             if !mutual {

@@ -16,7 +16,7 @@ use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Goal, SafetyEllipse, Scene};
 
-/// Leaving the road costs people so many times what it costs the drivers of the source: more than to come near somebody, for which a
+/// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for which a
 /// plan would otherwise trade the road.
 const PEOPLE_ON_ROAD: f64 = 5.0;
 
@@ -45,7 +45,7 @@ impl Agent {
             front_m: self.body.front_m,
             route: Arc::clone(&self.route),
             line_m,
-            // Nobody leaves the road in order to stay before a line.
+            // A driver does not leave the road in order to stay before a line.
             penalty: if self.rules.are_kept { Penalty::road_edge(self.body.scale) } else { Penalty::ROAD_EDGE },
         }
     }
@@ -94,7 +94,7 @@ impl Scene {
         let wanted = route.locate(goal.target.position(), None);
         let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
         let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
-        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, (self.horizon, self.step_s));
+        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, self.horizon, self.step_s);
         Term::FrenetTracking(FrenetTracking {
             vehicle,
             weights: goal.tracking,
@@ -110,7 +110,7 @@ impl Scene {
 
     /// Vehicle number `vehicle` of a joint problem keeps out of ellipses of the size `safety` around vehicle number `from`, each
     /// along the road where that one is predicted.
-    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
+    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, from: usize, agent: &Agent) -> Term {
         let ellipses = ellipses(safety, &agent.route, &self.centres(&agent.prediction));
         Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
     }

@@ -12,7 +12,7 @@ use crate::trajectory::StageBounds;
 use crate::vehicle::ComfortLimits;
 use crate::{Agent, Limits};
 
-/// In danger, a driver turns with at most so many times the comfortable lateral acceleration.
+/// Largest lateral acceleration in danger, as a multiple of the comfortable one.
 const MOST_LATERAL_URGENCY: f64 = 2.0;
 
 impl Agent {
@@ -32,7 +32,7 @@ impl Agent {
                     steering_rad: [-steering_max_rad, steering_max_rad],
                     speed_mps: [limits.speed_min_mps, self.highest_speed_mps(t, caps_mps)],
                 };
-                limits.comfort.map_or(bounds, |comfort| self.comfortable(bounds, &comfort, (t, step_s)))
+                limits.comfort.map_or(bounds, |comfort| self.comfortable(bounds, &comfort, t, step_s))
             })
             .collect();
         if limits.comfort.is_some() {
@@ -65,7 +65,7 @@ impl Agent {
     }
 
     /// Bounds of one stage, within what is comfortable.
-    fn comfortable(&self, bounds: StageBounds, comfort: &ComfortLimits, (t, step_s): (usize, f64)) -> StageBounds {
+    fn comfortable(&self, bounds: StageBounds, comfort: &ComfortLimits, t: usize, step_s: f64) -> StageBounds {
         let until_s = step_s * (t + 1) as f64;
         let around = |last: f64, rate: f64| [last - rate * until_s, last + rate * until_s];
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;

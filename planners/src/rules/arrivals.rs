@@ -11,11 +11,11 @@ use crate::scene::relation::is_standing;
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
 
-/// Somebody who stands at its line this long without being held has given up its turn: so often the time `√(length / 1 m/s²)`, for a
+/// A vehicle that stands at its line this long without being held has given up its turn: so often the time `√(length / 1 m/s²)`, for a
 /// car 4.3 s.
 const TURN_TIMES: f64 = 2.0;
 
-/// Slower than this share of a car's length a second nobody wants to drive who wants to drive at all.
+/// Lower bound of a wanted speed, as a share of a car's length a second: a vehicle with less does not want to drive.
 const LEAST_WANTED_LENGTHS: f64 = 0.02;
 
 /// Headings whose sine of the difference is larger come from the right, or from the left.
@@ -44,8 +44,8 @@ struct Arrival {
 }
 
 impl Arrivals {
-    /// Looks at everybody.
-    pub(super) fn note_all(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) {
+    /// Looks at all vehicles.
+    pub(super) fn note_all(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) {
         for user in users {
             let others = users.iter().filter(|other| other.agent.name != user.agent.name);
             let lines: Vec<f64> = others
@@ -54,7 +54,7 @@ impl Arrivals {
                 .chain(signed_lines(user.agent))
                 .collect();
             let known = self.0.entry(user.agent.name.clone()).or_default();
-            known.note(user.agent, &lines, (tick, step_s));
+            known.note(user.agent, &lines, tick, step_s);
         }
     }
 
@@ -101,7 +101,7 @@ impl Arrivals {
 }
 
 impl Memory {
-    fn note(&mut self, agent: &Agent, lines: &[f64], (tick, step_s): (usize, f64)) {
+    fn note(&mut self, agent: &Agent, lines: &[f64], tick: usize, step_s: f64) {
         let (front_m, near_m) = (front_m(agent), ARRIVAL_LENGTHS * car_length_m(agent));
         self.arrival = self.arrival.filter(|arrival| front_m < arrival.line_m);
         let reached = lines.iter().copied().find(|line_m| (0.0..near_m).contains(&(line_m - front_m)));

@@ -1,4 +1,4 @@
-//! Whether one vehicle has to wait for another one where their routes meet, by what is known of who has arrived.
+//! Whether one vehicle has to wait for another one where their routes meet, by which vehicles have arrived.
 //!
 //! The rules that all vehicles are judged by (`rules`) and drivers who only keep the right of way (`right_of_way`) ask it; they differ in
 //! whom they remember, and in who counts as standing.
@@ -59,7 +59,8 @@ impl<'a> Pair<'a> {
     pub(crate) fn new(
         [ego, other]: [&'a Agent; 2],
         conflict: &'a RouteConflict,
-        (wanted_mps, they_stand): (f64, bool),
+        wanted_mps: f64,
+        they_stand: bool,
     ) -> Self {
         Pair { ego, other, conflict, own_front_m: front_m(ego), their_front_m: front_m(other), wanted_mps, they_stand }
     }
@@ -78,7 +79,7 @@ impl<'a> Pair<'a> {
         match conflict.precedence {
             _ if is_committed && conflict.kind != ConflictKind::Merging => self.comes_too_soon(),
             Precedence::Own => false,
-            // Who has priority and stands at its line waits for somebody else, and goes when that one has passed.
+            // A vehicle with priority that stands at its line waits for a third one, and goes when that one has passed.
             Precedence::Other => self.comes_too_soon() || (self.they_stand && arrived.they_are_ready),
             Precedence::ByArrival => self.arrived_later(arrived),
         }
@@ -109,7 +110,7 @@ impl<'a> Pair<'a> {
         let their_mps2 = ENTERING_SHARE * other.limits.acceleration_max_mps2;
         let their_s = time_s(their_way_m.max(0.0), other.state.speed_mps, self.wanted_mps, their_mps2);
         let own_end_m = match conflict.kind {
-            // Whoever joins must be as fast as the one behind by then; half of the way is as good as that.
+            // The vehicle that joins must be as fast as the one behind by then; half of the way is as good as that.
             ConflictKind::Merging => conflict.own_meeting_m,
             ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => conflict.own_m[1],
         };
@@ -151,7 +152,7 @@ pub(crate) fn stopping_distance_m(agent: &Agent) -> f64 {
 pub(crate) fn can_stop(agent: &Agent, place_m: f64) -> bool {
     let speed_mps = agent.state.speed_mps;
     let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
-    // Whoever stands a little beyond still waits.
+    // A vehicle that stands a little beyond still waits.
     front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * car_length_m(agent)
 }
 

@@ -7,17 +7,17 @@ use crate::scene::relation::is_standing;
 
 /// Of the lane, a vehicle that stays in it may be beyond the line by this much now, for 1/10 scale cars \[m\].
 const BEYOND_LINE_M: f64 = 0.02;
-/// Somebody ahead who drives with less than this share of the wanted speed may be overtaken.
+/// A vehicle ahead with less than this share of the wanted speed may be overtaken.
 const SLOW_SHARE: f64 = 0.75;
-/// Somebody ahead is looked for as far as the driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
+/// Vehicles ahead are considered as far as the driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
 const LOOK_AHEAD_S: f64 = 2.5;
 /// Who overtakes drives this many of its lengths further than the other, besides the distance between them.
 const OVERTAKING_LENGTHS: f64 = 6.0;
-/// Time to spare before somebody who comes the other way is there, for 1/10 scale cars \[s\].
+/// Time to spare before an oncoming vehicle arrives, for 1/10 scale cars \[s\].
 const SPARE_S: f64 = 0.8;
 
-/// Whether a road user has to stay in the lane of its route: it is in it, no lane beside is its aim, and there is nobody slow ahead
-/// whom it could overtake before anybody comes. What stands in the lane is no reason yet: it may be a queue.
+/// Whether a road user has to stay in the lane of its route: it is in it, no lane beside is its aim, and no slow vehicle is ahead
+/// that it could overtake before another one comes. A stationary vehicle in the lane does not count: it may be in a queue.
 pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let ego = &user.agent;
     let Some(lane) = ego.route.own_lane() else { return false };
@@ -31,10 +31,10 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let places: Vec<(&Agent, FrenetPoint)> = places.collect();
     let times = places.iter().filter_map(|(other, at)| overtaking_s(user, own_m, other, at));
     let Some(time_s) = times.reduce(f64::max) else { return true };
-    places.iter().any(|(other, at)| comes_within(user, own_m, (other, at), time_s))
+    places.iter().any(|(other, at)| comes_within(user, own_m, other, at, time_s))
 }
 
-/// How long it takes to overtake somebody who drives slowly ahead in the lane; none of all others \[s\].
+/// How long it takes to overtake a slow vehicle ahead in the lane; none of all others \[s\].
 fn overtaking_s(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint) -> Option<f64> {
     let ego = &user.agent;
     let lead_m = at.along_m - own_m;
@@ -48,8 +48,8 @@ fn overtaking_s(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint)
     is_ahead.then(|| (lead_m + OVERTAKING_LENGTHS * length_m) / (user.wanted_mps - along_mps))
 }
 
-/// Whether somebody comes the other way within a time.
-fn comes_within(user: &Obliged<'_>, own_m: f64, (other, at): (&Agent, &FrenetPoint), time_s: f64) -> bool {
+/// Whether a vehicle is oncoming within a time.
+fn comes_within(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint, time_s: f64) -> bool {
     let ego = &user.agent;
     let comes_mps = -other.state.speed_mps * libm::cos(other.state.heading_rad - at.heading_rad);
     let lead_m = at.along_m - own_m;

@@ -1,17 +1,17 @@
-//! The rules of the road: what they ask of each vehicle now, worked out once a tick from where everybody is.
+//! The rules of the road: what they ask of each vehicle now, worked out once a tick from the states of all vehicles.
 //!
-//! `RuleBook::judge` looks at all vehicles of a network together and says of each where it must wait and for whom
-//! ([`RoadRules`]). It is part of the traffic and not of a driver, so all drivers are asked the same, whoever they are. Drivers who
+//! `RuleBook::judge` looks at all vehicles of a network together and says of each where it must wait and for which vehicles
+//! ([`RoadRules`]). It is part of the traffic and not of a driver, so they ask the same of all kinds of drivers. Drivers who
 //! keep the rules find the answer on their [`Agent`](crate::Agent): as a speed that no plan may exceed (`speed_caps`) and as a line.
 //!
 //! A vehicle waits at the line before a conflict ([`RouteConflict`](crate::road::network::RouteConflict))
 //!
 //! - while a traffic light there is red, or amber if it can stop in comfort,
 //! - until it has stood there once, if the sign says so,
-//! - while somebody who goes first comes so soon that it could not clear the conflict before,
-//! - while somebody who goes first has stopped there first, because it waits for a third one,
-//! - while somebody is in the conflict, or past the own line towards it,
-//! - where the first to arrive goes first, while somebody waits who came before.
+//! - while a vehicle that goes first comes so soon that it could not clear the conflict before,
+//! - while a vehicle that goes first has stopped there first, because it waits for a third one,
+//! - while a vehicle is in the conflict, or past the own line towards it,
+//! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
 //! A vehicle that is past its line, or could no longer stop before it, goes on. Where vehicles wait for one another in a circle, the
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
@@ -39,7 +39,7 @@ use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
-/// What has to be remembered of the past to judge the present: who has arrived where, and when.
+/// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RuleBook {
     arrivals: Arrivals,
@@ -49,21 +49,21 @@ pub struct RuleBook {
 
 impl RuleBook {
     /// What is asked of each of some road users, in their order. To be called once a tick.
-    pub(crate) fn judge(&mut self, (tick, step_s): (usize, f64), users: &[Obliged<'_>]) -> Vec<RoadRules> {
+    pub(crate) fn judge(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) -> Vec<RoadRules> {
         if !users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network()) {
             return users.iter().map(beside_no_network).collect();
         }
-        self.arrivals.note_all((tick, step_s), users);
+        self.arrivals.note_all(tick, step_s, users);
         let time_s = tick as f64 * step_s;
         let lights_m: Vec<Option<f64>> = users.iter().map(|user| lights::line_m(user.agent, time_s)).collect();
         let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, &lights_m)).collect();
         let turns: Vec<_> = users.iter().map(|user| self.arrivals.turn(user.agent)).collect();
         waiting::release(&mut holds, &turns);
-        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, (holds, time_s));
+        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, holds, time_s);
         users.iter().zip(&holds).map(asked).collect()
     }
 
-    /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while nobody
+    /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no vehicle
     /// comes. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
@@ -81,7 +81,7 @@ impl RuleBook {
         }
     }
 
-    /// Everybody that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop.
+    /// All vehicles that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop.
     fn holds(&self, users: &[Obliged<'_>], vehicle: usize, lights_m: &[Option<f64>]) -> Vec<Hold> {
         let ego = &users[vehicle].agent;
         if !ego.route.is_in_network() {
@@ -103,7 +103,7 @@ impl RuleBook {
                     they_win_ties: false,
                 };
                 let before_m = conflict.own_line_m - stopping_distance_m(ego);
-                let pair = Pair::new([ego, other.agent], conflict, (wanted_mps, is_standing(other.agent)));
+                let pair = Pair::new([ego, other.agent], conflict, wanted_mps, is_standing(other.agent));
                 if can_stop(ego, before_m) && pair.holds(arrived) {
                     found.push(Hold { by, line_m: conflict.own_line_m });
                 }
@@ -113,7 +113,7 @@ impl RuleBook {
     }
 
     /// What is asked of a vehicle that is held by others.
-    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], (holds, time_s): (&[Hold], f64)) -> RoadRules {
+    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
         let ego = &user.agent;
         if !user.keeps_rules || !ego.route.is_in_network() {
             return beside_no_network(user);

@@ -54,7 +54,7 @@ impl Agent {
         Some(((permitted_mps - speed_mps) / step_s).max(-self.comfortable_braking_mps2() * excess * excess))
     }
 
-    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
+    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where they are not needed.
     pub(crate) fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
         if self.route.straight().is_some() {
             return Vec::new();
@@ -96,7 +96,8 @@ impl Agent {
         &self,
         permitted_mps: Vec<f64>,
         wanted_mps: f64,
-        (horizon, step_s): (usize, f64),
+        horizon: usize,
+        step_s: f64,
     ) -> Vec<f64> {
         let Some(line_m) = self.rules.stop_line_m else { return permitted_mps };
         let approach_mps = self.approach_speeds_mps(line_m, wanted_mps, horizon, step_s);
@@ -108,8 +109,8 @@ impl Agent {
 impl Scene {
     /// The speeds at `t = 1…N` that the planning vehicle must not exceed, empty for one that keeps no rules \[m/s\].
     ///
-    /// They are the least of: what limits and curves permit where it is expected to be, what it wants (nobody may race to be ahead
-    /// of somebody), and a comfortable approach to the line at which it has to wait. From a speed above the first two they fall with
+    /// They are the least of: what limits and curves permit where it is expected to be, what it wants (no driver may race to be ahead
+    /// of another), and a comfortable approach to the line at which it has to wait. From a speed above the first two they fall with
     /// comfortable braking. They stay a little above zero, so that a plan has room within its bounds.
     pub(crate) fn speed_caps_mps(&self) -> Vec<f64> {
         let ego = &self.ego;
@@ -130,7 +131,7 @@ impl Scene {
                 permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY).min(wanted_mps) - rolls_on_mps;
             permitted_mps.max(ego.state.speed_mps - braking_mps2 * self.step_s * (stage + 1) as f64)
         });
-        let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, (self.horizon, self.step_s));
+        let caps_mps = ego.up_to_its_line(caps_mps.collect(), wanted_mps, self.horizon, self.step_s);
         caps_mps.into_iter().map(|cap_mps| cap_mps.max(creeping_mps)).collect()
     }
 }

@@ -4,9 +4,9 @@
 //! A driver waits at the line before a conflict ([`RouteConflict`])
 //!
 //! - until it has stood there once, if the sign says so,
-//! - while somebody who goes first comes so soon that the driver could not clear the conflict before,
-//! - while somebody is in the conflict, or past the own line towards it,
-//! - where the first to arrive goes first, while somebody waits who came before.
+//! - while a vehicle that goes first comes so soon that the driver could not clear the conflict before,
+//! - while a vehicle is in the conflict, or past the own line towards it,
+//! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
 //! A driver who is past its line, or could no longer stop before it, goes on.
 
@@ -25,7 +25,7 @@ const REFERENCE_MPS2: f64 = 1.0;
 /// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
 
-/// What a driver remembers of who has arrived when.
+/// What a driver remembers of when vehicles have arrived.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ArrivalMemory {
     /// Who has arrived at its line and is not past it.

@@ -6,18 +6,18 @@ use crate::{Agent, Input, Scene, Trajectory};
 
 /// A driver who must brake does so by this much harder than is just enough.
 const RESERVE: f64 = 1.15;
-/// It stops this many lengths of its body behind somebody.
+/// It stops this many lengths of its body behind a vehicle.
 const STANDSTILL_LENGTHS: f64 = 0.15;
-/// More than so many times the comfortable braking is all that a vehicle can do.
+/// Ratio to the comfortable braking above which a vehicle brakes as hard as it can.
 const MOST: f64 = 10.0;
 
 impl Scene {
     /// The ratio of the braking that safety asks of the planning vehicle to what is comfortable, at least 1; 1 for a driver who knows
     /// no comfort.
     ///
-    /// Braking is needed behind whoever drives ahead in the same lane, if that one brakes comfortably to a stop or as it does now,
+    /// Braking is needed behind the vehicle ahead in the same lane, if that one brakes comfortably to a stop or as it does now,
     /// and before the line at which the vehicle has to wait. Where neither its last plan nor comfortable braking nor the present speed
-    /// keeps it from touching somebody ahead, it may do all that it can.
+    /// keeps it from touching the vehicle ahead, it may do all that it can.
     pub(crate) fn urgency(&self) -> f64 {
         let ego = &self.ego;
         let Some(comfort) = ego.limits.comfort else { return 1.0 };

@@ -1,4 +1,4 @@
-//! Who waits for whom, and how circles of waiting are broken.
+//! Which vehicle waits for which, and how circles of waiting are broken.
 
 /// One vehicle that another one has to wait for, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,8 +9,8 @@ pub(super) struct Hold {
     pub line_m: f64,
 }
 
-/// Lets one vehicle of each circle go in which everybody waits for another one of the same circle and for nobody else: the first
-/// one in the order of `turns`. Nobody is let go before all of the circle have a turn.
+/// Lets one vehicle of each circle go in which each waits for another one of the same circle and for no other: the first
+/// one in the order of `turns`. None is let go before all of the circle have a turn.
 pub(super) fn release(holds: &mut [Vec<Hold>], turns: &[Option<(usize, f64)>]) {
     let reaches = closure(holds);
     for vehicle in 0..holds.len() {
@@ -55,7 +55,7 @@ mod tests {
         holds
     }
 
-    /// Who goes, with those who have a smaller number having come first.
+    /// The vehicles that go; those with smaller numbers came first.
     fn released(pairs: &[(usize, usize)], count: usize) -> Vec<usize> {
         let mut holds = waiting(pairs, count);
         let before = holds.clone();
@@ -65,15 +65,15 @@ mod tests {
 
     #[test]
     fn the_first_of_a_circle_goes_and_chains_stay() {
-        assert_eq!(released(&[(0, 1), (1, 2)], 3), Vec::<usize>::new(), "a chain is no circle");
+        assert_eq!(released(&[(0, 1), (1, 2)], 3), Vec::<usize>::new(), "a chain is not a circle");
         assert_eq!(released(&[(2, 0), (0, 1), (1, 2)], 3), [0]);
         assert_eq!(released(&[(0, 1), (1, 0), (2, 0)], 3), [0], "who waits for a circle is not in it");
-        assert_eq!(released(&[(0, 1), (1, 0), (0, 2)], 3), [1], "the first waits for somebody else, too");
+        assert_eq!(released(&[(0, 1), (1, 0), (0, 2)], 3), [1], "the first waits for a third one, too");
         assert_eq!(released(&[(0, 1), (1, 0), (2, 3), (3, 2)], 4), [0, 2], "one of each circle");
     }
 
     #[test]
-    fn nobody_goes_before_all_have_arrived() {
+    fn no_vehicle_goes_before_all_have_arrived() {
         let mut holds = waiting(&[(0, 1), (1, 0)], 2);
         release(&mut holds, &[Some((0, 0.0)), None]);
         assert_eq!(holds, waiting(&[(0, 1), (1, 0)], 2));

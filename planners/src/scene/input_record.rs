@@ -39,7 +39,7 @@ impl InputRecord {
         row.map_or_else(Input::default, |[_, acceleration, steering]| Input::from_array([*acceleration, *steering]))
     }
 
-    /// Who takes the wheel at a plan, if anybody does: the kind of a planner, or the inputs again.
+    /// The driver that takes over at a plan, if any: the kind of a planner, or the inputs again.
     pub fn handed_over_at(&self, plan: usize) -> Option<Option<&str>> {
         let handed = self.hand_overs.iter().rev().find(|handed| handed.plan as usize == plan)?;
         Some(handed.to.as_deref())

@@ -1,8 +1,8 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
 pub mod driver_estimate;
+pub mod inferred_futures;
 pub(crate) mod input_record;
-pub mod outlook;
 pub(crate) mod record;
 pub(crate) mod relation;
 pub(crate) mod road_rules;
@@ -35,9 +35,9 @@ pub struct Agent {
     pub prediction: Arc<Trajectory>,
     /// Its goal, if it publishes one, as vehicles do that cooperate.
     pub shared_goal: Option<Goal>,
-    /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
+    /// Whether its driver may give way to a vehicle outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
     pub can_be_asked: bool,
-    /// Whether nobody drives it: a parked car, a cone, a wall. Its body lies along the road.
+    /// Whether it has no driver: a parked car, a cone, a wall. Its body lies along the road.
     pub is_obstacle: bool,
     /// What the rules of the road ask of it now; nothing before they are judged.
     pub rules: RoadRules,

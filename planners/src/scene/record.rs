@@ -99,7 +99,7 @@ impl Record {
 impl Record {
     /// The input with which a vehicle goes from a state to where the record is a step after a time, as nearly as its limits allow;
     /// `None` where the record ends before that \[s\].
-    pub fn input(&self, (body, limits): (&Body, &Limits), state: &State, [time_s, step_s]: [f64; 2]) -> Option<Input> {
+    pub fn input(&self, body: &Body, limits: &Limits, state: &State, [time_s, step_s]: [f64; 2]) -> Option<Input> {
         let next = self.state_at(time_s + step_s)?;
         let acceleration_mps2 = (next.speed_mps - state.speed_mps) / step_s;
         let turn_rad = next_to(next.heading_rad, state.heading_rad) - state.heading_rad;
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stands_at_the_end_stands_for_ever() {
+    fn a_record_that_ends_at_rest_stays_at_rest() {
         let parked = Record::new(&[[0.0, 1.0, 2.0, 0.5, 0.0]]).expect("a record");
         assert_eq!(parked.state_at(1e6), Some(parked.first()));
     }

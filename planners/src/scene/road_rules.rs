@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RuleKeeping {
-    /// It keeps all of them, whoever drives it, drives no faster than it wants, and passes what stands in its way.
+    /// It keeps all of them, whatever drives it, drives no faster than it wants, and passes what stands in its way.
     Kept,
     /// It keeps none of them, for studies of who yields; humans and drivers after the intelligent driver model still keep right of way.
     Ignored,
 }
 
-/// Something that stands in the way and is no queue.
+/// Something that stands in the way and is not a queue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
     /// The vehicle.

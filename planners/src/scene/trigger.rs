@@ -1,4 +1,4 @@
-//! What lets somebody begin: another vehicle reaches a place.
+//! What lets a vehicle begin: another one reaches a place.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ impl TriggerMemory {
     }
 
     /// Looks at a scene; the plan in which the trigger fired, by number.
-    pub fn fired_at(&mut self, trigger: &Trigger, scene: &Scene) -> Option<usize> {
+    fn fired_at(&mut self, trigger: &Trigger, scene: &Scene) -> Option<usize> {
         if self.fired.is_none() && trigger.is_reached(scene) {
             self.fired = Some(scene.tick);
         }

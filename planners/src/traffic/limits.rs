@@ -1,10 +1,10 @@
-//! What a vehicle applies of what its plan asks for.
+//! The part of a planned input that a vehicle applies.
 
 use crate::{Body, Input, Limits, State};
 
 /// The input nearest to `wanted` within the limits of the vehicle.
 ///
-/// The steering also keeps the lateral acceleration within its bound. The acceleration also keeps the speed within its bounds during the next `step_s` seconds, whatever a fallback asks for.
+/// The steering also keeps the lateral acceleration within its bound. The acceleration also keeps the speed within its bounds during the next `step_s` seconds, whatever a fallback requests.
 /// Where a plant has driven the speed so far out of its bounds that no admissible acceleration leads back in one step, the
 /// limits of the acceleration win.
 pub fn applied_input(wanted: &Input, state: &State, body: &Body, limits: &Limits, step_s: f64) -> Input {

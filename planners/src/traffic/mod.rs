@@ -3,9 +3,9 @@
 //! One tick is
 //!
 //! ```text
-//! sense     the caller writes state, last input and damage of every road user into a `Traffic`
-//! predict   Traffic::predict          everybody is expected to continue its last plan, from where it really is
-//! plan      Traffic::plan             everybody decides, in `planning_order`; failures fall back
+//! sense     Traffic::begin_plan       predictions, rules and decisions of the last plan are cleared
+//! predict   Traffic::predict          each vehicle is expected to continue its last plan, from where it really is
+//! plan      Traffic::plan             each driver decides, in `planning_order`; failures fall back
 //! act       Traffic::applied_inputs   the first input of each plan, within the limits
 //! move      a plant of the caller, or the bicycle: Traffic::advance
 //! ```
@@ -13,19 +13,20 @@
 //! and [`Traffic::drive`] is a whole tick with the bicycle as the plant.
 //!
 //! There are no clocks, entities or threads here. The application, the tests, the examples and the benchmarks run this code;
-//! whoever wants to know how long planning takes measures inside the closure that it gives to [`Traffic::plan`].
+//! a caller that wants to know how long planning takes measures inside the closure that it gives to [`Traffic::plan`].
 //!
 //! **Who knows which plan.** Those who go first ([`RoadUser::goes_first`]) plan from the front of the road to its rear and
 //! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
-//! prediction); of one another they know the last plans only, so that nobody's decision depends on who was asked before in the
+//! prediction); of one another they know the last plans only, so that no decision depends on which driver was asked before in the
 //! same tick. Sums and the search over homotopy classes still go through the others as they are listed: reversed, they differ in
 //! rounding, and in a near-tie by more (`docs/reliability.md`).
-//! Whoever infers plans ([`RoadUser::knows_plans`]) is told none: its scene has the states of the others only.
+//! A driver that infers plans ([`RoadUser::knows_plans`]) knows none: its scene has the states of the others only.
 
 mod committed;
 mod limits;
 mod neighbours;
 mod planning_order;
+mod presence;
 mod road_user;
 mod room;
 #[cfg(test)]
@@ -37,13 +38,15 @@ pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 pub use neighbours::Neighbours;
 pub use planning_order::planning_order;
+pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
 
 use crate::prediction::without_plans;
-use crate::rules::{Obliged, RuleBook};
+use crate::rules::{Obliged, RoadRules, RuleBook};
+use crate::trajectory::Statistics;
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
 
-/// Everybody on the road at the start of a tick.
+/// All road users at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Traffic {
     /// How many ticks have passed.
@@ -56,7 +59,7 @@ pub struct Traffic {
     pub road_users: Vec<RoadUser>,
     /// What has to be remembered in order to judge by the rules of the road; carried on from tick to tick.
     pub rule_book: RuleBook,
-    /// Who is near whom; before they are found, everybody counts as near.
+    /// Who is near whom; before they are found, all count as near.
     pub near: Neighbours,
 }
 
@@ -66,7 +69,7 @@ pub struct Decision {
     /// The index of the vehicle among the road users.
     pub vehicle: usize,
     /// The plan that is carried out: the planner's, or a fallback without diagnostics and events.
-    pub plan: Plan,
+    pub plan: Arc<Plan>,
     /// Where the plan comes from.
     pub origin: Origin,
     /// Why the planner found none, if it was asked and failed.
@@ -74,7 +77,33 @@ pub struct Decision {
 }
 
 impl Traffic {
-    /// Finds out who can matter to whom, from where everybody is now.
+    /// Prepares every road user for the plan number `tick`, which is made at `time_s` \[s\]: predictions, rules and decisions of the
+    /// last one are cleared. A vehicle that follows a record is expected to keep its speed, whatever it planned before.
+    pub fn begin_plan(&mut self, tick: usize, time_s: f64) {
+        (self.tick, self.near) = (tick, Neighbours::default());
+        let (prediction, plan) = (Arc::default(), Arc::default());
+        for user in &mut self.road_users {
+            user.agent.prediction = Arc::clone(&prediction);
+            (user.agent.rules, user.agent.urgency) = (RoadRules::default(), 1.0);
+            (user.plan, user.origin) = (Arc::clone(&plan), Origin::default());
+            if user.follows_record_at(time_s) {
+                user.committed = CommittedPlan::default();
+            }
+        }
+    }
+
+    /// The road users follow their last plans for another tick: what happened while they planned is not reported again.
+    pub fn follow_plans(&mut self) {
+        for user in &mut self.road_users {
+            if !user.plan.events.is_empty() || user.plan.statistics != Statistics::default() {
+                let plan = Arc::make_mut(&mut user.plan);
+                plan.events.clear();
+                plan.statistics = Statistics::default();
+            }
+        }
+    }
+
+    /// Finds out which vehicles can matter to which, from where all are now.
     pub fn find_neighbours(&mut self) {
         self.near = Neighbours::find(&self.road_users, self.horizon_s());
     }
@@ -88,23 +117,23 @@ impl Traffic {
     pub fn predict(&mut self) {
         self.find_neighbours();
         let Traffic { tick, horizon, step_s, .. } = *self;
-        let present = || self.road_users.iter().filter(|user| !user.is_absent);
+        let present = || self.road_users.iter().filter(|user| !user.is_absent());
         let obliged = present().map(|user| Obliged {
             agent: &user.agent,
             wanted_mps: user.goal.target.speed_mps,
             lateral_goal_m: user.agent.route.across(user.goal.target.position()),
             keeps_rules: user.keeps_rules,
         });
-        let rules = self.rule_book.judge((tick, step_s), &obliged.collect::<Vec<_>>());
-        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent).zip(rules) {
+        let rules = self.rule_book.judge(tick, step_s, &obliged.collect::<Vec<_>>());
+        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent()).zip(rules) {
             user.agent.rules = rules;
         }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = Arc::new(committed.prediction(agent, horizon, step_s));
         }
         for vehicle in 0..self.road_users.len() {
-            let RoadUser { agent, keeps_rules, is_absent, .. } = &self.road_users[vehicle];
-            if *is_absent || (!keeps_rules && agent.limits.comfort.is_none()) {
+            let RoadUser { agent, keeps_rules, presence, .. } = &self.road_users[vehicle];
+            if presence.is_absent() || (!keeps_rules && agent.limits.comfort.is_none()) {
                 continue;
             }
             let (keeps_rules, mut scene) = (*keeps_rules, self.moment(vehicle));
@@ -116,7 +145,7 @@ impl Traffic {
         }
     }
 
-    /// The moment as one vehicle sees it: with the plans of the others if it is told them.
+    /// The moment as one vehicle sees it: with the plans of the others if it knows them.
     pub fn scene(&self, vehicle: usize) -> Scene {
         let scene = self.moment(vehicle);
         if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
@@ -135,13 +164,13 @@ impl Traffic {
         }
     }
 
-    /// Lets everybody who is on the road decide; returns the decisions in the order in which they were made.
+    /// Lets every driver on the road decide; returns the decisions in the order in which they were made.
     ///
     /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
-    /// predictions of those who go first are their plans.
+    /// predictions of drivers that go first are their plans.
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         let order = planning_order(&self.road_users);
-        let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent).collect::<Vec<_>>();
+        let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent()).collect::<Vec<_>>();
         present.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
     }
 
@@ -160,11 +189,13 @@ impl Traffic {
             user.agent.prediction = Arc::clone(&trajectory);
         }
         let plan = plan.unwrap_or_else(|| Plan { trajectory: (*trajectory).clone(), ..Plan::default() });
+        let plan = Arc::new(plan);
+        (user.plan, user.origin) = (Arc::clone(&plan), origin);
         Decision { vehicle, plan, origin, failure }
     }
 
     /// The input that each vehicle applies after planning: the first one of its plan, within its limits.
-    pub fn applied_inputs(&self) -> Vec<Input> {
+    fn applied_inputs(&self) -> Vec<Input> {
         let applied = |user: &RoadUser| {
             let agent = &user.agent;
             applied_input(&user.planned_input(), &agent.state, &agent.body, &agent.limits, self.step_s)
@@ -172,7 +203,7 @@ impl Traffic {
         self.road_users.iter().map(applied).collect()
     }
 
-    /// One tick with the bicycle as the plant: everybody predicts, plans, acts and moves. Returns the decisions in the order
+    /// One tick with the bicycle as the plant: all predict, plan, act and move. Returns the decisions in the order
     /// in which they were made.
     pub fn drive(&mut self, ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         self.predict();
@@ -182,7 +213,7 @@ impl Traffic {
         decisions
     }
 
-    /// Moves everybody by one tick with the bicycle as the plant.
+    /// Moves all vehicles by one tick with the bicycle as the plant.
     pub fn advance(&mut self, inputs: &[Input]) {
         for (RoadUser { agent, .. }, input) in self.road_users.iter_mut().zip(inputs) {
             agent.state = Bicycle::new(&agent.body, self.step_s).step(&agent.state, input);

@@ -1,4 +1,4 @@
-//! Who can matter to whom within the horizon of a plan: found in a grid, without walking over all for each.
+//! Which road users can matter to which within the horizon of a plan: found in a grid, without comparing all pairs.
 
 use std::borrow::Cow;
 
@@ -11,8 +11,8 @@ const MARGIN_LENGTHS: f64 = 4.0;
 /// Who faces the same way to within this angle \[rad\] drives behind or before another, not towards it.
 const SAME_WAY_RAD: f64 = 0.5;
 
-/// Who is where: road users by cells of a grid, each as wide as the farthest reach. By default nobody is known to be anywhere, and then
-/// everybody counts as near.
+/// Who is where: road users by cells of a grid, each as wide as the farthest reach. By default no place is known, and then
+/// all count as near.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbours {
     cell_m: f64,
@@ -23,9 +23,9 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Sorts those who are on the road into cells.
+    /// Sorts the road users on the road into cells.
     pub fn find(road_users: &[RoadUser], horizon_s: f64) -> Neighbours {
-        let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent);
+        let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent());
         let reaches_m: Vec<f64> = road_users.iter().map(|user| reach_m(&user.agent, horizon_s)).collect();
         // Those who come towards each other meet within both reaches.
         let farthest_m = present().map(|(index, user)| reaches_m[index] + margin_m(&user.agent)).fold(0.0, f64::max);
@@ -35,16 +35,15 @@ impl Neighbours {
         Neighbours { cell_m, cells, reaches_m }
     }
 
-    /// The indices of those who can matter to a road user, in the order in which they are listed.
+    /// The indices of the road users that can matter to one, in the order in which they are listed.
     pub fn of(&self, vehicle: usize, road_users: &[RoadUser]) -> Vec<usize> {
         let ego = &road_users[vehicle].agent;
         if self.cells.is_empty() {
-            let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
+            let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent());
             return present.map(|(other, _)| other).collect();
         }
-        let is_near = |other: &usize| {
-            can_matter((ego, self.reaches_m[vehicle]), (&road_users[*other].agent, self.reaches_m[*other]))
-        };
+        let is_near =
+            |other: &usize| can_matter(ego, self.reaches_m[vehicle], &road_users[*other].agent, self.reaches_m[*other]);
         let [column, row] = cell_of(&ego.state, self.cell_m);
         let mut found = Vec::new();
         for x in column.saturating_sub(1)..=column.saturating_add(1) {
@@ -65,7 +64,7 @@ impl Scene {
     pub(crate) fn within_reach(&self) -> Cow<'_, Scene> {
         let horizon_s = self.horizon as f64 * self.step_s;
         let own_m = reach_m(&self.ego, horizon_s);
-        let is_near = |other: &Agent| can_matter((&self.ego, own_m), (other, reach_m(other, horizon_s)));
+        let is_near = |other: &Agent| can_matter(&self.ego, own_m, other, reach_m(other, horizon_s));
         if self.others.iter().all(is_near) {
             return Cow::Borrowed(self);
         }
@@ -76,12 +75,12 @@ impl Scene {
 
 /// Whether two vehicles can come to each other within a horizon, whatever both do: one reaches the place of the other if they go the same
 /// way, and else both together the way between them. Each comes with its reach \[m\].
-fn can_matter((one, own_m): (&Agent, f64), (other, their_m): (&Agent, f64)) -> bool {
+fn can_matter(one: &Agent, own_m: f64, other: &Agent, their_m: f64) -> bool {
     let margin_m = margin_m(one) + margin_m(other);
     let turned = libm::cos(one.state.heading_rad - other.state.heading_rad);
     let reach_m = if turned > libm::cos(SAME_WAY_RAD) { own_m.max(their_m) } else { own_m + their_m } + margin_m;
     let [x_m, y_m] = [one.state.x_m - other.state.x_m, one.state.y_m - other.state.y_m];
-    // A state that is no number is near to everybody.
+    // A state that is not a number is near to all.
     (x_m * x_m + y_m * y_m).partial_cmp(&(reach_m * reach_m)).is_none_or(std::cmp::Ordering::is_le)
 }
 

@@ -6,7 +6,7 @@ use super::road_user::RoadUser;
 
 /// The indices of the road users in the order in which they plan.
 ///
-/// First come those who go first, from the front of the road to its rear: each knows what the vehicle ahead is about to
+/// Drivers that go first come first, from the front of the road to its rear: each knows what the vehicle ahead is about to
 /// do. Positions are longitudinal coordinates on each vehicle's own road. The others follow as they are listed, and so do
 /// vehicles at the same position.
 pub fn planning_order(road_users: &[RoadUser]) -> Vec<usize> {
@@ -15,7 +15,7 @@ pub fn planning_order(road_users: &[RoadUser]) -> Vec<usize> {
     order
 }
 
-/// Orders two road users; those who may plan in any order are equal, and a stable sort leaves them as they are listed.
+/// Orders two road users; those that may plan in any order are equal, and a stable sort leaves them as they are listed.
 fn compare(a: &RoadUser, b: &RoadUser) -> Ordering {
     let along_m = |user: &RoadUser| user.agent.route.along(user.agent.state.position());
     match (a.goes_first, b.goes_first) {

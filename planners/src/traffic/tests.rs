@@ -51,7 +51,7 @@ fn seen(road_users: Vec<RoadUser>) -> Seen {
             let inputs = steady(&scene.ego.state, 0.05 * moved_m, limits, scene.horizon, scene.step_s);
             Ok(Plan { trajectory: rolled_out(scene, inputs), ..Plan::default() })
         });
-        assert_eq!(decisions.len(), traffic.road_users.len(), "everybody decides once");
+        assert_eq!(decisions.len(), traffic.road_users.len(), "each driver decides once");
         for (user, others) in traffic.road_users.iter().zip(scenes) {
             seen.push((user.agent.name.clone(), others, user.agent.previous_input));
         }
@@ -84,7 +84,7 @@ proptest! {
         }
     }
 
-    /// However the road users are listed, everybody is shown the same and does the same, bit for bit. (Two who go first from
+    /// In whatever order the road users are listed, each is shown the same and does the same, bit for bit. (Two who go first from
     /// the same place are the exception, so places differ.)
     #[test]
     fn the_order_of_listing_has_no_influence(
@@ -97,7 +97,7 @@ proptest! {
     }
 }
 
-/// Each vehicle's prediction as the others are shown it, by the names of who looks and who is looked at.
+/// Each vehicle's prediction as the others are shown it, by the names of the observer and the observed.
 fn shown(traffic: &mut Traffic) -> impl Fn(&str, &str) -> Trajectory + use<> {
     let mut shown = Vec::new();
     traffic.drive(|_, scene| {
@@ -108,12 +108,12 @@ fn shown(traffic: &mut Traffic) -> impl Fn(&str, &str) -> Trajectory + use<> {
     });
     move |who, whom| {
         let found = shown.iter().find(|(a, b, _)| (a.as_str(), b.as_str()) == (who, whom));
-        found.expect("everybody looks at everybody").2.clone()
+        found.expect("each vehicle looks at all others").2.clone()
     }
 }
 
 #[test]
-fn plans_of_those_who_go_first_are_known_at_once_and_others_a_tick_later() {
+fn plans_of_drivers_that_go_first_are_known_at_once_and_others_a_tick_later() {
     let users = [("rear", 0.0, true), ("front", 2.0, true), ("one", 1.0, false), ("two", 3.0, false)];
     let mut traffic = traffic(users.map(|(name, x_m, goes_first)| road_user(name, x_m, goes_first)).into());
     let start = |index: usize| constant_velocity(&traffic.road_users[index].agent.state, HORIZON, STEP_S);
@@ -124,7 +124,7 @@ fn plans_of_those_who_go_first_are_known_at_once_and_others_a_tick_later() {
     assert_eq!(first("rear", "front"), plans[1], "from front to rear");
     assert_eq!(first("front", "rear"), rear_start, "the rear one has not planned yet");
     assert_eq!(first("one", "rear"), plans[0]);
-    assert_eq!(first("two", "one"), one_start, "nobody who plans later knows the other's new plan …");
+    assert_eq!(first("two", "one"), one_start, "no vehicle that plans later knows the other's new plan …");
     assert_eq!(first("one", "two").states[0], traffic_start(3.0));
     let second = shown(&mut traffic);
     assert_eq!(second("two", "one").inputs, plans[2].shifted().inputs, "… but its last one");

@@ -28,7 +28,7 @@ pub use route_start::RouteStart;
 pub use sqp::{DescentError, HomotopySearch, Optimiser, Optimum, QpSubproblem, Statistics, Tolerances, WarmStart};
 pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
-    StateCost, Structured, TrajectoryRow, VehicleStages, kkt,
+    StageStatus, StateCost, Structured, TrajectoryRow, VehicleStages, kkt,
 };
 pub use stage_bounds::StageBounds;
 pub use terms::Term;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Bounds that are kept while nobody is in danger; what is measured of people on roads is below them in 95 of 100 cases
+/// Bounds that are kept while no vehicle is in danger; what is measured of people on roads is below them in 95 of 100 cases
 /// (`docs/people.md`). The default is that of a real car.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -20,7 +20,7 @@ pub struct ComfortLimits {
     /// Largest change of the steering angle per second; 0.7 rad/s are 40 °/s \[rad/s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub steering_rate_radps: f64,
-    /// Time gap to whoever drives ahead, on top of the gap at standstill \[s\].
+    /// Time gap to the vehicle ahead, on top of the gap at standstill \[s\].
     #[schemars(range(min = 0.0))]
     pub time_gap_s: f64,
 }

@@ -34,7 +34,7 @@ pub struct Limits {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100.0), extend("exclusiveMinimum" = 0.0), example = 0.4)]
     pub steering_rate_max_radps: Option<f64>,
-    /// What is borne while nobody is in danger. Without it the driver uses all that the vehicle can do.
+    /// The limits of comfort, kept while no vehicle is in danger. Without it the driver uses all that the vehicle can do.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = serde_json::json!({ "jerk_mps3": 3.0 }))]
     pub comfort: Option<ComfortLimits>,

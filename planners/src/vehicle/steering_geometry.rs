@@ -15,7 +15,7 @@ const TIME_CONSTANT_S: f64 = 0.45;
 const MAX_ANGLE_TO_ROAD_RAD: f64 = 0.4;
 /// Below this speed the angles are those at this speed, for a 1/10 scale car \[m/s\].
 const MIN_STEERING_SPEED_MPS: f64 = 0.1;
-/// Largest sine of the slip angle that is asked for.
+/// Largest requested sine of the slip angle.
 const MAX_SIN_SLIP: f64 = 0.9;
 
 /// What the steering angle of a vehicle depends on besides its motion.

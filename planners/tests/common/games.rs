@@ -16,7 +16,7 @@ const NAMES: [&str; 4] = ["a", "b", "c", "d"];
 /// Least distance between the centres of two vehicles in one lane at the start \[m\]: their safety ellipses need 0.75 m.
 const LEAST_SPACING_M: f64 = 0.8;
 
-/// A game with random starts, wanted lanes, wanted speeds and weights, in which nobody begins in another's ellipse.
+/// A game with random starts, wanted lanes, wanted speeds and weights, in which no vehicle begins in another's ellipse.
 pub fn game(random: &mut SplitMix64, players: usize) -> (Scene, Vec<JointVehicle>) {
     let crosses = random.uniform(0.0, 1.0) < 0.5;
     let mut vehicles: Vec<Vehicle> = Vec::new();

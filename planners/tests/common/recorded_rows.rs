@@ -65,7 +65,7 @@ pub struct Ellipse {
 /// Two vehicles that keep apart.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Apart {
-    /// Who keeps out, from whom.
+    /// The vehicle that keeps out, and the one around which.
     pub pair: [usize; 2],
     /// Direction of the long axis, half axes along and across.
     pub shape: [f64; 3],

@@ -21,3 +21,15 @@ pub fn perturbed(mut vehicles: Vec<Vehicle>, seed: u64) -> Vec<Vehicle> {
     }
     vehicles
 }
+
+/// Moves vehicles by up to 0.3 m along their headings, and changes their speeds by up to 0.1 m/s, by a seed.
+pub fn perturb(vehicles: &mut [Vehicle], seed: u64) {
+    let mut random = SplitMix64::new(1000 + seed);
+    for vehicle in vehicles {
+        let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
+        let along = random.uniform(-0.3, 0.3);
+        vehicle.agent.state.x_m += along * cos;
+        vehicle.agent.state.y_m += along * sin;
+        vehicle.agent.state.speed_mps += random.uniform(-0.1, 0.1);
+    }
+}

@@ -81,7 +81,7 @@ pub fn human(style: Style) -> Driver {
     Driver::Human(human::Settings { style: Some(style), ..human::Settings::default() })
 }
 
-/// The ego changes into a lane in which two faster humans come up. The gap between them is too small for it unless somebody
+/// The ego changes into a lane in which two faster humans come up. The gap between them is too small for it unless one of them
 /// yields; a larger one it can open by moving half into the lane, as then even tough drivers have a car ahead to follow.
 pub fn lane_change(ego: Driver, [front, rear]: [Style; 2]) -> Vec<Vehicle> {
     let (steady, wants) = ([0.0, 4.0, 1.0, 1.0], [LANES[1], 1.4]);
@@ -237,7 +237,7 @@ impl Run {
         for Decision { vehicle, plan, failure, .. } in decisions {
             match failure {
                 Some(error) => self.failures.push((tick, self.names[vehicle].clone(), error)),
-                None if vehicle == 0 => self.plans.push(plan),
+                None if vehicle == 0 => self.plans.push(Arc::unwrap_or_clone(plan)),
                 None => {}
             }
         }

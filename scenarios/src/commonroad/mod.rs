@@ -81,7 +81,7 @@ fn imported(name: &str, text: &str, options: &ImportOptions) -> Result<Imported,
     options.check_names(&scenario)?;
     let moved = scenario.move_near_origin();
     let root = xml.root().place();
-    let Mapped { file, places } = map::mapped(&scenario, (&root, unread), options, &mut notes)?;
+    let Mapped { file, places } = map::mapped(&scenario, &root, unread, options, &mut notes)?;
     let moved = moved.map(|[x_m, y_m]| format!("coordinates: moved by ({:.0}, {:.0}) m, near the origin", -x_m, -y_m));
     let notes = notes.lines().into_iter().chain(moved).collect();
     Ok(Imported { file, notes, places, root, name: name.to_owned() })

@@ -17,6 +17,7 @@ use interplay_planners::perception::belief;
 use interplay_planners::perception::sensing::{self, Sensor};
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
+pub use interplay_planners::traffic::Stay;
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State};
 
 use crate::model::budget_limits::BudgetLimits;
@@ -275,24 +276,6 @@ pub struct Vehicle {
     pub sensing: Option<sensing::Settings>,
     /// How it learns from the others' motion what they will do, where its driver infers that.
     pub inference: Option<belief::Settings>,
-}
-
-/// When a vehicle is on the road.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stay {
-    /// When it comes; none if it is there from the start \[s\].
-    pub enters_s: Option<f64>,
-    /// When it leaves; none if it does not \[s\].
-    pub leaves_s: Option<f64>,
-    /// Whether it leaves where its route ends.
-    pub leaves_at_end: bool,
-}
-
-impl Stay {
-    /// Whether the vehicle is on the road for the whole run, whatever happens.
-    pub fn is_permanent(&self) -> bool {
-        *self == Stay::default()
-    }
 }
 
 impl Vehicle {

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::assignment::Assignment;
-use super::plan::{Indices, SweepPlan, SweepPoint};
-use crate::format::read::tree::TomlNode;
+use super::plan::{Indices, OtherValue, SweepPlan, SweepPoint};
 use crate::model::scenario::Scenario;
 use crate::text::error::{Fault, LoadError};
 
@@ -46,9 +45,10 @@ impl SweepPlan {
     }
 
     /// A fault of a run that is as sound as it is written, but for another value of one of its factors.
-    pub(super) fn blamed_on_value(&self, place: &Indices, instead: &(usize, TomlNode), fault: &Fault) -> Fault {
+    pub(super) fn blamed_on_value(&self, place: &Indices, instead: &OtherValue, fault: &Fault) -> Fault {
         let assignments = self.assignments(place, Some(instead));
-        let culprit = assignments.len().checked_sub(self.factors(place.style).count()).map(|fixed| fixed + instead.0);
+        let culprit =
+            assignments.len().checked_sub(self.factors(place.style).count()).map(|fixed| fixed + instead.factor);
         self.located(fault, place, &assignments, culprit, None)
     }
 

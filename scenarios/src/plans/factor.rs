@@ -52,14 +52,15 @@ pub(super) type DrawSettings = (Sampling, u64, u64);
 /// The factors of a `vary` table, in the order of their paths.
 pub(super) fn factors(vary: &Table, settings: DrawSettings, schema: SchemaNode) -> Result<Vec<Factor>, Vec<Fault>> {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
-    collect(&SettingPath::root(), vary, (settings, schema), &mut found, &mut faults);
+    collect(&SettingPath::root(), vary, settings, schema, &mut found, &mut faults);
     if faults.is_empty() { Ok(found) } else { Err(faults) }
 }
 
 fn collect(
     before: &SettingPath,
     vary: &Table,
-    (settings, schema): (DrawSettings, SchemaNode),
+    settings: DrawSettings,
+    schema: SchemaNode,
     found: &mut Vec<Factor>,
     faults: &mut Vec<Fault>,
 ) {
@@ -80,7 +81,7 @@ fn collect(
             TomlValue::Table(table) if !table.keys().any(|key| DISTRIBUTIONS.contains(&key.as_str())) => {
                 match misspelt(&path, table, schema) {
                     Some(fault) => faults.push(fault),
-                    None => collect(&path, table, (settings, schema), found, faults),
+                    None => collect(&path, table, settings, schema, found, faults),
                 }
             }
             _ => match values_of(&entry.node) {

@@ -89,6 +89,14 @@ pub(super) struct Indices {
     pub draw: u64,
 }
 
+/// A value of one of the factors that vary, in place of the one that a run has.
+pub(super) struct OtherValue {
+    /// Index of the factor among those of the run.
+    pub factor: usize,
+    /// The value.
+    pub value: TomlNode,
+}
+
 impl SweepPlan {
     /// The metrics of the registry that it was read with.
     pub fn metrics(&self) -> &RegisteredMetrics {
@@ -256,12 +264,12 @@ impl SweepPlan {
 
     /// What the plan changes of the scenario in a run, in the order in which it is laid over it: the random change of the starts,
     /// what is set in all runs, the style, the planner, and what varies; `instead`, if stated, is the value of one of the factors.
-    pub(super) fn assignments(&self, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Vec<Assignment<'_>> {
+    pub(super) fn assignments(&self, place: &Indices, instead: Option<&OtherValue>) -> Vec<Assignment<'_>> {
         let jitter = self.jitter_place.as_ref().zip(self.scenarios[place.scenario].jitter);
         let jitter = jitter.into_iter().flat_map(|(written, jitter)| Assignment::of_jitter(jitter, written));
         let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
         let varied = self.values(place).enumerate().map(|(index, (factor, value))| {
-            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value.clone());
+            let other = instead.filter(|other| other.factor == index).map(|other| other.value.clone());
             Assignment::varied(&factor.path, other.unwrap_or(value))
         });
         jitter.chain(arms.into_iter().flat_map(Arm::assignments)).chain(varied).collect()

@@ -109,7 +109,7 @@ fn with_samples(
     let place = Place::new(&document, 0..0);
     let plan = tree::parse(&document, text).and_then(|mut tree| {
         let replaced = samples.map(|samples| samples::replace(&mut tree, text, samples));
-        read(registry, (name, replaced.as_deref().unwrap_or(text)), place, &tree, folder)
+        read(registry, name, replaced.as_deref().unwrap_or(text), place, &tree, folder)
     });
     plan.map_err(|faults| LoadError::of_plan(name, faults))
 }
@@ -125,7 +125,8 @@ fn scenario_in_its_place(tree: &TomlNode, name: &str) -> Option<Fault> {
 
 fn read(
     registry: &Registry,
-    (name, text): (&str, &str),
+    name: &str,
+    text: &str,
     place: Place,
     tree: &TomlNode,
     folder: &Path,
@@ -165,7 +166,7 @@ fn read(
     let named = scenarios(tree, folder)?;
     refuse_too_many(plan.count_for(named.len()), file.max_runs, tree)?;
     let jitter = file.jitter.zip(tree.at("jitter").map(|node| &node.place));
-    let read = |named| planned(registry, named, jitter, file.counterfactuals);
+    let read = |(named, place)| planned(registry, named, place, jitter, file.counterfactuals);
     plan.scenarios = named.into_iter().map(read).collect::<Result<_, _>>()?;
     refuse_too_many(plan.count(), file.max_runs, tree)?;
     refuse_equal_names(&plan, tree)?;
@@ -275,7 +276,8 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
 /// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
 fn planned(
     registry: &Registry,
-    (named, place): (NamedScenario, &Place),
+    named: NamedScenario,
+    place: &Place,
     jitter: Option<(StartJitter, &Place)>,
     with_counterfactuals: bool,
 ) -> Result<PlannedScenario, Vec<Fault>> {

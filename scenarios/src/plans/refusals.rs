@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::assignment::Assignment;
-use super::plan::{Indices, SweepPlan, SweepPoint};
+use super::plan::{Indices, OtherValue, SweepPlan, SweepPoint};
 use crate::text::error::{Fault, LoadError};
 
 /// How many values of a list are checked as extremes; every value that is run is checked besides.
@@ -104,13 +104,13 @@ impl SweepPlan {
         let mut found: BTreeMap<FaultKey, Fault> = BTreeMap::new();
         for (index, factor) in self.factors(place.style).enumerate() {
             for value in factor.extremes(MAX_LISTED) {
-                let instead = (index, value);
+                let instead = OtherValue { factor: index, value };
                 let mut refused = |blamed: Fault, message: &str| {
                     found.entry((blamed.line_and_column(), without_numbers(message))).or_insert(blamed);
                 };
                 match self.assembled(place, &self.assignments(place, Some(&instead))) {
                     Ok(scenario) => {
-                        let value = Assignment::varied(&factor.path, instead.1.clone());
+                        let value = Assignment::varied(&factor.path, instead.value.clone());
                         if let Some(fault) = self.equal_samples(place, Some(&value), &scenario) {
                             refused(fault, "");
                         }

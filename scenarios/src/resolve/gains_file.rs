@@ -20,7 +20,7 @@ pub(crate) fn read(
     scenario: &Scenario,
     tree: &TomlNode,
 ) -> Result<(RecordedGainsFile, Option<Fault>), Fault> {
-    let file = SeriesFile::read(&stated.file, &format!("gains.{index}.file"), tree, ("table of gains", RANK))?;
+    let file = SeriesFile::read(&stated.file, &format!("gains.{index}.file"), tree, "table of gains", RANK)?;
     let network = scenario.building.as_ref().and_then(|building| building.network().ok());
     let start = file.start(scenario, stated.skip_days);
     let (mut zones, mut others) = (Vec::new(), Vec::new());
@@ -29,7 +29,7 @@ pub(crate) fn read(
             others.push(format!("`{}`", column.title));
             continue;
         };
-        let mut heat_kw = file.held(column, start.start_s, (scenario.days(), stated.repeats))?;
+        let mut heat_kw = file.held(column, start.start_s, scenario.days(), stated.repeats)?;
         heat_kw.values.iter_mut().for_each(|value| *value *= stated.unit_kw);
         zones.push(ZoneRecord { zone, heat_kw, beside_people: stated.beside_people, is_forecast: stated.is_forecast });
     }

@@ -24,7 +24,8 @@ const GRID_M: f64 = 1000.0;
 /// at (0, 0); none for a road that stays where it is \[m\].
 pub(super) fn move_near_origin(
     road: &mut Road,
-    (vehicles, obstacles): (&mut [VehicleConfig], &mut [ObstacleConfig]),
+    vehicles: &mut [VehicleConfig],
+    obstacles: &mut [ObstacleConfig],
 ) -> Option<[f64; 2]> {
     let Road::Network(network) = road else { return None };
     let first = network.lanes.iter().find_map(first_point)?;

@@ -25,7 +25,7 @@ use interplay_planners::road::network::RoadNetwork;
 
 use crate::format::read::tree::TomlNode;
 use crate::format::registry::Registry;
-use crate::format::scenario_file::{ScenarioFile, defaults};
+use crate::format::scenario_file::{self, ScenarioFile};
 use crate::format::stated::Stated;
 use crate::format::vehicle_config::{VehicleConfig, default_driver};
 use crate::format::weather::WeatherConfig;
@@ -94,15 +94,18 @@ impl Reader<'_> {
         let road = file.road.take().map(|stated| self.registry.road(stated)).transpose();
         let mut road = road.map_err(|error| self.refused("road", &error))?.unwrap_or_default();
         records::read(&mut file.vehicles, self.tree)?;
-        let origin = local_origin::move_near_origin(&mut road, (&mut file.vehicles, &mut file.obstacles));
+        let origin = local_origin::move_near_origin(&mut road, &mut file.vehicles, &mut file.obstacles);
         let schema = self.registry.complete();
         let Placed { network, starts } =
-            place(&file.vehicles, (&road, &file.lights, written), (self.tree, schema), known_roads)?;
+            place(&file.vehicles, &road, &file.lights, written, self.tree, schema, known_roads)?;
         let mut vehicles = self.vehicles(std::mem::take(&mut file.vehicles), starts)?;
         vehicles.extend(obstacles(
-            (&file.obstacles, self.registry.obstacles()),
-            (&road, network.as_deref()),
-            (self.tree, &vehicles),
+            &file.obstacles,
+            self.registry.obstacles(),
+            &road,
+            network.as_deref(),
+            self.tree,
+            &vehicles,
         )?);
         let moved = origin.map(|origin| local_origin::remark(origin, self.tree));
         Ok(PlacedVehicles { road, network, vehicles, moved })
@@ -130,11 +133,11 @@ fn read(
         figure: file.figure,
         scale: file.scale,
         conduct: file.conduct,
-        duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
-        step_s: file.step_s.unwrap_or_else(defaults::step_s),
+        duration_s: file.duration_s.unwrap_or_else(scenario_file::defaults::duration_s),
+        step_s: file.step_s.unwrap_or_else(scenario_file::defaults::step_s),
         ticks_per_plan: 1,
-        horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
-        seed: file.seed.unwrap_or_else(defaults::seed),
+        horizon_steps: file.horizon_steps.unwrap_or_else(scenario_file::defaults::horizon_steps),
+        seed: file.seed.unwrap_or_else(scenario_file::defaults::seed),
         real_time: reader.optional("real_time", file.real_time)?,
         plant: reader.or_default("plant", file.plant)?,
         lights: file.lights,
@@ -163,8 +166,8 @@ fn read(
     let ticks = ticks_per_plan(file.planning_period_s, scenario.step_s, tree).map_err(|fault| faults.push(fault));
     scenario.ticks_per_plan = ticks.unwrap_or(1);
     scenario.remarks.0.extend(moved.map(ScenarioRemark));
-    let named = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
-    let (scenario, unread) = with_named_files(scenario, named, tree);
+    let (weather, gains) = (reader.or_default("weather", file.weather)?, reader.list("gains", file.gains)?);
+    let (scenario, unread) = with_named_files(scenario, weather, gains, tree);
     faults.extend(unread);
     Ok(ReadScenario { scenario, is_placed, faults })
 }
@@ -188,7 +191,8 @@ fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result
 /// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
 fn with_named_files(
     mut scenario: Scenario,
-    (weather, gains): (WeatherConfig, Vec<GainsConfig>),
+    weather: WeatherConfig,
+    gains: Vec<GainsConfig>,
     tree: &TomlNode,
 ) -> (Scenario, Vec<Fault>) {
     let mut unread = Vec::new();

@@ -46,7 +46,7 @@ pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<()
         let file = driver.get("file").and_then(Json::as_str).map(str::to_owned);
         let Some(file) = file.filter(|_| driver.get("kind").is_some_and(|kind| kind == KIND)) else { continue };
         let id = driver.get("id").and_then(Json::as_str).map(str::to_owned);
-        match rows(&mut tables, &file, id.as_deref(), (tree, index)) {
+        match rows(&mut tables, &file, id.as_deref(), tree, index) {
             Ok(rows) => {
                 driver.take("file");
                 driver.take("id");
@@ -63,7 +63,8 @@ fn rows(
     tables: &mut BTreeMap<PathBuf, Arc<Records>>,
     file: &str,
     id: Option<&str>,
-    (tree, index): (&TomlNode, usize),
+    tree: &TomlNode,
+    index: usize,
 ) -> Result<Vec<[f64; 5]>, Fault> {
     let place = tree.place_of(&format!("vehicle.{index}.driver.file"));
     let path = path_beside(place, file);

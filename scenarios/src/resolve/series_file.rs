@@ -39,7 +39,7 @@ pub(crate) struct RunStart {
 
 impl SeriesFile {
     /// Reads the table that is called `file` at the key `path`. `what` says what it should be: `table of prices`.
-    pub fn read(file: &str, path: &str, tree: &TomlNode, (what, rank): (&'static str, usize)) -> Result<Self, Fault> {
+    pub fn read(file: &str, path: &str, tree: &TomlNode, what: &'static str, rank: usize) -> Result<Self, Fault> {
         let place = tree.place_of(path);
         let beside = path_beside(place, file);
         let title = beside.display().to_string();
@@ -102,12 +102,7 @@ impl SeriesFile {
     ///
     /// # Errors
     /// A missing value, and a table that does not cover `days` days and does not repeat.
-    pub fn held(
-        &self,
-        column: &SeriesColumn,
-        start_s: f64,
-        (days, repeats): (usize, bool),
-    ) -> Result<HeldSeries, Fault> {
+    pub fn held(&self, column: &SeriesColumn, start_s: f64, days: usize, repeats: bool) -> Result<HeldSeries, Fault> {
         let SeriesTable { first_s, interval_s, lines, .. } = &self.table;
         if let Some(line) = self.table.missing_line(column) {
             let problem = format!("`{}` is missing", column.title);

@@ -24,7 +24,7 @@ const PRICE: &str = "price_per_kwh";
 /// The tariff with the prices of the table that it names, if it names one; and a remark on prices that are unusually high.
 pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Result<(Tariff, Option<Fault>), Fault> {
     let Some(name) = &tariff.file else { return Ok((tariff.clone(), unusual_in_list(tariff, tree))) };
-    let file = SeriesFile::read(name, "tariff.file", tree, ("table of prices", RANK))?;
+    let file = SeriesFile::read(name, "tariff.file", tree, "table of prices", RANK)?;
     let refused = |line: usize, problem: String| Err(file.fault(&SeriesError { line, problem }));
     let column = match (file.table.column(PRICE), file.table.columns.as_slice()) {
         (Some(column), _) | (None, [column]) => column,

@@ -83,7 +83,7 @@ pub(crate) fn read_table(
     scenario: &Scenario,
     tree: &TomlNode,
 ) -> Result<(CsvWeather, Vec<ScenarioRemark>), Fault> {
-    let file = SeriesFile::read(&stated.file, "weather.file", tree, ("table of weather", RANK))?;
+    let file = SeriesFile::read(&stated.file, "weather.file", tree, "table of weather", RANK)?;
     let start = file.start(scenario, stated.skip_days);
     let span = RunSpan {
         start_s: start.start_s,

@@ -86,7 +86,7 @@ impl Draft {
     }
 
     /// The ego: a human of a drawn style, in a car.
-    pub fn ego(&mut self, lane: &str, along_m: f64, speed_mps: f64, (to, wanted_mps): (Option<&str>, f64)) {
+    pub fn ego(&mut self, lane: &str, along_m: f64, speed_mps: f64, to: Option<&str>, wanted_mps: f64) {
         let driver = Some(self.one_of(&DRIVERS[..5]).to_owned());
         self.vehicle(Draftee { name: "ego", class: "car", lane, along_m, speed_mps, to, wanted_mps, driver });
     }

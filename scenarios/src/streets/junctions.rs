@@ -10,7 +10,7 @@ const NAMES: [&str; 5] = ["a", "b", "c", "d", "e"];
 
 /// Puts the ego on one arm and some others on arms that are still free, each to an arm that it can reach; `suffix` follows the words
 /// for lanes that lead in and out.
-fn approach(draft: &mut Draft, arms: &[&str], others: usize, (suffix, limit_mps): (&str, f64)) {
+fn approach(draft: &mut Draft, arms: &[&str], others: usize, suffix: &str, limit_mps: f64) {
     let mut free: Vec<&str> = arms.to_vec();
     for name in ["ego"].iter().chain(&NAMES).take(1 + others.min(arms.len() - 1)) {
         let from = free.remove(draft.count(0, free.len() - 1));
@@ -19,7 +19,7 @@ fn approach(draft: &mut Draft, arms: &[&str], others: usize, (suffix, limit_mps)
         let (lane, goal) = (format!("{from}-in{suffix}"), format!("{to}-out{suffix}"));
         let speed_mps = draft.between(0.55, 0.95) * limit_mps;
         let along_m = draft.between(12.0, 48.0);
-        drive_through(draft, name, [&lane, &goal], (along_m, speed_mps, 0.9 * limit_mps));
+        drive_through(draft, name, [&lane, &goal], along_m, speed_mps, 0.9 * limit_mps);
     }
 }
 
@@ -28,7 +28,7 @@ pub(super) fn ring(draft: &mut Draft) {
     let radius_m = draft.between(14.0, 26.0);
     draft.road(&format!("kind = \"roundabout\"\nlane_count = 1\nradius_m = {radius_m:.1}"));
     let others = draft.count(1, 3);
-    approach(draft, &ARMS, others, ("", 11.0));
+    approach(draft, &ARMS, others, "", 11.0);
 }
 
 /// A roundabout with two lanes; everybody stays in the outer one or the inner one.
@@ -36,7 +36,7 @@ pub(super) fn wide_ring(draft: &mut Draft) {
     let radius_m = draft.between(18.0, 28.0);
     draft.road(&format!("kind = \"roundabout\"\nlane_count = 2\nradius_m = {radius_m:.1}"));
     let others = draft.count(1, 3);
-    approach(draft, &ARMS, others, ("-0", 11.0));
+    approach(draft, &ARMS, others, "-0", 11.0);
 }
 
 /// A minor road that joins a main one.
@@ -44,7 +44,7 @@ pub(super) fn tee(draft: &mut Draft) {
     let rule = draft.one_of(&["yield", "stop"]);
     draft.road(&format!("kind = \"t-junction\"\nturning_lanes = false\nright_of_way = \"{rule}\""));
     let others = draft.count(1, 2);
-    approach(draft, &["south", "east", "west"], others, ("", 11.0));
+    approach(draft, &["south", "east", "west"], others, "", 11.0);
 }
 
 /// A minor road that crosses a main one.
@@ -52,14 +52,14 @@ pub(super) fn crossing(draft: &mut Draft) {
     let rule = draft.one_of(&["yield", "stop"]);
     draft.road(&format!("kind = \"crossing\"\nminor = \"{rule}\""));
     let others = draft.count(1, 3);
-    approach(draft, &ARMS, others, ("", 11.0));
+    approach(draft, &ARMS, others, "", 11.0);
 }
 
 /// A crossing where everybody stops.
 pub(super) fn all_way_stop(draft: &mut Draft) {
     draft.road("kind = \"all-way-stop\"");
     let others = draft.count(1, 3);
-    approach(draft, &ARMS, others, ("", 11.0));
+    approach(draft, &ARMS, others, "", 11.0);
 }
 
 /// A road whose two directions share one lane for a while.
@@ -68,7 +68,7 @@ pub(super) fn narrow_passage(draft: &mut Draft) {
     draft.road(&format!("kind = \"narrow-passage\"\npriority_to = \"{direction}\""));
     let limit_mps = 10.0;
     let (along_m, speed_mps) = (draft.between(10.0, 40.0), draft.between(0.6, 0.95) * limit_mps);
-    draft.ego("east-in", along_m, speed_mps, (Some("east-out"), 0.95 * limit_mps));
+    draft.ego("east-in", along_m, speed_mps, Some("east-out"), 0.95 * limit_mps);
     let mut along_m = draft.between(20.0, 40.0);
     for name in NAMES.iter().take(draft.count(1, 2)) {
         let speed_mps = draft.between(0.6, 0.95) * limit_mps;
@@ -114,7 +114,7 @@ pub(super) fn equal(draft: &mut Draft) {
         let side = free.remove(draft.count(0, free.len() - 1));
         let (lane, goal) = (format!("{side}-in"), format!("{side}-out"));
         let (along_m, speed_mps) = (draft.between(40.0, 75.0), draft.between(0.5, 0.9) * limit_mps);
-        drive_through(draft, name, [&lane, &goal], (along_m, speed_mps, 0.9 * limit_mps));
+        drive_through(draft, name, [&lane, &goal], along_m, speed_mps, 0.9 * limit_mps);
     }
 }
 
@@ -123,10 +123,12 @@ fn drive_through(
     draft: &mut Draft,
     name: &str,
     [lane, goal]: [&str; 2],
-    (along_m, speed_mps, wanted_mps): (f64, f64, f64),
+    along_m: f64,
+    speed_mps: f64,
+    wanted_mps: f64,
 ) {
     if name == "ego" {
-        draft.ego(lane, along_m, speed_mps, (Some(goal), wanted_mps));
+        draft.ego(lane, along_m, speed_mps, Some(goal), wanted_mps);
     } else {
         let (class, to, driver) = ("car", Some(goal), None);
         draft.vehicle(Draftee { name, class, lane, along_m, speed_mps, to, wanted_mps, driver });

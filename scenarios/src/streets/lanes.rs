@@ -15,7 +15,7 @@ pub(super) fn slow_truck(draft: &mut Draft) {
     draft.road("kind = \"two-way\"\nlength_m = 800.0\nspeed_limit_mps = 22.2\novertaking = true");
     draft.duration_s = 50.0;
     let (along_m, speed_mps) = (draft.between(20.0, 60.0), draft.between(14.0, 21.0));
-    draft.ego("east", along_m, speed_mps, (None, 21.0));
+    draft.ego("east", along_m, speed_mps, None, 21.0);
     let (lead_m, slow_mps) = (draft.between(45.0, 90.0), draft.between(6.0, 11.0));
     draft.vehicle(Draftee { class: "truck", ..car("truck", "east", along_m + lead_m, slow_mps) });
     let mut along_m = draft.between(50.0, 300.0);
@@ -45,7 +45,7 @@ pub(super) fn dense(draft: &mut Draft) {
     let (lane_from, lane_to) = (format!("lane-{from}"), format!("lane-{to}"));
     let flow_mps = draft.between(0.7, 0.9) * limit_mps;
     let speed_mps = flow_mps + draft.between(-2.0, 2.0);
-    draft.ego(&lane_from, 150.0, speed_mps, (Some(&lane_to), 0.95 * limit_mps));
+    draft.ego(&lane_from, 150.0, speed_mps, Some(&lane_to), 0.95 * limit_mps);
     let mut names = NAMES.iter();
     for index in 0..3 {
         let lane = format!("lane-{index}");
@@ -72,7 +72,7 @@ pub(super) fn lane_drop(draft: &mut Draft) {
          speed_limit_mps = {limit_mps:.1}\nright = {{ lane = \"ending\" }}"
     ));
     let (ego_m, flow_mps) = (draft.between(50.0, 80.0), draft.between(0.7, 0.95) * limit_mps);
-    draft.ego("ending", ego_m, flow_mps, (Some("through"), 0.95 * limit_mps));
+    draft.ego("ending", ego_m, flow_mps, Some("through"), 0.95 * limit_mps);
     let mut along_m = draft.between(5.0, 40.0);
     for name in NAMES.iter().take(draft.count(2, 6)) {
         let speed_mps = flow_mps + draft.between(-1.0, 1.0);
@@ -86,7 +86,7 @@ pub(super) fn on_ramp(draft: &mut Draft) {
     draft.road("kind = \"on-ramp\"");
     let (ego_m, ego_mps) = (draft.between(50.0, 90.0), draft.between(15.0, 21.0));
     let flow_mps = draft.between(19.0, 26.0);
-    draft.ego("ramp", ego_m, ego_mps, (Some("main-0"), flow_mps));
+    draft.ego("ramp", ego_m, ego_mps, Some("main-0"), flow_mps);
     let mut along_m = draft.between(5.0, 40.0);
     for name in NAMES.iter().take(draft.count(2, 4)) {
         let speed_mps = flow_mps + draft.between(-1.5, 1.5);

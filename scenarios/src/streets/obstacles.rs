@@ -43,7 +43,7 @@ pub(super) fn standing_van(draft: &mut Draft) {
     let limit_mps = two_way(draft, 300.0);
     let (along_m, van_m) = (draft.between(15.0, 40.0), draft.between(100.0, 150.0));
     let speed_mps = draft.between(0.5, 0.9) * limit_mps;
-    draft.ego("east", along_m, speed_mps, (None, draft_wanted(limit_mps)));
+    draft.ego("east", along_m, speed_mps, None, draft_wanted(limit_mps));
     draft.vehicle(standing("van", "east", van_m));
     if draft.chance(0.5) {
         let along_m = draft.between(10.0, 140.0);
@@ -56,7 +56,7 @@ pub(super) fn parked_vans(draft: &mut Draft) {
     let limit_mps = two_way(draft, 400.0);
     draft.duration_s = 60.0;
     let (along_m, speed_mps) = (draft.between(15.0, 40.0), draft.between(0.5, 0.9) * limit_mps);
-    draft.ego("east", along_m, speed_mps, (None, draft_wanted(limit_mps)));
+    draft.ego("east", along_m, speed_mps, None, draft_wanted(limit_mps));
     let mut place_m = draft.between(90.0, 130.0);
     for name in ["van-a", "van-b", "van-c"].iter().take(draft.count(2, 3)) {
         draft.vehicle(standing(name, "east", place_m));
@@ -75,7 +75,7 @@ pub(super) fn bus(draft: &mut Draft) {
     draft.duration_s = 60.0;
     let along_m = draft.between(10.0, 30.0);
     let (lead_m, speed_mps) = (draft.between(35.0, 60.0), 0.8 * limit_mps);
-    draft.ego("east", along_m, speed_mps, (None, draft_wanted(limit_mps)));
+    draft.ego("east", along_m, speed_mps, None, draft_wanted(limit_mps));
     let (stops_s, stands_s) = (draft.between(2.0, 6.0), draft.between(8.0, 20.0));
     let script = format!(
         "{{ kind = \"scripted\", script = [{{ from_s = {stops_s:.1}, speed_mps = 0.0, acceleration_mps2 = 1.5 }}, \
@@ -110,7 +110,7 @@ pub(super) fn crosser(draft: &mut Draft) {
          [[road.lane]]\nname = \"path\"\npoints = [[0.0, -25.0], [0.0, 25.0]]\nwidth_m = 2.0"
     ));
     let (along_m, speed_mps) = (draft.between(50.0, 100.0), draft.between(0.6, 1.0) * limit_mps);
-    draft.ego("street-in", along_m, speed_mps, (Some("street-out"), limit_mps));
+    draft.ego("street-in", along_m, speed_mps, Some("street-out"), limit_mps);
     let speed_mps = draft.between(1.0, 3.5);
     for (name, from_m) in [("walker", 8.0), ("second", 1.0)].iter().take(draft.count(1, 2)) {
         let along_m = from_m + draft.between(0.0, 4.5);

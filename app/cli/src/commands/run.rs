@@ -135,7 +135,7 @@ impl Run {
             Ok(outputs) => outputs,
             Err(error) => return unwritten(error),
         };
-        let passed = self.simulate(&name, scenario, (recording, outputs.watchers())).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, recording, outputs.watchers()).and_then(|recorded| {
             self.page(&name, &recorded)?;
             outputs.finish(&recorded, print_error)?;
             self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
@@ -189,7 +189,8 @@ impl Run {
         &self,
         name: &str,
         scenario: Scenario,
-        (recording, outputs): (Option<OpenRecording>, Vec<Box<dyn Watcher>>),
+        recording: Option<OpenRecording>,
+        outputs: Vec<Box<dyn Watcher>>,
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
@@ -260,7 +261,7 @@ impl Run {
         };
         let Some(sink) = sink else { return Ok(None) };
         let mut recorder = Recorder::begin(scenario, name, &sink)?;
-        recorder.repeat_with(&self.command())?;
+        recorder.set_command(&self.command())?;
         Ok(Some(OpenRecording::new(recorder)))
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use clap::{Args, Subcommand, ValueEnum};
-use interplay_presentation::record::record_again;
+use interplay_presentation::record::record_sweep_run;
 use interplay_scenarios::{LoadError, Registry, Scenario, SweepPlan, embedded_plans};
 use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
 use rayon::ThreadPool;
@@ -170,13 +170,13 @@ impl Sweep {
     }
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        make_rows(&pool_for(plan, self.jobs)?, plan, (shard, folder), &self.keep)
+        make_rows(&pool_for(plan, self.jobs)?, plan, shard, folder, &self.keep)
     }
 }
 
 /// Makes the runs of a whole plan that are not in a folder yet, and tells how far it is.
 pub(crate) fn make_missing_rows(plan: &SweepPlan, folder: &Path) -> Result<SweepOutcome, SweepError> {
-    make_rows(&pool_for(plan, None)?, plan, (Shard::WHOLE, folder), &[])
+    make_rows(&pool_for(plan, None)?, plan, Shard::WHOLE, folder, &[])
 }
 
 /// Where the rows of a plan go by default: into a folder of its name.
@@ -194,12 +194,13 @@ fn pool_for(plan: &SweepPlan, jobs: Option<NonZeroUsize>) -> Result<ThreadPool, 
 fn make_rows(
     pool: &ThreadPool,
     plan: &SweepPlan,
-    (shard, folder): (Shard, &Path),
+    shard: Shard,
+    folder: &Path,
     kept: &[Keep],
 ) -> Result<SweepOutcome, SweepError> {
     let checks = CheckProgress::start(plan.run_count());
     let progress: OnceLock<Progress> = OnceLock::new();
-    let keep = |row: &SweepRow, scenario: &Scenario| record_again(folder, row, scenario);
+    let keep = |row: &SweepRow, scenario: &Scenario| record_sweep_run(folder, row, scenario);
     let options = SweepOptions {
         folder,
         shard,

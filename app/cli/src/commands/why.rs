@@ -94,7 +94,7 @@ impl Why {
         let pool = pool(self.jobs, 1 + changes.len())?;
         let progress = Progress::start(1 + changes.len());
         let name = short_name(&self.scenario);
-        let report = pool.install(|| why(&name, scenario, (changes, self.at_s), &|| progress.advance()));
+        let report = pool.install(|| why(&name, scenario, changes, self.at_s, &|| progress.advance()));
         progress.clear();
         Ok(report?)
     }

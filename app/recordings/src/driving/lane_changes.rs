@@ -46,7 +46,7 @@ pub(super) fn of(timeline: &Timeline) -> Vec<LaneChange> {
             let (old, _) = timeline.map.way(before.position, before.heading_rad);
             let (new, _) = timeline.map.way(after.position, after.heading_rad);
             if is_beside(&old, &new, &before, &after) {
-                found.push(change(timeline, number, (from, stride), &new));
+                found.push(change(timeline, number, from, stride, &new));
             }
         }
     }
@@ -67,7 +67,7 @@ fn is_beside(old: &LaneLine, new: &LaneLine, before: &RecordedMoment, after: &Re
         && beside_m > BESIDE_M
 }
 
-fn change(timeline: &Timeline, number: usize, (from, stride): (usize, usize), new: &LaneLine) -> LaneChange {
+fn change(timeline: &Timeline, number: usize, from: usize, stride: usize, new: &LaneLine) -> LaneChange {
     let track = &timeline.tracks[number];
     let crosses = |at: &&RecordedMoment| {
         let place = new.project(at.position);

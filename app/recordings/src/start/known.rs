@@ -27,7 +27,7 @@ pub(crate) fn known_at(timeline: &Timeline, track: usize, step: i64) -> Option<(
     let (acceleration_mps2, speed_noise_mps) = slope(&|at| at.speed_mps);
     let (lateral_speed_mps, _) = slope(&|at| way.project(at.position).across_m);
     let others = timeline.tracks.iter().enumerate().filter(|(index, _)| *index != track);
-    let others = others.filter_map(|(_, other)| neighbour(other, step, (at.position, &way, place.along_m)));
+    let others = others.filter_map(|(_, other)| neighbour(other, step, at.position, &way, place.along_m));
     let known = TrafficMoment {
         speed_mps: at.speed_mps,
         acceleration_mps2,
@@ -69,7 +69,7 @@ fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
 }
 
 /// Another vehicle in the frame of a lane; none for one that is far away or goes another way.
-fn neighbour(other: &Track, step: i64, (from, way, along_m): ([f64; 2], &LaneLine, f64)) -> Option<NearbyVehicle> {
+fn neighbour(other: &Track, step: i64, from: [f64; 2], way: &LaneLine, along_m: f64) -> Option<NearbyVehicle> {
     let at = other.at(step)?;
     if libm::hypot(at.position[0] - from[0], at.position[1] - from[1]) > SIGHT_M {
         return None;

@@ -143,14 +143,14 @@ impl EnvironmentBatch {
         let autoreset = self.autoreset;
         let worlds = self.environments.par_iter_mut().zip(&mut self.over);
         let worlds = worlds.zip(actions.par_chunks_exact(space.len())).zip(steps.rows());
-        worlds.try_for_each(|(((environment, over), numbers), row)| {
-            step_one((environment, over), numbers, row, autoreset)
-        })
+        worlds
+            .try_for_each(|(((environment, over), numbers), row)| step_one(environment, over, numbers, row, autoreset))
     }
 }
 
 fn step_one(
-    (environment, over): (&mut Environment, &mut bool),
+    environment: &mut Environment,
+    over: &mut bool,
     numbers: &[f32],
     row: BatchRow<'_>,
     autoreset: Autoreset,

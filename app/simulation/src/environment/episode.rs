@@ -79,7 +79,7 @@ impl Episode {
     }
 
     /// Adds what a tick was worth, and says how it ended, if it did.
-    pub(super) fn observe(&mut self, (scenario, index): (&Scenario, usize), measures: &Measures, frame: &Frame) {
+    pub(super) fn observe(&mut self, scenario: &Scenario, index: usize, measures: &Measures, frame: &Frame) {
         let (vehicle, measured) = (&scenario.vehicles[index], &measures.vehicles[index]);
         let now = Counts {
             along_m: measures.along_m()[index],
@@ -95,7 +95,7 @@ impl Episode {
         add(RewardTerm::Progress, (now.along_m - self.before.along_m) / full_mps);
         add(RewardTerm::HardBraking, now.emergencies - self.before.emergencies);
         add(RewardTerm::RuleBroken, now.broken - self.before.broken);
-        add(RewardTerm::Gap, scenario.step_s * closeness((vehicle, index), &measures.vehicles, (scenario, frame)));
+        add(RewardTerm::Gap, scenario.step_s * closeness(vehicle, index, &measures.vehicles, scenario, frame));
         add(RewardTerm::Goal, f64::from(reaches_goal));
         add(RewardTerm::Contact, f64::from(has_contact));
         add(RewardTerm::OffRoad, f64::from(is_off_road));
@@ -115,11 +115,7 @@ impl Episode {
 }
 
 /// The share of half a length of its body by which a vehicle is too near to the nearest other one.
-fn closeness(
-    (vehicle, index): (&Vehicle, usize),
-    measured: &[VehicleMeasures],
-    (scenario, frame): (&Scenario, &Frame),
-) -> f64 {
+fn closeness(vehicle: &Vehicle, index: usize, measured: &[VehicleMeasures], scenario: &Scenario, frame: &Frame) -> f64 {
     let near_m = 0.5 * (vehicle.body.front_m + vehicle.body.rear_m);
     let own = &measured[index].last;
     let others = scenario.vehicles.iter().zip(measured).enumerate().filter(|(other, (stated, measured))| {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use interplay_planners::perception::sensing::SensedScene;
-use interplay_planners::scene::outlook::Outlook;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, Input, Plan, PlanError, Scene};
 use thiserror::Error;
 
@@ -52,7 +52,7 @@ impl fmt::Debug for PolicyDriver {
 impl Drive for PolicyDriver {
     /// # Errors
     /// [`PlanError::BadInput`] if the policy has no action, or one that is none.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         self.interface.look(&SensedScene::perfect(scene));
         if self.plans.is_multiple_of(self.plans_per_decision) {
             let mut observation = vec![0.0; self.interface.observation_len()];

@@ -212,7 +212,7 @@ impl Environment {
             let Some(frame) = frame.filter(|frame| !frame.vehicles.is_empty()) else { continue };
             ticks += 1;
             for seat in self.seats.iter_mut().filter(|seat| !seat.episode.is_over()) {
-                seat.episode.observe((world.scenario(), seat.vehicle), measures, frame);
+                seat.episode.observe(world.scenario(), seat.vehicle, measures, frame);
             }
         }
         self.time_s += ticks as f64 * self.scenario.step_s;

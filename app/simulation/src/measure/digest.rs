@@ -98,21 +98,33 @@ fn numbers(hasher: &mut Xxh3, values: &[f64]) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use interplay_planners::Plan;
+
     use super::*;
     use crate::state::frame::VehicleFrame;
 
+    /// A tick, and the states at its end.
+    #[derive(Clone)]
+    struct Recorded {
+        frame: Frame,
+        after: Vec<State>,
+    }
+
     /// A tick of one vehicle that plans in the light of a prediction.
-    fn tick(speed_mps: f64) -> (Frame, Vec<State>) {
+    fn tick(speed_mps: f64) -> Recorded {
         let state = State { speed_mps, ..State::default() };
         let trajectory = |speed_mps| Trajectory { states: vec![State { speed_mps, ..state }; 3], inputs: Vec::new() };
-        let mut vehicle = VehicleFrame { state, prediction: trajectory(1.0).into(), ..VehicleFrame::default() };
-        vehicle.plan.trajectory = trajectory(2.0);
-        (Frame { vehicles: vec![vehicle], ..Frame::default() }, vec![State { speed_mps: 3.0, ..state }])
+        let plan = Plan { trajectory: trajectory(2.0), ..Plan::default() }.into();
+        let vehicle = VehicleFrame { state, plan, prediction: trajectory(1.0).into(), ..VehicleFrame::default() };
+        let frame = Frame { vehicles: vec![vehicle], ..Frame::default() };
+        Recorded { frame, after: vec![State { speed_mps: 3.0, ..state }] }
     }
 
     /// The names of the phases in which two ticks differ.
-    fn differing(a: &(Frame, Vec<State>), b: &(Frame, Vec<State>)) -> Vec<&'static str> {
-        let digests = [a, b].map(|(frame, after)| Digest::of_tick(frame, after));
+    fn differing(a: &Recorded, b: &Recorded) -> Vec<&'static str> {
+        let digests = [a, b].map(|Recorded { frame, after }| Digest::of_tick(frame, after));
         let pairs = digests[0].by_name().into_iter().zip(digests[1].by_name());
         pairs.filter(|((_, a), (_, b))| a != b).map(|((name, _), _)| name).collect()
     }
@@ -123,13 +135,13 @@ mod tests {
         assert!(differing(&one, &tick(1.0)).is_empty());
         assert_eq!(differing(&one, &tick(1.5)), ["sense", "physics"]);
         let mut other = one.clone();
-        std::sync::Arc::make_mut(&mut other.0.vehicles[0].prediction).states[1].x_m = 1.0;
+        Arc::make_mut(&mut other.frame.vehicles[0].prediction).states[1].x_m = 1.0;
         assert_eq!(differing(&one, &other), ["predict"]);
         let mut other = one.clone();
-        other.0.vehicles[0].input.steering_rad = -0.0;
+        other.frame.vehicles[0].input.steering_rad = -0.0;
         assert_eq!(differing(&one, &other), ["act"], "bit for bit: even a zero's sign");
         let mut other = one.clone();
-        other.1[0].y_m = 1.0;
+        other.after[0].y_m = 1.0;
         assert_eq!(differing(&one, &other), ["physics"]);
     }
 
@@ -137,11 +149,11 @@ mod tests {
     #[test]
     fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
         let told = |x_m: f64| {
-            let (mut frame, after) = tick(1.0);
-            let vehicle = &mut frame.vehicles[0];
-            vehicle.plan.trajectory.states[1].x_m = x_m;
+            let mut recorded = tick(1.0);
+            let vehicle = &mut recorded.frame.vehicles[0];
+            Arc::make_mut(&mut vehicle.plan).trajectory.states[1].x_m = x_m;
             vehicle.prediction = vehicle.plan.trajectory.clone().into();
-            (frame, after)
+            recorded
         };
         assert_eq!(differing(&told(1.0), &told(2.0)), ["plan"]);
     }

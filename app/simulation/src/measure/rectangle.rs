@@ -5,9 +5,9 @@ use interplay_planners::{Body, State};
 /// Whether the footprints of two vehicles overlap or touch.
 ///
 /// By the separating axis theorem: two rectangles are apart exactly if they are apart along the direction of an edge of one of them.
-pub(super) fn overlap(one: (&Body, &State), other: (&Body, &State)) -> bool {
-    let corners = [one.0.corners(one.1), other.0.corners(other.1)];
-    let axes = [one.1.heading_rad, other.1.heading_rad].into_iter().flat_map(|heading_rad| {
+pub(super) fn overlap(body: &Body, state: &State, other_body: &Body, other: &State) -> bool {
+    let corners = [body.corners(state), other_body.corners(other)];
+    let axes = [state.heading_rad, other.heading_rad].into_iter().flat_map(|heading_rad| {
         let (sin, cos) = libm::sincos(heading_rad);
         [[cos, sin], [-sin, cos]]
     });
@@ -37,7 +37,7 @@ mod tests {
         let body = Body { front_m: 2.0, rear_m: 2.0, width_m: 2.0, ..Body::default() };
         let at = |x_m: f64, y_m: f64, heading_rad: f64| State { x_m, y_m, heading_rad, speed_mps: 0.0 };
         let origin = at(0.0, 0.0, 0.0);
-        let meets = |state: State| overlap((&body, &origin), (&body, &state));
+        let meets = |state: State| overlap(&body, &origin, &body, &state);
         assert!(meets(at(3.9, 1.9, 0.0)));
         assert!(!meets(at(4.1, 0.0, 0.0)));
         assert!(!meets(at(0.0, 2.1, 0.0)));

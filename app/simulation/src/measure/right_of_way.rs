@@ -131,15 +131,15 @@ impl Passages {
         let passage = |zone: &WatchedZone| {
             let [a, b] = &zone.approaches;
             match (a.entered_s, b.entered_s) {
-                (Some(a_s), b_s) if b_s.is_none_or(|b_s| a_s <= b_s) => Some(self.passage((a, a_s), b)),
-                (_, Some(b_s)) => Some(self.passage((b, b_s), a)),
+                (Some(a_s), b_s) if b_s.is_none_or(|b_s| a_s <= b_s) => Some(self.passage(a, a_s, b)),
+                (_, Some(b_s)) => Some(self.passage(b, b_s, a)),
                 (_, None) => None,
             }
         };
         self.zones.iter().filter_map(passage).collect()
     }
 
-    fn passage(&self, (first, first_s): (&ZoneApproach, f64), second: &ZoneApproach) -> Passage {
+    fn passage(&self, first: &ZoneApproach, first_s: f64, second: &ZoneApproach) -> Passage {
         let spare_s = |came_s: f64| first.left_s.map_or(0.0, |left_s| (came_s - left_s).max(0.0));
         let post_encroachment_s = second.came_s.map(spare_s).map(to_nanosecond);
         let margin_s = MARGIN_S * self.bodies[second.vehicle].real_ratio().sqrt();

@@ -143,7 +143,7 @@ impl Waits {
             let before_s = self.unexplained_s[index];
             self.unexplained_s[index] = if is_unexplained { before_s + step_s } else { 0.0 };
             if passes(before_s, self.unexplained_s[index], STUCK_S * self.times[index]) {
-                self.deadlocks.push(deadlock((frame, step_s), &[index], UNEXPLAINED));
+                self.deadlocks.push(deadlock(frame, step_s, &[index], UNEXPLAINED));
             }
         }
         self.close(circles, frame, step_s);
@@ -156,7 +156,7 @@ impl Waits {
         for circle in circles {
             let waited_s = self.circles_s.get(&circle).copied().unwrap_or(0.0);
             if passes(waited_s, waited_s + step_s, CIRCLE_S * self.times[circle[0]]) {
-                self.deadlocks.push(deadlock((frame, step_s), &circle, IN_A_CIRCLE));
+                self.deadlocks.push(deadlock(frame, step_s, &circle, IN_A_CIRCLE));
             }
             self.circles_s.insert(circle, waited_s + step_s);
         }
@@ -204,7 +204,7 @@ fn name(frame: &Frame, vehicle: usize) -> String {
     frame.vehicles[vehicle].name.clone()
 }
 
-fn deadlock((frame, step_s): (&Frame, f64), vehicles: &[usize], reason: &str) -> Deadlock {
+fn deadlock(frame: &Frame, step_s: f64, vehicles: &[usize], reason: &str) -> Deadlock {
     let vehicles = vehicles.iter().map(|vehicle| name(frame, *vehicle)).collect();
     Deadlock { time_s: to_nanosecond(frame.time_s + step_s), vehicles, reason: reason.to_owned() }
 }

@@ -35,6 +35,32 @@ pub enum Phase {
     Record,
 }
 
+impl Phase {
+    /// All phases, in the order in which they run.
+    pub const IN_ORDER: [Phase; 8] = [
+        Phase::Sense,
+        Phase::Predict,
+        Phase::Plan,
+        Phase::Act,
+        Phase::Physics,
+        Phase::Climate,
+        Phase::Measure,
+        Phase::Record,
+    ];
+}
+
+/// Where systems of one's own run: between two phases. A phase runs after all systems before it, and before all systems after it.
+///
+/// [`SimulationBuilder::with_system`](crate::SimulationBuilder::with_system) adds them. They run at every
+/// [`TimePoint`](time_points::TimePoint), of the vehicles and of the building.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Slot {
+    /// After the systems that follow the previous phase, and before this phase.
+    Before(Phase),
+    /// After this phase, and before the systems that precede the next one.
+    After(Phase),
+}
+
 /// The schedule of a world.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Tick;
@@ -48,13 +74,18 @@ pub fn schedule() -> Schedule {
         ambiguity_detection: LogLevel::Error,
         ..ScheduleBuildSettings::default()
     });
-    schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
+    for phase in Phase::IN_ORDER {
+        schedule.configure_sets((Slot::Before(phase), phase, Slot::After(phase)).chain());
+    }
+    for [phase, next] in Phase::IN_ORDER.array_windows() {
+        schedule.configure_sets((Slot::After(*phase), Slot::Before(*next)).chain());
+    }
     schedule.add_systems((
         (
             (sense::sense, (presence::come_and_go, sense::look).chain().run_if(sense::plans_now)).chain().in_set(Sense),
             predict::predict.in_set(Predict).run_if(sense::plans_now),
             plan::plan.in_set(Plan).run_if(sense::plans_now),
-            act::act.in_set(Act),
+            (act::act, act::describe).chain().in_set(Act),
             physics::step.in_set(Physics),
             measure::measure.in_set(Measure),
         )

@@ -17,9 +17,14 @@ pub struct Benchmark {
 }
 
 impl Benchmark {
-    /// Puts the indicators together: BOPTEST's by their names, and ours. `control` is how long each decision took, and the length of a step \[s\].
-    pub fn new(official: BTreeMap<String, Option<f64>>, ours: Option<Indicators>, control: (&[f64], f64)) -> Self {
-        let time_ratio = Indicators::computational_time_ratio(control.0, control.1);
+    /// Puts the indicators together: BOPTEST's by their names, and ours. `control_s` is how long each decision took.
+    pub fn new(
+        official: BTreeMap<String, Option<f64>>,
+        ours: Option<Indicators>,
+        control_s: &[f64],
+        step_s: f64,
+    ) -> Self {
+        let time_ratio = Indicators::computational_time_ratio(control_s, step_s);
         Self { official, ours, time_ratio }
     }
 }

@@ -13,7 +13,8 @@ const TIME_TOLERANCE_S: f64 = 1e-9;
 /// Judges a counterfactual of `scenario`: `main` is the scenario's own run, `run` that of the counterfactual.
 pub(super) fn judge_counterfactual(
     counterfactual: &CounterfactualConfig,
-    (scenario, main): (&Scenario, &Report),
+    scenario: &Scenario,
+    main: &Report,
     run: Report,
 ) -> CounterfactualReport {
     let expect = &counterfactual.expect;

@@ -27,8 +27,10 @@ impl Report {
     pub fn new(
         name: &str,
         scenario: &Scenario,
-        (measures, building): (&Measures, Option<&BuildingMeasures>),
-        (wall_s, ended_early_s): (f64, Option<f64>),
+        measures: &Measures,
+        building: Option<&BuildingMeasures>,
+        wall_s: f64,
+        ended_early_s: Option<f64>,
     ) -> Self {
         let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
         let vehicles = vehicles
@@ -66,7 +68,7 @@ impl Report {
     pub fn judge_counterfactuals(&mut self, scenario: &Scenario, runs: Vec<Report>) {
         let counterfactuals = scenario.counterfactuals.iter().zip(runs);
         self.counterfactuals = counterfactuals
-            .map(|(one, run)| counterfactual::judge_counterfactual(&one.stated, (scenario, self), run))
+            .map(|(one, run)| counterfactual::judge_counterfactual(&one.stated, scenario, self, run))
             .collect();
         self.passed &= self.counterfactuals.iter().all(|counterfactual| counterfactual.passed);
     }

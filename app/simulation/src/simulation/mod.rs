@@ -1,5 +1,7 @@
 //! A world that is stepped from outside.
 
+mod builder;
+mod extensions;
 pub(crate) mod run_error;
 mod saved_run;
 mod snapshot;
@@ -8,6 +10,7 @@ mod wheel;
 pub(crate) mod world_state;
 mod zones;
 
+pub use builder::SimulationBuilder;
 pub use saved_run::SavedRunError;
 pub use snapshot::Snapshot;
 pub use zones::ZoneNow;
@@ -17,15 +20,19 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
+use self::extensions::Extensions;
 use self::saved_run::HandedInput;
 use crate::climate::Building;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
-use crate::state::components::{Clock, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, VehicleGoal};
+use crate::state::components::{
+    Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond,
+};
 use crate::state::detail::LevelOfDetail;
 use crate::state::frame::Frame;
 
@@ -68,6 +75,8 @@ pub struct Simulation {
     pub(crate) inputs: Vec<HandedInput>,
     /// Vehicles whose driver was replaced by one that the scenario does not name.
     pub(crate) replaced: Vec<String>,
+    /// Systems and state that the caller has added.
+    pub(crate) extensions: Extensions,
     /// Wall time of building and stepping the world \[s\].
     wall_s: f64,
 }
@@ -78,7 +87,7 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] if the scenario's building cannot be built.
     pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
-        Self::watched(&scenario.title, scenario, Vec::new())
+        Self::builder(scenario).build()
     }
 
     /// The world of `scenario` before its first tick, called `name` in its report, and with watchers who see every tick.
@@ -86,26 +95,21 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn watched(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Self, RunError> {
-        let began = Instant::now();
-        let state = WorldState::initial(scenario)?;
-        let parts = (Arc::new(scenario.clone()), TimePoints::new(scenario));
-        let mut simulation = Self::assembled(name, parts, state, watchers)?;
-        simulation.wall_s = began.elapsed().as_secs_f64();
-        Ok(simulation)
+        Self::builder(scenario).with_name(name).with_watchers(watchers).build()
     }
 
     pub(crate) fn assembled(
-        name: &str,
-        (scenario, time_points): (Arc<Scenario>, TimePoints),
-        state: WorldState,
-        watchers: Vec<Box<dyn Watcher>>,
+        name: String,
+        scenario: Arc<Scenario>,
+        time_points: TimePoints,
+        mut world: World,
+        extensions: Extensions,
     ) -> Result<Self, RunError> {
-        let mut world = state.into_world(watchers);
         let mut schedule = phases::schedule();
-        let built = schedule.initialize(&mut world);
-        built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
+        extensions::initialize(&mut schedule, &mut world)?;
+        extensions.add_systems(&mut schedule, &mut world)?;
         Ok(Simulation {
-            name: name.to_owned(),
+            name,
             scenario,
             world,
             schedule,
@@ -113,6 +117,7 @@ impl Simulation {
             has_failed: false,
             inputs: Vec::new(),
             replaced: Vec::new(),
+            extensions,
             wall_s: 0.0,
         })
     }
@@ -142,10 +147,7 @@ impl Simulation {
         let tick = self.time_points.passed();
         self.time_points = ahead;
         let frame = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
-        let last = std::mem::replace(&mut self.world.resource_mut::<CurrentFrame>().0, frame);
-        if !last.vehicles.is_empty() {
-            self.world.resource_mut::<LastVehicles>().0 = last.vehicles;
-        }
+        self.world.resource_mut::<CurrentFrame>().0 = frame;
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();
@@ -156,6 +158,24 @@ impl Simulation {
             return Err(RunError::Climate { day: (building.step - 1) / building.steps_per_day() + 1, reason });
         }
         Ok(Some(&self.world.resource::<CurrentFrame>().0))
+    }
+
+    /// Steps until everything that begins before `time_s` has happened, or the scenario is over. Moves nothing if the world is there
+    /// already.
+    ///
+    /// # Errors
+    /// As [`Simulation::step`].
+    pub fn advance_to(&mut self, time_s: f64) -> Result<(), RunError> {
+        let end_s = to_nanosecond(time_s);
+        while self.time_points.clone().next().is_some_and(|time_point| time_point.time_s < end_s) {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of ours.
+    pub fn state<T: Resource>(&self) -> Option<&T> {
+        self.world.get_resource()
     }
 
     /// The last frame; none before the first step.
@@ -241,17 +261,21 @@ impl Simulation {
     /// From the next tick on the drivers are those of another form of the scenario, with the same vehicles. Each whose settings differ
     /// goes on with the new ones and with all that it remembers; one of another kind begins anew.
     pub(crate) fn change_drivers(&mut self, changed: &Scenario) {
-        let mut vehicles = self.world.query::<(&Identity, &mut VehicleGoal, &mut Driving)>();
-        for (identity, mut goal, mut driving) in vehicles.iter_mut(&mut self.world) {
-            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[identity.index]);
-            if (&old.driver, &old.inference) != (&new.driver, &new.inference) {
-                driving.planner.change(&*new.driver, &new.inference.unwrap_or_default());
-                driving.can_be_asked = new.driver.can_be_asked();
-                driving.goes_first = new.driver.goes_first();
-                driving.knows_plans = new.driver.knows_plans();
-                driving.detail = LevelOfDetail::of(changed, identity.index);
-                goal.shared = new.driver.shared_goal(&goal.goal);
+        let fleet = self.world.resource::<Fleet>().0.clone();
+        for (row, entity) in fleet.into_iter().enumerate() {
+            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[row]);
+            if (&old.driver, &old.inference) == (&new.driver, &new.inference) {
+                continue;
             }
+            if let Some(mut driving) = self.world.get_mut::<Driving>(entity) {
+                driving.planner.change(&*new.driver, &new.inference.unwrap_or_default());
+                driving.detail = LevelOfDetail::of(changed, row);
+            }
+            let user = &mut self.world.resource_mut::<CurrentTraffic>().into_inner().0.road_users[row];
+            user.agent.can_be_asked = new.driver.can_be_asked();
+            user.agent.shared_goal = new.driver.shared_goal(&user.goal);
+            user.goes_first = new.driver.goes_first();
+            user.knows_plans = new.driver.knows_plans();
         }
         self.scenario = Arc::new(changed.clone());
     }
@@ -259,16 +283,20 @@ impl Simulation {
     /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.
     ///
     /// # Errors
-    /// [`NotCopied`] says who has no copy: a building behind a socket, a driver of somebody else's that does not fork.
+    /// [`NotCopied`] names what has no copy: a building behind a socket, a driver of another crate that does not fork, state of an added
+    /// system that was not registered.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
-        let world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
-        let Simulation { name, scenario, time_points, inputs, replaced, .. } = self;
+        let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
+        let Simulation { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
+        extensions.refuse_uncopied(&self.world, &world)?;
+        extensions.copy_states(&self.world, &mut world);
         Ok(Snapshot {
             name: name.clone(),
             scenario: Arc::clone(scenario),
             time_points: time_points.clone(),
             inputs: inputs.clone(),
             replaced: replaced.clone(),
+            extensions: extensions.clone(),
             world,
         })
     }
@@ -300,8 +328,8 @@ impl Simulation {
     /// What was measured until now, judged as if the run ended here.
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
-        let measures = (self.measures(), self.world.get_resource::<BuildingMeasures>());
-        Report::new(&self.name, &self.scenario, measures, (self.wall_s, ended_early_s))
+        let building = self.world.get_resource::<BuildingMeasures>();
+        Report::new(&self.name, &self.scenario, self.measures(), building, self.wall_s, ended_early_s)
     }
 
     /// What is measured.
@@ -311,17 +339,18 @@ impl Simulation {
 
     /// The state of every vehicle now, in the scenario's order.
     pub fn states(&self) -> Vec<State> {
-        let Some(mut vehicles) = self.world.try_query::<(&Identity, &Motion)>() else { return Vec::new() };
-        let mut states: Vec<(usize, State)> =
-            vehicles.iter(&self.world).map(|(identity, motion)| (identity.index, motion.state)).collect();
-        states.sort_by_key(|(index, _)| *index);
-        states.into_iter().map(|(_, state)| state).collect()
+        self.world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
     }
 }
 
 impl Simulation {
     fn index_of(&self, vehicle: &str) -> Result<usize, RunError> {
         self.scenario.index_of(vehicle).ok_or_else(|| self.no_vehicle(vehicle))
+    }
+
+    /// The entity of a vehicle, by its row.
+    fn entity(&self, row: usize) -> Entity {
+        self.world.resource::<Fleet>().0[row]
     }
 
     fn no_vehicle(&self, vehicle: &str) -> RunError {
@@ -332,12 +361,10 @@ impl Simulation {
     /// Hands in what an external driver decided.
     pub(crate) fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
-        let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.index == index);
         let step = self.time_points.passed();
         let handed = HandedInput::of(step, vehicle, &decided);
-        match found {
-            Some((_, mut handed_in)) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
+        match self.world.get_mut::<HandedIn>(self.entity(index)) {
+            Some(mut handed_in) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
             _ => return Err(RunError::NotExternal { vehicle: vehicle.to_owned() }),
         }
         // The last call before a step counts.
@@ -350,13 +377,12 @@ impl Simulation {
 
     /// An error if an external driver has not decided.
     fn refuse_without_input(&mut self) -> Result<(), RunError> {
-        let mut vehicles = self.world.query::<(&Identity, &Motion, &HandedIn)>();
-        let waits = |(_, motion, handed_in): &(&Identity, &Motion, &HandedIn)| {
-            **handed_in == HandedIn::Awaited && !motion.crashed
+        let traffic = &self.world.resource::<CurrentTraffic>().0;
+        let waits = |(row, user): &(usize, &RoadUser)| {
+            self.world.get::<HandedIn>(self.entity(*row)) == Some(&HandedIn::Awaited) && !user.is_crashed
         };
-        let first = vehicles.iter(&self.world).filter(waits).min_by_key(|(identity, ..)| identity.index);
-        match first {
-            Some((identity, ..)) => Err(RunError::NoInput { vehicle: identity.name.clone(), time_s: self.time_s() }),
+        match traffic.road_users.iter().enumerate().find(waits) {
+            Some((_, user)) => Err(RunError::NoInput { vehicle: user.agent.name.clone(), time_s: self.time_s() }),
             None => Ok(()),
         }
     }

@@ -86,7 +86,13 @@ pub enum RunError {
     /// An earlier step has failed.
     #[error("the run has ended with an error: restore a snapshot, or begin anew")]
     Ended,
-    /// The loop could not be run.
+    /// An added system names a component or resource that the world does not have.
+    #[error("an added system uses `{name}`, which the world does not have; add it by `with_state`")]
+    UnknownState {
+        /// The type of the component or resource.
+        name: String,
+    },
+    /// The loop could not be built.
     #[error("the loop could not be built: {0}")]
     Loop(String),
 }

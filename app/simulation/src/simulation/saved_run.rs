@@ -96,11 +96,16 @@ impl Snapshot {
     /// The snapshot as JSON, for a file: [`Snapshot::from_json`] reads it.
     ///
     /// # Errors
-    /// [`SavedRunError::NotCopied`] if a driver has taken over by [`Simulation::drive_with`], which the scenario does not name.
+    /// [`SavedRunError::NotCopied`] if a driver has taken over by [`Simulation::drive_with`], which the scenario does not name, or
+    /// if systems were added.
     pub fn to_json(&self) -> Result<String, SavedRunError> {
         if let Some(vehicle) = self.replaced.first() {
             let why = "it is no part of the scenario; give the vehicle a `driver` of a registered kind".to_owned();
             return Err(NotCopied { who: format!("the driver that has taken over `{vehicle}`"), why }.into());
+        }
+        if let Some(system) = self.extensions.first_system() {
+            let why = "it is not part of the scenario".to_owned();
+            return Err(NotCopied { who: format!("the added system `{system}`"), why }.into());
         }
         let saved = SavedRun {
             format: FORMAT,

@@ -6,6 +6,7 @@ use bevy_ecs::prelude::World;
 use interplay_scenarios::Scenario;
 
 use super::Simulation;
+use super::extensions::Extensions;
 use super::saved_run::HandedInput;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::phases::time_points::TimePoints;
@@ -22,17 +23,21 @@ pub struct Snapshot {
     pub(crate) time_points: TimePoints,
     pub(crate) inputs: Vec<HandedInput>,
     pub(crate) replaced: Vec<String>,
+    pub(crate) extensions: Extensions,
     pub(crate) world: World,
 }
 
 impl Snapshot {
-    /// The simulation goes on from here, watched by nobody.
+    /// A simulation that goes on from here, without watchers.
     ///
     /// # Errors
     /// [`RunError::NotCopied`]; never, if nothing was added to the copy.
     pub fn resume(&self) -> Result<Simulation, RunError> {
-        let parts = (Arc::clone(&self.scenario), self.time_points.clone());
-        let mut simulation = Simulation::assembled(&self.name, parts, WorldState::copy_from(&self.world)?, Vec::new())?;
+        let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
+        self.extensions.copy_states(&self.world, &mut world);
+        let (scenario, extensions) = (Arc::clone(&self.scenario), self.extensions.clone());
+        let mut simulation =
+            Simulation::assembled(self.name.clone(), scenario, self.time_points.clone(), world, extensions)?;
         simulation.inputs.clone_from(&self.inputs);
         simulation.replaced.clone_from(&self.replaced);
         Ok(simulation)

@@ -74,7 +74,7 @@ impl PersuasionBelief {
     }
 }
 
-/// The weight that a kind of driver puts on its own plan: who yields to others changes it for them.
+/// The weight that a kind of driver puts on its own plan: a driver that yields to others changes it for them.
 fn loyalty(model: DriverModel, settings: &Settings) -> f64 {
     match model {
         DriverModel::Nice => settings.w_1_min,
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_keeps_its_plan_is_loyal_to_it_and_whoever_changes_it_is_not() {
+    fn a_driver_is_loyal_to_its_plan_exactly_if_it_keeps_it() {
         let settings = Settings::default();
         let steady = watched(&agent(0.1, 1.0));
         assert!(steady.beta_m < 1e-12 && (steady.w_1 - settings.w_1_max).abs() < 1e-9 && steady.deviation < 1e-20);

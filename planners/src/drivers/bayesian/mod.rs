@@ -1,6 +1,6 @@
 //! Bayesian persuasion (chapter 7): the ego's motion is a signal about how conservative it is.
 //!
-//! The other's impression of the ego is the elliptical distance `ω = ‖I′(x_sᴾ − x_e)‖` (eq. 7.2, 7.7): who comes close seems
+//! The other's impression of the ego is the elliptical distance `ω = ‖I′(x_sᴾ − x_e)‖` (eq. 7.2, 7.7): a vehicle that comes close seems
 //! bold. At every step the planner
 //!
 //! 1. chooses whom to persuade, one vehicle after the other;
@@ -27,10 +27,10 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::drivers::conservative;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::encounter::{PartnerChoice, PartnerSequence};
+use crate::drivers::partner_choice::{PartnerChoice, PartnerSequence};
 use crate::drivers::receding_horizon::Solved;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory};
@@ -49,7 +49,7 @@ pub struct Bayesian {
 }
 
 impl Bayesian {
-    /// A planner that has interacted with nobody yet.
+    /// A planner that has not interacted with any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
@@ -107,10 +107,10 @@ impl Drive for Bayesian {
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
-        self.observe(&choice, scene.step_s, outlook);
+        self.observe(&choice, scene.step_s, inferred_futures);
         let problem = problem(scene, choice.partner, self.last.as_ref(), &self.belief, &self.settings);
         let Solved { problem, optimum, event } =
             conservative::solve_or_fall_back(&mut self.optimiser, scene, problem, self.last.as_ref())?;
@@ -138,14 +138,14 @@ impl Drive for Bayesian {
 
 impl Bayesian {
     /// Updates the belief about the vehicle to persuade.
-    fn observe(&mut self, choice: &PartnerChoice, step_s: f64, outlook: &Outlook) {
+    fn observe(&mut self, choice: &PartnerChoice, step_s: f64, inferred_futures: &InferredFutures) {
         if choice.is_new {
             self.belief = PersuasionBelief::initial(&self.settings);
             self.partner_plan = None;
         }
         let before = self.partner_plan.as_ref().filter(|_| choice.may_have_answered(self.settings.answer_s, step_s));
         if let (Some(partner), Some(before)) = (choice.partner, before) {
-            let estimate = outlook.estimate(&partner.name);
+            let estimate = inferred_futures.estimate(&partner.name);
             self.belief.observe(partner, before, estimate, &self.settings);
         }
         self.partner_plan = choice.partner.map(|partner| (*partner.prediction).clone());

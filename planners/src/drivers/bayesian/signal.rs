@@ -30,7 +30,7 @@ use crate::{Agent, Scene, Trajectory};
 /// Largest `2ΣW_2`.
 const MAX_SIGNAL_DOUBT: f64 = 0.9;
 
-/// The conservative problem (eq. 6.13), which is also that of somebody whom nobody is left to persuade, with the price of a
+/// The conservative problem (eq. 6.13), also used when no vehicle is left to persuade, with the price of a
 /// signal to `partner`. `last` is what the ego planned a step ago.
 pub fn problem(
     scene: &Scene,

@@ -1,6 +1,6 @@
 //! The conservative baseline (eq. 6.13): the ego keeps out of the safety ellipses around the others' predicted positions.
 //!
-//! The predictions are fixed. The ego assumes that nobody reacts to it, whoever has the right of way. Each ellipse is a soft
+//! The predictions are fixed. The ego assumes that no vehicle reacts to it, whichever has the right of way. Each ellipse is a soft
 //! constraint with an exact penalty ([`Penalty::EXACT`](crate::trajectory::Penalty::EXACT)), so it holds wherever it can.
 
 pub mod diagnostics;
@@ -14,7 +14,7 @@ use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon::{self, Solved};
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, HomotopySearch, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory};
@@ -94,7 +94,7 @@ impl Drive for Conservative {
     ///
     /// # Errors
     /// [`PlanError`] if no starting guess leads to an optimum.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         Ok(answer(self.optimise(scene)?))
     }
 

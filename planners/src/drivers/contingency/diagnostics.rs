@@ -20,6 +20,6 @@ pub const EXPLANATION: Explanation = Explanation {
         DiagnosticPanel { title: "Contingency: probability of the likeliest future", quantities: &[LIKELIEST] },
     ],
     plots: &[],
-    guide: "**Contingency.** The plan keeps out of everybody's way in each future, and is the same in all of them until they can \
+    guide: "**Contingency.** The plan keeps clear of all others in each future, and is the same in all of them until they can \
             be told apart. The plan that is drawn is that for the likeliest one.",
 };

@@ -1,7 +1,7 @@
 //! What the others may do together, and when the ego will know.
 
 use super::settings::Settings;
-use crate::scene::outlook::Alternative;
+use crate::scene::inferred_futures::Alternative;
 use crate::{Scene, Trajectory};
 
 /// A possible future: one motion of each other vehicle, with its probability.

@@ -25,7 +25,7 @@ use crate::drivers::conservative;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
@@ -101,9 +101,9 @@ impl Drive for Contingency {
     ///
     /// # Errors
     /// [`PlanError`] if neither this problem nor the conservative one can be solved.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
-        let futures = futures(scene, &outlook.alternatives, &self.settings);
-        let shared_steps = shared_steps(&futures, self.settings.told_apart_m, outlook.delay, scene.horizon);
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
+        let futures = futures(scene, &inferred_futures.alternatives, &self.settings);
+        let shared_steps = shared_steps(&futures, self.settings.told_apart_m, inferred_futures.delay, scene.horizon);
         let problem = problem(scene, &futures, shared_steps);
         let likeliest = likeliest(&futures);
         match self.optimiser.optimise(&problem, &self.guess(scene, &futures)) {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::trajectory::HomotopySearch;
 
 /// A plan that branches: the ego infers what the others may do, decides now what holds for all of it, and has a continuation for
-/// each. It is told nobody's plan; `inference` on the vehicle says how it learns.
+/// each. It knows no other plan; `inference` on the vehicle says how it learns.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {

@@ -26,7 +26,7 @@ use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::problem::{JointVehicle, joint_problem};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanError, PlanTime, Proposal, Scene, Trajectory};
@@ -36,9 +36,8 @@ use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 /// list.
 pub fn cooperators(scene: &Scene, own: Goal) -> Vec<JointVehicle> {
     let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
-    let everybody = others.chain([(&scene.ego, own)]);
-    let mut found: Vec<JointVehicle> =
-        everybody.map(|(agent, goal)| JointVehicle { agent: agent.clone(), goal }).collect();
+    let all = others.chain([(&scene.ego, own)]);
+    let mut found: Vec<JointVehicle> = all.map(|(agent, goal)| JointVehicle { agent: agent.clone(), goal }).collect();
     found.sort_by(|a, b| a.agent.name.cmp(&b.agent.name));
     found
 }
@@ -107,7 +106,7 @@ impl Drive for Cooperative {
     ///
     /// # Errors
     /// [`PlanError`] if neither the joint problem nor the conservative one can be solved.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let cooperators = cooperators(scene, self.settings.shared_goal(&scene.goal));
         let names = cooperators.iter().map(|cooperator| cooperator.agent.name.as_str());

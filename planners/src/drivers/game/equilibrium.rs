@@ -221,7 +221,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(300))]
 
         #[test]
-        fn nobody_gains_by_leaving_an_equilibrium_alone(stakes in stakes()) {
+        fn no_player_gains_by_leaving_an_equilibrium_alone(stakes in stakes()) {
             let at = solved(stakes, nash);
             prop_assert!(at.temptation.iter().all(|gain| *gain <= MAX_EQUILIBRIUM_TEMPTATION), "{at:?}");
             for instead in deviations() {
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_has_little_to_lose_by_waiting_waits() {
+    fn a_player_waits_if_waiting_costs_it_little() {
         let (eager, patient) = (Stakes { turn: 6.0, accident: 2.0 }, Stakes { turn: 0.2, accident: 2.0 });
         for by in [leader_follower, nash] {
             let at = solved([eager, patient], by);

@@ -2,7 +2,7 @@
 
 use super::Settings;
 use super::best_response::{MAX_INTENTION, MIN_INTENTION};
-use super::meeting::{Meeting, ObservedBehaviour};
+use super::conflict_geometry::{ConflictGeometry, ObservedBehaviour};
 use crate::Scene;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
@@ -33,25 +33,25 @@ pub fn wanted_posterior(intention: f64, settings: &Settings) -> [Option<f64>; 2]
 pub fn mean_speed(
     intention: f64,
     prior: f64,
-    meeting: &Meeting,
+    geometry: &ConflictGeometry,
     ego_behaviour: &ObservedBehaviour,
     scene: &Scene,
     settings: &Settings,
     measure: SpeedMeasure,
 ) -> MeanSpeed {
     let [least, most] = wanted_posterior(intention, settings)
-        .map(|bound| bound.map(|bound| speed_mps(ego_behaviour.behaviour.expressing(bound, prior), meeting)));
+        .map(|bound| bound.map(|bound| speed_mps(ego_behaviour.behaviour.expressing(bound, prior), geometry)));
     let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
     let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
     MeanSpeed { measure, lower_mps: least.map(drivable), upper_mps: most.map(drivable), penalty }
 }
 
 /// The speed that a behaviour of the ego stands for: itself, or that of an arrival.
-fn speed_mps(shown: f64, meeting: &Meeting) -> f64 {
-    match *meeting {
-        Meeting::Alongside { .. } => shown,
-        Meeting::Crossing { .. } if shown <= 0.0 => f64::INFINITY,
-        Meeting::Crossing { ego_m, .. } => ego_m / shown,
+fn speed_mps(shown: f64, geometry: &ConflictGeometry) -> f64 {
+    match *geometry {
+        ConflictGeometry::Alongside { .. } => shown,
+        ConflictGeometry::Crossing { .. } if shown <= 0.0 => f64::INFINITY,
+        ConflictGeometry::Crossing { ego_m, .. } => ego_m / shown,
     }
 }
 
@@ -66,7 +66,8 @@ mod tests {
         scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new())
     }
 
-    const MEETINGS: [Meeting; 2] = [Meeting::Alongside { lead_m: 0.3 }, Meeting::Crossing { ego_m: 1.4, other_m: 1.9 }];
+    const GEOMETRIES: [ConflictGeometry; 2] =
+        [ConflictGeometry::Alongside { lead_m: 0.3 }, ConflictGeometry::Crossing { ego_m: 1.4, other_m: 1.9 }];
 
     proptest! {
         /// The law that the constraint stands for: inside the interval the other believes what the ego wants it to.
@@ -75,9 +76,9 @@ mod tests {
             intention in 0.12..0.94, prior in 0.1..0.9, other_mps in 0.4..1.4, share in 0.0..1.0, which in 0_usize..2,
         ) {
             let settings = Settings { expressed_bounds: ExpressedBounds::Interval, ..Settings::default() };
-            let meeting = MEETINGS[which];
-            let [ego_behaviour, _] = meeting.observations([1.0, other_mps], &settings);
-            let bound = mean_speed(intention, prior, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
+            let geometry = GEOMETRIES[which];
+            let [ego_behaviour, _] = geometry.observations([1.0, other_mps], &settings);
+            let bound = mean_speed(intention, prior, &geometry, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
             if let (Some(lower), Some(upper)) = (bound.lower_mps, bound.upper_mps) {
                 prop_assert!(lower <= upper);
                 let speed = lower + share * (upper - lower);
@@ -85,7 +86,7 @@ mod tests {
                 let limits = alone().ego.limits;
                 prop_assume!(lower > settings.standstill_mps && upper < limits.speed_max_mps);
                 // What the other expects depends on its own speed only.
-                let [shown, _] = meeting.observations([speed, other_mps], &settings);
+                let [shown, _] = geometry.observations([speed, other_mps], &settings);
                 let read = shown.behaviour.posterior(prior, shown.observed);
                 prop_assert!(read <= intention + 1e-9 && read >= intention - settings.epsilon_p - 1e-9);
             }
@@ -93,16 +94,16 @@ mod tests {
     }
 
     #[test]
-    fn who_is_late_is_asked_for_the_highest_speed() {
+    fn a_late_vehicle_expresses_itself_by_its_highest_speed() {
         let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
-        let meeting = Meeting::Crossing { ego_m: 1.4, other_m: 0.2 };
-        let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
-        let bound = mean_speed(0.9, 0.1, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
+        let geometry = ConflictGeometry::Crossing { ego_m: 1.4, other_m: 0.2 };
+        let [ego_behaviour, _] = geometry.observations([1.0, 1.0], &settings);
+        let bound = mean_speed(0.9, 0.1, &geometry, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
         assert_eq!(bound.lower_mps, Some(alone().ego.limits.speed_max_mps));
     }
 
     #[test]
-    fn whoever_passes_may_seem_surer_and_whoever_yields_too() {
+    fn a_player_may_seem_surer_to_pass_and_surer_to_yield() {
         let wanted = |intention| wanted_posterior(intention, &Settings::default());
         assert_eq!(wanted(0.7), [Some(0.7 - Settings::default().epsilon_p), None]);
         assert_eq!(wanted(0.3), [None, Some(0.3)]);
@@ -113,10 +114,10 @@ mod tests {
     #[test]
     fn extreme_intentions_are_bounded_on_one_side() {
         let settings = Settings { expressed_bounds: ExpressedBounds::Interval, ..Settings::default() };
-        let meeting = MEETINGS[0];
-        let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
+        let geometry = GEOMETRIES[0];
+        let [ego_behaviour, _] = geometry.observations([1.0, 1.0], &settings);
         let bound = |intention| {
-            mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default())
+            mean_speed(intention, 0.5, &geometry, &ego_behaviour, &alone(), &settings, SpeedMeasure::default())
         };
         assert!(bound(MAX_INTENTION).upper_mps.is_none() && bound(MAX_INTENTION).lower_mps.is_some());
         assert!(bound(MIN_INTENTION).lower_mps.is_none() && bound(MIN_INTENTION).upper_mps.is_some());

@@ -18,7 +18,7 @@ const MAX_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-10;
 
 /// The logit response to an intention of the other, before it is clipped; `temperature` is `τ`.
-pub fn logit_response(player: &Player, other: f64, temperature: f64) -> f64 {
+fn logit_response(player: &Player, other: f64, temperature: f64) -> f64 {
     let advantage = player.utility(1.0, other) - player.utility(0.0, other);
     1.0 / (1.0 + libm::exp(-advantage / (temperature * player.accident_value().abs())))
 }
@@ -63,13 +63,13 @@ mod tests {
         }
 
         #[test]
-        fn who_has_more_at_stake_passes_more_probably(ratio in 0.05..19.0, more in 1.01..3.0, other in 0.05..0.95) {
+        fn the_probability_of_passing_grows_with_the_stakes(ratio in 0.05..19.0, more in 1.01..3.0, other in 0.05..0.95) {
             let response = |ratio: f64| logit_response(&THEORY.player(Stakes::bounded(ratio, 4.0)), other, TEMPERATURE);
             prop_assert!(response(more * ratio) > response(ratio));
         }
 
         #[test]
-        fn who_expects_the_other_to_pass_passes_less_probably(ratio in 0.05..19.0, other in 0.05..0.9, more in 0.01..0.05) {
+        fn the_probability_of_passing_falls_with_that_of_the_other(ratio in 0.05..19.0, other in 0.05..0.9, more in 0.01..0.05) {
             let player = THEORY.player(Stakes::bounded(ratio, 4.0));
             prop_assert!(logit_response(&player, other + more, TEMPERATURE) < logit_response(&player, other, TEMPERATURE));
         }

@@ -1,8 +1,8 @@
-//! The persuasion game (chapter 8): who passes and who yields is decided by a game, and the outcome is shown by speed.
+//! The persuasion game (chapter 8): which vehicle passes and which yields is decided by a game, and the outcome is shown by speed.
 //!
 //! At every step the planner
 //!
-//! 1. chooses whom to play with, one vehicle after the other ([`meeting`] says how they meet);
+//! 1. chooses whom to play with, one vehicle after the other ([`conflict_geometry`] says how their ways conflict);
 //! 2. reads both intentions from behaviour by Bayes' rule: the other's, `p̃_s|e`, and what the other must think of the
 //!    ego's, `p̃_e|s` ([`intention`], eq. 8.1-8.4); where it infers plans, what it believes of the other's driver is where
 //!    the first begins and what it fades to;
@@ -15,12 +15,12 @@
 //! [`GameForm`] chooses between the game as printed and the corrected one, which differs in steps 2 and 3.
 
 pub mod best_response;
+pub mod conflict_geometry;
 pub mod diagnostics;
 pub mod equilibrium;
 pub mod expression;
 pub mod intention;
 pub mod logit;
-pub mod meeting;
 pub mod payoff;
 pub mod prospect;
 mod settings;
@@ -31,21 +31,21 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::drivers::conservative;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::encounter::{PartnerChoice, PartnerSequence};
+use crate::drivers::partner_choice::{PartnerChoice, PartnerSequence};
 use crate::drivers::receding_horizon::Solved;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::scene::driver_estimate::{DriverEstimate, DriverModel};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Agent, Axes, Diagnostic, Plan, PlanError, PlanTime, Scene, Trajectory};
 use best_response::{MAX_INTENTION, MIN_INTENTION};
+use conflict_geometry::{ConflictGeometry, ObservedBehaviour};
 use diagnostics as reported;
 use equilibrium::{GameSolution, leader_follower, nash, solution};
 use intention::forget;
 use logit::quantal_response;
-use meeting::{Meeting, ObservedBehaviour};
 use payoff::{Stakes, TabulatedTheory};
 
 /// The planner of the persuasion game (chapter 8) with its beliefs and its last plan.
@@ -92,7 +92,7 @@ struct Round {
 }
 
 impl Game {
-    /// A planner that has interacted with nobody yet.
+    /// A planner that has not interacted with any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Game {
             settings,
@@ -138,25 +138,26 @@ impl Drive for Game {
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
-        let estimate = choice.partner.and_then(|partner| outlook.estimate(&partner.name));
+        let estimate = choice.partner.and_then(|partner| inferred_futures.estimate(&partner.name));
         let usual = estimate.map_or(0.5, usual_intention);
         if choice.is_new {
             self.intentions = Intentions::at_first(&self.settings, usual);
             let partner_mps = choice.partner.map_or(0.0, |partner| partner.state.speed_mps);
             self.fastest_mps = [scene.ego.state.speed_mps, partner_mps];
         }
-        let meeting = choice.partner.and_then(|other| Some((other, Meeting::find(scene, other, &self.settings)?)));
+        let geometry =
+            choice.partner.and_then(|other| Some((other, ConflictGeometry::find(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
-        if let Some((other, meeting)) = meeting {
+        if let Some((other, geometry)) = geometry {
             let has_answered = choice.may_have_answered(self.settings.answer_s, scene.step_s);
-            let ego_behaviour = self.watch(scene, (other, has_answered), usual, &meeting);
+            let ego_behaviour = self.watch(scene, other, has_answered, usual, &geometry);
             let played = self.play();
             self.intentions.own = played.solution.ego;
             expressed =
-                self.is_expressing(scene, &choice, &meeting).then(|| self.express(scene, &meeting, &ego_behaviour));
+                self.is_expressing(scene, &choice, &geometry).then(|| self.express(scene, &geometry, &ego_behaviour));
             round = Some(played);
         }
         let problem = problem(scene, expressed.as_ref());
@@ -189,9 +190,10 @@ impl Game {
     fn watch(
         &mut self,
         scene: &Scene,
-        (other, has_answered): (&Agent, bool),
+        other: &Agent,
+        has_answered: bool,
         usual: f64,
-        meeting: &Meeting,
+        geometry: &ConflictGeometry,
     ) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
         let ego_mps =
@@ -199,8 +201,8 @@ impl Game {
         let other_mps = self.mean_speed_mps(other, &other.prediction, scene.step_s);
         let driven_mps = [scene.ego.state.speed_mps, other.state.speed_mps];
         let observations = |fastest_mps: [f64; 2]| match self.settings.form {
-            GameForm::Corrected => meeting.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
-            GameForm::AsPrinted => meeting.observations([ego_mps, other_mps], &self.settings),
+            GameForm::Corrected => geometry.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
+            GameForm::AsPrinted => geometry.observations([ego_mps, other_mps], &self.settings),
         };
         let [shown, seen] = observations(self.fastest_mps);
         let Intentions { other, seen: own, .. } = self.intentions;
@@ -263,20 +265,20 @@ impl Game {
     }
 
     /// Whether there is still something to show to the partner.
-    fn is_expressing(&self, scene: &Scene, choice: &PartnerChoice, meeting: &Meeting) -> bool {
+    fn is_expressing(&self, scene: &Scene, choice: &PartnerChoice, geometry: &ConflictGeometry) -> bool {
         let spoken_s = scene.step_s * choice.steps as f64;
         let in_time = match self.settings.form {
             GameForm::Corrected => true,
             GameForm::AsPrinted => choice.is_first || spoken_s <= self.settings.later_expression_s,
         };
-        meeting.is_open() && in_time
+        geometry.is_open() && in_time
     }
 
-    fn express(&self, scene: &Scene, meeting: &Meeting, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
+    fn express(&self, scene: &Scene, geometry: &ConflictGeometry, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
         let Intentions { own, seen, .. } = self.intentions;
         let motion = self.last.as_ref().map_or_else(|| (*scene.ego.prediction).clone(), Trajectory::shifted);
         let measure = self.measure(&scene.ego, &motion, scene.step_s);
-        expression::mean_speed(own, self.prior(seen), meeting, ego_behaviour, scene, &self.settings, measure)
+        expression::mean_speed(own, self.prior(seen), geometry, ego_behaviour, scene, &self.settings, measure)
     }
 
     fn diagnostics(
@@ -324,7 +326,7 @@ impl Game {
     }
 }
 
-/// The intention that a driver is taken to have before it shows one: the probability that it is none of those who yield.
+/// The intention that a driver is taken to have before it shows one: the probability that it does not yield.
 fn usual_intention(estimate: &DriverEstimate) -> f64 {
     let passes = |model: DriverModel| match model {
         DriverModel::Normal | DriverModel::Nice => 0.0,
@@ -347,7 +349,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_is_taken_for_tough_is_expected_to_pass() {
+    fn a_driver_believed_tough_is_expected_to_pass() {
         let usual = |probabilities| usual_intention(&DriverEstimate::new("other", DriverModel::Nice, probabilities));
         assert_eq!(usual([1.0, 0.0, 0.0, 0.0, 0.0]), MAX_INTENTION);
         assert_eq!(usual([0.0, 0.0, 1.0, 0.0, 0.0]), MIN_INTENTION);

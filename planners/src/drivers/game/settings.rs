@@ -126,7 +126,7 @@ pub struct Settings {
     /// `as-printed` \[s\].
     #[schemars(range(min = 0.0))]
     pub later_expression_s: f64,
-    /// Time in which the other cannot have answered: until it has passed, what the other does is no evidence. At least its reaction
+    /// Time in which the other cannot have answered: until it has passed, its motion does not count as evidence. At least its reaction
     /// time; 0 among drivers who react at once \[s\].
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
     pub answer_s: f64,

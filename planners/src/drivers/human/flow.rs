@@ -17,7 +17,7 @@ const REACH_M: f64 = 9.0;
 /// Share of the vehicles of a lane that drive slower than its flow.
 const FLOW_SHARE: f64 = 0.85;
 
-/// The wanted speed of a driver who adapts by the shares `[α, β]` \[m/s\]; `None` if it adapts to nobody.
+/// The wanted speed of a driver who adapts by the shares `[α, β]` \[m/s\]; `None` if it adapts to no vehicle.
 pub(super) fn adapted_speed_mps(scene: &Scene, [to_leaders, to_lane]: [f64; 2]) -> Option<f64> {
     let wanted_mps = scene.goal.target.speed_mps;
     let mut change_mps = 0.0;
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn the_wanted_speed_moves_towards_those_ahead_in_the_lane() {
-        let adapted = adapted_speed_mps(&between_others(), [0.5, 0.0]).expect("somebody is ahead");
+        let adapted = adapted_speed_mps(&between_others(), [0.5, 0.0]).expect("a vehicle is ahead");
         assert!((adapted - (1.2 + 0.5 * (0.75 - 1.2))).abs() < 1e-12, "{adapted}");
     }
 
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn who_adapts_to_nobody_wants_what_its_goal_says() {
+    fn a_driver_that_does_not_adapt_wants_the_speed_of_its_goal() {
         assert_eq!(adapted_speed_mps(&between_others(), [0.0; 2]), None);
         let alone = Scene { others: Vec::new(), ..between_others() };
         assert_eq!(adapted_speed_mps(&alone, [0.5, 0.5]), None);

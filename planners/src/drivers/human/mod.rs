@@ -1,6 +1,6 @@
 //! The human driver: model-predictive control with a safety weight.
 //!
-//! At each step the driver of the source minimises the sum of these terms over the inputs `u_0…u_{N−1}`. There is no other term.
+//! At each step the driver of the source minimises the sum of these terms over the inputs `u_0…u_{N−1}`, and of no others.
 //!
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
@@ -18,16 +18,16 @@
 //!   heading*, so that a nudge of the steering wheel is seen; `d` is the elliptical distance along the other's road.
 //!   The hinge is sharp: a driver yields only to what threatens to enter its ellipse. Where roads cross the term stands
 //!   twice, for the ellipse along the other's road and for the one along the driver's own. This is our choice: with one
-//!   of them drivers and planners disagree about who is in whose way. Whoever is behind in the same lane is ignored.
+//!   of them drivers and planners disagree about which vehicle is in the way of which. Vehicles behind in the same lane are ignored.
 //! - **Following.** `l` is the *planned* position of the vehicle ahead: the driver knows its plan. The weight is
 //!   `w_f = max(w, following_weight)`, whatever the style.
 //! - **Firm wall.** `d_f` belongs to an ellipse 0.7 times as long and 4 times as wide, with the exact penalty of the
 //!   planners' safety constraints. So the driver brakes for the vehicle ahead rather than run into it or swerve around
 //!   it.
 //!
-//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: whoever is ahead in its lane makes
+//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: a vehicle ahead in its lane makes
 //! it brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight
-//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
+//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into vehicles that have merged.
 //!
 //! Going first and yielding are two homotopy classes, which the optimiser compares (`passing_orders`).
 //!
@@ -36,29 +36,29 @@
 //!
 //! A driver who knows comfort ([`ComfortLimits`](crate::ComfortLimits)), as people on real roads do, differs in what is around others
 //! (module `clearance`): the ellipses of following and of the firm wall grow with the speed, an exact one keeps it from pulling into a short
-//! gap, and whoever comes the other way is passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
+//! gap, and oncoming vehicles are passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
 //! `obstacle`), beside an exact ellipse around the body.
 //!
 //! Drivers differ from this one by their settings:
 //!
-//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
+//! - A driver who **closes gaps** (`closing_mps`, module `gap_closing`) wants to be faster while a vehicle is about to cut
 //!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
-//!   (module `sighting`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
-//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
-//!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
+//!   (module `past_observation`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
+//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it reacts to vehicles that might cut in or cross.
+//!   Until the next decision it expects of them what it expected at the last one (module `past_observation`). Its plan is
 //!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
 //! - A driver who **adapts to the flow** (`adapts_to_leaders`, `adapts_to_lane`, module `flow`) wants a speed between that of its goal
 //!   and those of the vehicles in its lane.
 //! - A driver of the style **`measured`** is a member of a population that is spread like recorded people (module `population`).
 //! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
-mod closing;
 pub mod diagnostics;
 mod flow;
+mod gap_closing;
+mod past_observation;
 mod population;
 mod settings;
-mod sighting;
 
 use std::sync::Arc;
 
@@ -74,12 +74,12 @@ use crate::prediction::steady_inputs;
 use crate::problem::clearance::ellipses;
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::road_rules::Obstacle;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, PlanTime, SafetyEllipse, Scene, Trajectory};
-use sighting::{Decision, Perception};
+use past_observation::{Decision, Perception};
 
 /// The very first guess brakes with this share of the strongest braking.
 const FIRST_BRAKING_RATIO: f64 = 0.3;
@@ -87,7 +87,7 @@ const FIRST_BRAKING_RATIO: f64 = 0.3;
 /// hinge alone does not exclude a collision where the wanted speed weighs more.
 const LEADER_LENGTH_RATIO: f64 = 0.7;
 /// Width of the same ellipse as a multiple of the safety ellipse: the driver stops behind rather than swerve into a lane where
-/// it yields to nobody.
+/// it does not yield.
 const LEADER_WIDTH_RATIO: f64 = 4.0;
 
 /// A human driver with its last plan and what it remembers of the other vehicles.
@@ -175,7 +175,7 @@ impl Drive for Human {
     ///
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let seen = self.perception.perceive(scene, self.settings.reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
@@ -183,7 +183,7 @@ impl Drive for Human {
         if let Some(speed_mps) = flow::adapted_speed_mps(&seen, adapts) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
-        if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
+        if let Some(speed_mps) = gap_closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
         let was_passing = self.obstacles.passing().map(str::to_owned);
@@ -198,7 +198,7 @@ impl Drive for Human {
             None
         };
         let scene = wanted.as_ref();
-        let problem = pose(scene, (&expected.others, met.as_ref()), &self.settings);
+        let problem = pose(scene, &expected.others, met.as_ref(), &self.settings);
         let is_kept_back =
             |obstacle: &Obstacle| self.last.as_ref().is_some_and(|last| obstacle.keeps_back(scene, last));
         let start = match &met {
@@ -232,14 +232,14 @@ impl Drive for Human {
 
 /// The problem that a driver poses who neither reacts late nor hesitates.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
-    pose(scene, (&scene.others, None), settings)
+    pose(scene, &scene.others, None, settings)
 }
 
 /// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and meets an obstacle, which it passes or not.
-fn pose(scene: &Scene, (expected, met): (&[Agent], Option<&(Obstacle, bool)>), settings: &Settings) -> Problem {
+fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
-    // Whoever comes the other way was looked at before passing was allowed, and is at every tick.
+    // Oncoming vehicles are checked before passing is allowed, and at every tick.
     let is_minded = |other: &Agent| {
         met.is_none_or(|(obstacle, is_passed)| {
             obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
@@ -274,7 +274,7 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let mut comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
-    let axes_m = scene.following_axes_m(leader, (settings.weight(), settings.time_gap_ratio));
+    let axes_m = scene.following_axes_m(leader, settings.weight(), settings.time_gap_ratio);
     if let Some([along_m, _]) = axes_m {
         comfortable.ellipses = ellipses(SafetyEllipse { along_m, across_m }, &scene.ego.route, &comfortable.centres);
     }

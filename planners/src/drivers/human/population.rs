@@ -4,7 +4,7 @@
 //!   the deviation of the logarithm is smaller than theirs, 0.65, part of which is that a car is seen for some seconds only
 //!   (`docs/how-human.md`).
 //! - **Safety weight.** Recordings do not tell it: it changes predictions by less than 1 %. It is drawn log-uniformly from 0.5 to 30.
-//! - **Flow.** Everybody adapts to the vehicles ahead as people do on average.
+//! - **Flow.** Each driver adapts to the vehicles ahead as people do on average.
 
 use interplay_common::random::Random;
 
@@ -14,7 +14,7 @@ use super::{Settings, Style};
 const GAP_MEDIAN: f64 = 1.0;
 /// Standard deviation of its logarithm.
 const GAP_DEVIATION: f64 = 0.45;
-/// Bounds of the ratio: nobody of the population is a danger or an obstacle.
+/// Bounds of the ratio: no driver of the population is a danger or an obstacle.
 const GAP_BOUNDS: [f64; 2] = [0.45, 2.5];
 /// Least and greatest safety weight.
 const SAFETY_WEIGHTS: [f64; 2] = [0.5, 30.0];

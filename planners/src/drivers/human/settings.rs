@@ -13,7 +13,7 @@ pub const REACTION_S: f64 = 0.6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Style {
-    /// Yields to whoever threatens to enter its safety ellipse: weight 50.
+    /// Yields to vehicles that threaten to enter its safety ellipse: weight 50.
     Nice,
     /// Safety weight 20.
     Considerate,
@@ -21,7 +21,7 @@ pub enum Style {
     Normal,
     /// Safety weight 2.
     Assertive,
-    /// Yields to nobody who cuts in or crosses: weight 0. It still brakes for the vehicle ahead in its lane.
+    /// Does not yield to vehicles that cut in or cross: weight 0. It still brakes for the vehicle ahead in its lane.
     Tough,
     /// One of the drivers that were measured on real roads: its safety weight and its time gap are drawn from a population, by the seed of
     /// the scenario and the vehicle's name.
@@ -66,14 +66,14 @@ pub struct Settings {
     /// `safety_weight` the driver is nice.
     #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
-    /// Weight of the squared intrusion of whoever might cut in or cross into the safety ellipse; 0 yields to nobody. Any
+    /// Weight of the squared intrusion of vehicles that might cut in or cross into the safety ellipse; 0 does not yield. Any
     /// weight between the styles, below or above them.
     #[schemars(range(min = 0.0), example = 8.0, extend("x-unit" = "dimensionless"))]
     pub safety_weight: Option<f64>,
     /// Least weight of the same kind for the vehicle ahead in the same lane, whatever the style.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub following_weight: f64,
-    /// By how much faster than it wants the driver drives while somebody from another lane is about to cut in ahead of it
+    /// Increase of the wanted speed while a vehicle from another lane is about to cut in ahead of the driver
     /// \[m/s\].
     #[schemars(range(min = 0.0))]
     pub closing_mps: f64,
@@ -89,7 +89,7 @@ pub struct Settings {
     /// since, and knows plans that old. Its own state is the present one.
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "late reaction": 0.0 }))]
     pub reaction_s: f64,
-    /// How long the driver keeps a decision about whoever might cut in or cross \[s\], rounded to ticks: until it decides
+    /// How long the driver keeps a decision about vehicles that might cut in or cross \[s\], rounded to ticks: until it decides
     /// anew, it expects of them what it expected at the last decision. It watches the vehicle ahead all the time.
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "hesitation": 0.0 }))]
     pub hesitation_s: f64,

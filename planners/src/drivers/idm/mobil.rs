@@ -32,7 +32,7 @@ pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoi
         return LaneChoice { incentive_mps2: 0.0, ..best };
     }
     let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count())].into_iter().flatten();
-    // Nobody changes to a lane that will have to be left again.
+    // A driver does not change to a lane that it will have to leave again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
         let change = Change { scene, settings, lanes, now, lane };
@@ -62,7 +62,7 @@ impl Change<'_> {
         self.settings.acceleration(state.speed_mps, wanted, leader(self.scene, &self.lanes, lane, state, 0))
     }
 
-    /// A follower's acceleration behind somebody.
+    /// A follower's acceleration behind a leader.
     fn follower(&self, follower: &Agent, ahead: Option<Leader>) -> f64 {
         let speed = follower.state.speed_mps;
         self.settings.acceleration(speed, speed, ahead)

@@ -2,7 +2,7 @@
 //! changes (`mobil`).
 //!
 //! On a network it keeps to the right of way (module `right_of_way`): a line at which it must wait counts as a standing
-//! vehicle. On straight roads that cross it ignores whoever crosses.
+//! vehicle. On straight roads that cross it ignores crossing vehicles.
 
 mod car_following;
 pub mod diagnostics;
@@ -22,7 +22,7 @@ use crate::drivers::lanes::{RoadLanes, leader};
 use crate::road::network::ConflictKind;
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::relation::{Relation, is_on_strip};
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
@@ -114,7 +114,7 @@ impl Drive for Idm {
     ///
     /// # Errors
     /// Never.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let mut seen = Cow::Borrowed(scene);
         let was_passing = self.obstacles.passing().map(str::to_owned);
         let passed = if scene.ego.rules.are_kept {
@@ -188,7 +188,7 @@ fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
     with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
 }
 
-/// The scene with those others only of whom something holds.
+/// The scene with only those others for which a condition holds.
 fn with_others(scene: &Scene, holds: impl Fn(&&Agent) -> bool) -> Cow<'_, Scene> {
     if scene.others.iter().all(|other| holds(&other)) {
         return Cow::Borrowed(scene);
@@ -215,7 +215,7 @@ mod tests {
         let leader = agent(1.2, 0.185, 0.0, 0.0);
         let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 0.8), vec![leader], 0.185, 1.0);
         scene.horizon = 100;
-        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+        let plan = Idm::new(Settings::default()).plan(&scene, &InferredFutures::default()).expect("a plan");
         let end = plan.trajectory.states.last().expect("states");
         assert!(end.x_m + 0.4 < 1.2 && end.speed_mps < 0.05, "{end:?}");
     }
@@ -225,19 +225,19 @@ mod tests {
         for (behind_m, lane) in [(-3.0, 1.0), (-0.7, 0.0)] {
             let follower = agent(behind_m, 0.555, 0.0, 1.2);
             let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![follower], 0.555, 1.0);
-            let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+            let plan = Idm::new(Settings::default()).plan(&scene, &InferredFutures::default()).expect("a plan");
             assert_eq!(plan.value_of(&LANE), Some(lane), "follower at {behind_m}");
         }
     }
 
     #[test]
-    fn a_slow_leader_is_overtaken_by_one_who_does_not_insist_on_its_lane() {
+    fn a_slow_leader_is_overtaken_by_a_driver_without_a_lane_preference() {
         let leader = agent(0.9, 0.185, 0.0, 0.3);
         let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
         let lane = |bias_mps2: f64| {
             let mobil = Mobil { bias_mps2, ..Mobil::default() };
             Idm::new(Settings { mobil, ..Settings::default() })
-                .plan(&scene, &Outlook::default())
+                .plan(&scene, &InferredFutures::default())
                 .expect("a plan")
                 .value_of(&LANE)
         };
@@ -246,13 +246,13 @@ mod tests {
 
     #[test]
     fn a_lane_that_ends_is_left_or_stopped_in() {
-        // Somebody stays beside it, so that it cannot leave.
+        // A vehicle stays beside it, so that it cannot leave.
         let beside = agent(0.0, 0.555, 0.0, 1.0);
         let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![beside], 0.555, 1.0);
         let end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
         scene.ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end }.into();
         scene.horizon = 100;
-        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
+        let plan = Idm::new(Settings::default()).plan(&scene, &InferredFutures::default()).expect("a plan");
         let end = plan.trajectory.states.last().expect("states");
         assert!(end.x_m + 0.21 < 2.6 && end.speed_mps < 0.05, "{end:?}");
     }

@@ -8,19 +8,19 @@ use crate::rules::obstacle::swing_m;
 use crate::scene::road_rules::Obstacle;
 use crate::{Input, Scene, State, Trajectory};
 
-/// The steering law needs so many times the way of a planner to change its lateral place.
+/// Way that the steering law needs to change its lateral place, as a multiple of a planner's.
 const SWINGS: f64 = 3.0;
 
-/// It aims so many times as far to the side, which it does not quite reach.
+/// Ratio of the lateral aim to the place that it reaches.
 const AIM: f64 = 1.1;
 
-/// A driver looks ahead by so many times the way on which comfortable braking builds up.
+/// Distance that a driver looks ahead, as a multiple of the way on which comfortable braking builds up.
 const LOOKING_AHEAD: f64 = 0.75;
 
 /// How a driver drives.
 pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
-    /// What it minds: everybody on the same road but what it passes.
+    /// The vehicles that it follows: all on the same road except those that it passes.
     pub scene: &'a Scene,
     pub lanes: RoadLanes,
     /// The lane it is in, and the one it drives in or changes to.
@@ -50,13 +50,13 @@ impl Motion<'_> {
                 Some(_) => steer_over_step(own, state, lateral_m, step_s),
             };
             let wanted = Input { acceleration_mps2: self.acceleration_mps2(t, state, along_m), steering_rad };
-            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, (state.speed_mps, step_s));
+            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, state.speed_mps, step_s);
             before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad };
             before
         })
     }
 
-    /// What the model wants behind whoever is ahead, within what is permitted.
+    /// What the model wants behind the vehicle ahead, within what is permitted.
     fn acceleration_mps2(&self, t: usize, state: &State, along_m: Option<f64>) -> f64 {
         let Motion { settings, scene, lanes, from_to, .. } = self;
         let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);

@@ -1,4 +1,4 @@
-//! Equilibria by best responses: each player in turn plans anew against the plans of the others, until nobody gains by it.
+//! Equilibria by best responses: each player in turn plans anew against the plans of the others, until no player gains by it.
 
 use super::deviation::{Deviation, TOLERATED_GAIN};
 use crate::Input;
@@ -19,7 +19,7 @@ struct Round {
 
 /// The motions at which best responses settle, from a guess (per player, inputs), if they do and all of them were found.
 ///
-/// The game has the potential `Σ_i J_i`, which falls with each response, so a round in which nobody gains is reached or approached
+/// The game has the potential `Σ_i J_i`, which falls with each response, so a round in which no player gains is reached or approached
 /// (Monderer and Shapley, "Potential games", 1996). It is a generalised Nash equilibrium, but not the normalised one: which of the
 /// players gives way more depends on the guess and on who responds first.
 pub(super) fn best_responses<S: StageSolver>(

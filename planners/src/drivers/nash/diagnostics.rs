@@ -20,6 +20,6 @@ pub const EXPLANATION: Explanation = Explanation {
         },
     ],
     plots: &[],
-    guide: "**Nash.** The plans of all players form an equilibrium: nobody gains by leaving it alone. The gain of leaving is \
+    guide: "**Nash.** The plans of all players form an equilibrium: no player gains by leaving it alone. The gain of leaving is \
             checked in every plan, by solving each player's own problem anew.",
 };

@@ -1,7 +1,7 @@
 //! Generalised Nash equilibria, and the certificate that they are some.
 //!
 //! A player `i` decides its inputs `u_i` with the cost `J_i(u_i)` of its own motion, and shares with each other player the
-//! constraint that both keep apart. At a generalised Nash equilibrium nobody can lower its own cost while the others keep to theirs:
+//! constraint that both keep apart. At a generalised Nash equilibrium no player can lower its own cost while the others keep to theirs:
 //!
 //! ```text
 //! u_i* ∈ argmin { J_i(u_i)  :  u_i admissible,  g(u_i, u_{−i}*) ≥ 0 }     for every player i
@@ -16,7 +16,7 @@
 //! The descent of the sum takes long for two reasons. Inside an ellipse it is caught: the linear rows of stages before the centre
 //! point one way out and those behind it the other. So it begins outside (`Problem::start_outside`). Near a saddle, where two homotopy classes
 //! part, the QP subproblem is not convex and the descent creeps. There it is cut short, and the players best-respond in turn from
-//! where it has come to, each against the plans of the others, until nobody gains (`best_responses.rs`).
+//! where it has come to, each against the plans of the others, until no player gains (`best_responses.rs`).
 //!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each
 //! player's own problem is solved anew, from the equilibrium and in the other homotopy classes. A player who gains leaves, and

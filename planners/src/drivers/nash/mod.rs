@@ -3,7 +3,7 @@
 //! Each of 2 to 4 players minimises the cost of its own motion (eq. 6.6) and shares with every other the constraint that their safety
 //! ellipses are not entered. `equilibrium.rs` says how an equilibrium is found and certified. What the others want is not known:
 //! the ego supposes that they want to stay where their predicted motions lead, at the highest speed at which it saw them.
-//! Whoever does not play is an obstacle on its predicted way.
+//! Vehicles that do not play are obstacles on their predicted ways.
 
 mod best_responses;
 mod deviation;
@@ -23,7 +23,7 @@ use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::problem::{JointVehicle, joint_problem};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
@@ -60,7 +60,7 @@ pub fn joint_optimiser(search: HomotopySearch) -> Optimiser<Robust> {
 }
 
 impl Nash {
-    /// A planner that has not seen anybody yet.
+    /// A planner that has not seen any vehicle yet.
     pub fn new(settings: Settings) -> Self {
         Nash {
             settings,
@@ -101,7 +101,7 @@ impl Drive for Nash {
     ///
     /// # Errors
     /// [`PlanError`] if neither the game nor the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         self.seen.look(scene);
         self.refusals.look(scene, &self.last, self.settings.patience_steps);

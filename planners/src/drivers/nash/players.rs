@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::settings::Settings;
-use crate::drivers::encounter::is_settled;
+use crate::drivers::partner_choice::is_settled;
 use crate::problem::JointVehicle;
 use crate::{Agent, Goal, Scene, State};
 

@@ -11,7 +11,7 @@ const GUESS_WORK_LIMIT: usize = 100;
 
 /// Per player, inputs that keep all apart where they can.
 ///
-/// First everybody plans as if alone. Of two whose plans lead into one another, the one that is ahead of the other there has priority;
+/// First each player plans as if alone. Of two whose plans lead into one another, the one that is ahead of the other there has priority;
 /// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution keeps to its plan alone.
 pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
     let exact = optimiser.tolerances;
@@ -42,7 +42,7 @@ fn plans<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<V
     inputs
 }
 
-/// The inputs of a player that knows the motions of `known` in `iterate` and of nobody else; the guess if there is no solution.
+/// The inputs of a player that knows the motions of `known` in `iterate` alone; the guess if no solution was found.
 fn plan<S: StageSolver>(
     optimiser: &mut Optimiser<S>,
     joint: &Problem,

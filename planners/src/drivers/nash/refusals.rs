@@ -1,6 +1,6 @@
 //! Who does not play: a vehicle that does nothing of what the equilibria expect of it.
 //!
-//! An equilibrium is a guess of what the others will do if they share the burden. A driver who does not is no player but an obstacle
+//! An equilibrium is a guess of what the others will do if they share the burden. A driver who does not is not a player but an obstacle
 //! on its predicted way, and an ego that goes on to expect an answer from it runs into it. So what each player did since the last
 //! equilibrium is compared with what that expected: the share of the expected change of its velocity that it made. After
 //! several steps of less than [`PLAYING_SHARE`] in a row it does not play any more.
@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 use crate::{Scene, State, Trajectory};
 
-/// An equilibrium that expects a smaller change of velocity a second than this asks for nothing \[m/s²\].
+/// An equilibrium that expects a smaller change of velocity a second than this needs no player \[m/s²\].
 const LEAST_ASKED_MPS2: f64 = 0.2;
-/// Whoever makes a smaller share of the expected change of its velocity does not play.
+/// A vehicle that makes a smaller share of the expected change of its velocity does not play.
 const PLAYING_SHARE: f64 = 0.2;
 
 /// How many steps in a row each vehicle has refused, by its name.

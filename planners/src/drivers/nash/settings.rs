@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::prediction::Prediction;
 use crate::trajectory::HomotopySearch;
 
-/// A general-sum game of 2 to 4 vehicles: everybody minimises its own cost, and nobody may collide.
+/// A general-sum game of 2 to 4 vehicles: each minimises its own cost, and none may collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {

@@ -9,7 +9,7 @@
 //!
 //! where `p` is the ego's motion in the last proposal, `q` a motion of the other and `d` the elliptical distance. Its first
 //! plan is the one before the first proposal, continued. A driver who yields, in whatever way, reads 1; one who goes on as if
-//! nobody had asked reads 0. Where the first plan leaves the room free already nothing is asked, and `p_a` is 1.
+//! the ego had not asked reads 0. Where the first plan leaves the room free already nothing is asked, and `p_a` is 1.
 //!
 //! **As printed** (eq. 6.19, corrected): the share of the way from the other's last plan to the proposal that its new plan has
 //! gone. It looks back one step only, so that a driver who has yielded completely a step before reads as one who refuses, and
@@ -115,7 +115,7 @@ mod tests {
     }
 
     proptest! {
-        /// Braking to let somebody in never lowers the willingness, in no family.
+        /// Braking to let a vehicle in never lowers the willingness, in no family.
         #[test]
         fn braking_harder_never_reads_as_less_willing(family in 0_usize..3, share in 0.0..1.0, more in 0.0..1.0) {
             let (ego, first, ellipse) = braking(family, 0.0);
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn who_goes_on_unasked_is_not_willing_and_who_stops_is() {
+    fn continuing_reads_as_unwilling_and_stopping_as_willing() {
         for family in 0..3 {
             let (ego, first, ellipse) = braking(family, 0.0);
             assert_eq!(willingness(&first, &first, &ego, |_| ellipse), 0.0, "family {family}");

@@ -1,9 +1,9 @@
 //! The safety filter: the planner applies its first input only if a conservative plan still exists after it.
 //!
 //! The negotiated input is applied only if, from the state it leads to and with the others one step further along their
-//! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every
+//! predictions, a conservative plan still keeps its slack small. This is not guaranteed if a prediction changes, so every
 //! intervention is recorded, with its reason. A plan that itself violates much is not applied either. Nothing but safety is judged: how
-//! well a plan persuades is no reason to refuse it.
+//! well a plan persuades does not decide whether it is refused.
 
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl Filter {
     }
 }
 
-/// The scene after the first input, if everybody does what is predicted.
+/// The scene after the first input, if all vehicles move as predicted.
 fn successor(scene: &Scene, optimum: &Optimum) -> Scene {
     let mut next = scene.clone();
     next.ego.state = optimum.iterate.states[0][1];

@@ -35,12 +35,12 @@ use serde_json::{Map, Value as Json, json};
 use crate::drivers::conservative::{self, Conservative};
 use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::encounter::partner_event;
+use crate::drivers::partner_choice::partner_event;
 use crate::drivers::receding_horizon::Solved;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::plan::homotopy::homotopy_class;
 use crate::plan::planned_passing::PassingSide;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
@@ -134,7 +134,7 @@ impl Drive for Negotiation {
     ///
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let fallback = self.fallback.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
@@ -166,7 +166,7 @@ impl Drive for Negotiation {
             return Ok(Plan { events, ..conservative::answer(fallback.clone()) });
         }
         self.remember(&optimum, &fallback, &partners);
-        let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
+        let mut plan = self.to_plan(scene, &optimum, &partners, &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
@@ -223,7 +223,7 @@ impl Negotiation {
         };
         let answers: Vec<Option<f64>> = pairs.map(answer).collect();
         let answer_steps = (settings.answer_s / scene.step_s).round() as usize;
-        self.selection.record(&answers, fallback_cost, (settings, answer_steps));
+        self.selection.record(&answers, fallback_cost, settings, answer_steps);
         answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
     }
 
@@ -304,7 +304,8 @@ impl Negotiation {
     fn to_plan(
         &self,
         scene: &Scene,
-        (optimum, partners): (&Optimum, &[&Agent]),
+        optimum: &Optimum,
+        partners: &[&Agent],
         accepted: &[f64],
         persuasion: Option<&Persuasion>,
     ) -> Plan {

@@ -4,12 +4,12 @@
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
 //! crossed, or that the ego has crossed before. With one that a safe fallback passes ahead of no negotiation is begun: it need not be
 //! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of
-//! nobody outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
-//! When all have refused nobody is asked: the ego drives by its fallback.
+//! no vehicle outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
+//! When all have refused the ego asks no vehicle and drives by its fallback.
 
 use super::patience::{FallbackPrice, Patience};
 use super::settings::Settings;
-use crate::drivers::encounter::{from_front_to_rear, is_settled};
+use crate::drivers::partner_choice::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
 
 /// The order in which vehicles are asked, and how long those that are asked have not accepted.
@@ -62,12 +62,13 @@ impl PartnerSelection {
     }
 
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
-    /// fallback costs now. Who has been asked long enough is not asked again.
+    /// fallback costs now. A vehicle that was asked long enough is not asked again.
     pub(super) fn record(
         &mut self,
         accepted: &[Option<f64>],
         fallback_cost: Option<f64>,
-        (settings, answer_steps): (&Settings, usize),
+        settings: &Settings,
+        answer_steps: usize,
     ) {
         let pairs = self.asked.iter_mut().zip(accepted);
         let had_time = pairs.map(|(asked, accepted)| accepted.is_some() && asked.patience.has_answered(answer_steps));

@@ -3,7 +3,7 @@
 //! The source asks the next vehicle when the acceptance probability has not risen by more than `ε` five times in a row
 //! (section 6.5). That also happens at steady acceptance, so a low probability is required too. Beside this count there is a price:
 //! an ego that asks drives as if it were granted what it asks for, and with each refusal the fallback that it will need becomes dearer.
-//! Where that goes beyond a share of what the cheapest fallback cost since the first question to anybody, it asks no longer. Both are
+//! Where that goes beyond a share of what the cheapest fallback cost since its first request, it stops asking. Both are
 //! free of units and scale.
 //!
 //! Neither begins before the other could have answered (`answer_s`): what it does until then says nothing about what it was asked.
@@ -22,7 +22,7 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// Whether the vehicle has had the time to answer, of so many steps; one more has passed.
+    /// Counts one more step, and returns whether the vehicle has had its `answer_steps`.
     pub(super) fn has_answered(&mut self, answer_steps: usize) -> bool {
         self.answers += 1;
         self.answers > answer_steps
@@ -39,7 +39,7 @@ impl Patience {
     }
 }
 
-/// By which share the fallback has become dearer than the cheapest one since somebody was first asked.
+/// By which share the fallback has become dearer than the cheapest one since the first request.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FallbackPrice {
     least_cost: Option<f64>,

@@ -88,7 +88,7 @@ mod tests {
         }
     }
 
-    /// Steps of a negotiation in which nobody yields.
+    /// Steps of a negotiation in which no vehicle yields.
     const STEPS: usize = 10;
 
     /// Straight motion from a step on, at a speed that has gone back a share of the way from the cooperative one to the

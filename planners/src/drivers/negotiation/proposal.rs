@@ -3,7 +3,7 @@
 //! ```text
 //! minimise  w/Z₁ Σ (‖x₁ − x_des‖²_Q + ‖Δu₁‖²_R)  +  (1 − w)/Z₂ Σ ‖x₂ − x₂ᴾ‖²_D  +  10⁻² Σ ‖Δu₂‖²
 //! such that both obey the bicycle, their bounds and their roads, the ego keeps out of the other's ellipse and of
-//! everybody else's predicted one, the other follows its prediction until T_n, and the ego leans (eq. 6.23)
+//! the predicted ones of all others, the other follows its prediction until T_n, and the ego leans (eq. 6.23)
 //! ```
 //!
 //! Corrections of the source: safety holds against the *decision* `x₂`, not against the prediction (6.15 as printed makes
@@ -15,7 +15,7 @@
 //! With several others `j` (the source has one) there is one problem for all of them. Each has its own `w_j`, lowered by its own
 //! refusals, and the ratio of the ego's cost to each deviation is the one of a negotiation with this vehicle alone: with the
 //! least weight `w = min w_j` the ego's cost has the factor `w/Z₁` and the deviation of `j` the factor `(w/w_j)(1 − w_j)/Z₂`.
-//! The others keep apart from one another by the ego's ellipse, or by as much of it as they plan to.
+//! The others keep apart from one another by the ego's ellipse, or by the part of it that they plan to keep.
 
 use super::Settings;
 use crate::trajectory::terms::{Comfort, Persuasion, Tracking};
@@ -33,7 +33,7 @@ const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 /// three of 108 authored scenarios fail.
 const WORK_LIMIT: usize = 300;
 /// Most work of comparing homotopy classes in a plan but the first. Proposals are renewed at every step and may be compared over
-/// several; a planner that asks nobody decides by its comparison and makes it at once.
+/// several; a planner that asks no vehicle decides by its comparison and makes it at once.
 const COMPARISON_WORK_LIMIT: usize = 200;
 
 /// An optimiser for the negotiation problem.
@@ -66,13 +66,13 @@ pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuas
         let vehicle = index + 1;
         let share = weight / own_weight * (1.0 - own_weight) / settings.other_normaliser;
         terms.extend(partner_terms(scene, agent, vehicle, share));
-        terms.push(scene.separation(scene.goal.safety, 0, (vehicle, agent)));
+        terms.push(scene.separation(scene.goal.safety, 0, vehicle, agent));
     }
     for (index, partner) in asked.iter().enumerate() {
         let before = asked[..index].iter().enumerate().filter(|(_, other)| other.agent.may_meet(partner.agent));
         terms.extend(before.map(|(other, by)| {
             let safety = planned_distance(scene, by.agent, partner.agent);
-            scene.separation(safety, other + 1, (index + 1, partner.agent))
+            scene.separation(safety, other + 1, index + 1, partner.agent)
         }));
     }
     terms.extend(persuasion.map(Term::Persuasion));

@@ -35,14 +35,14 @@ pub struct Settings {
     /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub epsilon: f64,
-    /// Steps without progress after which the next vehicle is asked, or nobody if it was the last.
+    /// Steps without progress after which the next vehicle is asked, or none if it was the last.
     #[schemars(range(min = 1))]
     pub patience_steps: usize,
     /// Time in which the other cannot have answered: patience with it, and the price of patience, begin after it. At least its reaction
     /// time, and three answers; 0 among drivers who react at once \[s\].
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
     pub answer_s: f64,
-    /// By which share the conservative plan may be dearer than the cheapest one since the ego first asked anybody. Where it is
+    /// By which share the conservative plan may be dearer than the cheapest one since the ego's first request. Where it is
     /// dearer, a vehicle that makes no progress is not asked any more. The source has no such end: with 1000000 the steps alone
     /// count.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
@@ -89,7 +89,7 @@ pub struct Settings {
     /// cheapest one is driven.
     #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
     pub passing_orders: HomotopySearch,
-    /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
+    /// What the others are expected to do. At constant velocity no vehicle ever seems to accept a proposal.
     pub prediction: Prediction,
 }
 

@@ -29,7 +29,7 @@ pub struct HandOver {
     #[serde(default)]
     #[schemars(example = &"nice")]
     pub style: Option<Style>,
-    /// When: at a time \[s\], or `"disturbed"`: as soon as the record would lead into somebody else within 2.5 s of a real car, who is
+    /// When: at a time \[s\], or `"disturbed"`: as soon as the record would lead into another vehicle within 2.5 s of a real car, which is
     /// expected to keep its speed.
     #[schemars(example = json!("disturbed"))]
     pub when: HandOverTime,
@@ -51,11 +51,11 @@ pub enum Successor {
 pub enum HandOverTime {
     /// At a time \[s\].
     At(#[schemars(range(min = 0.0))] f64),
-    /// By the word `disturbed`: when somebody is in its way.
+    /// By the word `disturbed`: when a vehicle is in its way.
     Word(String),
 }
 
-/// The word for a record that would lead into somebody.
+/// The word for a record that would lead into another vehicle.
 const DISTURBED: &str = "disturbed";
 
 impl HandOver {
@@ -64,7 +64,7 @@ impl HandOver {
         !matches!(&self.when, HandOverTime::Word(word) if word != DISTURBED)
     }
 
-    /// Whether the driver takes over now; if somebody is in the way, in words for whom.
+    /// Whether the driver takes over now; if a vehicle is in the way, with its name in words.
     pub(super) fn is_due(&self, record: &Record, scene: &Scene) -> Option<String> {
         let time_s = scene.step_s * scene.tick as f64;
         match &self.when {

@@ -1,7 +1,7 @@
 //! A driver who does what a vehicle did that was recorded, whatever happens around it.
 //!
 //! The record gives pose and speed at times. Who moves the vehicles puts this one where its record says
-//! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. Nobody is told where it will be: its plan
+//! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. No other driver knows where it will be: its plan
 //! is to keep its speed along its road, and so are the predictions of the others.
 //!
 //! Where the record ends, the vehicle keeps its speed and its place in its lane; or another driver takes over before, with
@@ -19,7 +19,7 @@ use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::plan::{PlanEvent, PlanEventKind};
 use crate::prediction::steering::steer;
 use crate::prediction::{Prediction, steadily_along};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 pub use crate::scene::record::{Record, RecordFault, next_to};
 use crate::scene::road_rules::RuleKeeping;
 use crate::{DriverSettingError, Input, Plan, PlanError, PlanTime, Scene, Trajectory};
@@ -38,7 +38,7 @@ pub struct Settings {
     /// The record itself, in place of a table: rows of time \[s\], x and y \[m\], heading \[rad\] and speed \[m/s\].
     #[schemars(length(max = 100_000), example = vec![[0.0, 12.0, 1.75, 0.0, 8.0], [1.0, 20.0, 1.75, 0.0, 8.0]])]
     pub points: Vec<[f64; 5]>,
-    /// Who takes over from the record, and when; by default nobody does.
+    /// The driver that takes over from the record, and when; by default none does.
     #[schemars(example = json!({ "to": "human", "when": "disturbed" }))]
     pub hands_over: Option<HandOver>,
 }
@@ -117,19 +117,19 @@ pub struct Recorded {
 }
 
 impl Drive for Recorded {
-    /// Plans to keep the speed along the road. The first input leads to where the record goes on. Once somebody has taken over, plans
+    /// Plans to keep the speed along the road. The first input leads to where the record goes on. Once another driver has taken over, plans
     /// as that driver does.
     ///
     /// # Errors
     /// Those of the driver who has taken over.
-    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError> {
         if let Some(successor) = &mut self.successor {
-            return successor.plan(&wanting(scene, self.record.as_ref()), outlook);
+            return successor.plan(&wanting(scene, self.record.as_ref()), inferred_futures);
         }
         let due = self.hands_over.as_ref().zip(self.record.as_ref());
         if let Some((hands_over, reason)) = due.and_then(|(to, record)| Some((to, to.is_due(record, scene)?))) {
             let successor = self.successor.insert(hands_over.driver(scene));
-            let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), outlook)?;
+            let mut plan = successor.plan(&wanting(scene, self.record.as_ref()), inferred_futures)?;
             let text = format!("drives itself from now on, not after its record: {reason}");
             plan.events.push(PlanEvent { kind: PlanEventKind::LeavesRecord, text });
             return Ok(plan);
@@ -156,7 +156,7 @@ impl Drive for Recorded {
     }
 }
 
-/// The scene for whoever takes over: it wants to drive as fast as the record was.
+/// The scene for the driver that takes over: it wants to drive as fast as the record was.
 fn wanting(scene: &Scene, record: Option<&Record>) -> Scene {
     let mut scene = scene.clone();
     let wanted_mps = record.map(|record| hand_over::wanted_mps(record, &scene.ego.body));
@@ -169,7 +169,7 @@ impl Recorded {
     fn input(&self, scene: &Scene) -> Input {
         let (own, state) = (&scene.ego, &scene.ego.state);
         let times_s = [scene.step_s * scene.tick as f64, scene.step_s];
-        let recorded = self.record.as_ref().and_then(|record| record.input((&own.body, &own.limits), state, times_s));
+        let recorded = self.record.as_ref().and_then(|record| record.input(&own.body, &own.limits, state, times_s));
         recorded.unwrap_or_else(|| Input {
             acceleration_mps2: 0.0,
             steering_rad: steer(own, state, own.route.across(state.position())),
@@ -182,12 +182,12 @@ mod tests {
     use super::*;
     use crate::fixture::{agent, scene};
 
-    /// It brakes, and nobody can tell: the plan keeps the speed, and only the first input is that of the record.
+    /// It brakes, and no other driver can tell: the plan keeps the speed, and only the first input is that of the record.
     #[test]
     fn the_plan_does_not_tell_the_future() {
         let points = (0..20).map(|t| [0.1 * f64::from(t), 0.1 * f64::from(t), 0.185, 0.0, 1.0 - 0.05 * f64::from(t)]);
         let settings = Settings { points: points.collect(), ..Settings::default() };
-        let plan = settings.driver().plan(&scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new()), &Outlook::default());
+        let plan = settings.driver().plan(&scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new()), &InferredFutures::default());
         let trajectory = plan.expect("a plan").trajectory;
         assert!((trajectory.inputs[0].acceleration_mps2 + 0.5).abs() < 1e-9, "{:?}", trajectory.inputs[0]);
         assert!(trajectory.states.iter().all(|state| state.speed_mps == 1.0));

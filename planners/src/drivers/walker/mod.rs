@@ -1,13 +1,13 @@
-//! Somebody on foot, or on a bicycle on a path: goes along its route, waits at the kerb, and sees cars.
+//! A pedestrian, or a cyclist on a path: goes along its route, waits at the kerb, and sees cars.
 //!
-//! It walks at the speed of its goal, keeps a distance to whoever walks ahead, and stops before the line that the rules of the road
-//! give it. Besides, it looks at each vehicle whose way crosses its own ahead, whoever goes first there. With
+//! It walks at the speed of its goal, keeps a distance to the pedestrian ahead, and stops before the line that the rules of the road
+//! give it. Besides, it looks at each vehicle whose way crosses its own ahead, whichever goes first there. With
 //!
 //! - `[t_in, t_out]` the time in which it would be in the crossing, walking on,
 //! - `t_car` when the vehicle is there if it keeps its speed `v`, at a distance `d`,
 //!
 //! it goes if the vehicle comes `gap_s` after `t_out` or is past before `t_in`. Where it has the right of way it also goes if the
-//! vehicle can stop before with a braking of `v²/2d` below what it trusts in. Otherwise it waits at the kerb. Who is on the street
+//! vehicle can stop before with a braking of `v²/2d` below what it trusts in. Otherwise it waits at the kerb. A pedestrian on the street
 //! already goes on.
 
 mod settings;
@@ -19,14 +19,14 @@ use crate::prediction::Prediction;
 use crate::prediction::steering::{admissible, roll_out, steer};
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::giving_way::{front_m, stopping_distance_m};
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::trigger::TriggerMemory;
 use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use settings::Caution;
 
-/// How hard somebody on foot changes the speed at most, as a share of what it can.
+/// Largest share of its limits with which a pedestrian changes the speed.
 const COMFORT_SHARE: f64 = 0.6;
-/// Distance to whoever walks ahead, for real people \[m\].
+/// Distance to the pedestrian ahead, for real people \[m\].
 const DISTANCE_M: f64 = 0.8;
 /// Vehicles that are further from the crossing in time are not looked at, for real ones \[s\].
 const LOOK_S: f64 = 12.0;
@@ -68,7 +68,7 @@ impl DriverKind for Settings {
     }
 }
 
-/// Somebody who walks.
+/// A pedestrian.
 #[derive(Clone, Debug)]
 pub struct Walker {
     settings: Settings,
@@ -82,7 +82,7 @@ impl Drive for Walker {
     ///
     /// # Errors
     /// Never.
-    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let own = &scene.ego;
         let caution = self.settings.style.caution();
         let has_begun = self.settings.when.as_ref().is_none_or(|trigger| self.trigger.has_fired(trigger, scene));
@@ -136,7 +136,7 @@ fn acceleration_mps2(scene: &Scene, speed_mps: f64, room_m: Option<f64>) -> f64 
     needed.clamp(2.0 * -hardest, softest)
 }
 
-/// The room to whoever walks ahead on the same path \[m\].
+/// The room to the pedestrian ahead on the same path \[m\].
 fn room_behind_m(scene: &Scene) -> Option<f64> {
     let own = &scene.ego;
     let ahead = scene.others.iter().filter(|other| own.shares_lane_with(other) && own.lead_of(other) > 0.0);
@@ -145,7 +145,7 @@ fn room_behind_m(scene: &Scene) -> Option<f64> {
     room.reduce(f64::min).map(|room_m| room_m.max(0.0))
 }
 
-/// The nearest kerb at which the walker has to wait, and for whom \[m\].
+/// The nearest kerb at which the walker has to wait \[m\], and the vehicle that it waits for.
 fn danger(scene: &Scene, caution: &Caution) -> Option<(f64, String)> {
     let own = &scene.ego;
     let dangers = scene.others.iter().flat_map(|other| {
@@ -195,11 +195,11 @@ mod tests {
     use crate::fixture::{agent, scene};
 
     #[test]
-    fn it_walks_at_its_speed_and_stops_behind_somebody() {
+    fn it_walks_at_its_speed_and_stops_behind_another_pedestrian() {
         let plan = |others: Vec<Agent>| {
             let mut scene = scene(agent(0.0, 0.185, 0.0, 0.4), others);
             scene.goal.target.speed_mps = 0.4;
-            Settings::default().driver().plan(&scene, &Outlook::default()).expect("a plan").trajectory
+            Settings::default().driver().plan(&scene, &InferredFutures::default()).expect("a plan").trajectory
         };
         let free = plan(Vec::new());
         assert!(free.states.iter().all(|state| (state.speed_mps - 0.4).abs() < 1e-9));

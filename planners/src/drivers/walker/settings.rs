@@ -1,4 +1,4 @@
-//! The settings of somebody on foot.
+//! The settings of a pedestrian.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::scene::trigger::Trigger;
 
-/// The settings of somebody who walks: how careful, and when.
+/// The settings of a pedestrian: how careful, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
@@ -17,7 +17,7 @@ pub struct Settings {
     pub when: Option<Trigger>,
 }
 
-/// How careful somebody is before it steps on a street.
+/// How careful a pedestrian is before it steps on a street.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WalkerStyle {

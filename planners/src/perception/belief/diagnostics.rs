@@ -5,7 +5,7 @@ use crate::plan::diagnostic::{DiagnosticPanel, DiagnosticQuantity, ValueSet};
 use crate::scene::driver_estimate::{DriverEstimate, DriverModel};
 
 /// Probabilities of the kinds of driver, in the order of [`DriverModel::ALL`].
-pub const PROBABILITIES: [DiagnosticQuantity; 5] = [
+const PROBABILITIES: [DiagnosticQuantity; 5] = [
     probability("belief: tough"),
     probability("belief: normal"),
     probability("belief: nice"),
@@ -15,11 +15,11 @@ pub const PROBABILITIES: [DiagnosticQuantity; 5] = [
 /// Mean of the believed safety weight of a human driver.
 pub const SAFETY_WEIGHT: DiagnosticQuantity = weight("believed safety weight");
 /// Lower end of the interval that holds the safety weight with a probability of at least 0.9.
-pub const SAFETY_WEIGHT_FROM: DiagnosticQuantity = weight("believed safety weight, from");
+const SAFETY_WEIGHT_FROM: DiagnosticQuantity = weight("believed safety weight, from");
 /// Upper end of the interval that holds the safety weight with a probability of at least 0.9.
-pub const SAFETY_WEIGHT_TO: DiagnosticQuantity = weight("believed safety weight, to");
+const SAFETY_WEIGHT_TO: DiagnosticQuantity = weight("believed safety weight, to");
 /// Entropy of the probabilities \[nat\].
-pub const ENTROPY: DiagnosticQuantity = DiagnosticQuantity::new("entropy of the belief", "", ValueSet::NonNegative);
+const ENTROPY: DiagnosticQuantity = DiagnosticQuantity::new("entropy of the belief", "", ValueSet::NonNegative);
 
 /// All quantities that are reported of a belief.
 pub const QUANTITIES: &[DiagnosticQuantity] = &[

@@ -8,7 +8,7 @@ use super::wishes::Wish;
 use crate::drivers::drive::Drive;
 use crate::drivers::human::{self, Human};
 use crate::scene::driver_estimate::SAFETY_WEIGHTS;
-use crate::scene::outlook::Outlook;
+use crate::scene::inferred_futures::InferredFutures;
 use crate::{Goal, PlanError, Scene, Trajectory};
 
 /// Ellipses count as free below this difference of the costs, relative to `1 + cost`.
@@ -51,7 +51,7 @@ impl WishfulHumans {
     /// Plans for each style; returns how many problems were posed. `scene` is seen by the driver; its goal is replaced.
     pub(super) fn plan(&mut self, scene: &mut Scene) -> usize {
         scene.goal = self.wish.goal;
-        let Ok(tough) = self.tough.plan(scene, &Outlook::default()) else {
+        let Ok(tough) = self.tough.plan(scene, &InferredFutures::default()) else {
             self.split = [None, None];
             return 1;
         };
@@ -69,7 +69,7 @@ impl WishfulHumans {
             } else {
                 let human =
                     self.split[style - 1].get_or_insert_with(|| self.tough.with_safety_weight(SAFETY_WEIGHTS[style]));
-                self.plans[style] = human.plan(scene, &Outlook::default()).ok().map(|plan| plan.trajectory);
+                self.plans[style] = human.plan(scene, &InferredFutures::default()).ok().map(|plan| plan.trajectory);
                 problems += 1;
             }
         }
@@ -118,11 +118,11 @@ impl Continuing {
         let plan = match self {
             Continuing::Human(human, goal) => {
                 scene.goal = *goal;
-                human.plan(scene, &Outlook::default())?
+                human.plan(scene, &InferredFutures::default())?
             }
             Continuing::Idm(idm, goal) => {
                 scene.goal = *goal;
-                idm.plan(scene, &Outlook::default())?
+                idm.plan(scene, &InferredFutures::default())?
             }
             Continuing::Unknown => return Ok(None),
         };

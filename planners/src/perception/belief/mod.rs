@@ -1,6 +1,6 @@
 //! What a driver believes of the others' drivers, and what it expects them to do.
 //!
-//! A driver with `prediction = "inferred"` is told nobody's plan. Of each vehicle that it sees it asks which of a list of
+//! A driver with `prediction = "inferred"` knows no other plan. Of each vehicle that it sees it asks which of a list of
 //! drivers would move like that:
 //!
 //! - our human driver, with a safety weight of 0, 8 or 50 and one of several wishes ([`DriverModel`](crate::scene::driver_estimate::DriverModel), `wishes`);
@@ -13,13 +13,13 @@
 //! of the road to its rear, each driver knows what is expected of those ahead, as the drivers themselves do.
 //!
 //! The prediction of a vehicle is the plan of the likeliest kind of driver with its likeliest wish. Another hypothesis replaces it
-//! only where it is by a factor likelier, so that the prediction does not flicker. An average of plans would be the plan of nobody.
+//! only where it is by a factor likelier, so that the prediction does not flicker. An average of plans would be the plan of no driver.
 //!
 //! **Delay.** The last sighting may be some ticks old. The chosen driver then lives through these ticks again: it is shown what the
 //! observer really did, plans, and moves on. A shifted plan would ignore how it has answered meanwhile.
 //!
 //! **Work.** Each sighting poses at most eleven problems per vehicle, however many wishes there are: the chosen wish and
-//! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan, and
+//! the likeliest other one are always planned for, the rest in turn. Where no vehicle is in the way all styles share one plan, and
 //! where tough and nice nearly coincide the normal driver has no plan of its own.
 
 pub mod diagnostics;
@@ -39,7 +39,7 @@ use std::collections::VecDeque;
 use crate::perception::sensing::{SensedScene, Sighting};
 use crate::prediction::steadily_along;
 use crate::scene::driver_estimate::DriverEstimate;
-use crate::scene::outlook::Alternative;
+use crate::scene::inferred_futures::Alternative;
 use crate::{Agent, Diagnostic, PlanEvent, Scene, Trajectory};
 use observed_driver::{ObservedDriver, later};
 
@@ -78,7 +78,7 @@ impl DriverBeliefs {
         others.collect()
     }
 
-    /// Beliefs about nobody: no driver has been observed yet.
+    /// Beliefs before any driver was observed.
     pub fn new(settings: Settings) -> DriverBeliefs {
         DriverBeliefs { settings, observed: Vec::new(), own: VecDeque::new() }
     }

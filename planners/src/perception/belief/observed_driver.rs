@@ -10,7 +10,7 @@ use crate::drivers::idm::{self, Idm};
 use crate::perception::sensing::Sighting;
 use crate::prediction::steadily_along;
 use crate::scene::driver_estimate::DriverModel;
-use crate::scene::outlook::{Alternative, Outlook};
+use crate::scene::inferred_futures::{Alternative, InferredFutures};
 use crate::{Agent, Bicycle, Input, Scene, State, Trajectory};
 
 /// Prior probability that a driver is like our human driver, of whatever style and with whatever wish.
@@ -189,7 +189,7 @@ impl ObservedDriver {
             }
         }
         scene.goal = self.humans[0].goal();
-        self.idm_plan = self.idm.plan(scene, &Outlook::default()).ok().map(|plan| plan.trajectory);
+        self.idm_plan = self.idm.plan(scene, &InferredFutures::default()).ok().map(|plan| plan.trajectory);
         self.unknown_plan = Some(steady(scene));
         self.last = Some(*sighting);
     }

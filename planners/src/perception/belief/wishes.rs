@@ -13,11 +13,11 @@ use crate::{Agent, Goal, Scene, State};
 
 /// Ratios of the wanted speed to the one first seen, with their prior probabilities; the likeliest first.
 const SPEEDS: [(f64, f64); 3] = [(1.0, 0.6), (1.2, 0.2), (0.8, 0.2)];
-/// Nobody is believed to want less than this share of the speed that the observer wants, times the ratio above.
+/// No driver is believed to want less than this share of the speed that the observer wants, times the ratio above.
 const SLOWEST_RATIO: f64 = 0.5;
 /// Prior probability that a driver keeps its lateral position where it could change it.
 const KEEPING_PRIOR: f64 = 0.7;
-/// Ratios of the lateral weight of somebody who changes the lane to that of the observer.
+/// Ratios of the lateral weight of a driver that changes lanes to that of the observer.
 const URGENCIES: [f64; 2] = [1.0, 0.1];
 
 /// A goal that a driver may have.
@@ -111,7 +111,7 @@ mod tests {
     fn a_lane_is_wished_for_that_the_observer_drives_in_or_wants() {
         let laterals = |wishes: Vec<Wish>| wishes.iter().take(5).map(|wish| wish.goal.target.y_m).collect::<Vec<f64>>();
         assert_eq!(laterals(among_lanes(agent(1.0, 0.555, 0.0, 1.0), 0.555))[..3], [0.555, 0.185, 0.185]);
-        assert_eq!(among_lanes(agent(1.0, 0.185, 0.0, 1.0), 0.185).len(), 3, "nobody wants another lane");
+        assert_eq!(among_lanes(agent(1.0, 0.185, 0.0, 1.0), 0.185).len(), 3, "the driver wants no other lane");
         assert_eq!(among_lanes(crossing(1.0, -1.0, 1.0), 0.185).len(), 3, "who crosses keeps its lane");
     }
 }

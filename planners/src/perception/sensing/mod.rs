@@ -4,7 +4,7 @@
 //! at once. A measurement exists if the vehicle is in range, in the field of view and not hidden (`visibility`), and is not
 //! lost; its errors are normal and a function of seed, observer, observed vehicle and tick (`noise`). A Kalman filter turns
 //! measurements into an estimate at `k − d` (`filter`), which is driven on to tick `k` at its acceleration. A vehicle that has not
-//! been measured for a second (of 1/10 scale) is no longer in the scene.
+//! been measured for a second (of 1/10 scale) leaves the scene.
 //!
 //! Plans that others tell are a message and no measurement: where a driver knows plans, they are as old and as exact as without a
 //! sensor, but begin at the sensed state. Lengths of bodies, limits and routes are known.
@@ -91,14 +91,14 @@ impl Sighting {
 /// A scene as a driver senses it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedScene {
-    /// The scene with the others at their estimated states, driven on to the present; who is not seen is missing.
+    /// The scene with the others at their estimated states, driven on to the present, without those that are not seen.
     pub scene: Scene,
     /// The last sighting of each other vehicle, in the order of the scene.
     pub sightings: Vec<Sighting>,
 }
 
 impl SensedScene {
-    /// A scene in which everybody is sensed without error or delay.
+    /// A scene in which all vehicles are sensed without error or delay.
     pub fn perfect(scene: &Scene) -> SensedScene {
         let sightings = scene.others.iter().map(|other| Sighting::perfect(scene.tick, &other.state)).collect();
         SensedScene { scene: scene.clone(), sightings }
@@ -111,7 +111,7 @@ impl SensedScene {
     }
 }
 
-/// What a sensor says of the others at a tick, before anybody has told plans.
+/// What a sensor says of the others at a tick, before any plan is known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sight(Vec<SeenVehicle>);
 
@@ -127,7 +127,7 @@ struct SeenVehicle {
 }
 
 impl Sight {
-    /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells. Who is not seen is missing.
+    /// A scene as it is sensed: the others at their estimated states, with the plans that the scene tells, without those that are not seen.
     pub fn apply_to(&self, scene: &Scene) -> SensedScene {
         let (mut others, mut sightings) = (Vec::new(), Vec::new());
         for other in &scene.others {
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_those_of_the_seed_whoever_else_is_there() {
+    fn errors_depend_on_the_seed_and_not_on_other_vehicles() {
         let noisy = Settings { position_sd_m: 0.02, speed_sd_mps: 0.05, heading_sd_rad: 0.01, ..Settings::default() };
         let state = |seen: &[SensedScene]| seen.iter().map(|seen| seen.scene.others[0].state).collect::<Vec<State>>();
         let one = state(&sensed(noisy, 1, 10));
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_not_measured_for_a_second_is_gone_and_comes_back_when_measured_again() {
+    fn a_vehicle_unmeasured_for_a_second_is_dropped_until_it_is_measured_again() {
         let mut sensor = Sensor::new(Settings { range_m: Some(3.0), ..Settings::default() }, 1);
         let away = |tick: usize| {
             let mut scene = at(0);

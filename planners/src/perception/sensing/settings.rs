@@ -24,7 +24,7 @@ pub struct Settings {
     /// Standard deviation of a measured heading \[rad\].
     #[schemars(range(min = 0.0))]
     pub heading_sd_rad: f64,
-    /// Largest distance between the centres at which another vehicle is measured; without it there is no limit \[m\].
+    /// Largest distance between the centres at which another vehicle is measured; unlimited if not stated \[m\].
     #[schemars(extend("exclusiveMinimum" = 0.0), example = 5.0)]
     pub range_m: Option<f64>,
     /// Width of the sector about the driver's heading in which others are measured \[rad\]; a full circle sees behind, too.

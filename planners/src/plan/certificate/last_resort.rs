@@ -16,10 +16,10 @@ const SHOULDER: f64 = 0.1;
 /// Impacts that differ by less are equally harmful \[m/s\].
 const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
 
-/// The harm of a motion if everybody else moves as predicted: the first impact, and leaving the road.
+/// The harm of a motion if all others move as predicted: the first impact, and leaving the road.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harm {
-    /// The largest relative speed at which it first touches somebody \[m/s\]; none if it touches nobody.
+    /// The largest relative speed at which it first touches a vehicle \[m/s\]; none without a contact.
     pub impact_mps: Option<f64>,
     /// Whether it leaves the road by more than a tenth of its length.
     pub leaves_road: bool,
@@ -32,7 +32,7 @@ impl Harm {
             let stage = first_contact(scene, motion, other)?;
             Some(relative_speed_mps(&motion.states[stage], expected(other, stage)?))
         });
-        // What is no number is as bad as can be.
+        // A value that is not a number counts as the worst.
         let impacts = impacts.map(|mps| if mps.is_nan() { f64::INFINITY } else { mps });
         Harm {
             impact_mps: impacts.max_by(f64::total_cmp),
@@ -40,13 +40,13 @@ impl Harm {
         }
     }
 
-    /// Whether the motion touches nobody and stays on the road.
+    /// Whether the motion touches no vehicle and stays on the road.
     pub fn is_none(&self) -> bool {
         *self == Harm::default()
     }
 
     /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road.
-    pub fn is_less_than(&self, other: &Harm) -> bool {
+    fn is_less_than(&self, other: &Harm) -> bool {
         match (self.impact_mps, other.impact_mps) {
             (None, Some(_)) => true,
             (Some(_), None) => false,
@@ -99,10 +99,10 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
     best.map(|(number, motion, _)| (number, motion))
 }
 
-/// Whether a plan gives away the last way out: it touches somebody before the vehicle could stand, some last resort from here is
+/// Whether a plan gives away the last way out: it touches a vehicle before the own one could stand, some last resort from here is
 /// harmless, and from the place after its first step none is any more.
 ///
-/// Where no harmless motion is left now, the plan is driven: of two motions that touch somebody, the one that was planned counts on
+/// Where no harmless motion is left now, the plan is driven: of two motions with a contact, the one that was planned counts on
 /// what the others will do next, and the other one on nothing.
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
@@ -112,12 +112,12 @@ pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
         return false;
     }
     let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
-    // Who touches somebody with the first step has no way out after it.
+    // After a contact in the first step no way out remains.
     let is_over = contact <= Some(1);
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
 }
 
-/// The scene after the first step of a plan, if everybody does what is expected.
+/// The scene after the first step of a plan, if all vehicles move as expected.
 fn after_first_step(scene: &Scene, plan: &Trajectory) -> Scene {
     let mut later = scene.clone();
     if let (Some(state), Some(input)) = (plan.states.get(1), plan.inputs.first()) {

@@ -2,12 +2,12 @@
 //!
 //! A plan must follow from its inputs by the bicycle (eq. 6.10), keep the limits of inputs and speed (eq. 6.9), keep the corners of
 //! the body on the road (eq. 6.7), and keep the body itself, a rectangle and not an ellipse, clear of where the others are expected to
-//! be. The first stage at which a condition is violated is told. What is violated where the vehicle already is, no plan can mend: it
+//! be. The first stage at which a condition is violated is reported. What is violated where the vehicle already is, no plan can mend: it
 //! is not counted.
 //!
 //! Not every violation is a fault. A negotiator's plan counts on what it asks for, and a driver who looks 3 s ahead may touch
-//! somebody at the end of them whom it will avoid with the next plans. So a plan is refused if its states, inputs or speeds are wrong,
-//! or if it gives away the last way out ([`gives_away_the_last_way_out`]). Whoever has no plan does what is least harmful of going
+//! a vehicle at the end of them that it will avoid with the next plans. So a plan is refused if its states, inputs or speeds are wrong,
+//! or if it gives away the last way out ([`gives_away_the_last_way_out`]). A driver without a plan takes the least harmful of going
 //! on with the last plan and the [`last_resorts`].
 
 mod last_resort;

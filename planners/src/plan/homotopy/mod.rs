@@ -1,9 +1,9 @@
 //! The homotopy class of a plan: on which side of each other vehicle it leads.
 //!
-//! Two plans are in one class if one can be deformed into the other without driving through anybody (Bender et al., "The
+//! Two plans are in one class if one can be deformed into the other without driving through a vehicle (Bender et al., "The
 //! combinatorial aspect of motion planning: maneuver variants in structured environments", 2015).
 //!
-//! It is read off the plan and the predictions in plain geometry, so any plan has one, whoever made it.
+//! It is read off the plan and the predictions in plain geometry, so any plan has one, whichever planner made it.
 //!
 //! - **Roads that cross**: the plan goes *ahead* of the other if it reaches the other's path before the other reaches its
 //!   own, and *behind* it otherwise. While neither gets there within the plan this is open and not reported, and once one of
@@ -27,7 +27,7 @@ use crate::{Agent, Axes, Plan, Scene, State};
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.
 const RELEVANT_HALF_AXES: f64 = 3.0;
 
-/// How a plan passes each relevant vehicle, in the scene's order; obstacles, which nobody drives, are left out.
+/// How a plan passes each relevant vehicle, in the scene's order; obstacles, which have no driver, are left out.
 pub fn homotopy_class(scene: &Scene, plan: &Plan) -> Vec<PlannedPassing> {
     let passing = |other: &Agent| {
         let proposal = plan.proposals.iter().find(|proposal| proposal.to == other.name);
@@ -124,7 +124,7 @@ fn first_to_arrive(own: Arrival, their: Arrival) -> Option<PassingSide> {
 enum Arrival {
     /// Before the beginning.
     Past,
-    /// After so many steps.
+    /// After this many steps.
     After(f64),
     /// Not within the plan.
     Never,
@@ -215,7 +215,7 @@ mod tests {
 
     /// A plan that relies on the motion it asks for is judged by that motion.
     #[test]
-    fn whoever_is_asked_is_taken_at_the_proposal() {
+    fn an_asked_vehicle_is_expected_to_follow_the_proposal() {
         let other = named("crossing", crossing(0.0, -0.8, 1.0));
         let scene = scene(agent(-1.0, 0.0, 0.0, 1.0), vec![other.clone()]);
         let mut plan = steady(&scene, 1.0);

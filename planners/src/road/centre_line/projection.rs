@@ -20,7 +20,7 @@ impl Curve {
         if step.slope != 0.0 && step.is_last() {
             return R::at(position, near_m + step.length_m, &point.moved(step.length_m));
         }
-        self.locate_from(position, near_m, (point, step))
+        self.locate_from(position, near_m, point, step)
     }
 
     #[inline(never)]
@@ -28,7 +28,8 @@ impl Curve {
         &'a self,
         position: [f64; 2],
         near_m: f64,
-        (point, step): (CurvePoint<'a>, SearchStep),
+        point: CurvePoint<'a>,
+        step: SearchStep,
     ) -> R {
         let (along_m, point) = self.descend_on(position, near_m, point, step);
         R::at(position, along_m, &point)

@@ -41,7 +41,7 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// The parts of two routes whose lanes overlap, in the order of the first route.
 ///
 /// The lanes that the centre lines follow are compared, not the neighbouring lanes of the strips: vehicles on lanes side by
-/// side do not conflict. Where both routes are on the same lane, they follow each other, and there is no conflict. Places a
+/// side do not conflict. Where both routes are on the same lane, they follow each other without conflict. Places a
 /// fifth of a lane width apart are compared, at most `MAX_PLACES` of a route, so an overlap that is shorter may be missed; the
 /// ends of the others are exact to [`CONFLICT_TOLERANCE_RATIO`] lane widths. Both routes need ends; others have no conflicts.
 pub fn conflicts(a: &Route, b: &Route) -> Vec<Conflict> {

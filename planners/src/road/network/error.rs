@@ -128,20 +128,20 @@ pub enum LaneFault {
     },
 }
 
-/// Why a list of lanes is no route.
+/// Why a list of lanes is not a route.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RouteError {
     /// No lanes are named.
     #[error("a route needs at least one lane")]
     NoLanes,
-    /// There is no lane of this name.
+    /// No lane has this name.
     #[error("there is no lane `{lane}`")]
     UnknownLane {
         /// The name that is wrong.
         lane: String,
     },
     /// A lane of the route is neither a successor of the one before nor a neighbour into which one may change.
-    #[error("lane `{to}` is no successor of lane `{from}`, and no neighbour into which one may change")]
+    #[error("lane `{to}` is neither a successor of lane `{from}` nor a neighbour into which a vehicle may change")]
     NotConnected {
         /// Name of the lane before.
         from: String,

@@ -33,7 +33,7 @@ pub struct Lane {
     pub light: Option<Arc<LightCycle>>,
     /// For whom the lane is; empty where it is for all.
     pub users: Vec<LaneUser>,
-    /// Whether it is a zebra crossing: whoever is on it, or comes to it, goes first, whatever the signs.
+    /// Whether it is a zebra crossing: pedestrians on it, or coming to it, go first, whatever the signs.
     pub is_zebra: bool,
 }
 

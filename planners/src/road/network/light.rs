@@ -8,12 +8,12 @@ use serde_json::json;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightColour {
-    /// Nobody passes.
+    /// No vehicle passes.
     #[default]
     Red,
-    /// Green comes at once; nobody passes yet.
+    /// Green comes at once; no vehicle passes yet.
     RedAmber,
-    /// Red comes at once: whoever can stop in comfort stops.
+    /// Red comes at once: a vehicle that can stop in comfort stops.
     Amber,
     /// Free, with regard to those who go first.
     Green,

@@ -30,7 +30,7 @@ pub enum Precedence {
     Own,
     /// The vehicles on the other route go first.
     Other,
-    /// Whoever arrives first goes first.
+    /// The first to arrive goes first.
     ByArrival,
 }
 

@@ -22,11 +22,11 @@ impl RoadNetwork {
     /// first there. Equal lists share a route.
     ///
     /// Who goes first follows from the signs at the ends of the lanes before the conflict ([`RightOfWay`]). Where both signs
-    /// say the same, whoever turns left lets those pass who come from the opposite side; otherwise whoever comes from the
+    /// say the same, a vehicle that turns left yields to those from the opposite side; otherwise the one from the
     /// right goes first. Where all stop, and where one lane serves both directions, the first to arrive goes first.
     ///
     /// # Errors
-    /// The number of the first list that is no route, and why.
+    /// The number of the first list that is not a route, and why.
     pub fn routes<Name: AsRef<str>>(&self, lists: &[Vec<Name>]) -> Result<Vec<Arc<Route>>, (usize, RouteError)> {
         let routes = lists.iter().enumerate();
         let routes = routes.map(|(index, names)| self.route(names).map_err(|error| (index, error)));
@@ -187,6 +187,6 @@ fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedenc
             _ => Precedence::ByArrival,
         };
     }
-    // Whoever drives to the left comes from the right.
+    // A vehicle that drives to the left comes from the right.
     own_first(from_right_rad < 0.0)
 }

@@ -304,13 +304,13 @@ fn a_roundabout_has_routes_around_it_and_conflicts_where_they_join() {
     for along_m in [10.0, 60.0, route.end_m() - 5.0] {
         assert!((route.left.value(along_m) - 2.0).abs() < 0.02 && (route.right.value(along_m) + 2.0).abs() < 0.02);
     }
-    // Who enters at arm 1 joins the ring in front of who circulates.
+    // A vehicle that enters at arm 1 joins the ring in front of those that circulate.
     let entering = network.shortest_route("in-1", "out-3").expect("the ring leads there");
     let found = conflicts(&route, &entering);
     assert_eq!(found.iter().map(|conflict| conflict.kind).collect::<Vec<_>>(), [ConflictKind::Merging], "{found:?}");
     let joins_m = entering.legs[0].to_m;
     assert!((found[0].on_b[1] - joins_m).abs() < 2.0 && found[0].on_b[0] > joins_m - 20.0, "{found:?}");
-    // Who leaves before diverges from who goes on.
+    // A vehicle that leaves before diverges from those that go on.
     let leaving = network.shortest_route("in-0", "out-1").expect("the ring leads there");
     let found = conflicts(&route, &leaving);
     assert_eq!(found.iter().map(|conflict| conflict.kind).collect::<Vec<_>>(), [ConflictKind::Diverging], "{found:?}");

@@ -1,8 +1,8 @@
-//! What stands in the way: whether it is passed, where, and for whom a driver waits before.
+//! What stands in the way: whether it is passed, where, and which vehicle a driver waits for before.
 //!
-//! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind somebody: then it is
-//! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to somebody else. That is
-//! done only while nobody else comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind.
+//! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind another one: then it is
+//! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to others. That is
+//! done only while no other vehicle comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind.
 //! The condition is hard, whatever the driver's style, and is checked again at each tick: a driver who is not beside the obstacle yet
 //! goes back behind it.
 
@@ -24,9 +24,9 @@ const NEAR_PATH_M: f64 = 0.02;
 const OUT_OF_LANE_M: f64 = 0.08;
 /// An obstacle is looked for as far ahead as a driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
 const LOOK_AHEAD_S: f64 = 2.5;
-/// Somebody who stands for longer than this is no part of a queue any more, for 1/10 scale cars \[s\].
+/// A vehicle that stands for longer than this does not count as part of a queue, for 1/10 scale cars \[s\].
 const PARKED_S: f64 = 4.0;
-/// Somebody who has another one ahead within this many lengths of a car stands in a queue.
+/// A vehicle with another one ahead within this many lengths of a car stands in a queue.
 const QUEUE_LENGTHS: f64 = 2.5;
 
 /// What a driver does about an obstacle.
@@ -61,7 +61,7 @@ struct Passing {
     until_m: f64,
 }
 
-/// What a driver remembers of those who stand.
+/// What a driver remembers of stationary vehicles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ObstacleMemory {
     /// Since which tick each has been standing; 0 if it stood when it was first seen.
@@ -78,7 +78,7 @@ impl ObstacleMemory {
 
     /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
     pub(crate) fn judge(&mut self, scene: &Scene) -> Option<Manoeuvre> {
-        // Straight roads have no lanes of which one is somebody else's.
+        // Straight roads have no lanes that belong to others.
         if !scene.ego.route.is_in_network() {
             return None;
         }
@@ -91,7 +91,7 @@ impl ObstacleMemory {
         let out_m =
             scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
         let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
-        // Whoever has begun to pass a row goes on to the next one of it. Nor does one come back who overtakes somebody slow, who stops.
+        // A driver that has begun to pass a row goes on to its next vehicle. Nor does it come back when a slow vehicle that it overtakes stops.
         let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
             || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {
@@ -151,7 +151,7 @@ impl ObstacleMemory {
         obstacles.min_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]))
     }
 
-    /// Whether a vehicle that stands waits in a queue: at a line, or behind somebody.
+    /// Whether a vehicle that stands waits in a queue: at a line, or behind another one.
     fn is_queueing(&self, scene: &Scene, other: &Agent) -> bool {
         if other.is_obstacle {
             return false;

@@ -1,11 +1,11 @@
-//! Whether there is room to pass an obstacle: nobody else comes to the part of the road that is borrowed before the driver is back.
+//! Whether there is room to pass an obstacle: no other vehicle comes to the part of the road that is borrowed before the driver is back.
 
 use super::standing::{WAITING_LENGTHS, swing_m};
 use crate::scene::relation::is_standing;
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Scene};
 
-/// Time to spare before somebody else is there, for 1/10 scale cars \[s\]: 2.5 s of a real one.
+/// Time to spare before another vehicle is there, for 1/10 scale cars \[s\]: 2.5 s of a real one.
 const SPARE_S: f64 = 0.8;
 /// The same for a driver who has begun to pass and could still stop before the obstacle.
 const SPARE_UNDER_WAY_S: f64 = 0.0;
@@ -16,7 +16,7 @@ const ACCELERATION_SHARE: f64 = 0.3;
 /// A driver who passes drives at most this share of the speed that it wants.
 const SPEED_SHARE: f64 = 0.8;
 
-/// Who would be in the way of passing an obstacle and its row, which ends at `end_m`; none if nobody is, or if the driver has gone too
+/// Who would be in the way of passing an obstacle and its row, which ends at `end_m`; none if no vehicle is, or if the driver has gone too
 /// far to go back.
 pub(super) fn in_the_way<'a>(
     scene: &'a Scene,
@@ -36,10 +36,10 @@ pub(super) fn in_the_way<'a>(
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
     let until_s = time_s(scene, zone_m[1] - own_m) + spare_s;
     let others = scene.others.iter().filter(|other| other.name != obstacle.name);
-    others.into_iter().find(|other| comes_into(scene, other, obstacle, (zone_m, until_s)))
+    others.into_iter().find(|other| comes_into(scene, other, obstacle, zone_m, until_s))
 }
 
-/// Where a row of obstacles ends that begins with one and between which there is no room to come back into the lane and to wait \[m\].
+/// Where a row of obstacles ends that begins with one and between which no room is left to come back into the lane and to wait \[m\].
 pub(super) fn end_of_row_m(scene: &Scene, obstacle: &Obstacle) -> f64 {
     let ego = &scene.ego;
     let length_m = ego.body.front_m + ego.body.rear_m;
@@ -70,7 +70,7 @@ fn time_s(scene: &Scene, way_m: f64) -> f64 {
 }
 
 /// Whether a vehicle that keeps its speed is on the borrowed strip within some time, or comes up from behind.
-fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, (zone_m, until_s): ([f64; 2], f64)) -> bool {
+fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2], until_s: f64) -> bool {
     let ego = &scene.ego;
     let at = ego.route.locate(other.state.position(), None);
     let (sin, cos) = libm::sincos(other.state.heading_rad - at.heading_rad);
@@ -86,7 +86,7 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, (zone_m, until_
     let ends_m = [at.along_m, at.along_m + along_mps * until_s];
     let covered_m = [ends_m[0].min(ends_m[1]) - half_m, ends_m[0].max(ends_m[1]) + half_m];
     let own_m = ego.route.along(ego.state.position());
-    // Somebody behind in the own lane waits as well, and whoever drives ahead in the same direction leaves.
+    // A vehicle behind in the own lane waits as well, and one that drives ahead in the same direction leaves.
     let is_behind = at.along_m < own_m && (at.across_m - ego.route.across(ego.state.position())).abs() < reach_m;
     let leaves = along_mps > ego.state.speed_mps && at.along_m > zone_m[1];
     covered_m[1] > zone_m[0] && covered_m[0] < zone_m[1] && !is_behind && !leaves

@@ -86,7 +86,7 @@ impl Optimum {
         self.statistics.unfinished = unfinished;
     }
 
-    /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.
+    /// Notes a dearer optimum of another class, which is the runner-up if none is cheaper.
     pub(super) fn note_rival(&mut self, rival: &Optimum) {
         self.add_work(&rival.statistics);
         let cost = rival.cost.total;

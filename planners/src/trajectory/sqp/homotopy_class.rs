@@ -11,7 +11,7 @@ const MAX_ELLIPSES: usize = 16;
 /// Which way a motion winds round a centre, seen from there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Winding {
-    /// Within an eighth of a turn of where it began: nobody has passed.
+    /// Within an eighth of a turn of where it began: neither has passed.
     #[default]
     Neither,
     /// To the left (anticlockwise).
@@ -22,8 +22,8 @@ enum Winding {
 
 /// The homotopy class of a motion in a problem: for every ellipse, in the order of the terms, the way round its centre.
 ///
-/// Whoever begins beside another vehicle, to its left, and merges ahead of it goes round to the right; behind it, to the left.
-/// Whoever comes from behind and overtakes on the left goes round to the right. Crossing ahead of somebody and crossing
+/// A vehicle that begins beside another one, to its left, and merges ahead of it goes round to the right; behind it, to the left.
+/// A vehicle that comes from behind and overtakes on the left goes round to the right. Crossing ahead of another and crossing
 /// behind are the two ways, too. How far a motion gets on its way makes no class of its own: no centre lies between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct HomotopyClass {

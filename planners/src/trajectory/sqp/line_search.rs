@@ -57,7 +57,7 @@ impl LineSearch {
         self.earlier.clear();
     }
 
-    /// Remembers the cost of an iterate that is left, and no more than so many.
+    /// Remembers the cost of an iterate that is left, up to the limit.
     pub fn remember(&mut self, cost: Cost, most: usize) {
         self.earlier.push_front(cost);
         self.earlier.truncate(most);
@@ -118,7 +118,7 @@ impl LineSearch {
     }
 
     /// Rolls out the inputs a share of the step away from an iterate, into `trial`.
-    pub fn try_step(&mut self, step: &StageSolution, problem: &Problem, from: &Iterate, share: f64) {
+    fn try_step(&mut self, step: &StageSolution, problem: &Problem, from: &Iterate, share: f64) {
         let trial = &mut self.trial;
         trial.inputs.resize_with(from.inputs.len(), Vec::new);
         for (i, inputs) in from.inputs.iter().enumerate() {

@@ -21,7 +21,7 @@
 //! followed by damped ones (Levenberg and Marquardt).
 //!
 //! With a receding horizon each descent starts warm ([`WarmStart`]): with the multipliers of its last optimum, a stage later, the
-//! first step has the exact Hessian already, and where the shifted plan is optimal there is no step. Steps also tell the next
+//! first step has the exact Hessian already, and where the shifted plan is optimal no step is taken. Steps also tell the next
 //! one how far to look for rows that matter ([`Reach`](super::Reach)).
 //!
 //! [`Optimiser::optimise`] compares the homotopy classes that a problem has; an [`Exploration`] is a descent that only counts

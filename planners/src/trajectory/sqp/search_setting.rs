@@ -13,6 +13,6 @@ pub enum HomotopySearch {
     #[default]
     Classes,
     /// All that can be found: descents from every simple motion and from motions spread over all inputs, none of them given up. A
-    /// plan that touches somebody's ellipse takes seconds. It tells whether an outcome is owed to an optimum that was missed.
+    /// plan that touches another vehicle's ellipse takes seconds. It shows whether an outcome results from a missed optimum.
     Global,
 }

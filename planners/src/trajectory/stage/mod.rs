@@ -19,6 +19,6 @@ pub use qp::{Hessian, Interval, Reach, Row, RowBlock, StageQp, StateCost, Trajec
 pub use robust::Robust;
 pub(crate) use solution::ACTIVE_MULTIPLIER;
 pub use solution::StageSolution;
-pub use solver::{StageError, StageSolver};
+pub use solver::{StageError, StageSolver, StageStatus};
 pub use sparse::Sparse;
 pub use structured::Structured;

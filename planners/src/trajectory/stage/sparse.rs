@@ -7,11 +7,13 @@
 //! inequality rows. A row over a whole trajectory, `value + b·(p, v) + β‖p‖² ≤ s`, is the second-order cone
 //! `‖(2√β p, t − 1)‖ ≤ t + 1` with `t = s − value − b·(p, v)`; without `β` it is `−t ≤ 0`.
 
-use interplay_convex::{Block, ConicSolution, Program, SolveError, Solver, SolverSettings, Variable, Variables};
+use interplay_convex::{
+    Block, ConicSolution, ProblemError, Program, SolveError, Solver, SolverSettings, Variable, Variables,
+};
 
 use super::qp::{RowBlock, StageQp, TrajectoryRow};
 use super::solution::StageSolution;
-use super::solver::{StageError, StageSolver};
+use super::solver::{StageError, StageSolver, StageStatus};
 
 /// The general solver; it keeps the symbolic factorisation as long as the shape of the problem stays the same.
 #[derive(Default)]
@@ -84,8 +86,7 @@ impl StageSolver for Sparse {
     fn solve(&mut self, qp: &StageQp, solution: &mut StageSolution, _warm: bool) -> Result<(), StageError> {
         let shape = Shape::of(qp);
         solution.shape_like(qp);
-        let refused =
-            |error: interplay_convex::ProblemError| StageError::Unsolved { status: error.to_string(), iterations: 0 };
+        let refused = |error: ProblemError| StageError::Unsolved { status: error.into(), iterations: 0 };
         let mut kept = match self.kept.take() {
             Some(mut kept) if kept.shape == shape => {
                 kept.program.clear();
@@ -116,7 +117,7 @@ impl StageSolver for Sparse {
             }
             SolveError::DualInfeasible { .. } => StageError::NotConvex { stage: 0 },
             SolveError::Unsolved { status, iterations } => {
-                StageError::Unsolved { status: format!("{status:?}"), iterations: iterations as usize }
+                StageError::Unsolved { status: StageStatus::General(status), iterations: iterations as usize }
             }
         })
     }

@@ -17,7 +17,8 @@ pub(super) fn wanted_mps(
     problem: &PlanningProblem<'_>,
     step_s: f64,
     network: &RoadNetwork,
-    (lanes, start): (&[String], &State),
+    lanes: &[String],
+    start: &State,
 ) -> Option<f64> {
     let goal = problem.goals.first()?;
     let [from, to] = goal.time?;

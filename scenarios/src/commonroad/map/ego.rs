@@ -49,11 +49,7 @@ pub(super) struct Ego {
 }
 
 /// The ego of a planning problem; none for one that is far from every lane, or from which no car can drive along a lane.
-pub(super) fn of_problem(
-    (problem, step_s): (&PlanningProblem<'_>, f64),
-    lanes: &Lanes,
-    notes: &mut Notes,
-) -> Option<Ego> {
+pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
     let initial = &problem.initial;
     let speed_mps = initial.velocity_mps.clamp(0.0, MAX_SPEED_MPS);
     if speed_mps != initial.velocity_mps {
@@ -70,8 +66,8 @@ pub(super) fn of_problem(
         return None;
     }
     let on_lanes = places::lanes_at(network, &state);
-    let found = way(network, (&on_lanes, &goals), &state).or_else(|| {
-        let found = near.iter().find_map(|(lane, beside)| way(network, (&[*lane], &goals), beside))?;
+    let found = way(network, &on_lanes, &goals, &state).or_else(|| {
+        let found = near.iter().find_map(|(lane, beside)| way(network, &[*lane], &goals, beside))?;
         notes.one(["initial state beside the lanes", "initial states beside the lanes"], "moved onto the nearest lane");
         Some(found)
     });
@@ -92,8 +88,8 @@ pub(super) fn of_problem(
         notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
     }
     let limit_mps = route.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
-    let in_time_mps = arrival::wanted_mps(problem, step_s, network, (&route, &state)).filter(|_| reaches_goal);
-    let wanted_mps = rounded(wanted_mps(problem, (speed_mps, in_time_mps, limit_mps), notes), 2);
+    let in_time_mps = arrival::wanted_mps(problem, step_s, network, &route, &state).filter(|_| reaches_goal);
+    let wanted_mps = rounded(wanted_mps(problem, speed_mps, in_time_mps, limit_mps, notes), 2);
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
     let mut ego = Ego::new(state, route, goal);
@@ -104,11 +100,11 @@ pub(super) fn of_problem(
 }
 
 /// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
-fn way(network: &RoadNetwork, (starts, goals): (&[&Lane], &[String]), state: &State) -> Option<(OnLanes, bool)> {
+fn way(network: &RoadNetwork, starts: &[&Lane], goals: &[String], state: &State) -> Option<(OnLanes, bool)> {
     let body = &BMW_320I;
     // Where lanes overlap, the way is the one that fits the state best, and of those the shortest list of lanes.
     let pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
-    let ways = pairs.filter_map(|(lane, goal)| to_lane(network, lane, goal, (state, body)));
+    let ways = pairs.filter_map(|(lane, goal)| to_lane(network, lane, goal, state, body));
     let is_better = |one: &OnLanes, other: &OnLanes| {
         let by_change = rounded(one.change_m(), 2).total_cmp(&rounded(other.change_m(), 2));
         by_change.then(one.lanes.len().cmp(&other.lanes.len()))
@@ -154,7 +150,7 @@ pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
 }
 
 /// The shortest way from a lane to another, with a car at its begin.
-fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, (state, body): (&State, &Body)) -> Option<OnLanes> {
+fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, state: &State, body: &Body) -> Option<OnLanes> {
     let route = network.shortest_route(&from.name, goal).ok()?;
     let names: Vec<String> = route.legs.iter().map(|leg| leg.lane.clone()).collect();
     let count = names.len();
@@ -183,7 +179,9 @@ fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
 /// The speed that the ego wants: one that reaches the goal in time, or that of its goal, or its own, or what is permitted \[m/s\].
 fn wanted_mps(
     problem: &PlanningProblem<'_>,
-    (own_mps, in_time_mps, limit_mps): (f64, Option<f64>, Option<f64>),
+    own_mps: f64,
+    in_time_mps: Option<f64>,
+    limit_mps: Option<f64>,
     notes: &mut Notes,
 ) -> f64 {
     let stated = problem.goals.iter().find_map(|goal| goal.velocity_mps);

@@ -15,7 +15,7 @@ const MAX_OFFSET_S: f64 = 100_000.0;
 const MAX_LIGHTS: usize = 100;
 
 /// The lights of a scenario, from its begin on, in steps of time.
-pub(super) fn lights(scenario: &CommonRoad<'_>, (lanes, begin): (&Lanes, f64), notes: &mut Notes) -> Vec<LightConfig> {
+pub(super) fn lights(scenario: &CommonRoad<'_>, lanes: &Lanes, begin: f64, notes: &mut Notes) -> Vec<LightConfig> {
     let mut taken: Vec<String> = Vec::new();
     let mut found = Vec::new();
     for light in &scenario.lights {
@@ -28,7 +28,7 @@ pub(super) fn lights(scenario: &CommonRoad<'_>, (lanes, begin): (&Lanes, f64), n
             notes.one(what, "left out, since they stand at the end of no lane that is carried over");
             continue;
         }
-        match config(light, of_light, (scenario.step_s, begin)) {
+        match config(light, of_light, scenario.step_s, begin) {
             Some(config) if found.len() < MAX_LIGHTS => {
                 taken.extend(config.lanes.iter().cloned());
                 found.push(config);
@@ -39,7 +39,7 @@ pub(super) fn lights(scenario: &CommonRoad<'_>, (lanes, begin): (&Lanes, f64), n
     found
 }
 
-fn config(light: &Light, lanes: Vec<String>, (step_s, begin): (f64, f64)) -> Option<LightConfig> {
+fn config(light: &Light, lanes: Vec<String>, step_s: f64, begin: f64) -> Option<LightConfig> {
     let phase = |(colour, steps): &(_, f64)| {
         let duration_s = rounded(steps * step_s, 6);
         (PHASES_S[0]..=PHASES_S[1]).contains(&duration_s).then_some(LightPhase { colour: *colour, duration_s })

@@ -62,19 +62,20 @@ pub(super) struct Mapped {
 /// For lanelets that are no lanes.
 pub(super) fn mapped(
     scenario: &CommonRoad<'_>,
-    (root, unread): (&Place, Unread),
+    root: &Place,
+    unread: Unread,
     options: &ImportOptions,
     notes: &mut Notes,
 ) -> Result<Mapped, Fault> {
     let lanes = Lanes::of(scenario, root, notes)?;
     let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
-    let ego = scenario.problems.first().and_then(|problem| ego::of_problem((problem, scenario.step_s), &lanes, notes));
+    let ego = scenario.problems.first().and_then(|problem| ego::of_problem(problem, scenario.step_s, &lanes, notes));
     let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
     let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
-    let lights = lights::lights(scenario, (&lanes, begin), notes);
+    let lights = lights::lights(scenario, &lanes, begin, notes);
     for (element, count) in unread.into_counts() {
         notes.several(count, [&format!("element `{element}`"), &format!("elements `{element}`")], NOT_YET);
     }
@@ -167,7 +168,7 @@ fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) 
     let before = followers.len();
     let meets = |follower: &Follower| {
         follower.config.enters_s.is_none()
-            && ego.is_some_and(|ego| overlap((&ego.body, &ego.state), (&follower.body, &follower.start)))
+            && ego.is_some_and(|ego| overlap(&ego.body, &ego.state, &follower.body, &follower.start))
     };
     let mut kept: Vec<Follower> = followers.into_iter().filter(|follower| !meets(follower)).collect();
     notes.several(

@@ -82,12 +82,13 @@ impl Follower {
 pub(super) fn followers(scenario: &CommonRoad<'_>, begin: f64, notes: &mut Notes) -> Vec<Follower> {
     let mut names = Names::default();
     let all = scenario.obstacles.iter();
-    all.filter_map(|obstacle| follower(obstacle, (scenario.step_s, begin), &mut names, notes)).collect()
+    all.filter_map(|obstacle| follower(obstacle, scenario.step_s, begin, &mut names, notes)).collect()
 }
 
 fn follower(
     obstacle: &Obstacle<'_>,
-    (step_s, begin): (f64, f64),
+    step_s: f64,
+    begin: f64,
     names: &mut Names,
     notes: &mut Notes,
 ) -> Option<Follower> {
@@ -97,7 +98,7 @@ fn follower(
         notes.one(what, NOT_YET);
         return None;
     }
-    let rows = rows(obstacle, (step_s, begin), notes);
+    let rows = rows(obstacle, step_s, begin, notes);
     let record = Record::new(&rows).ok()?;
     let [from_s, _] = record.span_s();
     let stands = obstacle.role == Role::Static;
@@ -194,7 +195,7 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
 }
 
 /// The motion of an obstacle: of the middle of its box.
-fn rows(obstacle: &Obstacle<'_>, (step_s, begin): (f64, f64), notes: &mut Notes) -> Vec<[f64; 5]> {
+fn rows(obstacle: &Obstacle<'_>, step_s: f64, begin: f64, notes: &mut Notes) -> Vec<[f64; 5]> {
     let shape = obstacle.shape.first().and_then(|shape| shape.rectangle());
     let (offset, turned_rad) = shape.map_or(([0.0; 2], 0.0), |(it, _)| (it.centre, it.orientation_rad));
     // The direction of a box that moves is that of its motion.

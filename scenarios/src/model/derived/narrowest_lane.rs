@@ -20,13 +20,15 @@ pub(crate) struct NarrowestLane {
 /// The narrowest place of the lanes on the way of a vehicle, from its start on. Where it changes lanes, one of them may begin or
 /// end in a point: of a lane that it leaves in this way only the begin of its part counts, and of one that it enters, the end.
 pub(crate) fn narrowest_lane(scenario: &Scenario, vehicle: &Vehicle) -> NarrowestLane {
-    narrowest_lane_of((&scenario.road, scenario.network.as_deref()), (&vehicle.start, &vehicle.route))
+    narrowest_lane_of(&scenario.road, scenario.network.as_deref(), &vehicle.start, &vehicle.route)
 }
 
 /// The same of a road with its network, if it has one, and a vehicle of which no more is known than its start and its route.
 pub(crate) fn narrowest_lane_of(
-    (road, network): (&Road, Option<&RoadNetwork>),
-    (start, route): (&State, &Route),
+    road: &Road,
+    network: Option<&RoadNetwork>,
+    start: &State,
+    route: &Route,
 ) -> NarrowestLane {
     let found = network.and_then(|network| on_network(network, start, route));
     let (width_m, place) =

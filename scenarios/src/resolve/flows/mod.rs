@@ -62,7 +62,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     }
     let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
     let is_alone = root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list());
-    let Some(arrivals) = drawn(&flows, (seed, duration_s), is_alone) else {
+    let Some(arrivals) = drawn(&flows, seed, duration_s, is_alone) else {
         let message = "nobody comes before the run ends, and there is no other vehicle";
         let fault = Fault::at(&stated.place, "nobody of them", message.to_owned());
         return Err(vec![fault.help("raise the rates or `duration_s`, or state a `[[vehicle]]`".to_owned())]);
@@ -84,7 +84,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
 
 /// The vehicles of all flows, each with the index of its flow. Without other vehicles the first that comes is the ego, which is there when
 /// the run begins; none where nobody comes then.
-fn drawn(flows: &[FlowConfig], (seed, duration_s): (u64, f64), are_alone: bool) -> Option<Vec<(usize, Arrival<'_>)>> {
+fn drawn(flows: &[FlowConfig], seed: u64, duration_s: f64, are_alone: bool) -> Option<Vec<(usize, Arrival<'_>)>> {
     let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
     for (index, flow) in flows.iter().enumerate() {
         arrivals.extend(arrival::draw(flow, seed, duration_s).into_iter().map(|arrival| (index, arrival)));

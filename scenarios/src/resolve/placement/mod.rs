@@ -43,16 +43,18 @@ pub(crate) struct Placed {
 /// For a road that is none, and what keeps a start from being a place or a vehicle from having a route.
 pub(crate) fn place(
     vehicles: &[VehicleConfig],
-    (road, lights, written): (&Road, &[LightConfig], String),
-    (tree, schema): (&TomlNode, SchemaNode),
+    road: &Road,
+    lights: &[LightConfig],
+    written: String,
+    tree: &TomlNode,
+    schema: SchemaNode,
     known_roads: &KnownRoads,
 ) -> Result<Placed, Vec<Fault>> {
     let faults = curve_faults(road, tree);
     if !faults.is_empty() {
         return Err(faults);
     }
-    let network =
-        known_roads.network(written, || network::network((road, lights), tree)).map_err(|fault| vec![fault])?;
+    let network = known_roads.network(written, || network::network(road, lights, tree)).map_err(|fault| vec![fault])?;
     let [main, cross] = [Branch::Main, Branch::Cross].map(|branch| road.route(branch));
     let (mut starts, mut faults) = (Vec::new(), Vec::new());
     for (index, vehicle) in vehicles.iter().enumerate() {
@@ -82,7 +84,7 @@ pub(crate) fn place(
         let fault = Fault::at(tree.place_of("light"), "no lanes with names", message);
         return Err(vec![fault.help("state the road as a `network`, or one of the junctions")]);
     }
-    if let Some(network) = network.as_ref().filter(|network| bodies_fit(vehicles, &starts, (road, network))) {
+    if let Some(network) = network.as_ref().filter(|network| bodies_fit(vehicles, &starts, road, network)) {
         // On a network the routes know where they meet.
         let (states, routes): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
         starts = states.into_iter().zip(in_one_set(routes, network)).collect();
@@ -92,7 +94,7 @@ pub(crate) fn place(
 
 /// Whether the bodies of all vehicles fit their lanes. Those that do not are refused by the checks that follow, so where their
 /// routes meet is not computed: on lanes that are far narrower than any body it takes minutes.
-fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], (road, network): (&Road, &KnownNetwork)) -> bool {
+fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], road: &Road, network: &KnownNetwork) -> bool {
     let is_refused = |(vehicle, (state, route)): (&VehicleConfig, &Start)| {
         // A record lies where it was recorded, beside its lane or not.
         let kind = vehicle.driver.as_ref().and_then(|driver| driver.get("kind"));
@@ -100,7 +102,7 @@ fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], (road, network): (&R
             return false;
         }
         let body: Body = vehicle.body.clone().and_then(|body| body.settings().ok()).unwrap_or_default();
-        body.width_m > narrowest_lane_of((road, Some(&network.network)), (state, route)).width_m
+        body.width_m > narrowest_lane_of(road, Some(&network.network), state, route).width_m
     };
     !vehicles.iter().zip(starts).any(is_refused)
 }

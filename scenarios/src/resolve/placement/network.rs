@@ -14,7 +14,7 @@ use crate::text::error::{Fault, quoted};
 ///
 /// # Errors
 /// For lanes that are no network, and a network that cannot be left.
-pub(super) fn network((road, lights): (&Road, &[LightConfig]), tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
+pub(super) fn network(road: &Road, lights: &[LightConfig], tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
     let mut lanes = match road.network_lanes() {
         None => return Ok(None),
         Some(Err(fault)) => return Err(located(fault, tree)),
@@ -170,7 +170,7 @@ impl Describer<'_> {
                     .help("neighbours lie side by side or merge; lanes that cross are no neighbours")
             }
             LaneFault::NotSideBySide { along_m, space_m, .. } => {
-                self.not_side_by_side(*index, (other, *along_m, *space_m), error)
+                self.not_side_by_side(*index, other, *along_m, *space_m, error)
             }
             _ => at(format!("lane `{other}` is not on this side of {of}"))
                 .help("`left` and `right` are as who drives on the lane sees them"),
@@ -181,7 +181,9 @@ impl Describer<'_> {
     fn not_side_by_side(
         &self,
         index: usize,
-        (other, along_m, space_m): (&str, f64, f64),
+        other: &str,
+        along_m: f64,
+        space_m: f64,
         error: &RoadNetworkError,
     ) -> Fault {
         let (of, along_m, wide_m) = (quoted(&error.lane), to_centimetres(along_m), to_centimetres(space_m.abs()));

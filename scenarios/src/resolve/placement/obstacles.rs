@@ -25,9 +25,12 @@ const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 /// # Errors
 /// For places that are none, and outlines that are no convex polygons.
 pub(crate) fn obstacles(
-    (stated, declared): (&[ObstacleConfig], &[DeclaredObstacle]),
-    (road, network): (&Road, Option<&RoadNetwork>),
-    (tree, vehicles): (&TomlNode, &[Vehicle]),
+    stated: &[ObstacleConfig],
+    declared: &[DeclaredObstacle],
+    road: &Road,
+    network: Option<&RoadNetwork>,
+    tree: &TomlNode,
+    vehicles: &[Vehicle],
 ) -> Result<Vec<Vehicle>, Vec<Fault>> {
     let scale = vehicles.first().map_or(REAL_SCALE, |vehicle| vehicle.body.scale);
     let (mut found, mut faults) = (Vec::new(), Vec::new());
@@ -127,8 +130,8 @@ impl Written<'_> {
         };
         let offset_m = stated.lateral_offset_m.unwrap_or(0.0);
         let ([x_m, y_m], along_rad) = match (lane, self.network) {
-            (LaneReference::Name(name), Some(network)) => self.in_lane(network, name, (along_m, offset_m))?,
-            (LaneReference::Number(number), None) => self.in_numbered(*number, (along_m, offset_m))?,
+            (LaneReference::Name(name), Some(network)) => self.in_lane(network, name, along_m, offset_m)?,
+            (LaneReference::Number(number), None) => self.in_numbered(*number, along_m, offset_m)?,
             (_, network) => {
                 let (what, help) = if network.is_some() { ("a number", "name") } else { ("a name", "number") };
                 let message = format!("the lane of {} is {what}", self.shown());
@@ -140,28 +143,34 @@ impl Written<'_> {
         Ok(State { x_m, y_m, heading_rad: along_rad + turned_rad, speed_mps: 0.0 })
     }
 
-    fn in_lane(&self, network: &RoadNetwork, name: &str, at: (f64, f64)) -> Result<([f64; 2], f64), Fault> {
+    fn in_lane(
+        &self,
+        network: &RoadNetwork,
+        name: &str,
+        along_m: f64,
+        offset_m: f64,
+    ) -> Result<([f64; 2], f64), Fault> {
         let Some(lane) = network.lane(name) else {
             let names: Vec<&str> = network.lanes().iter().map(|lane| lane.name.as_str()).collect();
             let message = format!("there is no lane {}", quoted(name));
             return Err(self.fault("lane", "no such lane", message).help(suggestion(name, "", &names)));
         };
         let length_m = lane.centre.length_m();
-        if !(0.0..=length_m).contains(&at.0) {
-            let message = format!("{} stands {} m along lane {}", self.shown(), readable(at.0), quoted(name));
+        if !(0.0..=length_m).contains(&along_m) {
+            let message = format!("{} stands {} m along lane {}", self.shown(), readable(along_m), quoted(name));
             let help = format!("the lane is {} m long", readable(length_m));
             return Err(self.fault("along_m", "beyond the lane", message).help(help));
         }
-        Ok((lane.centre.position(at.0, at.1), lane.centre.at(at.0).heading_rad))
+        Ok((lane.centre.position(along_m, offset_m), lane.centre.at(along_m).heading_rad))
     }
 
-    fn in_numbered(&self, number: usize, at: (f64, f64)) -> Result<([f64; 2], f64), Fault> {
+    fn in_numbered(&self, number: usize, along_m: f64, offset_m: f64) -> Result<([f64; 2], f64), Fault> {
         let centre = self.road.lane_centre_m(Branch::Main, number).zip(self.road.route(Branch::Main));
         let Some((centre_m, route)) = centre else {
             let message = format!("there is no lane {number}");
             return Err(self.fault("lane", "no such lane", message).help("lane 0 is the rightmost one"));
         };
-        Ok((route.position(at.0, centre_m + at.1), route.heading_at(route.position(at.0, centre_m))))
+        Ok((route.position(along_m, centre_m + offset_m), route.heading_at(route.position(along_m, centre_m))))
     }
 
     /// The route by which others compare their ways with it: along the lane that it is on or beside.

@@ -117,7 +117,7 @@ impl Encounters {
                 let reach_m = self.reach_m[first] + self.reach_m[second];
                 is_near(then, there, reach_m)
                     && !is_along(then, there)
-                    && overlap((bodies[first], then), (bodies[second], there))
+                    && overlap(bodies[first], then, bodies[second], there)
             };
             if others.iter().any(|other| meets(self.vehicle, *other) || meets(*other, self.vehicle)) {
                 self.least_s = Some(apart_s);

@@ -56,14 +56,14 @@ mod tests {
         Arc::new(route.expect("the lanes follow each other"))
     }
 
-    fn moment((time_s, along_m, speed_mps): (f64, f64, f64)) -> (f64, State, f64) {
+    fn moment(time_s: f64, along_m: f64, speed_mps: f64) -> (f64, State, f64) {
         (time_s, State { speed_mps, ..State::default() }, along_m)
     }
 
     #[test]
     fn a_road_need_not_have_limits() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
-        let without = at_moments(&SPEEDING, &scenario.vehicles[0], &[moment((0.0, 1.0, 50.0))]);
+        let without = at_moments(&SPEEDING, &scenario.vehicles[0], &[moment(0.0, 1.0, 50.0)]);
         assert_eq!(without.value, None);
     }
 

@@ -29,7 +29,8 @@ impl Known {
         listed: &BoptestIndicators,
         prices: BoptestPrices,
         test: &mut dyn Bench,
-        (start_s, horizon_s): (f64, f64),
+        start_s: f64,
+        horizon_s: f64,
     ) -> Result<Self, BoptestError> {
         let price_of_electricity = format!("PriceElectricPower{}", prices.words().1);
         let mut names: Vec<String> = all_bounds(&listed.zones).collect();
@@ -57,7 +58,8 @@ impl Known {
         &self,
         config: &BoptestPlantConfig,
         test: &mut dyn Bench,
-        (from_s, to_s): (f64, f64),
+        from_s: f64,
+        to_s: f64,
     ) -> Result<Option<Metered>, BoptestError> {
         let Some(listed) = config.indicators.as_ref().filter(|listed| !listed.electricity.is_empty()) else {
             return Ok(None);

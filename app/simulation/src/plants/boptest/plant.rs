@@ -165,7 +165,7 @@ impl BoptestPlant {
         if (step + 1).is_multiple_of(self.steps_per_day) {
             let end_s = self.start_s + (step + 1) as f64 * self.believed.step_s();
             self.metered = match &self.known {
-                Some(known) => known.metered(&self.config, test, (end_s - DAY_S, end_s))?,
+                Some(known) => known.metered(&self.config, test, end_s - DAY_S, end_s)?,
                 None => None,
             };
         }
@@ -187,7 +187,7 @@ impl BoptestPlant {
             number => Ok((name.clone(), number)),
         };
         let named = official.iter().map(indicator).collect::<Result<_, BoptestError>>()?;
-        self.benchmark = Some(Benchmark::new(named, ours, (&self.control_s, self.believed.step_s())));
+        self.benchmark = Some(Benchmark::new(named, ours, &self.control_s, self.believed.step_s()));
         Ok(())
     }
 }
@@ -223,7 +223,7 @@ impl ThermalPlant for BoptestPlant {
         let horizon_s = self.believed.step_s() * self.steps as f64;
         if let Some(listed) = &self.config.indicators {
             self.start_s = number(request, &signals, "time")?;
-            self.known = Some(Known::ask(listed, self.config.prices, test, (self.start_s, horizon_s))?);
+            self.known = Some(Known::ask(listed, self.config.prices, test, self.start_s, horizon_s)?);
         }
         if let Some(settings) = &self.config.forecast {
             let foreseen = foresee(settings, self.config.prices, test, horizon_s + DAY_S)?;

@@ -58,7 +58,7 @@ impl<S: StageSolver> Optimiser<S> {
     }
 }
 
-/// Every motion at which the search begins; `planned` is what everybody plans so far.
+/// Every motion at which the search begins; `planned` is what all vehicles plan so far.
 fn starts(problem: &Problem, planned: Option<&Iterate>) -> Vec<Iterate> {
     let mut starts = Vec::new();
     for_each_motion(problem, planned, |iterate| starts.push(iterate.clone()));

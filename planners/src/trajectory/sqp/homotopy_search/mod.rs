@@ -38,7 +38,7 @@ use motions::for_each_motion;
 const MAX_CLASSES: usize = 4;
 /// Most work of one exploration, spread over plans.
 const EXPLORATION_WORK: usize = 400;
-/// A plan that costs this multiple of the one before is compared at once: somebody did what was not expected.
+/// A plan that costs this multiple of the one before is compared at once: a vehicle did what was not expected.
 const MAX_COST_GROWTH: f64 = 1.1;
 /// With every other class dearer than this multiple of the plan, the comparison rests longer.
 const FAR_COST_RATIO: f64 = 2.0;
@@ -223,7 +223,7 @@ impl<S: StageSolver> Optimiser<S> {
     }
 }
 
-/// The cheapest simple motion of each class but one, the cheapest first; `planned` is what everybody plans so far.
+/// The cheapest simple motion of each class but one, the cheapest first; `planned` is what all vehicles plan so far.
 fn representatives(
     problem: &Problem,
     planned: Option<&Iterate>,

@@ -40,7 +40,7 @@ impl Motion {
     }
 }
 
-/// Calls `visit` with every combination of simple motions. `planned` is the motion that everybody plans so far.
+/// Calls `visit` with every combination of simple motions. `planned` is the motion that all vehicles plan so far.
 pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut visit: impl FnMut(&Iterate)) {
     let count = problem.participants.len();
     let planned: Vec<Motion> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();

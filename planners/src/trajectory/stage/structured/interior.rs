@@ -7,7 +7,7 @@ use super::rows::Point;
 use super::trajectory_row::ExpandedTrajectoryRow;
 use crate::trajectory::stage::qp::{Hessian, Reach, StageQp};
 use crate::trajectory::stage::solution::StageSolution;
-use crate::trajectory::stage::solver::{StageError, StageSolver};
+use crate::trajectory::stage::solver::{StageError, StageSolver, StageStatus};
 
 /// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
 const DUAL_TOLERANCE_RATIO: f64 = 1e-3;
@@ -48,10 +48,7 @@ impl StageSolver for Structured {
             2 => self.two.solve(problem, solution, warm),
             3 => self.three.solve(problem, solution, warm),
             4 => self.four.solve(problem, solution, warm),
-            count => {
-                let status = format!("{count} deciding vehicles, at most 4 are supported");
-                Err(StageError::Unsolved { status, iterations: 0 })
-            }
+            count => Err(StageError::Unsolved { status: StageStatus::TooManyVehicles { count }, iterations: 0 }),
         }
     }
 }
@@ -72,12 +69,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let warm = warm && solution.fits(qp);
         solution.shape_like(qp);
         let mut iterations = 0;
-        let mut outcome = Err(StageError::Unsolved { status: String::new(), iterations });
-        if warm || qp.reach.is_some() {
-            let start = if warm { Start::WARM } else { Start::COLD };
-            outcome = self.attempt(qp, solution, start, qp.reach.as_ref(), &mut iterations);
-        }
-        if let Err(StageError::Unsolved { .. }) = outcome {
+        let start = if warm { Start::WARM } else { Start::COLD };
+        let mut outcome = self.attempt(qp, solution, start, qp.reach.as_ref(), &mut iterations);
+        if matches!(outcome, Err(StageError::Unsolved { .. })) && (warm || qp.reach.is_some()) {
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
         if matches!(outcome, Err(StageError::Unsolved { .. })) && qp.hessian == Hessian::GaussNewton {
@@ -104,11 +98,11 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let unsolved = |status, iterations| Err(StageError::Unsolved { status, iterations });
         match self.iterate(qp, iterations) {
             Ok(()) if !self.memory.inequalities.excluded_rows_hold(&self.memory.point) => {
-                unsolved("the solution is farther than expected".to_owned(), *iterations)
+                unsolved(StageStatus::BeyondReach, *iterations)
             }
             // Without curvature every problem is convex: it was rounding.
             Err(StageError::NotConvex { stage }) if qp.hessian == Hessian::GaussNewton => {
-                unsolved(format!("the factorisation broke down at stage {stage}"), *iterations)
+                unsolved(StageStatus::NumericalError { stage }, *iterations)
             }
             outcome => outcome,
         }
@@ -186,7 +180,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         if complementarity < ACCEPTED_RESIDUAL && worst < ACCEPTED_RESIDUAL && dual_share < ACCEPTED_RESIDUAL {
             return Ok(());
         }
-        let status = format!("residual {worst:.1e}, dual residual at {dual_share:.1e} of its start");
+        let status = StageStatus::InsufficientProgress { residual: worst, dual_share };
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
 

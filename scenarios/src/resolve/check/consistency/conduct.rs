@@ -30,12 +30,12 @@ impl Checker<'_> {
         for (number, order) in settings.script.iter().enumerate() {
             let path = format!("{stated}.{number}");
             let shown = |key: &str| format!("`vehicle.{}.driver.script.{number}.{key}`", vehicle.name);
-            self.script_order(vehicle, (&settings.script, number), &path);
+            self.script_order(vehicle, &settings.script, number, &path);
             if let Some(speed_mps) = order.speed_mps {
-                self.script_speed(vehicle, speed_mps, (&format!("{path}.speed_mps"), &shown("speed_mps")));
+                self.script_speed(vehicle, speed_mps, &format!("{path}.speed_mps"), &shown("speed_mps"));
             }
             if let Some(lateral_m) = order.lateral_m {
-                self.script_place(vehicle, lateral_m, (&format!("{path}.lateral_m"), &shown("lateral_m")));
+                self.script_place(vehicle, lateral_m, &format!("{path}.lateral_m"), &shown("lateral_m"));
             }
             if order.when.is_none() && order.from_s >= self.scenario.duration_s {
                 let message = format!("{} ({}) is after the end of the run", shown("from_s"), readable(order.from_s));
@@ -49,7 +49,7 @@ impl Checker<'_> {
     }
 
     /// An order says something, after those above it and not at the time of one of them that rules the same.
-    fn script_order(&mut self, vehicle: &Vehicle, (script, number): (&[Order], usize), path: &str) {
+    fn script_order(&mut self, vehicle: &Vehicle, script: &[Order], number: usize, path: &str) {
         let (order, name) = (&script[number], quoted(&vehicle.name));
         if order.speed_mps.is_none() && order.lateral_m.is_none() {
             let message = format!("order {number} of vehicle {name} says neither how fast nor where to drive");
@@ -76,7 +76,7 @@ impl Checker<'_> {
         }
     }
 
-    fn script_speed(&mut self, vehicle: &Vehicle, speed_mps: f64, (path, shown): (&str, &str)) {
+    fn script_speed(&mut self, vehicle: &Vehicle, speed_mps: f64, path: &str, shown: &str) {
         let (slowest, fastest) = (vehicle.limits.speed_min_mps, vehicle.limits.speed_max_mps);
         if speed_mps < 0.0 {
             let message =
@@ -89,7 +89,7 @@ impl Checker<'_> {
         }
     }
 
-    fn script_place(&mut self, vehicle: &Vehicle, lateral_m: f64, (path, shown): (&str, &str)) {
+    fn script_place(&mut self, vehicle: &Vehicle, lateral_m: f64, path: &str, shown: &str) {
         let at_m = vehicle.route.along(vehicle.start.position());
         let [right_m, left_m] = [&vehicle.route.right, &vehicle.route.left].map(|edge| edge.value(at_m));
         if lateral_m < right_m - ROUNDING_M || lateral_m > left_m + ROUNDING_M {

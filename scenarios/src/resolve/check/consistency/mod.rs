@@ -218,7 +218,7 @@ impl Checker<'_> {
                 if (is_recorded && other.driver.record().is_some()) || come_later(vehicle) || come_later(other) {
                     continue;
                 }
-                if overlap((&vehicle.body, start), (&other.body, other_start)) {
+                if overlap(&vehicle.body, start, &other.body, other_start) {
                     let message = format!(
                         "vehicles {} and {} overlap at the start{moved}",
                         quoted(&other.name),
@@ -287,7 +287,7 @@ fn extent(road: &Road, branch: Branch) -> String {
 }
 
 /// Whether two footprints share more than a line: no edge of either separates them (separating axis theorem).
-pub(crate) fn overlap((first, at): (&Body, &State), (second, other_at): (&Body, &State)) -> bool {
+pub(crate) fn overlap(first: &Body, at: &State, second: &Body, other_at: &State) -> bool {
     let (corners, other_corners) = (first.corners(at), second.corners(other_at));
     let headings = [at.heading_rad, other_at.heading_rad].map(libm::sincos);
     let axes = headings.iter().flat_map(|(sin, cos)| [[*cos, *sin], [-sin, *cos]]);
@@ -317,7 +317,7 @@ mod tests {
         let (car, start) = (&scenario.vehicles[0], State::default());
         let other = State { x_m, y_m, heading_rad, speed_mps: 0.0 };
         let (one_way, other_way) =
-            (overlap((&car.body, &start), (&car.body, &other)), overlap((&car.body, &other), (&car.body, &start)));
+            (overlap(&car.body, &start, &car.body, &other), overlap(&car.body, &other, &car.body, &start));
         assert_eq!(one_way, other_way, "touching is mutual");
         one_way
     }

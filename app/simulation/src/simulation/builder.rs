@@ -1,0 +1,114 @@
+//! Makes a simulation with systems, state and watchers of the caller.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bevy_ecs::prelude::*;
+use interplay_scenarios::Scenario;
+
+use super::Simulation;
+use super::extensions::Extensions;
+use crate::phases::Slot;
+use crate::phases::time_points::TimePoints;
+use crate::phases::watch::Watcher;
+use crate::simulation::run_error::RunError;
+use crate::simulation::world_state::WorldState;
+
+/// Makes a [`Simulation`] to which a caller adds systems, state and watchers.
+///
+/// ```
+/// use bevy_ecs::prelude::*;
+/// use interplay_simulation::phases::{Phase, Slot};
+/// use interplay_simulation::{Simulation, components::Motion};
+///
+/// #[derive(Resource, Clone, Default)]
+/// struct PeakSpeed(f64);
+///
+/// fn find_peak(vehicles: Query<&Motion>, mut peak: ResMut<PeakSpeed>) {
+///     peak.0 = vehicles.iter().fold(peak.0, |peak_mps, motion| peak_mps.max(motion.state.speed_mps));
+/// }
+///
+/// let scenario = interplay_scenarios::load("lane-change/front-nice", &[])?;
+/// let mut simulation = Simulation::builder(&scenario)
+///     .with_state(PeakSpeed::default(), PeakSpeed::clone)
+///     .with_system(Slot::After(Phase::Physics), find_peak)
+///     .build()?;
+/// simulation.advance_to(2.0)?;
+/// assert!(simulation.state::<PeakSpeed>().is_some_and(|peak| peak.0 > 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct SimulationBuilder<'a> {
+    name: String,
+    scenario: &'a Scenario,
+    watchers: Vec<Box<dyn Watcher>>,
+    extensions: Extensions,
+    initial: World,
+}
+
+impl Simulation {
+    /// Begins to make a simulation of `scenario`, called by the scenario's title in its report.
+    pub fn builder(scenario: &Scenario) -> SimulationBuilder<'_> {
+        SimulationBuilder {
+            name: scenario.title.clone(),
+            scenario,
+            watchers: Vec::new(),
+            extensions: Extensions::default(),
+            initial: World::new(),
+        }
+    }
+}
+
+impl SimulationBuilder<'_> {
+    /// Calls the run `name` in its report.
+    #[must_use]
+    pub fn with_name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
+    }
+
+    /// Shows every tick to these watchers, too.
+    #[must_use]
+    pub fn with_watchers(mut self, watchers: Vec<Box<dyn Watcher>>) -> Self {
+        self.watchers.extend(watchers);
+        self
+    }
+
+    /// Runs a system between two phases, at every time point.
+    ///
+    /// Two systems in one slot of which one writes what the other reads or writes are an error: put them into two slots, or make one
+    /// of them by [`pipe`](IntoSystem::pipe). A system keeps its state in resources that [`SimulationBuilder::with_state`] registers;
+    /// a snapshot refuses one that has a [`Local`], and does not see what a closure captures and changes.
+    #[must_use]
+    pub fn with_system<S, M>(mut self, slot: Slot, system: S) -> Self
+    where
+        S: IntoSystem<(), (), M> + Clone + Send + Sync + 'static,
+        M: 'static,
+    {
+        self.extensions.add_system(slot, system);
+        self
+    }
+
+    /// Adds a resource for systems of one's own; `fork` makes the copy that a snapshot holds.
+    #[must_use]
+    pub fn with_state<T: Resource>(mut self, initial: T, fork: impl Fn(&T) -> T + Send + Sync + 'static) -> Self {
+        self.initial.insert_resource(initial);
+        self.extensions.add_state(fork);
+        self
+    }
+
+    /// The world before its first tick.
+    ///
+    /// # Errors
+    /// [`RunError::Building`] if the scenario's building cannot be built; [`RunError::Loop`] if the order of two systems is ambiguous;
+    /// [`RunError::UnknownState`] if a system names a component or resource that the world does not have.
+    pub fn build(self) -> Result<Simulation, RunError> {
+        let began = Instant::now();
+        let SimulationBuilder { name, scenario, watchers, extensions, initial } = self;
+        let mut world = WorldState::initial(scenario)?.into_world(watchers);
+        extensions.copy_states(&initial, &mut world);
+        let clocks = TimePoints::new(scenario);
+        let mut simulation = Simulation::assembled(name, Arc::new(scenario.clone()), clocks, world, extensions)?;
+        simulation.wall_s = began.elapsed().as_secs_f64();
+        Ok(simulation)
+    }
+}
