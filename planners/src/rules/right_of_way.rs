@@ -61,8 +61,10 @@ impl ArrivalMemory {
         let stop = signs.into_iter().filter(|line_m| self.stood_at_m.is_none_or(|stood_m| stood_m < *line_m));
         let wanted_mps = scene.goal.target.speed_mps;
         let held = scene.others.iter().flat_map(|other| {
-            let (arrived, manner) = (self.arrived(ego, other), (wanted_mps, is_standing(other)));
-            let holds = move |conflict: &&RouteConflict| Pair::new([ego, other], conflict, manner).holds(arrived);
+            let (arrived, they_stand) = (self.arrived(ego, other), is_standing(other));
+            let holds = move |conflict: &&RouteConflict| {
+                Pair::new([ego, other], conflict, wanted_mps, they_stand).holds(arrived)
+            };
             ego.route.conflicts_with(&other.route).filter(holds).map(|conflict| conflict.own_line_m)
         });
         let before_m = stopping_distance_m(ego);
