@@ -4,7 +4,7 @@
 //! cargo bench -p interplay-building --bench design
 //! ```
 //!
-//! The source needed 120 s for an iteration of chapter 3, and 8.03 s (distributed) and 10.21 s (centralised) for one of
+//! The dissertation needed 120 s for an iteration of chapter 3, and 8.03 s (distributed) and 10.21 s (centralised) for one of
 //! chapter 5, with four zones.
 
 mod case;

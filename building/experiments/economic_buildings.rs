@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Buildings have 2 to 12 zones; weather, people and their deviations, prices and forecast errors follow from the seed. The economic
-//! controller wins in a building where nobody with at most its discomfort pays less.
+//! controller wins in a building if no controller with at most its discomfort pays less.
 
 #![allow(clippy::print_stdout, reason = "an example talks to its user")]
 
@@ -151,6 +151,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         wins += u64::from(!is_beaten);
     }
-    println!("\nNobody with as little discomfort pays less in {wins} of {buildings} buildings.");
+    println!("\nEconomic MPC wins in {wins} of {buildings} buildings.");
     Ok(())
 }

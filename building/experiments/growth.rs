@@ -142,7 +142,7 @@ fn axes(svg: &mut String) -> std::fmt::Result {
     writeln!(svg, "<text x=\"{left}\" y=\"30\" font-size=\"15\">Processor time to design a day of 48 steps</text>")
 }
 
-/// What the source says of its own four rooms.
+/// What the dissertation says of its own four rooms.
 fn source(svg: &mut String) -> std::fmt::Result {
     let x = across(4.0);
     for (name, seconds, lower) in [

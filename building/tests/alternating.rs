@@ -54,7 +54,7 @@ fn reversals(settings: IterativeSettings, factor: f64) -> (usize, Vec<ControlErr
 }
 
 #[test]
-fn inputs_that_alternate_weaken_the_feedback_and_are_remarked() {
+fn alternating_inputs_weaken_the_feedback_and_are_reported() {
     for stability in [Stability::Lmi, Stability::Linear] {
         for factor in [1.6, 2.5] {
             let (count, remarks) = reversals(IterativeSettings { stability, ..IterativeSettings::default() }, factor);
@@ -66,14 +66,14 @@ fn inputs_that_alternate_weaken_the_feedback_and_are_remarked() {
 }
 
 #[test]
-fn a_right_model_is_left_alone() {
+fn a_correct_model_keeps_its_whole_feedback_gain() {
     let (count, remarks) = reversals(IterativeSettings::default(), 1.0);
     assert!(count <= 3 && remarks.is_empty(), "{count} {remarks:?}");
 }
 
 /// With a stated error the gain is stable for all models within it, so that nothing alternates at all.
 #[test]
-fn a_stated_error_of_the_model_keeps_the_feedback_calm() {
+fn a_stated_model_error_prevents_alternating_inputs() {
     let settings = IterativeSettings { model_error: 1.0, ..IterativeSettings::default() };
     let (count, remarks) = reversals(settings, 1.6);
     assert!(count <= 3, "{count} {remarks:?}");

@@ -39,12 +39,32 @@ fn taps_and_costs_are_those_of_independent_code() {
     assert_close(nominal.objective, number(&wanted["J_nominal_with_slack"]), 1e-4);
 }
 
+/// C = (I − QG)⁻¹ Q (eq. 4.29), column by column: the answers to an impulse of one error.
+fn feedback_matrix(filter: &YoulaFilter, lifted: &Lifted) -> DMatrix<f64> {
+    let (n, size) = (lifted.zones(), lifted.size());
+    let mut matrix = DMatrix::zeros(size, size);
+    for column in 0..size {
+        let mut state = StateSpace::new(filter.clone(), lifted.model());
+        for t in 0..lifted.steps() {
+            // At time t the error of row t − 1 is known.
+            let mut error_k = vec![0.0; n];
+            if t > 0 && column / n == t - 1 {
+                error_k[column % n] = 1.0;
+            }
+            let heat_kw = state.answer(&error_k);
+            matrix.view_mut((t * n, column), (n, 1)).copy_from_slice(&heat_kw);
+            state.advance(&heat_kw);
+        }
+    }
+    matrix
+}
+
 #[test]
-fn youla_s_identities_hold() {
+fn the_identities_of_the_youla_parametrisation_hold() {
     let lifted = lifted();
     let filter = designed(&ConcurrentSettings::default()).expect("designed").filter;
     let size = lifted.size();
-    let (g, c) = (lifted.dense(), filter.feedback_matrix(&lifted));
+    let (g, c) = (lifted.dense(), feedback_matrix(&filter, &lifted));
     let mut q = DMatrix::zeros(size, size);
     let mut unit = vec![0.0; size];
     for column in 0..size {
@@ -67,11 +87,11 @@ fn youla_s_identities_hold() {
 }
 
 #[test]
-fn the_state_space_form_is_the_matrix() {
+fn the_state_space_form_equals_the_feedback_matrix() {
     let lifted = lifted();
     let filter = designed(&ConcurrentSettings::default()).expect("designed").filter;
     let errors = common::numbers(lifted.size(), 1.0);
-    let wanted = filter.feedback_matrix(&lifted) * nalgebra::DVector::from_column_slice(&errors);
+    let wanted = feedback_matrix(&filter, &lifted) * nalgebra::DVector::from_column_slice(&errors);
     let mut state = StateSpace::new(filter, lifted.model());
     for t in 0..48 {
         let error = if t == 0 { vec![0.0; 4] } else { errors[(t - 1) * 4..t * 4].to_vec() };
@@ -82,7 +102,7 @@ fn the_state_space_form_is_the_matrix() {
 }
 
 #[test]
-fn a_vector_is_blind_to_what_a_matrix_sees() {
+fn the_printed_impulse_vector_misses_what_the_impulse_matrix_sees() {
     // Q₀ = 50 (I − 11ᵀ/4).
     let lifted = lifted();
     let blind = YoulaFilter(vec![DMatrix::from_fn(4, 4, |i, j| 50.0 * (if i == j { 1.0 } else { 0.0 } - 0.25))]);
@@ -92,7 +112,7 @@ fn a_vector_is_blind_to_what_a_matrix_sees() {
 }
 
 #[test]
-fn bounds_hold_cost_something_and_have_floors() {
+fn robust_bounds_hold_raise_the_cost_and_have_floors() {
     let lifted = lifted();
     let free = designed(&ConcurrentSettings::default()).expect("designed");
     assert!((free.filter.row_norm() - 2.47).abs() < 0.01 && (free.filter.impulse_norm(&lifted) - 4.45).abs() < 0.01);
@@ -125,7 +145,7 @@ fn four_taps_are_nearly_as_good_as_any_causal_feedback() {
 }
 
 #[test]
-fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
+fn the_concurrent_design_tracks_better_than_pid_on_every_seed() {
     let (model, targets) = (testbed(), chapter_4());
     let pid = LearningSettings { forecast: false, feedback: PidSettings::default(), ..LearningSettings::default() };
     for seed in 1..=8 {
@@ -158,7 +178,7 @@ fn a_bound_below_its_floor_is_refused_at_the_start() {
 }
 
 #[test]
-fn rooms_that_taps_within_their_bound_hardly_move_have_a_feedback_by_default() {
+fn rooms_with_little_gain_have_a_feasible_default_bound() {
     // The taps that are allowed are too small for rooms of twenty times the capacity.
     let lifted = Lifted::new(&testbed_scaled(20.0, 1.0, 1.0), STEPS);
     let mut concurrent = Concurrent::new(ConcurrentSettings::default(), lifted.clone()).expect("valid");
@@ -182,7 +202,7 @@ fn a_day_without_a_forecast_repeats_the_day_before() {
 }
 
 #[test]
-fn a_day_that_comes_as_predicted_goes_as_planned() {
+fn a_day_without_forecast_error_follows_its_plan() {
     let days: Vec<_> = (0..3).map(|k| (day(k).1, day(k).1)).collect();
     let mut concurrent = Concurrent::new(ConcurrentSettings::default(), lifted()).expect("valid");
     let records = run(&testbed(), 28.5, &mut concurrent, &chapter_4(), &days);
@@ -195,7 +215,7 @@ fn a_day_that_comes_as_predicted_goes_as_planned() {
 }
 
 #[test]
-fn without_a_bound_it_grows_with_the_building() {
+fn the_default_bound_grows_with_the_building() {
     for side in [1, 3] {
         let model = Model::euler(&Network::grid(side, side), STEP_S).expect("stable");
         let zones = side * side;

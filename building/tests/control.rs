@@ -76,7 +76,7 @@ fn a_thermostat_starts_beyond_its_dead_band_and_stops_at_what_is_wanted() {
 }
 
 #[test]
-fn a_pid_controller_is_its_formula() {
+fn a_pid_controller_matches_its_formula() {
     let settings = PidSettings { proportional_kw_per_k: 0.2, integral_kw_per_k_h: 0.04, derivative_kw_h_per_k: 0.025 };
     let got = answers(Controller::Pid(settings), &targets(&always(), 1), &[21.0, 21.5, 22.25]);
     // Errors 1, 0.5, −0.25 K; 0.02 kW/K a step; −0.05 kW per kelvin of rise in a step.
@@ -120,7 +120,7 @@ fn a_pid_controller_does_not_wind_up() {
 }
 
 #[test]
-fn learning_follows_the_law_of_its_errors() {
+fn learning_errors_follow_their_recursion() {
     // All days the same, no feedback, nothing at a limit: E_k+1 = (I − GL) E_k.
     let settings = LearningSettings {
         feedback: PidSettings { proportional_kw_per_k: 0.0, integral_kw_per_k_h: 0.0, derivative_kw_h_per_k: 0.0 },
@@ -152,7 +152,7 @@ fn learning_follows_the_law_of_its_errors() {
 }
 
 #[test]
-fn p_type_learning_converges_in_the_end_and_grows_on_the_way() {
+fn p_type_learning_errors_grow_before_they_converge() {
     let lifted = Lifted::new(&Model::euler(&Network::testbed(), STEP_S).expect("stable"), STEPS);
     let p_type =
         LearningSettings { proportional_kw_per_k: 0.2, derivative_kw_per_k: 0.0, ..LearningSettings::default() };
@@ -206,7 +206,7 @@ fn baselines() -> [Controller; 4] {
 }
 
 #[test]
-fn nobody_beats_the_clairvoyant_and_the_clairvoyant_has_no_regret() {
+fn no_controller_beats_the_clairvoyant_one_which_has_no_regret() {
     for seed in 1..4 {
         let world = World::new(seed, Forecast::Uncertain { level: ErrorLevel::Medium });
         for controller in baselines() {
@@ -221,7 +221,7 @@ fn nobody_beats_the_clairvoyant_and_the_clairvoyant_has_no_regret() {
 }
 
 #[test]
-fn learning_and_forecasts_pay() {
+fn learning_and_forecasts_lower_the_cost() {
     let mean = |seeds: std::ops::Range<u64>, forecast: Forecast, controller: Controller, day: usize| {
         let count = (seeds.end - seeds.start) as f64;
         seeds.map(|seed| World::new(seed, forecast).run(controller)[day].1).sum::<f64>() / count
@@ -237,7 +237,7 @@ fn learning_and_forecasts_pay() {
 }
 
 #[test]
-fn key_figures_are_what_they_say() {
+fn key_figures_match_their_definitions() {
     // Two zones, four steps of half an hour, the last two occupied.
     let targets = Targets {
         zones: 2,
@@ -268,7 +268,7 @@ fn key_figures_are_what_they_say() {
 }
 
 #[test]
-fn targets_are_wanted_at_the_ends_of_steps() {
+fn targets_apply_at_the_ends_of_steps() {
     let occupied_c = vec![24.0, 25.0, 26.0, 27.0];
     let targets =
         targets(&Setpoints { occupied_c, other_c: Some(30.0), other_weight: 0.25, ..Setpoints::default() }, 4);
@@ -335,7 +335,7 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn controllers_are_read_by_their_kind() {
+fn controllers_are_deserialised_by_their_kind() {
     let read = |text: &str| toml::from_str::<Controller>(text);
     let designs = [
         Controller::Clairvoyant(Default::default()),
@@ -354,7 +354,7 @@ fn controllers_are_read_by_their_kind() {
 }
 
 #[test]
-fn random_temperatures_never_make_a_baseline_ask_for_more_than_there_is() {
+fn baseline_inputs_stay_within_their_limits() {
     let model = testbed();
     let targets = targets(&Setpoints::default(), 4);
     for controller in baselines() {

@@ -55,7 +55,7 @@ fn zones_agree_on_the_centralised_optimum_and_costs_never_rise() {
             assert!(falls(&exchange.costs), "{n} {scheme:?}: {:?}", exchange.costs);
             let near = exchange.costs.iter().position(|cost| *cost <= enough * wanted);
             assert!(near.is_some(), "{n} {scheme:?}: {last} instead of {wanted}");
-            assert!(last >= wanted * (1.0 - 1e-6), "nobody is better than the optimum");
+            assert!(last >= wanted * (1.0 - 1e-6), "the exchange cannot beat the optimum");
             assert!(design.planned_kw.iter().all(|kw| kw.abs() <= 2.0));
         }
     }
@@ -96,7 +96,7 @@ fn a_silent_zone_does_not_stop_the_others() {
 }
 
 #[test]
-fn lost_and_late_messages_delay_but_do_not_mislead() {
+fn lost_and_late_messages_delay_the_agreement_but_do_not_change_it() {
     let (model, targets, day, wanted) = grids().remove(1);
     for (loss, delay_rounds) in [(0.3, 0), (0.0, 1), (0.0, 3), (0.1, 1)] {
         let settings =
@@ -129,7 +129,7 @@ fn walls_that_store_heat_belong_to_a_zone() {
 }
 
 #[test]
-fn days_precool_track_and_learn_on_every_seed() {
+fn distributed_days_precool_track_and_learn_on_every_seed() {
     let (model, targets) = (testbed(), chapter_5(vec![22.5, 22.0, 23.0, 23.5], 4));
     for seed in 1..=8 {
         let mut distributed = Distributed::new(DistributedSettings::default(), &model, STEPS).expect("valid");
@@ -146,7 +146,7 @@ fn days_precool_track_and_learn_on_every_seed() {
 }
 
 #[test]
-fn omega_is_a_laplacian_and_no_adjacency() {
+fn omega_is_the_identity_plus_the_laplacian() {
     let lifted = lifted();
     // The testbed of the reference has all six walls; the grid has four.
     let grid = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), STEPS);
@@ -193,14 +193,14 @@ fn a_spectral_radius_below_one_does_not_keep_errors_from_growing() {
 }
 
 #[test]
-fn a_recovered_law_does_what_it_was_recovered_from() {
+fn a_recovered_learning_law_reproduces_the_change_of_inputs() {
     let (change, errors) = (common::numbers(4 * STEPS, 0.5), common::numbers(8 * STEPS, 1.0)[4 * STEPS..].to_vec());
     let law = LearningLaw::recovered(4, &change, &errors);
     assert!(common::distance(&law.product(&errors), &change) < 1e-12);
 }
 
 #[test]
-fn unstable_steps_and_missing_weather_are_said() {
+fn unstable_steps_and_missing_weather_are_reported() {
     let network =
         Network::new(&[Zone { capacity_kj_per_k: 5.0, ..Zone::named("a") }], &[Wall::new("a", AMBIENT, 31.25)])
             .expect("valid");
@@ -219,7 +219,7 @@ fn unstable_steps_and_missing_weather_are_said() {
 }
 
 #[test]
-fn zones_that_can_solve_nothing_repeat_the_day_before() {
+fn zones_without_a_solution_repeat_the_day_before() {
     // Without a price on inputs, heat after the last reference is worth nothing: no zone has a single best answer.
     let targets = chapter_5(vec![22.5], 4);
     let (model, targets) = (testbed(), Targets { input_weight: vec![0.0; targets.reference_c.len()], ..targets });

@@ -94,7 +94,7 @@ fn costs_never_rise_where_the_bounds_of_distant_zones_bind() {
 }
 
 #[test]
-fn lost_messages_cost_messages_and_nothing_else() {
+fn resent_messages_do_not_change_the_agreement() {
     for seed in 0..20 {
         let (model, targets, day) = problem(seed);
         let settings = DistributedSettings { rounds: 400, compare: true, ..DistributedSettings::default() };
@@ -109,7 +109,7 @@ fn lost_messages_cost_messages_and_nothing_else() {
 }
 
 #[test]
-fn messages_that_are_lost_for_good_do_not_mislead() {
+fn messages_that_never_arrive_do_not_raise_the_cost() {
     // Two in three messages are lost: one in 40 is missing in its round even after eight repetitions. All begin hundreds of times
     // above the optimum.
     for seed in 0..10 {

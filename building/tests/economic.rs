@@ -102,19 +102,19 @@ fn exact() -> EconomicSettings {
 }
 
 #[test]
-fn with_an_exact_forecast_it_pays_at_most_two_percent_more_than_the_optimum_of_the_run() {
+fn with_an_exact_forecast_economic_mpc_pays_at_most_two_percent_more_than_the_optimum() {
     let told = disturbance(0.0);
     let run = run(&mut *economic(exact()), &agenda(tariff()), &told, &told, 4);
     let best = run.history.least_money(&building()).expect("solved");
     assert!(run.money >= best.energy_cost - 0.01, "{} and {}", run.money, best.energy_cost);
     assert!(run.money <= 1.02 * best.energy_cost, "{} and {}", run.money, best.energy_cost);
-    // The cold start is nobody's fault.
+    // The cold start is the same for all controllers.
     assert!(run.discomfort_k_h <= best.discomfort_k_h + 0.1, "{} and {}", run.discomfort_k_h, best.discomfort_k_h);
 }
 
 /// Prices that are three times as high move the heat into the night before.
 #[test]
-fn it_buys_when_it_is_cheap() {
+fn the_economic_controller_buys_heat_when_it_is_cheap() {
     let told = disturbance(0.0);
     let night_kwh = |tariff: Tariff| {
         run(&mut *economic(exact()), &agenda(tariff), &told, &told, 3).last_kw[..12].iter().sum::<f64>()
@@ -137,7 +137,7 @@ fn a_demand_charge_lowers_the_peak() {
 
 /// Heat that is missing from the forecast every day is expected after some days: it costs no more discomfort and less money.
 #[test]
-fn a_forecast_that_is_wrong_in_the_same_way_is_learned() {
+fn a_repeated_forecast_error_is_learned() {
     let (told, actual) = (disturbance(0.0), disturbance(1.0));
     let last = |learn_forecast| {
         let settings = EconomicSettings { learn_forecast, ..exact() };
@@ -148,9 +148,9 @@ fn a_forecast_that_is_wrong_in_the_same_way_is_learned() {
     assert!(learned < ignorant, "{learned} and {ignorant}");
 }
 
-/// Nobody is cheaper than the optimum of the run with the same end, not even the optimum of every day alone.
+/// No sequence of inputs with the same end costs less than the optimum of the run, not even the optimum of each day.
 #[test]
-fn a_row_of_the_days_optima_costs_no_less_than_the_optimum_of_the_run() {
+fn consecutive_optima_of_days_cost_at_least_the_optimum_of_the_run() {
     let (model, actual) = (building(), disturbance(0.0));
     let agenda = agenda(tariff());
     let lifted = Lifted::new(&model, STEPS);

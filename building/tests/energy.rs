@@ -72,7 +72,7 @@ fn schedule(zone: &str, periods: Vec<Period>) -> ZoneSchedule {
 
 /// The day of `tests/peers/priced_heat.py`: hours by zone, limits by direction, prices by hour, COP by outdoor temperature.
 #[test]
-fn the_cheapest_day_is_that_of_scipy() {
+fn the_cheapest_day_matches_scipys() {
     let wanted: Json = serde_json::from_str(include_str!("data/priced_heat.json")).expect("JSON");
     let zone = |name: &str, capacity_kj_per_k, heating_kw, cooling_kw| Zone {
         capacity_kj_per_k,
@@ -136,7 +136,7 @@ fn a_step_across_two_hours_costs_their_mean() {
 
 /// The same price in every hour and one COP leave targets as they are, however large they are.
 #[test]
-fn what_never_changes_has_no_weight() {
+fn a_constant_price_does_not_change_the_weights() {
     let plain = Agenda::new(Setpoints::default(), 2, 1800.0, 48).expect("setpoints");
     let heat_pump = HeatPump { heating: curve(&[(0.0, 3.2)]), cooling: curve(&[(0.0, 3.2)]) };
     let supplied = plain.clone().supplied(Some(tariff(vec![0.31])), Some(heat_pump));

@@ -77,7 +77,7 @@ fn the_heated_house_has_its_conductance_and_capacity() {
 /// no fit can know them, published or not.
 #[test]
 #[ignore = "needs the data of measured buildings in INTERPLAY_THERMAL_DATA"]
-fn dutch_homes_have_no_absolute_scale() {
+fn heat_without_a_unit_leaves_dutch_homes_without_an_absolute_scale() {
     let file = "dutch3/blg_2.csv";
     let table = table(file);
     let mut mapping = Mapping::parse("dutch3.toml", DUTCH).expect("sound");
@@ -99,7 +99,7 @@ fn dutch_homes_have_no_absolute_scale() {
 
 #[test]
 #[ignore = "needs the data of measured buildings in INTERPLAY_THERMAL_DATA"]
-fn the_hospital_is_read_in_its_batches_and_its_disputes_are_told() {
+fn the_hospital_record_is_split_into_its_batches() {
     let table = table("riskbr/riskbr_data.csv");
     let mut mapping = Mapping::parse("riskbr.toml", RISKBR).expect("sound");
     mapping.identify.method = Estimator::PredictionError;

@@ -68,7 +68,7 @@ fn gaps_and_missing_temperatures_are_bridged() {
 
 /// Without any change of heat or weather nothing can be said of a capacity.
 #[test]
-fn data_that_say_nothing_identify_nothing() {
+fn data_without_information_identify_nothing() {
     let mut house = WALL_HOUSE;
     house.is_steady = true;
     let report = identify(&house.simulate(900.0, 14, 3), &IdentifySettings::default()).expect("enough rows").report;
@@ -97,7 +97,7 @@ fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
 
 /// The network that is found, simulated by the crate, warms as the house does.
 #[test]
-fn what_is_found_is_a_network_for_scenarios() {
+fn an_identified_network_is_exported_as_zones_and_walls() {
     let house = WALL_HOUSE;
     let found = identify(&house.simulate(900.0, 14, 5), &IdentifySettings::default()).expect("rich data");
     let exported = found.network.expect("everything is determined");
@@ -116,7 +116,7 @@ fn what_is_found_is_a_network_for_scenarios() {
 }
 
 #[test]
-fn too_little_to_go_by_is_an_error() {
+fn too_few_rows_are_an_error() {
     let house: House = WALL_HOUSE;
     let mut telemetry = house.simulate(900.0, 1, 6);
     telemetry.segments = std::iter::once(0..20).collect();
@@ -125,7 +125,7 @@ fn too_little_to_go_by_is_an_error() {
 }
 
 #[test]
-fn what_would_take_too_long_is_refused_before_it_begins() {
+fn an_identification_beyond_its_time_limit_is_refused_beforehand() {
     let house: House = WALL_HOUSE;
     let telemetry = house.simulate(900.0, 4, 6);
     let settings = IdentifySettings { processor_s: 0.5, ..IdentifySettings::default() };

@@ -91,7 +91,7 @@ fn sun_on_the_wall_is_found_and_written_as_sun_on_the_wall() {
 }
 
 #[test]
-fn sun_in_the_air_needs_no_sun_on_the_wall() {
+fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
     let found = identify(&telemetry(0.0, 2), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor");
     let aperture = found.report.zones[0].physical.iter().find(|it| it.name == "aperture to the sun").expect("listed");
@@ -102,7 +102,7 @@ fn sun_in_the_air_needs_no_sun_on_the_wall() {
 fn only_the_kinds_of_hidden_temperatures_that_are_named_are_tried() {
     let settings = IdentifySettings { hidden: vec![HiddenTemperature::Interior], ..IdentifySettings::default() };
     let found = identify(&telemetry(WALL_M2, 3), &settings).expect("rich data");
-    // Coloured heat is no temperature, and is always tried.
+    // Coloured heat is not a temperature, and is always tried.
     let temperatures = |found: &Identification| -> Vec<String> {
         let models = found.report.models.iter().map(|model| model.model.clone());
         models.filter(|model| !model.contains("coloured heat")).collect()

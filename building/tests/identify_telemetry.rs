@@ -1,7 +1,7 @@
 //! Tables are read as the mapping says, and what cannot be read is located: file, line, column, what was wrong, what would work.
 
 use interplay_building::identify::synthetic_classroom::Classroom;
-use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError, TelemetryProblem, ValueShape};
+use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError};
 
 const MAPPING: &str = r#"
 walls = [["living", "outdoor"]]
@@ -77,7 +77,7 @@ fn other_separators_units_and_forms_of_time_are_read_alike() {
 }
 
 #[test]
-fn water_and_air_carry_heat() {
+fn heat_flows_of_water_and_air_are_computed_from_flow_and_temperatures() {
     let text = MAPPING.replace(
         r#"{ kind = "power", column = "P", unit = "w" }"#,
         r#"{ kind = "water", flow = "P", flow_unit = "l-per-min", inlet = "Ta", outlet = "sun" },
@@ -92,7 +92,7 @@ fn water_and_air_carry_heat() {
 }
 
 #[test]
-fn simulated_telemetry_survives_the_way_through_a_table() {
+fn telemetry_written_as_a_table_is_read_back_bit_for_bit() {
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.segments = vec![0..40, 40..97];
     let mapping = toml::to_string(&telemetry.mapping()).expect("a mapping is TOML");
@@ -101,7 +101,7 @@ fn simulated_telemetry_survives_the_way_through_a_table() {
 }
 
 #[test]
-fn any_name_survives_the_way_through_a_table() {
+fn zone_names_with_any_characters_are_read_back() {
     for name in ["a, b", "the \"blue\" room", " lobby ", "line\nbreak", "1.5", "Küche; Bad"] {
         let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
         telemetry.zones[0].name = name.to_owned();
@@ -131,7 +131,7 @@ fn a_text_in_a_number_column_is_located() {
     let carriage_returns = TABLE.replace("20.2", "warm").replace('\n', "\r\n").replacen("2026", "\r\n2026", 1);
     let place = read(&carriage_returns).expect_err("the table is broken").place;
     assert_eq!(place, Some((5, 26)));
-    // A number to Rust, but to nobody's building.
+    // Rust parses these as numbers, but no building has such values.
     assert!(message("20.2", "NaN").starts_with("home.csv:4:26: `NaN` in column `Ti` is not a number"));
     assert!(message("20.2", "20,2").starts_with("home.csv:4:26: `20,2` in column `Ti` is not a number"));
 }
@@ -195,12 +195,9 @@ fn refused(from: &str, to: &str) -> TelemetryError {
 }
 
 #[test]
-fn an_unknown_key_is_typed_and_located_and_the_nearest_is_named() {
+fn an_unknown_key_is_located_and_the_nearest_key_is_suggested() {
     let error = refused("step_s = 900.0", "step_s = 900.0\nstep_m = 15");
     assert_eq!(error.to_string(), "home.toml:10:1: unknown key `step_m` in `time`; did you mean `step_s`?");
-    let TelemetryProblem::UnknownKey { table, key, known } = *error.problem else { panic!("{error}") };
-    assert_eq!((table.as_str(), key.as_str()), ("time", "step_m"));
-    assert_eq!(known, ["column", "format", "zone", "step_s", "gaps", "batch"]);
     // A misspelt key is unknown before the right one is missing, wherever it stands.
     let misspelt = |from: &str, to: &str| refused(from, to).to_string();
     assert_eq!(
@@ -220,7 +217,7 @@ fn an_unknown_key_is_typed_and_located_and_the_nearest_is_named() {
 }
 
 #[test]
-fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
+fn a_value_of_the_wrong_type_is_reported_with_the_type_needed() {
     let wanted = |from: &str, to: &str, message: &str| {
         let expected = format!(
             "home.toml:{message}; `interplay identify --help` shows a mapping, docs/identification.md every key"
@@ -255,8 +252,6 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
         kind,
         "home.toml:18:9: `zone.living.heat.0.kind` is missing; it must be one of `power`, `meter`, `supply-air`, `water`"
     );
-    let problem = refused("900.0", "\"900\"").problem;
-    assert!(matches!(*problem, TelemetryProblem::WrongType { wanted: ValueShape::Number, .. }), "{problem}");
 }
 
 #[test]
@@ -289,7 +284,7 @@ fn settings_of_the_identification_are_located_in_the_mapping() {
 }
 
 #[test]
-fn wrong_mappings_say_where_and_what() {
+fn contradictory_mappings_are_located_and_explained() {
     let broken = |from: &str, to: &str| refused(from, to).to_string();
     let syntax = broken("step_s = 900.0", "step_s = ");
     assert!(syntax.starts_with("home.toml:9:") && syntax.contains("not valid TOML: "), "{syntax}");
@@ -335,7 +330,7 @@ fn wrong_mappings_say_where_and_what() {
 
 /// The check before reading and the reader itself accept the same documents.
 #[test]
-fn what_the_check_lets_pass_can_be_read() {
+fn every_mapping_that_passes_the_check_can_be_read() {
     let values =
         ["3", "-3", "0.5", "1e300", "true", "\"a\"", "\";\"", "[]", "[[]]", "{}", "1979-05-27", "{ kind = \"water\" }"];
     let places = [
@@ -353,7 +348,7 @@ fn what_the_check_lets_pass_can_be_read() {
     for (place, value) in places.iter().flat_map(|place| values.map(|value| (place, value))) {
         let text = MAPPING.replacen(place, value, 1);
         if let Err(error) = Mapping::parse("home.toml", &text) {
-            assert!(!matches!(*error.problem, TelemetryProblem::Syntax { .. }), "{value} for {place}: {error}");
+            assert!(!error.problem.starts_with("not valid TOML"), "{value} for {place}: {error}");
             assert!(error.place.is_some(), "{value} for {place}: {error}");
             refused += 1;
         }
@@ -362,14 +357,14 @@ fn what_the_check_lets_pass_can_be_read() {
 }
 
 #[test]
-fn the_example_mappings_are_sound() {
+fn the_example_mappings_are_valid() {
     for (file, text) in [
         ("dutch3.toml", include_str!("../experiments/dutch3.toml")),
         ("riskbr.toml", include_str!("../experiments/riskbr.toml")),
     ] {
         Mapping::parse(file, text).expect("an example is sound");
     }
-    assert!(matches!(*read("").expect_err("empty").problem, TelemetryProblem::Empty));
+    assert_eq!(read("").expect_err("empty").problem, "the table is empty");
 }
 
 /// Every key of an object in a schema, and of those below it.
@@ -387,7 +382,7 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
 }
 
 #[test]
-fn the_page_shows_a_sound_mapping_and_names_every_key() {
+fn the_documentation_shows_a_valid_mapping_and_every_key() {
     let page = include_str!("../../docs/identification.md");
     let example = page.split("```toml mapping\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a mapping");
     Mapping::parse("docs/identification.md", example).expect("sound");

@@ -16,7 +16,7 @@ fn truth() -> [f64; 4] {
     [out, room, room, 1.0 / CAPACITY_KJ_PER_K]
 }
 
-/// Nine days to train, as the source has them.
+/// Nine days to train, as the dissertation has them.
 fn settings(method: Estimator) -> IdentifySettings {
     IdentifySettings {
         method,
@@ -75,9 +75,9 @@ fn the_prediction_error_estimator_recovers_the_truth_even_with_bad_sensors() {
     assert_recovered(Estimator::PredictionError, 0.1, (0.03, 0.12, 0.01), 0.8);
 }
 
-/// Bad sensors are where the source's estimator fails, which is why it is not the default.
+/// Bad sensors are where the dissertation's estimator fails, which is why it is not the default.
 #[test]
-fn smoothing_mistakes_sensor_noise_for_heat_flow() {
+fn the_semiparametric_estimator_overestimates_conductances_with_noisy_sensors() {
     let (mean, _) = mean_errors(Estimator::Semiparametric, RoomDisturbance::Arma, 0.1);
     assert!(mean[..3].iter().all(|error| *error > 0.15), "{mean:.3?}");
 }
@@ -110,7 +110,7 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
             for (sum, (_, error)) in mean.iter_mut().zip(&test.free_run.errors_k) {
                 *sum += error.expect("there are runs") / SEEDS.count() as f64;
             }
-            // The test is no worse than the training by much: the model is not fitted to chance.
+            // The test error is close to the training error: the model is not overfitted.
             assert!(with_residual_model(test) < 1.15 * with_residual_model(&zone.train));
         }
         let error = |forecast| mean[ResidualForecast::ALL.iter().position(|other| *other == forecast).expect("listed")];

@@ -73,7 +73,7 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
 
 /// A network that lives in continuous time: capacities need the exact discretisation, conductances do not care.
 #[test]
-fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
+fn regression_recovers_the_capacities_and_resistances_of_the_testbed() {
     let telemetry = testbed(20, 900.0);
     let report = identify(&telemetry, &settings(Estimator::PredictionError)).expect("rich data").report;
     let euler =
@@ -87,24 +87,15 @@ fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
         assert!((value(&report, "resistance to outdoor") / 31.25 - 1.0).abs() < 0.1);
         assert!((value(&report, "time constant through the walls") / 4.34 - 1.0).abs() < 0.1);
     }
-    assert_eq!(report.walls.len(), 6, "one for each pair of rooms");
-    for wall in &report.walls {
-        let names = (wall.between.0.as_str(), wall.between.1.as_str());
-        let (conductance, error) = wall.combined.unwrap_or_else(|| panic!("{names:?}: {}", wall.words));
-        match names {
-            ("room 1", "room 4") | ("room 2", "room 3") => {
-                assert!(conductance < 3.0 * error, "{names:?}: {conductance} ± {error}")
-            }
-            _ => assert!(
-                (conductance - 0.016).abs() < 3.0 * error && error < 0.002,
-                "{names:?}: {conductance} ± {error}"
-            ),
-        }
+    for (zone, neighbour) in [(0, "room 2"), (1, "room 1"), (2, "room 4"), (3, "room 3")] {
+        let wall = quantity(&report, zone, &format!("conductance to {neighbour}"));
+        let (conductance, error) = (wall.value.expect("identified"), wall.standard_error.expect("identified"));
+        assert!((conductance - 0.016).abs() < 3.0 * error && error < 0.002, "{neighbour}: {conductance} ± {error}");
     }
 }
 
 #[test]
-fn a_wall_that_is_not_there_is_not_told_apart_from_zero_and_has_no_resistance() {
+fn a_missing_wall_has_a_conductance_of_about_zero_and_no_resistance() {
     let report = identify(&testbed(20, 900.0), &settings(Estimator::PredictionError)).expect("rich data").report;
     let rate = quantity(&report, 0, "rate towards room 4");
     assert_eq!(rate.verdict.confidence, Confidence::NotDistinguishableFromZero, "{rate:?}");
@@ -128,12 +119,11 @@ fn heat_that_never_changes_identifies_no_capacity() {
             assert_eq!(quantity.value, None, "{method:?}: {quantity:?}");
             assert_eq!(quantity.verdict.confidence, Confidence::NotIdentifiable, "{method:?}: {quantity:?}");
         }
-        assert_eq!(report.zones[0].condition_number.is_none(), method == Estimator::Semiparametric);
     }
 }
 
 #[test]
-fn two_neighbours_that_are_one_cannot_be_told_apart_but_the_rest_can() {
+fn identical_neighbours_are_not_identifiable_and_the_rest_is() {
     for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
         telemetry.boundaries[2].temperature_c = telemetry.boundaries[1].temperature_c.clone();
@@ -169,21 +159,7 @@ fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
 }
 
 #[test]
-fn a_building_that_changes_half_way_is_disputed() {
-    let mut telemetry = Classroom { days: 18, ..Classroom::default() }.simulate();
-    let middle = telemetry.rows() / 2;
-    // As if the meter were exchanged for one that counts half.
-    telemetry.zones[0].power_kw[middle..].iter_mut().for_each(|power| *power *= 0.5);
-    let report =
-        identify(&telemetry, &settings(Estimator::PredictionError)).expect("no error: the report says so").report;
-    let heat = quantity(&report, 0, "effect of heat");
-    assert_eq!(heat.verdict.confidence, Confidence::Disputed, "{heat:?}");
-    assert_eq!(quantity(&report, 0, "heat capacity").verdict.confidence, Confidence::Disputed);
-    assert!(heat.checks.iter().any(|check| check.how.contains("half")));
-}
-
-#[test]
-fn too_little_to_go_by_is_an_error_that_says_what_would_do() {
+fn too_few_rows_or_missing_causes_are_reported_with_a_remedy() {
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.segments = std::iter::once(0..20).collect();
     let error = identify(&telemetry, &settings(Estimator::PredictionError)).expect_err("20 rows are too few");

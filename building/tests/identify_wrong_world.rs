@@ -22,7 +22,7 @@ fn causes(report: &IdentificationReport) -> Vec<SuspectedCause> {
 
 /// The house with its weather, and a sunny one with the weather of an hour before.
 #[test]
-fn a_clock_that_is_an_hour_off_is_warned_of_and_nothing_is_identified() {
+fn a_clock_error_of_an_hour_is_suspected_and_nothing_is_identified() {
     let telemetry = WALL_HOUSE.simulate(900.0, 14, 21);
     let right = report(&telemetry);
     assert!(right.suspicions.is_empty(), "{:?}", right.suspicions);
@@ -49,7 +49,7 @@ fn a_clock_that_is_an_hour_off_is_warned_of_and_nothing_is_identified() {
 }
 
 #[test]
-fn people_who_come_at_the_same_hours_are_named() {
+fn unmeasured_heat_at_the_same_hours_is_attributed_to_people() {
     let mut telemetry = WALL_HOUSE.simulate(900.0, 14, 23);
     for row in 0..telemetry.rows() {
         let hour = (row as f64 / 4.0) % 24.0;
@@ -63,7 +63,7 @@ fn people_who_come_at_the_same_hours_are_named() {
 
 /// A record without a few of its rows says the same as with them.
 #[test]
-fn a_missing_row_costs_no_more_than_a_row() {
+fn a_missing_row_loses_no_more_information_than_one_row() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/telemetry/cabin");
     let read = |ending: &str| std::fs::read_to_string(format!("{path}{ending}")).expect("part of the repository");
     let mut mapping = Mapping::parse("cabin.toml", &read(".toml")).expect("sound");

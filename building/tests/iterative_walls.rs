@@ -103,7 +103,7 @@ fn a_decay_below_the_floor_is_refused_with_one_that_works() {
 }
 
 #[test]
-fn a_feedback_that_is_not_found_does_not_cost_the_plan() {
+fn a_missing_certificate_does_not_prevent_the_plan() {
     // So near to the floor that neither certificate can be computed.
     let model = row_of_rooms(4, 20_000.0, 7);
     let floor = decay::floor(&model);

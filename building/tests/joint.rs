@@ -87,7 +87,7 @@ fn exchanging_prices_solves_the_cone_programme() {
 }
 
 #[test]
-fn on_the_testbed_the_two_stage_design_is_a_few_percent_dearer() {
+fn the_two_stage_design_costs_a_few_percent_more_than_the_joint_one() {
     // Rooms wanted so cold by day and warm by night that equipment is at its limits around eight and seven.
     let setpoints = Setpoints { occupied_c: vec![20.0, 21.0, 22.0, 23.0], other_c: Some(30.0), ..Setpoints::default() };
     let (lifted, targets) = (lifted(), setpoints.targets(4, STEP_S, STEPS).expect("valid"));
@@ -101,7 +101,7 @@ fn on_the_testbed_the_two_stage_design_is_a_few_percent_dearer() {
 }
 
 #[test]
-fn days_are_run_with_the_joint_design() {
+fn the_joint_design_runs_several_days() {
     let targets = chapter_3(1.0);
     let days: Vec<_> = (0..3).map(day).collect();
     let settings = IterativeSettings { coordination: Coordination::Joint, ..IterativeSettings::default() };

@@ -26,7 +26,7 @@ fn dense(size: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> [f64; 2] {
 }
 
 #[test]
-fn conditions_are_those_of_the_whole_matrix() {
+fn convergence_conditions_match_those_of_the_dense_matrix() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), 8);
     let (change, errors) = (common::numbers(32, 0.5), common::numbers(64, 1.0)[32..].to_vec());
     for law in [LearningLaw::uniform(4, 8, 0.15, 0.88), LearningLaw::recovered(4, &change, &errors)] {
@@ -54,7 +54,7 @@ fn conditions_are_those_of_the_whole_matrix() {
 
 /// The eigenvalues of Ω are 1 plus those of the grid's Laplacian, 4 − 2 cos(πi/10) − 2 cos(πj/10).
 #[test]
-fn a_hundred_zones_have_the_radius_of_the_closed_form() {
+fn the_spectral_radius_of_a_hundred_zones_matches_its_closed_form() {
     let lifted = grid(10, 10);
     let rise = STEP_S / lifted.model().network().capacities_kj_per_k()[0];
     let cosine = (std::f64::consts::PI / 10.0).cos();
@@ -77,7 +77,7 @@ fn a_hundred_zones_have_the_radius_of_the_closed_form() {
 
 /// With ones for neighbours Ω of four zones in a square has a negative eigenvalue: whatever the gain, some pattern of errors grows.
 #[test]
-fn with_the_matrix_as_printed_every_gain_diverges() {
+fn with_the_printed_adjacency_matrix_every_gain_diverges() {
     let lifted = grid(2, 2);
     for l in [0.001, 0.01, 0.1, 0.3] {
         let radius = |errors| {

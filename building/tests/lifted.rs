@@ -21,7 +21,7 @@ fn forms(network: &Network) -> [Lifted; 2] {
 
 proptest! {
     #[test]
-    fn products_are_those_of_the_written_matrix(network in network(5)) {
+    fn products_with_the_lifted_map_match_its_dense_matrix(network in network(5)) {
         for lifted in forms(&network) {
             let g = lifted.dense();
             let u = DVector::from_vec(numbers(lifted.size(), 2.0));
@@ -32,7 +32,7 @@ proptest! {
     }
 
     #[test]
-    fn the_inverse_finds_the_inputs(network in network(5)) {
+    fn solving_recovers_the_inputs(network in network(5)) {
         for lifted in forms(&network) {
             let u = numbers(lifted.size(), 2.0);
             let found = lifted.solve(&lifted.product(&u));
@@ -41,7 +41,7 @@ proptest! {
     }
 
     #[test]
-    fn a_day_is_its_free_response_and_the_effect_of_the_inputs(network in network(5), ambient_c in -10.0..35.0) {
+    fn a_response_is_the_free_response_plus_the_effect_of_inputs(network in network(5), ambient_c in -10.0..35.0) {
         for lifted in forms(&network) {
             let initial_c: Vec<f64> = numbers(network.node_count(), 5.0).iter().map(|x| 25.0 + x).collect();
             let ambient_c = vec![ambient_c; STEPS];
@@ -94,7 +94,7 @@ fn disturbances_are_found_from_measured_temperatures() {
 }
 
 #[test]
-fn no_steps_are_no_numbers() {
+fn a_horizon_of_zero_steps_has_empty_signals() {
     let lifted = Lifted::new(&Model::exact(&Network::testbed(), STEP_S).expect("valid"), 0);
     assert!(lifted.product(&[]).is_empty() && lifted.markov().is_empty());
 }

@@ -1,4 +1,4 @@
-//! The day's optimum: it is one, it is that of independent code, and nobody beats it.
+//! The day's optimum matches independent code, satisfies the optimality conditions, and no perturbation costs less.
 
 mod common;
 
@@ -157,7 +157,7 @@ fn no_perturbation_is_cheaper() {
 }
 
 #[test]
-fn what_cannot_be_planned_is_refused() {
+fn days_without_a_feasible_problem_are_refused() {
     let (lifted, initial_c, targets, disturbance) = storing_day();
     let short = Disturbance { ambient_c: vec![30.0; 3], ..disturbance.clone() };
     let error = optimum(&lifted, &initial_c, &targets, &short, None).expect_err("too short");
@@ -177,7 +177,7 @@ fn what_cannot_be_planned_is_refused() {
 /// Sun on a wall does what some heat of the zones would do, G⁻¹ of the temperatures that it makes; designs that know either are
 /// one and the same.
 #[test]
-fn sun_on_a_wall_is_known_to_the_optimum_like_the_heat_of_zones_that_does_the_same() {
+fn the_optimum_accounts_for_sun_on_a_wall() {
     let zones = ["a", "b"].map(Zone::named).to_vec();
     let network = |solar_aperture_m2: f64| {
         let floor = Wall::new("a", AMBIENT, 30.0).with_capacity_kj_per_k(1500.0);
@@ -208,6 +208,6 @@ fn sun_on_a_wall_is_known_to_the_optimum_like_the_heat_of_zones_that_does_the_sa
     let other = optimum(&dark_lifted, &initial_c, &targets, &equivalent, penalty).expect("solvable");
     assert_close(one.cost, other.cost, 1e-7);
     assert!(one.heat_kw.iter().zip(&other.heat_kw).all(|(one, other)| (one - other).abs() < 1e-4));
-    // A day without the wall's part is no day of this building.
+    // A day without gains of the wall does not fit this building.
     assert!(optimum(&sunny_lifted, &initial_c, &targets, &equivalent, penalty).is_err());
 }

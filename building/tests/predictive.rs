@@ -96,7 +96,7 @@ fn with_an_exact_forecast_it_costs_little_more_than_the_optimum() {
     assert!(pid > 2.0 * predictive, "{pid} and {predictive}");
 }
 
-/// Heat that nobody forecast is found out, and without learning it is not.
+/// Heat that was not forecast is estimated and compensated with learning, and is not without.
 #[test]
 fn unforecast_heat_is_learned_within_a_day() {
     let (told, actual) = (day(0.0), day(0.4));

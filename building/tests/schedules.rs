@@ -29,7 +29,7 @@ fn week() -> RunDays {
 }
 
 #[test]
-fn zones_have_hours_of_their_own_on_their_days() {
+fn zones_follow_their_own_schedules_by_weekday() {
     let schedules = [
         schedule(
             "office",
@@ -69,7 +69,7 @@ fn zones_have_hours_of_their_own_on_their_days() {
     assert_eq!(store(&monday_kw), store(&common.scheduled_kw(0, STEP_S, STEPS)), "the store is like before");
 }
 
-/// Reality deviates from schedules, and nobody is where a schedule has nobody.
+/// Actual occupancy deviates from schedules, but an unoccupied zone stays unoccupied.
 #[test]
 fn people_deviate_from_their_schedules() {
     let schedules = [schedule("office", &[DayChoice::Workday], &[period(8.0, 17.0)])];
@@ -85,7 +85,7 @@ fn people_deviate_from_their_schedules() {
 }
 
 #[test]
-fn contradictions_are_refused() {
+fn contradictory_schedules_are_refused() {
     let refused = |schedules: &[ZoneSchedule], key: &str, words: &str| {
         let error = Timetable::new(schedules, &names(), RunDays::default()).expect_err(words);
         assert!(error.key.as_str() == key && error.to_string().contains(words), "{}: {error}", error.key);

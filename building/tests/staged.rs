@@ -105,7 +105,7 @@ fn independent_cost(problem: &StagedProgram) -> f64 {
 }
 
 #[test]
-fn the_recursion_finds_what_an_independent_solver_finds() {
+fn the_staged_solver_matches_an_independent_solver() {
     let peak = |price| Some(Peak { price, least_kw: 0.2 });
     for (quadratic, peak) in [(0.0, None), (0.05, None), (0.0, peak(1.5)), (0.05, peak(0.0))] {
         let problem = problem(quadratic, peak);
@@ -116,7 +116,7 @@ fn the_recursion_finds_what_an_independent_solver_finds() {
     }
 }
 
-/// The price of the peak lowers it, and the cost is no less than without.
+/// A price of the peak lowers the peak and does not lower the cost.
 #[test]
 fn a_priced_peak_is_lower() {
     let solved = |peak| solve(&problem(0.0, peak), 1e-8).expect("solved");
@@ -129,7 +129,7 @@ fn a_priced_peak_is_lower() {
 
 /// Whichever inputs are changed within their limits, the cost does not fall.
 #[test]
-fn no_change_of_the_inputs_pays() {
+fn no_change_of_the_inputs_lowers_the_cost() {
     let problem = problem(0.0, Some(Peak { price: 1.0, least_kw: 0.0 }));
     let best = solve(&problem, 1e-9).expect("solved");
     let m = problem.inputs.len();

@@ -21,7 +21,7 @@ fn building() -> Model {
 }
 
 #[test]
-fn a_forecast_without_error_is_planned_with_to_the_last_digit() {
+fn an_exact_forecast_is_met_exactly() {
     let model = building();
     let network = model.network();
     let sun = |t: usize| if (16..36).contains(&t) { 500.0 } else { 0.0 };

@@ -29,7 +29,7 @@ fn read(mapping: &str, table: &str) -> Result<Telemetry, TelemetryError> {
 }
 
 #[test]
-fn the_hour_that_comes_twice_is_no_gap() {
+fn the_repeated_hour_of_a_clock_change_is_not_a_gap() {
     let telemetry = read(MAPPING, TABLE).expect("regular in time");
     assert_eq!(telemetry.segments, std::slice::from_ref(&(0..8)));
     let hours: Vec<f64> = telemetry.time_s.iter().map(|time_s| time_s / 3600.0).collect();
@@ -86,7 +86,7 @@ const DATED: &str =
     "\n\nt;in;out;E\n2026-07-06T00:00:00Z;20;5;1\n2026-07-06T03:00:00+02:00;21;5;2\n2026-07-06T02:00:00Z;20;5;3\n";
 
 #[test]
-fn z_is_an_offset_of_nothing() {
+fn the_suffix_z_means_utc() {
     let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S%z");
     let telemetry = read(&mapping, DATED).expect("three hours");
     assert_eq!(telemetry.time_s, [0.0, 3600.0, 7200.0]);
@@ -100,7 +100,7 @@ fn an_offset_that_the_format_lacks_is_named() {
 }
 
 #[test]
-fn a_change_of_clocks_is_named() {
+fn a_gap_of_an_hour_is_attributed_to_a_clock_change() {
     let even = MAPPING.replace("zone = \"Europe/Zurich\"\n", "");
     let spring = "\n\nt;in;out;E\n29.03.2026 01:00;20;5;1\n29.03.2026 03:00;21;5;2\n";
     for table in [TABLE, spring] {
@@ -112,7 +112,7 @@ fn a_change_of_clocks_is_named() {
 }
 
 #[test]
-fn all_faults_of_a_mapping_are_told_at_once() {
+fn all_faults_of_a_mapping_are_reported_together() {
     let spoilt = MAPPING
         .replace("step_s = 3600.0", "step_s = -1.0")
         .replace("skip_rows = 2", "skip_rows = \"two\"")

@@ -42,7 +42,7 @@ fn days_depend_on_the_seed_alone() {
 }
 
 #[test]
-fn exact_and_persistent_forecasts_are_what_they_say() {
+fn exact_and_persistence_forecasts_match_their_definitions() {
     let weather = Climate::default().weather(1, 5);
     let actual = |day: f64| weather.ambient_steps_c(day * DAY_S, STEP_S, STEPS);
     assert_eq!(Forecast::Exact.ambient_steps_c(&weather, 9, 2, STEP_S, STEPS), actual(2.0));
@@ -71,7 +71,7 @@ fn forecast_errors_have_boptest_s_moments() {
 }
 
 #[test]
-fn an_uncertain_forecast_is_the_truth_and_an_error() {
+fn an_uncertain_forecast_is_the_truth_plus_an_error() {
     let weather = Climate::default().weather(1, 3);
     let forecast = Forecast::Uncertain { level: ErrorLevel::Medium };
     let errors = ErrorLevel::Medium.model().errors_k(9, 1, 24);
@@ -102,7 +102,7 @@ fn occupancy_is_scheduled_in_working_hours() {
 }
 
 #[test]
-fn real_occupancy_deviates_as_much_as_it_should() {
+fn real_occupancy_deviates_by_the_stated_amounts() {
     let mut deviations_kw = Vec::new();
     for seed in 0..20 {
         let people = Occupancy::default().people(4, seed);
@@ -123,7 +123,7 @@ fn real_occupancy_deviates_as_much_as_it_should() {
 }
 
 #[test]
-fn without_deviation_reality_is_the_schedule() {
+fn without_deviation_occupancy_equals_the_schedule() {
     let people = Occupancy { deviation: Deviation::NONE, ..Occupancy::default() }.people(3, 1);
     assert_eq!(people.actual_kw(4, STEP_S, STEPS), people.scheduled_kw(0, STEP_S, STEPS));
 }

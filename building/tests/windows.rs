@@ -44,7 +44,7 @@ fn a_flat_window_is_a_horizontal_aperture() {
 
 /// At an equinox on the equator the sun goes from east over the zenith to west.
 #[test]
-fn walls_get_the_sun_of_their_side() {
+fn walls_receive_the_sun_of_the_direction_they_face() {
     let facing =
         |name: &str, facing_deg: f64| Zone { windows: vec![Window::facing(facing_deg, 4.0)], ..Zone::named(name) };
     let zones = [facing("north", 0.0), facing("east", 90.0), facing("south", 180.0), facing("west", 270.0)];

@@ -5,7 +5,7 @@ use std::fmt;
 use serde_json::Value as Json;
 
 /// The largest magnitude of a setting: beyond it, squares and products of what is computed could overflow.
-pub const LARGEST_SETTING: f64 = 1e9;
+pub(crate) const LARGEST_SETTING: f64 = 1e9;
 
 /// A bound of a number, as the JSON Schema of a setting states it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Cells of tables, as errors show them.
 
-/// Cells longer than this are not shown: the file is probably no table \[characters\].
+/// Cells longer than this are not shown: the file is probably not a table \[characters\].
 const MAX_SHOWN: usize = 40;
 
 /// A cell of a table in backticks, or its length where it is longer than 40 characters.

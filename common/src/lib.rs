@@ -3,6 +3,7 @@
 //! - settings: [`setting`] holds them to the [`bounds`] on their fields, [`json_schema`] reads what stands there, and [`units`]
 //!   reads the unit of a number from its key
 //! - [`spelling`]: the known word that an unknown one was probably meant to be
+//! - [`foreign`]: settings of kinds that other crates provide
 //! - [`cell`]: cells of tables, as errors show them
 //! - [`random`]: the random streams of runs, the same on every machine
 //!
@@ -15,6 +16,7 @@
 
 pub mod bounds;
 pub mod cell;
+pub mod foreign;
 pub mod json_schema;
 pub mod random;
 pub mod setting;

@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_are_those_of_the_distributions() {
+    fn sample_moments_match_their_distributions() {
         let mut random = Random::new(1, 2);
         const COUNT: usize = 100_000;
         let normal: Vec<f64> = (0..COUNT).map(|_| random.normal(3.0, 2.0)).collect();

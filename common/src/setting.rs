@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_holds_wherever_its_field_is() {
+    fn bounds_hold_in_nested_tables_and_lists() {
         assert_eq!(check(&Outer { count: 1, inner: None }), Ok(()));
         assert_eq!(check(&Outer { count: 1, inner: Some(Inner::Plain(Shares { share: 1.0 })) }), Ok(()));
         assert_eq!(refused(0, Inner::Plain(Shares { share: 1.0 })), "`count` is 0; it must be at least 1");
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_finite_number_is_refused() {
+    fn numbers_that_are_not_finite_are_refused() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let message = refused(1, Inner::Plain(Shares { share: value }));
             assert!(message.ends_with("it must be a finite number"), "{message}");

@@ -1,5 +1,5 @@
-//! What can go wrong: a problem that cannot be posed ([`ProblemError`]), and a problem that was posed and
-//! has no answer, or whose answer was not found ([`SolveError`]).
+//! Errors: a malformed problem ([`ProblemError`]), and a well-formed problem that is infeasible, unbounded or unsolved
+//! ([`SolveError`]).
 
 use std::fmt;
 
@@ -77,7 +77,7 @@ pub enum ProblemError {
     },
 }
 
-/// The problem was posed, but there is no solution to return.
+/// A well-formed problem without a solution, or whose solution was not found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// No x satisfies every row: proved by a certificate z with Aᵀz = 0, z ∈ K*, bᵀz = −1.

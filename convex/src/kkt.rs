@@ -72,8 +72,8 @@ pub(crate) fn check(form: &StandardForm, x: &[f64], z: &[f64]) -> OptimalityChec
 
 /// Residual of a certificate z of infeasibility, scaled to bᵀz = −1: the larger of ‖Aᵀz‖∞ and the distance of z to K*.
 ///
-/// Infinite when bᵀz ≥ 0. For z ∈ K*, every feasible x satisfies (Aᵀz)ᵀx ≤ bᵀz = −1. So a residual ρ proves that there
-/// is no feasible x with ‖x‖₁ < 1/ρ.
+/// Infinite when bᵀz ≥ 0. For z ∈ K*, every feasible x satisfies (Aᵀz)ᵀx ≤ bᵀz = −1. So a residual ρ proves that no
+/// x with ‖x‖₁ < 1/ρ is feasible.
 pub(crate) fn infeasibility(form: &StandardForm, z: &[f64]) -> f64 {
     let gain = -dot(&form.b, z);
     let atz = form.a.transposed_times(z);

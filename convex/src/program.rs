@@ -186,7 +186,7 @@ impl Program {
 
     /// The number of declared scalar variables.
     #[must_use]
-    pub fn variable_count(&self) -> usize {
+    pub(crate) fn variable_count(&self) -> usize {
         self.groups.last().map_or(0, |group| group.variables.range().end)
     }
 

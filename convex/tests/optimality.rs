@@ -189,7 +189,7 @@ proptest! {
     }
 
     #[test]
-    fn a_perturbed_answer_is_caught(known in known(0.5), which in 0..VARIABLES) {
+    fn a_perturbed_solution_has_large_residuals(known in known(0.5), which in 0..VARIABLES) {
         // The residuals belong to the pair of problem and answer: another cost must show.
         let solution = solve(&program(&known)).expect("solvable by construction");
         let mut other = known.clone();

@@ -26,7 +26,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     #[test]
-    fn the_largest_eigenvalue(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
+    fn the_largest_eigenvalue_is_found_by_semidefinite_programming(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
         let c = symmetric(order, &values[..order * order]);
         let program = largest_eigenvalue(&c);
         let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");
@@ -36,7 +36,7 @@ proptest! {
     }
 
     #[test]
-    fn the_nearest_semidefinite_matrix(order in 2..7_usize, values in proptest::collection::vec(-3.0..3.0, 36)) {
+    fn the_nearest_semidefinite_matrix_drops_negative_eigenvalues(order in 2..7_usize, values in proptest::collection::vec(-3.0..3.0, 36)) {
         let c = symmetric(order, &values[..order * order]);
         let mut program = Program::new();
         let x = program.variables("X", order * (order + 1) / 2);
@@ -59,7 +59,7 @@ proptest! {
     }
 
     #[test]
-    fn an_updated_solver_answers_like_a_new_one(one in proptest::collection::vec(-3.0..3.0, 25), other in proptest::collection::vec(-3.0..3.0, 25)) {
+    fn an_updated_semidefinite_problem_matches_a_new_one(one in proptest::collection::vec(-3.0..3.0, 25), other in proptest::collection::vec(-3.0..3.0, 25)) {
         let (one, other) = (largest_eigenvalue(&symmetric(5, &one)), largest_eigenvalue(&symmetric(5, &other)));
         let mut solver = Solver::new(&one, &SolverSettings::default()).expect("well-formed");
         solver.solve().expect("solvable");
@@ -72,7 +72,7 @@ proptest! {
 
 /// The Lovász number of a cycle of five is √5.
 #[test]
-fn the_lovasz_number_of_the_pentagon() {
+fn the_lovasz_number_of_the_pentagon_is_the_root_of_five() {
     let order = 5;
     let mut program = Program::new();
     let x = program.variables("X", order * (order + 1) / 2);

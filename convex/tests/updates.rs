@@ -60,7 +60,7 @@ fn solving_twice_gives_the_same_bits() {
 }
 
 #[test]
-fn the_past_does_not_matter_however_badly_scaled_or_infeasible() {
+fn a_result_does_not_depend_on_earlier_problems() {
     let mut follow = Follow::new();
     let mut solver = follow.solver();
     let want = solver.solve();

@@ -151,7 +151,7 @@ fn drive(mut vehicles: Vec<Vehicle>, numbers: &[f64]) -> Option<Encounter> {
         encounter.scenes.push(traffic.scene(0));
         let mut decisions = traffic.drive(|index, scene| planners[index].plan(scene));
         decisions.sort_by_key(|decision| decision.vehicle);
-        encounter.told.push(decisions.into_iter().skip(1).map(|decision| decision.plan.trajectory).collect());
+        encounter.told.push(decisions.into_iter().skip(1).map(|decision| decision.plan.trajectory.clone()).collect());
         let gap_m = gap_m(&traffic.scene(0));
         if gap_m < encounter.gap_m {
             (encounter.gap_m, encounter.tick) = (gap_m, tick + 1);

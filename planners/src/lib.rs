@@ -84,7 +84,7 @@ pub mod traffic;
 pub mod trajectory;
 pub mod vehicle;
 
-pub use drivers::{Drive, Driver, DriverKind, DriverSettingError, ForeignDriver};
+pub use drivers::{Drive, Driver, DriverKind, DriverSettingError, ForeignDriver, StandardReplacement};
 pub use plan::homotopy::homotopy_class;
 pub use plan::{
     Diagnostic, PassingSide, Plan, PlanBranch, PlanCondition, PlanError, PlanEvent, PlanEventKind, PlanTime,
@@ -92,5 +92,5 @@ pub use plan::{
 };
 pub use planner::{PlanDeadline, Planner};
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
-pub use scene::{Agent, Goal, InputRecord, Scene, WHEEL_KINDS};
+pub use scene::{Agent, Goal, InputRecord, Scene};
 pub use vehicle::{Bicycle, Body, ComfortLimits, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

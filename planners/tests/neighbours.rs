@@ -37,7 +37,7 @@ fn vehicles_left_out_of_a_scene_change_no_plan() {
     let kinds = ["human", "idm", "conservative", "negotiation", "bayesian", "contingency"];
     let mut left_out = 0;
     for number in 0..STREETS {
-        let driver = Driver::of_kind(kinds[number % kinds.len()]).expect("a kind of driver");
+        let driver = Driver::at_wheel(kinds[number % kinds.len()]).expect("a kind of driver");
         let near = street(&mut random, &driver);
         let all = Traffic { near: Neighbours::default(), ..near.clone() };
         let vehicle = (random.uniform(0.0, VEHICLES as f64) as usize).min(VEHICLES - 1);

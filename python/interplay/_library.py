@@ -217,13 +217,18 @@ def run(
     record: str | os.PathLike[str] | None = None,
     animate: str | os.PathLike[str] | None = None,
     trajectories: str | os.PathLike[str] | None = None,
+    detectors: str | os.PathLike[str] | None = None,
+    series: str | os.PathLike[str] | None = None,
+    export: str | os.PathLike[str] | None = None,
 ) -> Report:
     """Runs a scenario to its end and returns its report.
 
     ``planner`` drives the ego instead of the scenario's choice: a kind of driver, or ``{name: function}``, where the function maps
-    an observation to an action (:class:`interplay.PolicyFunction`); what it raises is raised when the run is over. ``record``,
-    ``animate`` and ``trajectories`` are files to be written: ``.rrd``; ``.gif``, ``.webp``, ``.png`` or ``.mp4``; ``.csv`` or
-    ``.parquet``.
+    an observation to an action (:class:`interplay.PolicyFunction`); what it raises is raised when the run is over.
+
+    The others are files to be written, as by the flags of ``interplay run``: ``record`` (``.rrd``), ``animate`` (``.gif``,
+    ``.webp``, ``.png`` or ``.mp4``), the tables ``trajectories``, ``detectors`` and ``series`` (``.csv`` or ``.parquet``), and
+    ``export``, a scenario of CommonRoad with its solution beside it (``.xml``).
     """
     from ._policies import raise_failures, registered
 
@@ -231,8 +236,9 @@ def run(
     if driver is not None:
         set = [*changes(set), f"vehicle.ego.driver={toml_value(driver)}"]
     loaded = load(scenario, set=set, seed=seed, planner=kind)
-    paths = [None if path is None else os.fspath(path) for path in (record, animate, trajectories)]
-    recorded = _native.run(loaded, *paths)
+    asked = {"animate": animate, "trajectories": trajectories, "detectors": detectors, "series": series, "export": export}
+    outputs = {flag: os.fspath(path) for flag, path in asked.items() if path is not None}
+    recorded = _native.run(loaded, None if record is None else os.fspath(record), outputs)
     raise_failures(planner if isinstance(planner, Mapping) else ())
     return Report.of(recorded)
 

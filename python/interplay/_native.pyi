@@ -113,6 +113,10 @@ class Scenario:
         """The names of those in whom nobody drives: parked cars, cones, walls."""
 
     @property
+    def default_agents(self) -> list[str]:
+        """The names of the vehicles that are agents of an environment unless others are named: their drivers decide what to do."""
+
+    @property
     def has_building(self) -> bool:
         """Whether it has a building."""
 
@@ -325,10 +329,9 @@ def driver_kinds() -> list[str]:
 def run(
     scenario: Scenario,
     record: _Path | None = None,
-    animate: str | None = None,
-    trajectories: str | None = None,
+    outputs: dict[str, str] | None = None,
 ) -> RecordedRun:
-    """Runs a scenario and its counterfactuals, and writes what is asked for."""
+    """Runs a scenario and its counterfactuals, and writes a recording and the outputs of these flags."""
 
 def sweep(
     source: str,

@@ -45,10 +45,7 @@ class InterplayParallelEnv(ParallelEnv):
     ) -> None:
         self.scenario = load(scenario, set=set)
         if agents is None:
-            idle = ("walker", "recorded", "scripted")
-            obstacles = self.scenario.obstacles
-            pairs = zip(self.scenario.vehicles, self.scenario.drivers)
-            agents = [name for name, kind in pairs if kind not in idle and name not in obstacles]
+            agents = self.scenario.default_agents
         self.render_mode = render_mode
         settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
         self._native = _native.Environment(self.scenario, settings)

@@ -1,19 +1,20 @@
 //! Whole runs.
 
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use interplay::run_outputs::{OutputError, RunOutputs};
 use interplay_presentation::animation::{AnimationFormat, encoded};
 use interplay_presentation::figures::{FrameLog, RecordedRun};
 use interplay_presentation::record::{OpenRecording, Recorder, Sink};
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
-use interplay_sweep::{TableFile, TrajectoryWriter};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::errors::{RunError, unfinished};
+use crate::errors::{RunError, refused, unfinished};
 use crate::frames;
 use crate::scenario::PyScenario;
 use crate::threads::on_all_cores;
@@ -26,25 +27,26 @@ fn unwritten(error: impl std::fmt::Display) -> PyErr {
     RunError::new_err(error.to_string())
 }
 
-/// Runs a scenario and its counterfactuals, and writes what is asked for.
+/// Runs a scenario and its counterfactuals, and writes a recording and the outputs that are asked for: paths by the flags of the command.
 #[pyfunction]
-#[pyo3(signature = (scenario, record=None, animate=None, trajectories=None))]
+#[pyo3(signature = (scenario, record=None, outputs=None))]
 pub fn run(
     py: Python<'_>,
     scenario: &PyScenario,
     record: Option<PathBuf>,
-    animate: Option<String>,
-    trajectories: Option<String>,
+    outputs: Option<BTreeMap<String, String>>,
 ) -> PyResult<PyRecordedRun> {
     refuse_external(scenario)?;
-    for path in record.iter().cloned().chain([&animate, &trajectories].into_iter().flatten().map(PathBuf::from)) {
-        refuse_input(scenario, &path)?;
+    let mut asked = RunOutputs::default();
+    for (flag, path) in outputs.into_iter().flatten() {
+        asked.ask_for(&flag, &path).map_err(bad)?;
     }
-    let animate: Option<interplay_presentation::animation::AnimationFile> =
-        animate.map(|path| path.parse().map_err(bad)).transpose()?;
-    let trajectories: Option<TableFile> = trajectories.map(|path| path.parse().map_err(bad)).transpose()?;
-    if let Some(animate) = &animate {
-        animate.check().map_err(unwritten)?;
+    let registry = crate::scenario::registry()?;
+    if let Some(reason) = asked.refused((record.as_deref(), None), registry, (&scenario.source, &[])) {
+        return Err(bad(reason));
+    }
+    if let Some((flag, lacked)) = asked.without_subject(&scenario.scenario) {
+        return Err(bad(format!("`{flag}` needs {lacked}, and `{}` has none", scenario.source)));
     }
     let (name, stated) = (scenario.name.clone(), Arc::clone(&scenario.scenario));
     let command = vec!["interplay".to_owned(), "run".to_owned(), scenario.source.clone()];
@@ -54,18 +56,24 @@ pub fn run(
         let recording = record.map(|path| Recorder::begin(&stated, &name, &Sink::File(path)).map(OpenRecording::new));
         let recording = recording.transpose().map_err(unwritten)?;
         watchers.extend(recording.clone().map(|recording| Box::new(recording) as Box<dyn Watcher>));
-        let writer = trajectories.as_ref().map(TrajectoryWriter::begin).transpose().map_err(unwritten)?;
-        watchers.extend(writer.map(|writer| Box::new(writer) as Box<dyn Watcher>));
+        let mut begun = asked.begin(&stated, &command[2]).map_err(without_output)?;
+        watchers.extend(begun.watchers());
         let report = on_all_cores(|| run_with_counterfactuals(&name, &stated, watchers))?.map_err(unfinished)?;
         recording.map_or(Ok(()), |recording| recording.close(&report)).map_err(unwritten)?;
         let scenario = (*stated).clone();
         let frames = frame_log.frames();
         let recorded = RecordedRun { label: String::new(), command, scenario, frames, report, shown_until_s: None };
-        if let Some(file) = animate {
-            on_all_cores(|| file.write(&recorded))?.map_err(unwritten)?;
-        }
+        on_all_cores(|| begun.finish(&recorded, |_| ()))?.map_err(without_output)?;
         Ok(PyRecordedRun(Arc::new(recorded)))
     })
+}
+
+/// The exception of an output that is not where it should be.
+fn without_output(error: OutputError) -> PyErr {
+    match error {
+        OutputError::Refused(refusal) => refused(*refusal),
+        other => unwritten(other),
+    }
 }
 
 fn bad(error: impl std::fmt::Display) -> PyErr {
@@ -74,25 +82,11 @@ fn bad(error: impl std::fmt::Display) -> PyErr {
 
 /// A vehicle that waits for inputs from outside gets none in a whole run.
 fn refuse_external(scenario: &PyScenario) -> PyResult<()> {
-    let external = scenario.scenario.vehicles.iter().find(|vehicle| vehicle.driver.kind() == "external");
+    let external = scenario.scenario.awaiting_inputs();
     let message = |name: &str| {
         format!("`{name}` is driven from outside: step an `interplay.Simulation`, or give it a planner with `planner=`")
     };
     external.map_or(Ok(()), |vehicle| Err(PyValueError::new_err(message(&vehicle.name))))
-}
-
-/// No result takes the place of the scenario.
-fn refuse_input(scenario: &PyScenario, path: &Path) -> PyResult<()> {
-    let registry = crate::scenario::registry()?;
-    let files = interplay_scenarios::files(registry, &scenario.source, &[]);
-    let real = |path: &Path| path.canonicalize().ok();
-    match files.iter().find(|file| real(file).is_some() && real(file) == real(path)) {
-        Some(file) => Err(PyValueError::new_err(format!(
-            "`{}` would be overwritten, of which the scenario is made; choose another name",
-            file.display()
-        ))),
-        None => Ok(()),
-    }
 }
 
 #[pymethods]

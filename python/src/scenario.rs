@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use interplay_planners::Driver;
 use interplay_scenarios::{Override, Registry, Scenario, embedded};
 use interplay_simulation::measure::RegisterMetrics;
 use pyo3::exceptions::PyValueError;
@@ -136,6 +137,15 @@ impl PyScenario {
     fn obstacles(&self) -> Vec<&str> {
         let obstacles = self.scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_some());
         obstacles.map(|vehicle| vehicle.name.as_str()).collect()
+    }
+
+    /// The names of the vehicles that are agents of an environment unless others are named: their drivers decide what to do.
+    #[getter]
+    fn default_agents(&self) -> Vec<&str> {
+        let decides = |driver: &Driver| driver.can_take_wheel() || driver.is_driven_from_outside();
+        let agents = self.scenario.vehicles.iter();
+        let agents = agents.filter(|vehicle| vehicle.obstacle.is_none() && decides(&vehicle.driver));
+        agents.map(|vehicle| vehicle.name.as_str()).collect()
     }
 
     /// Whether it has a building.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use interplay_presentation::record::record_again;
+use interplay_presentation::record::record_sweep_run;
 use interplay_scenarios::Scenario;
 use interplay_sweep::{Shard, SweepOptions, SweepRow};
 use pyo3::exceptions::PyValueError;
@@ -35,7 +35,7 @@ pub fn sweep(
         }
     };
     let jobs = jobs.unwrap_or(0);
-    let record = |row: &SweepRow, scenario: &Scenario| record_again(&folder, row, scenario);
+    let record = |row: &SweepRow, scenario: &Scenario| record_sweep_run(&folder, row, scenario);
     let options = SweepOptions {
         folder: &folder,
         shard: Shard::WHOLE,

@@ -120,13 +120,29 @@ def test_a_run_writes_files(tmp_path: Path) -> None:
     assert paths["animate"].read_bytes().startswith(b"GIF")
     assert len(paths["trajectories"].read_text(encoding="utf-8").splitlines()) > 100
     refused(lambda: interplay.run("intersection/nice", animate=tmp_path / "run.doc"))
+    assert "needs a `[[detector]]`" in refused(lambda: interplay.run("intersection/nice", detectors=tmp_path / "d.csv"))
+    assert "cannot both be" in refused(
+        lambda: interplay.run("intersection/nice", animate=tmp_path / "a.gif", record=tmp_path / "a.gif")
+    )
     refused(lambda: interplay.run("intersection/nice", record=tmp_path / "no" / "\0"), interplay.RunError)
+
+
+def test_a_run_writes_series_counts_and_a_scenario_of_commonroad(tmp_path: Path) -> None:
+    series = tmp_path / "days.csv"
+    interplay.run("building/four-room-pid", series=series)
+    assert series.read_text(encoding="utf-8").startswith("time_s,day,step,outdoor_c")
+    counts, export = tmp_path / "counts.csv", tmp_path / "driven.xml"
+    detector = {"detector": [{"name": "gate", "lanes": [0], "along_m": 1.0, "interval_s": 5.0}]}
+    interplay.run("lane-change/front-nice", set=detector, detectors=counts, export=export)
+    assert counts.read_text(encoding="utf-8").startswith("detector,")
+    assert "<commonRoad" in export.read_text(encoding="utf-8")
+    assert (tmp_path / "driven.solution.xml").exists()
 
 
 def test_a_run_never_overwrites_its_scenario(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text('extends = "intersection/nice"\n', encoding="utf-8")
-    assert "overwritten" in refused(lambda: interplay.run(path, record=path))
+    assert "would overwrite" in refused(lambda: interplay.run(path, record=path))
     assert path.read_text(encoding="utf-8") == 'extends = "intersection/nice"\n'
 
 

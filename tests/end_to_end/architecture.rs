@@ -43,7 +43,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "app/presentation",
         ],
     ),
-    ("examples/own-planner", &["planners", "scenarios", "app/simulation", "app/cli"]),
+    ("examples/own-planner", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
     ("tests", &["common", "planners", "building", "scenarios", "app/simulation", "app/sweep", "app/cli"]),
 ];
 

@@ -183,7 +183,7 @@ fn check_goes_on_after_an_error() {
 /// stops: so the place is below a file, or a folder.
 #[test]
 fn a_recording_that_cannot_be_written() {
-    let folder = scratch("unwritable");
+    let folder = scratch("unwritable-recording");
     fs::write(folder.join("file"), "kept").expect("a scratch file can be written");
     fs::create_dir(folder.join("folder.rrd")).expect("a folder can be made");
     for target in ["file/my.rrd", "file/deeper/my.rrd", "folder.rrd"] {

@@ -244,7 +244,7 @@ fn spoilt_buildings_are_refused_where_they_are_spoilt() {
             &["my.toml:18:23", "`building.wall.0.resistance_k_per_kw` must be at least 0.000001"][..],
         ),
         ("itself", r#"["office", "store"]"#, r#"["office", "office"]"#, &["my.toml:17", "on both sides"]),
-        ("unknown", r#""ambient"]"#, r#""ambeint"]"#, &["my.toml:21", "`ambeint`, which is no zone", "`ambient`"]),
+        ("unknown", r#""ambient"]"#, r#""ambeint"]"#, &["my.toml:21", "`ambeint`, which is not a zone", "`ambient`"]),
         ("twice", "\"store\"\n\n[[building.wall]]", "\"office\"\n\n[[building.wall]]", &["my.toml:14", "two zones"]),
         ("step", "1800.0", "1700.0", &["my.toml:7:10", "does not divide a day"]),
         ("key", "limit_kw", "limit_w", &["my.toml:11:1", "unknown key `limit_w`", "it is called `limit_kw` here"]),

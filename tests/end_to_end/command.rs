@@ -1,8 +1,11 @@
 //! Starting the command as a user would.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 
 use serde_json::Value;
 
@@ -43,8 +46,22 @@ pub fn interplay(folder: &Path, arguments: &[&str]) -> Outcome {
     command(folder, arguments).output().expect("the command can be started").into()
 }
 
+/// The test that uses each scratch folder.
+static SCRATCH_USERS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+
 /// An empty folder of that name for one test.
+///
+/// # Panics
+/// If another test has used the name: tests run in parallel, and each would remove the files of the other.
 pub fn scratch(name: &str) -> PathBuf {
+    let test = thread::current().name().unwrap_or_default().to_owned();
+    let mut users = SCRATCH_USERS.lock().unwrap_or_else(PoisonError::into_inner);
+    assert_eq!(
+        *users.entry(name.to_owned()).or_insert_with(|| test.clone()),
+        test,
+        "two tests use the scratch folder `{name}`"
+    );
+    drop(users);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {
         fs::remove_dir_all(&folder).expect("what an earlier run left can be removed");

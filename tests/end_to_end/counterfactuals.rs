@@ -144,7 +144,7 @@ fn a_suite_judges_counterfactuals() {
         "bad ",
         "  if: who asks <nobody>  FAILED ",
         "  FAIL order_differs: want false, got true",
-        "FAILED: 1 of 2 did what they should",
+        "FAILED: 1 of 2 met their expectations",
     ];
     assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
     for (line, start) in lines.iter().zip(starts) {

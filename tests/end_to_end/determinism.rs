@@ -8,6 +8,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::{env, fs};
 
 use interplay_scenarios::{embedded, from_text};
@@ -87,7 +88,7 @@ fn a_changed_mind_is_found_in_its_tick_and_in_plan() {
     let (one, mut other) = (run(&[]), run(&[]));
     assert_eq!(golden(&one), golden(&other));
     let front = &mut other.frames[4].vehicles[1];
-    front.plan.trajectory.inputs[3].steering_rad += 1e-15;
+    Arc::make_mut(&mut front.plan).trajectory.inputs[3].steering_rad += 1e-15;
     front.prediction = front.plan.trajectory.clone().into();
     assert_eq!(difference(&golden(&one), &golden(&other)), "first differs at tick 4, in plan");
     let faster = run(&["vehicle.front.goal.speed_mps=1.3"]);

@@ -123,7 +123,7 @@ fn one_figure_is_made_alone_and_mistakes_are_answered() {
 
 #[test]
 fn a_report_of_any_run_is_a_page_with_its_recording_beside_it() {
-    let folder = scratch("report");
+    let folder = scratch("report-page");
     for (name, pictures) in [("ramp-merge/nice", 3), ("building/four-room-ilc", 4)] {
         let outcome = interplay(&folder, &["run", name, "--report", name, "--seed", "1"]);
         assert_eq!(outcome.code, Some(0), "{outcome:?}");

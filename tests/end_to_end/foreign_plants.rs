@@ -221,18 +221,18 @@ fn a_plant_that_is_silent_absent_or_of_another_version_is_an_error() {
     });
     let began = Instant::now();
     unfinished(&run_against("plant-drips", &address, 0.5), &["the start of the run", "within 0.5 s"]);
-    assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
     dripping.join().expect("the server ends");
 
     let (address, served) = server(|message| {
         if message["step"].is_u64() {
-            thread::sleep(Duration::from_secs(2));
+            thread::sleep(Duration::from_secs(4));
         }
         Some(READY.to_owned())
     });
     let began = Instant::now();
-    unfinished(&run_against("plant-silent", &address, 0.3), &["step 0", "within 0.3 s", "timeout_s"]);
-    assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+    unfinished(&run_against("plant-silent", &address, 2.0), &["step 0", "within 2 s", "timeout_s"]);
+    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
     served.join().expect("the server ends");
 
     let (address, served) =
@@ -240,9 +240,8 @@ fn a_plant_that_is_silent_absent_or_of_another_version_is_an_error() {
     unfinished(&run_against("plant-version", &address, 5.0), &["protocol 7", "speaks 1"]);
     served.join().expect("the server ends");
 
-    // A port that was free a moment ago.
-    let free = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr()).expect("a free port");
-    unfinished(&run_against("plant-absent", &free.to_string(), 5.0), &["cannot connect", &free.to_string()]);
+    // Port 1: another test may listen on a port that was free a moment ago.
+    unfinished(&run_against("plant-absent", "127.0.0.1:1", 5.0), &["cannot connect", "127.0.0.1:1"]);
 }
 
 #[test]

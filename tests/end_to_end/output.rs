@@ -21,7 +21,7 @@ fn has_keys(object: &Value, keys: &str) {
 #[test]
 fn the_report_has_the_keys_of_the_contract() {
     let arguments = ["run", "--set", "duration_s=2", "--no-record", "--json", "--seed", "5"];
-    let outcome = interplay(&scratch("report"), &arguments);
+    let outcome = interplay(&scratch("json-report"), &arguments);
     let report = outcome.json();
     assert_eq!(outcome.stderr, "");
     has_keys(

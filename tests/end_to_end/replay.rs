@@ -95,7 +95,7 @@ fn fresh_planners_given_the_same_scenes_decide_the_same() {
                     None => planners[index].plan(&scene),
                 };
                 match outcome {
-                    Ok(plan) => assert!(plan == seen.plan, "{at}: another plan"),
+                    Ok(plan) => assert!(plan == *seen.plan, "{at}: another plan"),
                     Err(error) => assert_ne!(seen.origin, Origin::Planned, "{at}: {error}"),
                 }
                 if film.scenario.vehicles[index].driver.goes_first() {

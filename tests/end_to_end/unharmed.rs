@@ -242,7 +242,7 @@ fn a_file_whose_name_is_not_utf_8_is_named_as_the_reason() {
 /// A folder in the place of the output, and a file in the place of its folder.
 #[test]
 fn an_output_that_cannot_be_written_is_exit_code_3_of_every_command() {
-    let folder = scratch("unwritable");
+    let folder = scratch("unwritable-output");
     fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
     fs::write(folder.join("file"), "mine").expect("writes");
     fs::write(folder.join("plan.toml"), "scenario = [\"mine.toml\"]\n").expect("writes");

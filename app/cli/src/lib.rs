@@ -15,6 +15,7 @@ mod commands;
 mod flag_values;
 mod output;
 mod process;
+pub mod run_outputs;
 
 use std::ffi::OsString;
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! What the functions of both versions do with the pointers of an importer.
 //!
-//! Both standards promise that an instance is one that was made here and that nobody freed, that a state is one of it, that texts
-//! end with a zero, and that lists have as many entries as is said. Null pointers are refused nevertheless.
+//! Both standards promise that an instance was made here and is not freed, that a state belongs to the instance, that texts end
+//! with a zero, and that lists have the stated number of entries. Null pointers are refused nevertheless.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,7 +11,7 @@ use super::instance::{Instance, read_plant};
 use super::logger::{Logger, status};
 use super::snapshot::Snapshot;
 
-/// Makes an instance from the plant in the folder of resources; null if that fails, and then the importer is told why.
+/// Makes an instance from the plant in the folder of resources. On failure logs the error and returns null.
 pub fn instantiate(
     name: &CStr,
     logger: Logger,
@@ -19,7 +19,7 @@ pub fn instantiate(
     folder: impl FnOnce() -> Result<std::path::PathBuf, String>,
 ) -> *mut c_void {
     let made = catch_unwind(AssertUnwindSafe(|| read_plant(&folder()?, &guid.to_string_lossy())));
-    match made.unwrap_or_else(|_| Err(FAULT.to_owned())) {
+    match made.unwrap_or_else(|_| Err(PANIC_MESSAGE.to_owned())) {
         Ok(plant) => Box::into_raw(Box::new(Instance { name: CString::from(name), logger, plant })).cast(),
         Err(error) => {
             logger.log_error(name, &error);
@@ -28,16 +28,16 @@ pub fn instantiate(
     }
 }
 
-/// What an importer is told of a panic.
-const FAULT: &str = "the FMU has a fault of its own";
+/// The message that is logged after a panic.
+const PANIC_MESSAGE: &str = "internal error of the FMU";
 
-/// Asks an instance for something; an error is told to the importer, and a panic is one.
+/// Calls a function of an instance. Logs an error or a panic and returns the status.
 pub fn with_instance(instance: *mut c_void, action: impl FnOnce(&mut Instance) -> Result<(), String>) -> c_int {
     // SAFETY: an instance is null, or one of `instantiate` that is in use by this call alone (FMI 2.0, sections 2.1.1 and 4.2.4;
     // FMI 3.0 allows no more).
     let Some(instance) = (unsafe { instance.cast::<Instance>().as_mut() }) else { return status::ERROR };
     let outcome = catch_unwind(AssertUnwindSafe(|| action(instance)));
-    match outcome.unwrap_or_else(|_| Err(FAULT.to_owned())) {
+    match outcome.unwrap_or_else(|_| Err(PANIC_MESSAGE.to_owned())) {
         Ok(()) => status::OK,
         Err(error) => {
             instance.logger.log_error(&instance.name, &error);
@@ -46,10 +46,29 @@ pub fn with_instance(instance: *mut c_void, action: impl FnOnce(&mut Instance) -
     }
 }
 
+/// Accepts a call that needs no action.
+///
+/// # Safety
+/// `instance` is null or one of [`instantiate`].
+pub unsafe fn accept(instance: *mut c_void) -> c_int {
+    with_instance(instance, |_| Ok(()))
+}
+
+/// Returns an instance to the first midnight.
+///
+/// # Safety
+/// `instance` is null or one of [`instantiate`].
+pub unsafe fn reset(instance: *mut c_void) -> c_int {
+    with_instance(instance, |instance| {
+        instance.plant.reset();
+        Ok(())
+    })
+}
+
 /// Frees an instance.
 ///
 /// # Safety
-/// It is null or one of [`instantiate`], and is not used any more.
+/// `instance` is null or one of [`instantiate`], and is not used any more.
 pub unsafe fn free_instance(instance: *mut c_void) {
     if !instance.is_null() {
         // SAFETY: it was made by `Box::into_raw` and is freed once.
@@ -57,19 +76,19 @@ pub unsafe fn free_instance(instance: *mut c_void) {
     }
 }
 
-/// A text of the importer; empty for a null pointer.
+/// Borrows a text of the importer; a null pointer counts as the empty text.
 ///
 /// # Safety
-/// The pointer is null or that of a text that ends with a zero.
+/// The pointer is null or points at a text that ends with a zero.
 pub unsafe fn text<'a>(pointer: *const c_char) -> &'a CStr {
     // SAFETY: what this function demands.
     if pointer.is_null() { c"" } else { unsafe { CStr::from_ptr(pointer) } }
 }
 
-/// A list of the importer; a list of no entries may be a null pointer.
+/// Borrows a list of the importer; an empty list may be a null pointer.
 ///
 /// # Safety
-/// The pointer is null or that of `count` entries.
+/// The pointer is null or points at `count` entries.
 unsafe fn list<'a, T>(pointer: *const T, count: usize) -> Result<&'a [T], String> {
     match (count, pointer.is_null()) {
         (0, _) => Ok(&[]),
@@ -79,10 +98,10 @@ unsafe fn list<'a, T>(pointer: *const T, count: usize) -> Result<&'a [T], String
     }
 }
 
-/// A list of the importer that is written to.
+/// Borrows a list of the importer for writing.
 ///
 /// # Safety
-/// The pointer is null or that of `count` entries, which nobody else uses.
+/// The pointer is null or points at `count` entries, which nothing else uses during the call.
 unsafe fn list_mut<'a, T>(pointer: *mut T, count: usize) -> Result<&'a mut [T], String> {
     match (count, pointer.is_null()) {
         (0, _) => Ok(&mut []),
@@ -119,13 +138,13 @@ pub unsafe fn set_values(instance: *mut c_void, references: *const u32, count: u
     })
 }
 
-/// What an importer is told of a null pointer where a state should be.
+/// The message that is logged for a null pointer in place of a state.
 const NO_STATE: &str = "the state is a null pointer";
 
-/// Copies the state of an instance into the state that is pointed at, or into a new one where that is null.
+/// Copies the state of an instance into the state that `state` points at, or into a new one if that is null.
 ///
 /// # Safety
-/// `state` is null, or points at null or at a state of this function or of [`deserialize_state`] that nobody freed.
+/// `state` is null, or points at null or at a state of this function or of [`deserialize_state`] that is not freed.
 pub unsafe fn get_state(instance: *mut c_void, state: *mut *mut c_void) -> c_int {
     with_instance(instance, |instance| {
         // SAFETY: what this function demands.
@@ -143,7 +162,7 @@ pub unsafe fn get_state(instance: *mut c_void, state: *mut *mut c_void) -> c_int
 /// Returns an instance to a state.
 ///
 /// # Safety
-/// `state` is null, or a state of [`get_state`] or [`deserialize_state`] that nobody freed.
+/// `state` is null, or a state of [`get_state`] or [`deserialize_state`] that is not freed.
 pub unsafe fn set_state(instance: *mut c_void, state: *mut c_void) -> c_int {
     with_instance(instance, |instance| {
         // SAFETY: what this function demands.
@@ -152,7 +171,7 @@ pub unsafe fn set_state(instance: *mut c_void, state: *mut c_void) -> c_int {
     })
 }
 
-/// Frees a state and makes its pointer null. It is no error if there is none.
+/// Frees a state and makes its pointer null. A null pointer is accepted.
 ///
 /// # Safety
 /// As [`get_state`].
@@ -192,7 +211,7 @@ pub unsafe fn serialize_state(instance: *mut c_void, state: *mut c_void, bytes: 
         let snapshot = unsafe { state.cast::<Snapshot>().as_ref() }.ok_or(NO_STATE)?;
         let serialized = snapshot.to_bytes();
         if serialized.len() != size {
-            return Err(format!("the state has {} bytes, and there is room for {size}", serialized.len()));
+            return Err(format!("the state has {} bytes, but the list has room for {size}", serialized.len()));
         }
         // SAFETY: what this function demands.
         unsafe { list_mut(bytes, size)? }.copy_from_slice(&serialized);
@@ -200,7 +219,7 @@ pub unsafe fn serialize_state(instance: *mut c_void, state: *mut c_void, bytes: 
     })
 }
 
-/// Makes a new state of bytes that were written by [`serialize_state`], by this instance or another one of the same FMU.
+/// Makes a new state from bytes that [`serialize_state`] wrote, for this instance or another one of the same FMU.
 ///
 /// # Safety
 /// `bytes` has `size` entries; `state` is null or can be written to. What it points at is not read: it may be uninitialised.

@@ -49,18 +49,18 @@ impl Variable {
             2 => Ok(Self::Gains(zone)),
             _ if reference == 3 * zones => Ok(Self::Outdoor),
             _ if reference == 3 * zones + 1 => Ok(Self::Time),
-            _ => Err(format!("there is no variable with the value reference {reference}")),
+            _ => Err(format!("no variable has the value reference {reference}")),
         }
     }
 }
 
-/// Reads the plant of an FMU with that identity from its folder of resources.
+/// Reads the plant of the FMU with this GUID from its folder of resources.
 ///
 /// # Errors
 /// If the file cannot be read, or belongs to another FMU.
 pub fn read_plant(folder: &Path, guid: &str) -> Result<DiscretePlant, String> {
     if folder.as_os_str().is_empty() {
-        return Err("no folder of resources was given".to_owned());
+        return Err("the importer gave no folder of resources".to_owned());
     }
     let path = folder.join("plant.txt");
     let text = fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
@@ -68,7 +68,7 @@ pub fn read_plant(folder: &Path, guid: &str) -> Result<DiscretePlant, String> {
     if plant.guid == guid {
         Ok(plant)
     } else {
-        Err(format!("the GUID is {guid}, and that of the resources is {}: they are of another FMU", plant.guid))
+        Err(format!("the GUID is {guid}, and that of the resources is {}: they belong to another FMU", plant.guid))
     }
 }
 
@@ -76,10 +76,10 @@ impl Instance {
     /// Begins at a time \[s\] that is a whole number of steps after the first midnight.
     ///
     /// # Errors
-    /// If it is none, or if there is no weather then.
+    /// If the time is not a whole number of steps, or if the weather ends before it.
     pub fn begin_at(&mut self, time_s: f64) -> Result<(), String> {
         let steps = self.whole_steps(time_s).ok_or_else(|| {
-            format!("{time_s} s is no whole number of steps of {} s since the first midnight", self.plant.step_s)
+            format!("{time_s} s is not a whole number of steps of {} s since the first midnight", self.plant.step_s)
         })?;
         if steps >= self.plant.steps() {
             return Err(format!("the weather in the FMU ends before {time_s} s"));
@@ -88,26 +88,25 @@ impl Instance {
         Ok(())
     }
 
-    /// Moves on from a time by a duration \[s\] of whole steps.
+    /// Advances from a time by a duration \[s\] of whole steps.
     ///
     /// # Errors
-    /// If the time is not that of the instance, the duration is no whole number of steps, or a step fails: the state is
-    /// unchanged.
+    /// If the time is not that of the instance, the duration is not a whole number of steps, or a step fails. The state is
+    /// then unchanged.
     pub fn advance(&mut self, time_s: f64, duration_s: f64) -> Result<(), String> {
         let step_s = self.plant.step_s;
         if self.whole_steps(time_s) != Some(self.plant.present.step) {
             let now_s = self.plant.time_s();
-            return Err(format!("a step was asked for at {time_s} s, but the time of the FMU is {now_s} s"));
+            return Err(format!("the step starts at {time_s} s, but the time of the FMU is {now_s} s"));
         }
         let steps = self.whole_steps(duration_s).filter(|steps| *steps > 0);
-        let steps = steps.ok_or_else(|| {
-            format!("a step of {duration_s} s was asked for; it must be a whole number of steps of {step_s} s")
-        })?;
+        let steps =
+            steps.ok_or_else(|| format!("the step of {duration_s} s is not a whole number of steps of {step_s} s"))?;
         let before = self.plant.present.clone();
         (0..steps).try_for_each(|_| self.plant.advance()).inspect_err(|_| self.plant.present = before)
     }
 
-    /// How many steps a time is, if it is a whole number of them.
+    /// The number of steps in a duration, if it is a whole number.
     fn whole_steps(&self, time_s: f64) -> Option<usize> {
         let steps = time_s / self.plant.step_s;
         let is_whole = steps >= -MAX_TIME_ERROR_SHARE && (steps - steps.round()).abs() <= MAX_TIME_ERROR_SHARE;
@@ -117,7 +116,7 @@ impl Instance {
     /// Returns the value of a variable.
     ///
     /// # Errors
-    /// If there is none with this value reference.
+    /// If no variable has this value reference.
     pub fn value(&self, reference: u32) -> Result<f64, String> {
         let plant = &self.plant;
         Ok(match Variable::parse(reference, plant.zones)? {
@@ -132,15 +131,15 @@ impl Instance {
     /// Sets an input.
     ///
     /// # Errors
-    /// If the value reference is none of an input, or if the value is no finite number.
+    /// If the value reference is not that of an input, or if the value is not finite.
     pub fn set_value(&mut self, reference: u32, value: f64) -> Result<(), String> {
         match Variable::parse(reference, self.plant.zones)? {
-            Variable::Heat(_) if !value.is_finite() => Err(format!("heat of {value} kW is no finite number")),
+            Variable::Heat(_) if !value.is_finite() => Err(format!("heat of {value} kW is not a finite number")),
             Variable::Heat(zone) => {
                 self.plant.present.heat_kw[zone] = value;
                 Ok(())
             }
-            _ => Err(format!("the variable with the value reference {reference} is no input and cannot be set")),
+            _ => Err(format!("the variable with the value reference {reference} is not an input and cannot be set")),
         }
     }
 }

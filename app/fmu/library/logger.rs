@@ -1,4 +1,4 @@
-//! How an importer is told of errors: of its callbacks, only the one that logs is used.
+//! Logs errors through the callback of the importer. Its other callbacks are not used.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 
@@ -22,17 +22,17 @@ pub struct CallbackFunctions {
     environment: *mut c_void,
 }
 
-/// What an importer gave to be told of errors.
+/// The log callback of an importer.
 #[derive(Clone, Copy, Debug)]
 pub enum Logger {
     /// Callbacks of FMI 2.0.
     Fmi2(CallbackFunctions),
-    /// The callback of FMI 3.0, if there is one, and what it is given first.
+    /// The callback of FMI 3.0, if the importer has one, and its first argument.
     Fmi3(Option<LogMessage>, *mut c_void),
 }
 
 impl Logger {
-    /// Tells the importer of an error, if it listens.
+    /// Passes an error to the importer, if it has a log callback.
     pub fn log_error(&self, instance: &CStr, text: &str) {
         let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
         match *self {
@@ -57,6 +57,6 @@ pub mod status {
 
     /// The call succeeded.
     pub const OK: c_int = 0;
-    /// The call failed; the instance can go on being asked.
+    /// The call failed; the instance remains usable.
     pub const ERROR: c_int = 3;
 }

@@ -13,7 +13,7 @@ pub const HEADER: &str = "interplay-plant 1";
 /// A thermal network in discrete time with its weather and its present state.
 #[derive(Clone, Debug)]
 pub struct DiscretePlant {
-    /// The identity of the FMU, which its description repeats.
+    /// The GUID of the FMU, which its description repeats.
     pub guid: String,
     /// Time from one step to the next \[s\].
     pub step_s: f64,
@@ -33,11 +33,11 @@ pub struct DiscretePlant {
     ambient_c: Vec<f64>,
     /// Heat w of people, sun and machines, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
     gains_kw: Vec<f64>,
-    /// What changes while it is simulated.
+    /// The present state.
     pub present: PlantState,
 }
 
-/// What changes while a plant is simulated.
+/// The state of a plant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantState {
     /// Number of steps since the first midnight.
@@ -58,18 +58,18 @@ impl<'a> Words<'a> {
 
     fn expect(&mut self, word: &str) -> Result<(), String> {
         let found = self.next(word)?;
-        if found == word { Ok(()) } else { Err(format!("`{found}` stands where `{word}` should")) }
+        if found == word { Ok(()) } else { Err(format!("expected `{word}`, found `{found}`")) }
     }
 
     fn count(&mut self, word: &str) -> Result<usize, String> {
         self.expect(word)?;
         let text = self.next(word)?;
-        text.parse().map_err(|_| format!("`{text}` is no number of {word}"))
+        text.parse().map_err(|_| format!("`{text}` is not a count of {word}"))
     }
 
     fn number(&mut self, what: &str) -> Result<f64, String> {
         let text = self.next(what)?;
-        let number: f64 = text.parse().map_err(|_| format!("`{text}` in {what} is no number"))?;
+        let number: f64 = text.parse().map_err(|_| format!("`{text}` in {what} is not a number"))?;
         if number.is_finite() { Ok(number) } else { Err(format!("`{text}` in {what} is not finite")) }
     }
 
@@ -83,7 +83,7 @@ impl DiscretePlant {
     /// Reads the file `plant.txt`.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The first fault of the file.
     pub fn parse(text: &str) -> Result<Self, String> {
         let body = text.strip_prefix(HEADER).ok_or_else(|| format!("the file does not begin with `{HEADER}`"))?;
         let mut words = Words(body.split_whitespace());
@@ -98,7 +98,10 @@ impl DiscretePlant {
             return Err("the sizes are too large".to_owned());
         };
         if step_s <= 0.0 || zones == 0 || zones > gained || gained > nodes || steps == 0 {
-            return Err("there is no step, or no zone".to_owned());
+            return Err(
+                "the step length, the number of steps or the number of zones is not positive, or zones exceed nodes"
+                    .to_owned(),
+            );
         }
         let initial_c = words.numbers("initial_c", nodes)?;
         Ok(Self {
@@ -151,10 +154,10 @@ impl DiscretePlant {
         &self.gains_kw[step * self.gained..(step + 1) * self.gained]
     }
 
-    /// Moves on by a step.
+    /// Advances by one step.
     ///
     /// # Errors
-    /// If there is no weather any more, or if a temperature is no finite number then: the state is unchanged.
+    /// If the weather has ended, or if a temperature would not be finite. The state is then unchanged.
     pub fn advance(&mut self) -> Result<(), String> {
         if self.present.step >= self.steps() {
             let end_s = self.step_s * self.steps() as f64;
@@ -173,7 +176,7 @@ impl DiscretePlant {
             })
             .collect();
         if !next_c.iter().all(|temperature_c| temperature_c.is_finite()) {
-            return Err("a temperature is no finite number; is the heat one?".to_owned());
+            return Err("a temperature is not a finite number; check the heat".to_owned());
         }
         self.present.nodes_c = next_c;
         self.present.step += 1;

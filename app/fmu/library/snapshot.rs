@@ -1,21 +1,20 @@
-//! A copy of what changes in an instance, and its bytes.
+//! A copy of the state of an instance, and its bytes.
 //!
 //! ```text
 //! "interplay-state 1\n"                                   form and version
-//! length of the identity, the identity                    as in `plant.txt`
+//! length of the GUID, the GUID                            as in `plant.txt`
 //! step, number of nodes, number of zones
 //! temperature of each node [°C], heat of each zone [kW]
 //! ```
 //!
-//! Whole numbers have 8 bytes, temperatures and heats are of double precision, and all begin with their least byte, so that a
-//! state can be read on another machine.
+//! Counts are u64, temperatures and heats f64, all little-endian, so that a state can be read on another machine.
 
 use super::plant::{DiscretePlant, PlantState};
 
-/// The first bytes, which say the form.
+/// The first bytes, which name the format and its version.
 const HEADER: &[u8] = b"interplay-state 1\n";
 
-/// A state of a plant, with the identity of the FMU that it belongs to.
+/// A state of a plant, with the GUID of its FMU.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     guid: String,
@@ -41,7 +40,7 @@ impl Snapshot {
     /// Whether a plant can have this state.
     ///
     /// # Errors
-    /// If it is a state of another FMU, or one that no simulation of this one leads to.
+    /// If the state belongs to another FMU, or if its sizes, its step or its numbers are out of range.
     pub fn check(&self, plant: &DiscretePlant) -> Result<(), String> {
         let PlantState { step, nodes_c, heat_kw } = &self.state;
         if self.guid != plant.guid {
@@ -51,7 +50,7 @@ impl Snapshot {
             return Err("the state does not fit the network".to_owned());
         }
         if !nodes_c.iter().chain(heat_kw).all(|number| number.is_finite()) {
-            return Err("a temperature or a heat of the state is no finite number".to_owned());
+            return Err("a temperature or a heat of the state is not a finite number".to_owned());
         }
         Ok(())
     }
@@ -72,9 +71,9 @@ impl Snapshot {
     /// Reads a state from its bytes.
     ///
     /// # Errors
-    /// If they are not of this form, too few or too many.
+    /// If the bytes have another format, or are too few or too many.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let rest = bytes.strip_prefix(HEADER).ok_or("these bytes are no state of an FMU of this version")?;
+        let rest = bytes.strip_prefix(HEADER).ok_or("the bytes are not a state of an FMU of this version")?;
         let mut reader = Reader(rest);
         let length = reader.count()?;
         let guid = String::from_utf8_lossy(reader.take(length)?).into_owned();
@@ -88,7 +87,7 @@ impl Snapshot {
     }
 }
 
-/// Bytes that are yet to be read.
+/// The bytes that are not read yet.
 struct Reader<'a>(&'a [u8]);
 
 impl<'a> Reader<'a> {
@@ -108,7 +107,7 @@ impl<'a> Reader<'a> {
         usize::try_from(u64::from_le_bytes(self.word()?)).map_err(|error| error.to_string())
     }
 
-    /// A list of numbers. Nothing is reserved for a count that the bytes do not bear out.
+    /// Reads a list of numbers. Memory is reserved only after the bytes are known to be there.
     fn numbers(&mut self, count: usize) -> Result<Vec<f64>, String> {
         let bytes = self.take(count.checked_mul(8).ok_or("there are fewer bytes than the state has")?)?;
         let mut numbers = Reader(bytes);

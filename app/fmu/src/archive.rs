@@ -1,6 +1,6 @@
-//! An archive in the format ZIP whose files are stored as they are (APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
+//! ZIP archives with uncompressed files (APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
 //!
-//! The date of all files is the first of January 1980, so that the same files make the same archive.
+//! The date of all files is the first of January 1980, so that the same files give the same archive.
 
 /// 1980-01-01.
 const DATE: u16 = (1 << 5) | 1;
@@ -12,7 +12,7 @@ const PERMISSIONS: u32 = 0o100_755 << 16;
 /// Names are UTF-8.
 const FLAGS: u16 = 1 << 11;
 
-/// Stores files in an archive. Names, contents and the whole are shorter than 4 GiB.
+/// Stores files in an archive. All sizes must be below 4 GiB.
 pub(crate) fn archive(files: &[(String, &[u8])]) -> Vec<u8> {
     let (mut bytes, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in files {
@@ -45,7 +45,7 @@ pub(crate) fn archive(files: &[(String, &[u8])]) -> Vec<u8> {
     bytes
 }
 
-/// What both headers of a file have: version, flags, method, time, date, checksum, sizes, lengths.
+/// The common part of both headers of a file: version, flags, method, time, date, checksum, sizes, lengths.
 fn entry(name: &str, content: &[u8]) -> Vec<u8> {
     let size = content.len() as u32;
     let mut bytes = Vec::with_capacity(26);

@@ -1,19 +1,19 @@
-//! Why a scenario cannot be exported.
+//! Errors of exports.
 
 use interplay_building::discretise::ModelError;
 use interplay_building::network::NetworkError;
 use interplay_simulation::climate::BuildingError;
 use thiserror::Error;
 
-/// Why a scenario cannot be exported.
+/// A scenario cannot be exported.
 #[derive(Debug, Error)]
 pub enum FmuError {
     /// The scenario has no building.
     #[error(
-        "the scenario has no building; an FMU is that of a building (`interplay list` shows scenarios of buildings)"
+        "the scenario has no building; only buildings can be exported (`interplay list` shows scenarios of buildings)"
     )]
     NoBuilding,
-    /// The building is another program.
+    /// The building is simulated by another program.
     #[error(
         "`building.plant` of the scenario is another program; only a network can be exported: leave `building.plant` out"
     )]
@@ -27,28 +27,26 @@ pub enum FmuError {
         limit: usize,
     },
     /// The weather would be too large.
-    #[error(
-        "{numbers} numbers of weather and people (steps times zones) are more than the {limit} of an FMU; lower `iterations`"
-    )]
+    #[error("the weather has {numbers} numbers (steps times zones); an FMU has at most {limit}; lower `iterations`")]
     TooMuchWeather {
-        /// Number of numbers that the weather has.
+        /// Number of numbers of the weather.
         numbers: usize,
         /// Largest number that can be exported.
         limit: usize,
     },
-    /// The compiler made no library for this system.
-    #[error("this build of interplay has no FMU library: the compiler made none for {platform}, as its warnings said")]
+    /// The compiler could not build the library for this system.
+    #[error("this build of interplay has no FMU library: the compiler could not build it for {platform}")]
     NoLibrary {
         /// Name of the system.
         platform: String,
     },
-    /// Zones and walls make no network.
+    /// The network is invalid.
     #[error("the building cannot be exported: {0}")]
     Network(#[from] NetworkError),
-    /// The network has no discrete form.
+    /// The network has no discrete model.
     #[error("the building cannot be exported: {0}")]
     Model(#[from] ModelError),
-    /// The weather of the building is not known.
+    /// The weather of the building cannot be computed.
     #[error("the building cannot be exported: {0}")]
     Building(#[from] BuildingError),
 }

@@ -10,21 +10,21 @@ use xxhash_rust::xxh3::xxh3_128;
 use crate::archive::archive;
 use crate::description::{self, Description};
 use crate::error::FmuError;
-use crate::resources::{OutsideSeries, plant};
+use crate::resources::{OutsideSeries, plant_text};
 use crate::version::FmiVersion;
 
 /// The shared library for the system that this crate was compiled for; empty if there is none.
 const LIBRARY: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/library.bin"));
 /// The name of the library, and of the model within the FMU.
 const IDENTIFIER: &str = "interplay_building";
-/// The most nodes: the matrices have the square of them.
+/// Most nodes; the size of the matrices is their square.
 const MAX_NODES: usize = 500;
-/// The most numbers of people and sun.
+/// Most numbers of heat gains.
 const MAX_WEATHER_NUMBERS: usize = 5_000_000;
 
-/// The building of a scenario that was loaded, as an FMU: a co-simulation unit for the system at hand.
+/// The building of a loaded scenario as an FMU for co-simulation on the present system.
 ///
-/// The same scenario gives the same bytes, and both versions compute the same.
+/// The same scenario gives the same bytes, and both versions of FMI compute the same values.
 ///
 /// # Errors
 /// [`FmuError`] if the scenario has no building, if it is too large, or if this build has no library.
@@ -49,7 +49,7 @@ pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuEr
     }
     let model = Model::new(&network, described.method, described.step_s)?;
     let outside = OutsideSeries::collect(&surroundings_of(scenario, &network), &model, steps, days);
-    let numbers = plant(&model, described.initial_c, &outside);
+    let numbers = plant_text(&model, described.initial_c, &outside);
     let guid = guid(&scenario.title, &numbers);
     let resources = format!("interplay-plant 1\nguid {guid}\n{numbers}");
     let described = Description {
@@ -68,7 +68,7 @@ pub fn export(scenario: &Scenario, version: FmiVersion) -> Result<Vec<u8>, FmuEr
     ]))
 }
 
-/// An identity that follows from the content.
+/// A GUID that depends on the content only.
 fn guid(title: &str, numbers: &str) -> String {
     let digest = format!("{:032x}", xxh3_128(format!("{title}\n{numbers}").as_bytes()));
     let parts = [&digest[..8], &digest[8..12], &digest[12..16], &digest[16..20], &digest[20..]];

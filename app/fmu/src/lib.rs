@@ -1,5 +1,4 @@
-//! A building as a functional mock-up unit: its network and its weather for any program that imports FMI
-//! 2.0 or 3.0.
+//! Export of a building as a functional mock-up unit (FMU): its network and weather for programs that import FMI 2.0 or 3.0.
 //!
 //! ```text
 //! scenario -> discrete network, weather -> plant.txt ┐
@@ -7,8 +6,8 @@
 //!             library (compiled by build.rs)         ┘
 //! ```
 //!
-//! The heat of each zone is an input; people, sun and the air outside are those of the scenario and its seed. The shared library
-//! is the code in `library/`, which this crate contains as bytes.
+//! The heat of each zone is an input; occupancy, sun and outdoor temperature are those of the scenario and its seed. The shared
+//! library is built from `library/` and contained in this crate as bytes.
 //!
 //! ```no_run
 //! let scenario = interplay_scenarios::load("building/four-room-pid", &[])?;

@@ -1,21 +1,21 @@
-//! The file `plant.txt`, which the shared library reads (`library/plant.rs` has its form).
+//! The file `plant.txt`, which the shared library reads (format in `library/plant.rs`).
 
 use std::fmt::{Display, Write};
 
 use interplay_building::day::Surroundings;
 use interplay_building::discretise::Model;
 
-/// What acts on a building over a run, stacked over all steps.
+/// Weather and heat gains over a run, stacked over all steps.
 #[derive(Clone, Debug)]
 pub(crate) struct OutsideSeries {
     /// Outdoor temperature T₀ of each step \[°C\].
     pub ambient_c: Vec<f64>,
-    /// Heat w of people, sun and machines, one number per step and node that gets any \[kW\].
+    /// Heat w of people, sun and machines, one number per step and heated node \[kW\].
     pub gains_kw: Vec<f64>,
 }
 
 impl OutsideSeries {
-    /// What happens on the days of a run.
+    /// Collects the actual values of all days.
     pub(crate) fn collect(surroundings: &Surroundings, model: &Model, steps_per_day: usize, days: usize) -> Self {
         let actual = (0..days).map(|day| surroundings.actual(model, steps_per_day, day));
         let mut all = Self { ambient_c: Vec::new(), gains_kw: Vec::new() };
@@ -27,8 +27,8 @@ impl OutsideSeries {
     }
 }
 
-/// The numbers of the file, without its identity.
-pub(crate) fn plant(model: &Model, initial_c: f64, outside: &OutsideSeries) -> String {
+/// The content of the file without its GUID.
+pub(crate) fn plant_text(model: &Model, initial_c: f64, outside: &OutsideSeries) -> String {
     let network = model.network();
     let (nodes, zones) = (network.node_count(), network.zone_count());
     let (state, gain) = (model.state_matrix(), model.disturbance_matrix());
@@ -47,7 +47,7 @@ pub(crate) fn plant(model: &Model, initial_c: f64, outside: &OutsideSeries) -> S
     text
 }
 
-/// A line of a word and numbers, which are written so that reading them gives the same bits.
+/// Writes a line of a word and numbers, which round-trip exactly.
 fn row<T: Display>(text: &mut String, word: &str, numbers: impl IntoIterator<Item = T>) {
     text.push_str(word);
     for number in numbers {

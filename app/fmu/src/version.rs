@@ -11,8 +11,8 @@ pub enum FmiVersion {
 }
 
 impl FmiVersion {
-    /// The folder of binaries and their extension for a system, by the names of [`std::env::consts`], if the version has a name
-    /// for that system or, as FMI 2.0 for some, tools agree on one.
+    /// The folder of binaries and their extension for a system, by the names of [`std::env::consts`]. For some systems FMI 2.0 defines
+    /// no folder; these have the names that tools agree on.
     pub(crate) fn binary(self, system: &str, processor: &str) -> Option<(&'static str, &'static str)> {
         let (two, three, extension) = match (system, processor) {
             ("linux", "x86_64") => ("linux64", "x86_64-linux", "so"),
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folders_are_those_of_the_version() {
+    fn folder_names_follow_the_version() {
         let folders = |system, processor| {
             [FmiVersion::Two, FmiVersion::Three]
                 .map(|version| version.binary(system, processor).map(|(folder, _)| folder))

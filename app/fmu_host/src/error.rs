@@ -59,12 +59,16 @@ pub enum HostError {
         said: String,
     },
     /// The process did not answer in time.
-    #[error("the FMU gave no answer to `{question}` within {timeout_s} s; `building.plant.timeout_s` is that limit")]
+    #[error(
+        "the FMU gave no answer to `{question}` within {timeout_s} s{said}; `building.plant.timeout_s` is that limit"
+    )]
     Timeout {
         /// What was asked.
         question: String,
         /// Longest time of an answer \[s\].
         timeout_s: f64,
+        /// The last line that it wrote to the standard error, or nothing.
+        said: String,
     },
     /// The unit or its library refused.
     #[error("the FMU failed at `{question}`: {reason}")]

@@ -4,19 +4,20 @@ use std::env;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::Mutex;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
-use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
 use crate::error::HostError;
+use crate::last_line::LastLine;
 use crate::protocol::{HostAnswer, Request, Values};
 use crate::unit::Unit;
 
-/// How long a process that has closed its output may take to end.
+/// How long a process that has closed its output may take to end, and its last output to be read.
 const ENDING: Duration = Duration::from_secs(2);
 const ENDING_POLL: Duration = Duration::from_millis(5);
-/// How much of a wrong answer an error shows \[characters\].
+/// How much of a line from the process an error shows \[characters\].
 const SHOWN_CHARACTERS: usize = 120;
 /// The name of the command line.
 const PROGRAM: &str = "interplay";
@@ -48,8 +49,8 @@ pub struct Host {
     child: Child,
     input: Option<ChildStdin>,
     lines: Mutex<Receiver<String>>,
-    /// The last line of the standard error.
-    said: Arc<Mutex<String>>,
+    /// `None` if the standard error cannot be read.
+    errors: Option<LastLine>,
     timeout: Duration,
 }
 
@@ -71,26 +72,15 @@ impl Host {
         let named = || program.program.to_string_lossy().into_owned();
         let mut child = started.map_err(|reason| HostError::Start { program: named(), reason })?;
         let (sender, lines) = mpsc::channel();
-        let said = Arc::new(Mutex::new(String::new()));
         if let Some(output) = child.stdout.take() {
             thread::spawn(move || {
                 let lines = BufReader::new(output).lines().map_while(Result::ok);
                 lines.map(|line| sender.send(line)).take_while(Result::is_ok).count()
             });
         }
-        if let Some(output) = child.stderr.take() {
-            let said = Arc::clone(&said);
-            thread::spawn(move || {
-                for line in BufReader::new(output).lines().map_while(Result::ok).filter(|line| !line.trim().is_empty())
-                {
-                    if let Ok(mut said) = said.lock() {
-                        *said = line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
-                    }
-                }
-            });
-        }
+        let errors = child.stderr.take().map(LastLine::read);
         let input = child.stdin.take();
-        let mut host = Self { child, input, lines: Mutex::new(lines), said, timeout };
+        let mut host = Self { child, input, lines: Mutex::new(lines), errors, timeout };
         host.answer("instantiate")?;
         Ok(host)
     }
@@ -120,17 +110,14 @@ impl Host {
             Err(RecvTimeoutError::Timeout) => {
                 self.kill();
                 let timeout_s = self.timeout.as_secs_f64();
-                return Err(HostError::Timeout { question: question.to_owned(), timeout_s });
+                return Err(HostError::Timeout { question: question.to_owned(), timeout_s, said: self.last_words() });
             }
         };
         match serde_json::from_str(&line) {
             Ok(HostAnswer::Done) => Ok(Values::default()),
             Ok(HostAnswer::Values(values)) => Ok(values),
             Ok(HostAnswer::Failed { reason }) => Err(failed(question, reason)),
-            Err(_) => {
-                let shown: String = line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
-                Err(failed(question, format!("its process answers `{shown}`")))
-            }
+            Err(_) => Err(failed(question, format!("its process answers `{}`", shown(&line)))),
         }
     }
 
@@ -145,13 +132,17 @@ impl Host {
             }
             waited += ENDING_POLL;
         };
-        let said = self.said.lock().map(|said| said.clone()).unwrap_or_default();
-        let said = if said.is_empty() { said } else { format!(", after it wrote `{said}`") };
         HostError::Crashed {
             question: question.to_owned(),
             how: status.map_or_else(|| "no status".to_owned(), ended),
-            said,
+            said: self.last_words(),
         }
+    }
+
+    /// What the process wrote last, as the end of an error; nothing if it wrote nothing.
+    fn last_words(&mut self) -> String {
+        let line = self.errors.as_mut().map(|errors| errors.at_end(ENDING)).unwrap_or_default();
+        if line.is_empty() { line } else { format!(", after it wrote `{line}`") }
     }
 
     fn kill(&mut self) {
@@ -167,6 +158,11 @@ impl Drop for Host {
         self.input = None;
         self.kill();
     }
+}
+
+/// The beginning of a line from the process, as an error shows it.
+pub(crate) fn shown(line: &str) -> String {
+    line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
 }
 
 fn failed(question: &str, reason: String) -> HostError {

@@ -57,6 +57,10 @@ fn crashes_and_wrong_answers_are_errors() {
             "echo 'no such symbol' >&2; exit 7".to_owned(),
             "`instantiate`: its process ended with exit code 7, after it wrote `no such symbol`",
         ),
+        (
+            r"printf 'ung\374ltig\r\nno licence\r\n' >&2; exit 7".to_owned(),
+            "`instantiate`: its process ended with exit code 7, after it wrote `no licence`",
+        ),
         ("kill -SEGV $$".to_owned(), "signal 11"),
         (format!("{done} kill -SEGV $$"), "`initialize`: its process ended with signal 11"),
         (format!("{done} echo hello"), "answers `hello`"),
@@ -73,17 +77,25 @@ fn crashes_and_wrong_answers_are_errors() {
 }
 
 #[test]
+fn a_process_that_keeps_the_standard_error_open_does_not_delay_the_error_of_a_crash() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let unit = sound(folder.path());
+    let began = Instant::now();
+    let script = "echo 'no licence' >&2; sleep 60 > /dev/null & exit 7";
+    let error = Host::start(&shell(script), &unit, Duration::from_secs(50)).map(|_| ()).expect_err("it ends");
+    assert!(error.to_string().contains("exit code 7, after it wrote `no licence`"), "{error}");
+    assert!(began.elapsed() < Duration::from_secs(40));
+}
+
+#[test]
 fn a_unit_that_hangs_is_ended_in_time() {
     let folder = tempfile::tempdir().expect("a folder");
     let unit = sound(folder.path());
     let began = Instant::now();
-    let script = r#"echo '{"answer":"done"}'; exec sleep 600"#;
-    let mut host = Host::start(&shell(script), &unit, Duration::from_millis(300)).expect("it starts");
-    let error = host.ask(&Request::Reset).map(|_| ()).expect_err("it hangs");
-    assert!(
-        matches!(&error, HostError::Timeout { question, timeout_s } if question == "reset" && *timeout_s == 0.3),
-        "{error}"
-    );
+    let script = r#"echo '{"answer":"done"}'; echo 'no convergence' >&2; exec sleep 600"#;
+    let mut host = Host::start(&shell(script), &unit, Duration::from_secs(2)).expect("it starts");
+    let error = host.ask(&Request::Reset).map(|_| ()).expect_err("it hangs").to_string();
+    assert!(error.contains("no answer to `reset` within 2 s, after it wrote `no convergence`"), "{error}");
     drop(host);
     assert!(began.elapsed() < Duration::from_secs(20));
 }

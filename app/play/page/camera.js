@@ -1,6 +1,6 @@
-// The view of the world: the own car's first direction is up, the camera follows it and shows those who matter.
+// The view of the world: the own car's first direction is up, the camera follows it and shows the vehicles that interact with it.
 
-/** Least and greatest length of a car [px], and the least while somebody far away asks for something. */
+/** Least and greatest length of a car [px], and the least while a distant vehicle makes a request. */
 const CAR_PX = { least: 34, greatest: 104, withPartners: 24 };
 /** Vehicles within this many lengths of a car are shown with the own car, partners within the second number. */
 const NEAR_CARS = 7;
@@ -52,7 +52,7 @@ export class Camera {
     const fit = Math.min(size[0] / (high[0] - low[0]), size[1] / (high[1] - low[1]));
     const least = (hasPartners ? CAR_PX.withPartners : CAR_PX.least) / car;
     const scale = Math.min(Math.max(fit, least), CAR_PX.greatest / car);
-    // The own car stays well within the area, whoever else matters.
+    // The own car always stays well within the area.
     const reach = size.map((part) => Math.max(0, (0.5 * part) / scale - 1.6 * car));
     const offset = [0, 1].map((axis) => Math.min(Math.max(0.5 * (low[axis] + high[axis]) - here[axis], -reach[axis]), reach[axis]));
     const blend = (old, wanted, constant) => (old === null ? wanted : old + (wanted - old) * (1 - Math.exp(-elapsed / constant)));

@@ -1,10 +1,10 @@
-// Cards over the road: what to do before the start, the pause, the help, and the end of the connection.
+// Cards over the road: before the start, in a pause, help, and without a connection.
 
 import { button, element, keycap, swatch } from "./dom.js";
 
 const KEYS = [
   [["↑", "W"], "faster"], [["↓", "S"], "slower"], [["←", "A"], "steer left"], [["→", "D"], "steer right"], [["Space"], "brake hard"],
-  [["P"], "let a planner drive, and back"], [["R"], "start again"], [["Backspace"], "back 5 seconds: try that again"], [["Esc"], "pause"],
+  [["P"], "hand over to a planner and back"], [["R"], "start again"], [["Backspace"], "back 5 seconds"], [["Esc"], "pause"],
   [["Tab"], "drive another car"], [["N"], "next scenario"], [["M"], "menu"], [["1", "…", "9"], "slow motion to time-lapse (5: normal)"],
   [["V"], "show or hide plans and beliefs"], [["K"], "lane keeping on or off"], [["E"], "end the drive now"], [["?"], "this help"],
 ];
@@ -47,14 +47,14 @@ export function pauseView(isTouch, act) {
 
 export function helpView(isTouch, act) {
   const close = button({ words: "Close", key: isTouch ? undefined : "Esc", className: "primary" }, () => act("help"));
-  const pad = "Game controller: left stick steers, right trigger goes, left trigger brakes. Touch: stick on the left, pedals on the right.";
+  const pad = "Game controller: left stick steers, right trigger accelerates, left trigger brakes. Touch: stick on the left, pedals on the right.";
   const made = card("Help", element("h1", { textContent: "Help" }), keyList(KEYS), element("p", { className: "quiet", textContent: pad }),
     element("h2", { textContent: "What you see" }), marks(isTouch), element("div", { className: "actions" }, close));
   made.classList.add("wide");
   return { made, first: close };
 }
 
-/** The server is gone, or not there yet. */
+/** Without a connection to the server. */
 export function goneView(words, again) {
   const retry = button({ words: "Connect again", className: "primary" }, again);
   const made = card("No connection", element("h1", { textContent: "No connection" }), element("p", { textContent: words }),

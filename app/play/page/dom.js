@@ -12,7 +12,7 @@ export function element(tag, { aria = {}, dataset = {}, ...properties } = {}, ..
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A sign of lines in a square of 24 by 24. */
+/** An icon of lines in a square of 24 by 24. */
 function signOf(lines) {
   const picture = document.createElementNS(SVG, "svg");
   picture.setAttribute("viewBox", "0 0 24 24");
@@ -24,7 +24,7 @@ function signOf(lines) {
   return picture;
 }
 
-/** A button with words, or with a sign (lines) whose words are read aloud and shown as a hint. */
+/** A button with words, or with an icon (lines) whose words are its label and tooltip. */
 export function button({ words, sign, key, ...properties }, act) {
   const made = element("button", { type: "button", ...properties });
   if (sign) {
@@ -39,7 +39,7 @@ export function button({ words, sign, key, ...properties }, act) {
   return made;
 }
 
-/** A colour that may be drawn, or grey. */
+/** A valid colour, otherwise grey. */
 export function safeColour(colour) {
   return /^#[0-9a-f]{6}$/i.test(colour) ? colour : "#9A9EA4";
 }
@@ -50,7 +50,7 @@ export function darker(colour) {
   return `rgb(${parts.join(" ")})`;
 }
 
-/** A colour that lets through what lies below. */
+/** A translucent colour. */
 export function veiled(colour, opacity) {
   const parts = [1, 3, 5].map((at) => parseInt(safeColour(colour).slice(at, at + 2), 16));
   return `rgb(${parts.join(" ")} / ${opacity})`;
@@ -63,7 +63,7 @@ export function swatch(colour) {
   return made;
 }
 
-/** A key as it is printed on keyboards. */
+/** The label of a key on keyboards. */
 export function keycap(words) {
   return element("kbd", { textContent: words });
 }

@@ -1,8 +1,8 @@
-// What is said beside the road: the goal, who drives, who asks whom for what, the last events, speed and pedals.
+// Information beside the road: goal, drivers, requests, last events, speed and pedals.
 
 import { asYou, button, element, keycap, swatch } from "./dom.js";
 
-/** How long an event, a refusal and a hint are shown [s of wall time]. */
+/** Display times of an event, a refusal and a hint [s of wall time]. */
 const NEWS_S = 4;
 const NOTICE_S = 4;
 /** Speeds that differ by less than this share are called equal. */
@@ -13,7 +13,7 @@ const by = (id) => document.getElementById(id);
 const setText = (place, text) => place.textContent !== text && (place.textContent = text);
 
 export class Hud {
-  /** `act(name)` does what the buttons ask for. */
+  /** `act(name)` carries out the action of a button. */
   constructor(act) {
     this.act = act;
     this.news = null;
@@ -42,7 +42,7 @@ export class Hud {
     by("marks").append(...marks.map(([kind, words]) => element("li", {}, element("span", { className: `mark ${kind}` }), words)));
   }
 
-  /** Begins a world: the words that stay. */
+  /** Begins a world: sets the texts that do not change. */
   begin(world) {
     this.world = world;
     this.news = null;
@@ -83,7 +83,7 @@ export class Hud {
     by("notices").replaceChildren(...lines.map(({ text, kind }) => element("p", { textContent: text, className: kind })));
   }
 
-  /** Takes the words of a frame. */
+  /** Updates the texts from a frame. */
   take(frame, now) {
     const { seat, duration_s } = this.world;
     const rate = frame.real === 1 || !frame.real ? "" : frame.real < 1 ? `  slow motion ×${frame.real}` : `  time-lapse ×${frame.real}`;
@@ -113,7 +113,7 @@ export class Hud {
     this.buttons.handOver.classList.toggle("on", frame.driven_by !== "you");
   }
 
-  /** Who asks whom, and how far the other does as asked; to the person, what to do. */
+  /** Requests with their acceptance; for the person, what to do. */
   request(frame) {
     const { seat } = this.world;
     const proposals = frame.proposals ?? [];
@@ -129,7 +129,7 @@ export class Hud {
     return `${one.from} asks you to ${this.wish(one.points ?? [], frame.states[own])}: follow the dots, or do not: you decide${followed ? ` (you follow: ${followed})` : ""}`;
   }
 
-  /** What a proposal means for the pedals. */
+  /** A proposal in terms of the pedals. */
   wish(points, [x, y, , speed]) {
     if (points.length < 2) return "make room";
     const path = [[x, y], ...points].map(([px, py]) => [px, py]);
@@ -140,7 +140,7 @@ export class Hud {
     return wanted > speed + least ? `speed up to ${wanted.toFixed(1)}\u00a0m/s` : `stay at ${speed.toFixed(1)}\u00a0m/s`;
   }
 
-  /** Draws what changes with every picture: speed, pedals, wheel; lets news end. */
+  /** Draws speed, pedals and wheel, and removes old notices. */
   draw(now, state, { acceleration, steering, assist }) {
     setText(by("speed"), `${Math.abs(state?.[3] ?? 0).toFixed(1)} m/s`);
     by("pedal").style.transform = `scaleX(${Math.abs(acceleration).toFixed(2)})`;
@@ -153,7 +153,7 @@ export class Hud {
     this.drawNotices(now);
   }
 
-  /** The part of the screen that nothing covers [px]. */
+  /** The uncovered part of the screen [px]. */
   freeArea() {
     const [width, height] = [window.innerWidth, window.innerHeight];
     const box = (id) => by(id).getBoundingClientRect();

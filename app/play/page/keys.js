@@ -1,4 +1,4 @@
-// The keyboard: driving by keys that are held, everything else by keys that are pressed once. Keys are known by their place.
+// The keyboard: driving by keys that are held, everything else by keys that are pressed once. Keys are identified by their position.
 
 /** Simulated to wall time by the keys 1 to 9; 5 is normal. */
 export const RATES = [0.25, 0.35, 0.5, 0.75, 1, 1.5, 2, 4, 8];
@@ -25,7 +25,7 @@ export class KeyDriver {
     this.steering = 0;
   }
 
-  /** Notes a key; returns whether it drives. */
+  /** Notes a key; returns whether it is a driving key. */
   set(code, isHeld) {
     if (!(code in HELD)) return false;
     if (isHeld) this.held.add(code);
@@ -43,7 +43,7 @@ export class KeyDriver {
     const does = new Set([...this.held].map((code) => HELD[code]));
     const wanted = does.has("brake") || does.has("slower") ? -1 : does.has("faster") ? 1 : 0;
     if (does.has("brake")) this.acceleration = -1;
-    // A pedal is left at once for the other one.
+    // The opposite pedal releases a pedal at once.
     if (wanted * this.acceleration < 0) this.acceleration = 0;
     const speed = wanted === 0 ? PEDAL.release : wanted < 0 ? PEDAL.brake : PEDAL.press;
     this.acceleration = towards(this.acceleration, wanted, speed * elapsed);
@@ -55,14 +55,14 @@ export class KeyDriver {
 }
 
 /**
- * Listens to the keyboard. `drives()` says whether driving keys count, `act(name, number)` does what was asked for and returns
- * whether that made sense.
+ * Listens to the keyboard. `drives()` tells whether driving keys count; `act(name, number)` carries out an action and returns
+ * whether it was possible.
  */
 export function listenToKeys(keys, drives, act) {
   const isOnControl = () => /^(BUTTON|INPUT|SELECT|A|SUMMARY)$/.test(document.activeElement?.tagName ?? "");
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    // Whoever went to a button by keyboard uses it by keyboard.
+    // A focused button is used by keyboard.
     if (["Space", "Enter", "Tab"].includes(event.code) && (isOnControl() || event.shiftKey)) return;
     if (drives() && keys.set(event.code, true)) {
       event.preventDefault();

@@ -5,14 +5,14 @@ import { safeColour, veiled } from "./dom.js";
 const WORDS = "#F2F2EE";
 const BAR = "rgb(35 38 43 / 0.88)";
 const FONT = 'system-ui, "DejaVu Sans", sans-serif';
-/** A plan that leads less far than this many lengths of its vehicle is a knot and is not drawn. */
+/** Shorter plans, in lengths of the vehicle, are knots and not drawn. */
 const MIN_PLAN_LENGTHS = 1.5;
 const BAND_OPACITY = 0.42;
 const BAND_LINE_PX = 2;
 
 const distance = (from, to) => Math.hypot(to[0] - from[0], to[1] - from[1]);
 
-/** Whether a plan leads far enough to be drawn. */
+/** Whether a plan is long enough to be drawn. */
 export function leadsAway(points, length_m) {
   return points.length > 1 && points.some((point) => distance(points[0], point) > MIN_PLAN_LENGTHS * length_m);
 }
@@ -31,7 +31,7 @@ function beside(points, away) {
   });
 }
 
-/** A band along a plan: a veil between two lines of the vehicle's colour. */
+/** A band along a plan: a translucent area between two lines in the colour of the vehicle. */
 export function drawBand(context, points, width, colour) {
   context.lineCap = "round";
   context.lineJoin = "round";
@@ -47,7 +47,7 @@ export function drawBand(context, points, width, colour) {
   }
 }
 
-/** Dots along a proposal, in the colour of who asks; larger if the person is asked. */
+/** Dots along a proposal, in the colour of its sender; larger if it is for the person. */
 export function drawDots(context, points, colour, isMine) {
   const [spacing, rim, size] = isMine ? [15, 6, 4.2] : [11, 3.6, 2.6];
   let left = spacing;
@@ -69,7 +69,7 @@ export function drawDots(context, points, colour, isMine) {
 
 const overlaps = (one, other) => one.left < other.right && other.left < one.right && one.top < other.bottom && other.top < one.bottom;
 
-/** Draws labels where they cover nothing; keeps what is taken. */
+/** Places labels without overlaps. */
 export class Labels {
   constructor(context, area, taken) {
     this.context = context;
@@ -129,7 +129,7 @@ export class Labels {
     return true;
   }
 
-  /** An arrow at the edge that points to somebody out of view. */
+  /** An arrow at the edge that points to a vehicle out of view. */
   edge([x, y], words, colour) {
     const { context, area } = this;
     const inset = 16;

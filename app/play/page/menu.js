@@ -53,7 +53,7 @@ export function menuView(families, choose) {
 export function familyView(family, start, back, wanted = {}) {
   let scenario = family.scenarios.find(({ name }) => name === wanted.scenario) ?? family.scenarios.find(({ name }) => /[-/]nice$/.test(name)) ?? family.scenarios[0];
   let seat = wanted.seat;
-  const seats = element("div", { className: "seats", role: "radiogroup", aria: { label: "Whom do you drive?" } });
+  const seats = element("div", { className: "seats", role: "radiogroup", aria: { label: "Which vehicle do you drive?" } });
   const shows = element("p", { className: "shows" });
   const radio = (group, value, words, isChecked, chosen) => {
     const input = element("input", { type: "radio", name: group, value, checked: isChecked });
@@ -77,7 +77,7 @@ export function familyView(family, start, back, wanted = {}) {
     element("h1", { textContent: family.title }),
     element("div", { className: "two" },
       element("div", {}, element("h2", { textContent: "Scenario" }), list),
-      element("div", { className: "side" }, picture(family), element("h2", { textContent: "What it shows" }), shows, element("h2", { textContent: "Whom do you drive?" }), seats, go)));
+      element("div", { className: "side" }, picture(family), element("h2", { textContent: "What it shows" }), shows, element("h2", { textContent: "Which vehicle do you drive?" }), seats, go)));
   made.addEventListener("keydown", (event) => {
     if (event.code !== "Enter" || event.target.tagName === "BUTTON") return;
     event.preventDefault();

@@ -1,8 +1,8 @@
-// Where everything is between frames.
+// Positions of all vehicles between frames.
 //
-// A frame says where the vehicles are at the end of a tick. All are shown at one time, so that gaps are true: the own car is
+// A frame has the states at the end of a tick. All vehicles are shown at the same time, so that gaps are true: the own car is
 // predicted from there by the inputs that the server has not acknowledged, the others by their last inputs. A time before the
-// last frame is interpolated between the last two. What a new frame corrects is faded out.
+// last frame is interpolated between the last two. Corrections by a new frame are faded in.
 
 import { inputOfShares, limitInput, predict } from "./bicycle.js";
 
@@ -10,7 +10,7 @@ import { inputOfShares, limitInput, predict } from "./bicycle.js";
 const CLOCK_GAIN = 0.2;
 /** How fast corrections fade [s]. */
 const FADE_S = 0.08;
-/** How far beyond the last frame is predicted, in ticks: a server that is late is waited for. */
+/** Longest prediction beyond the last frame, in ticks; after it, the picture waits for the server. */
 const MAX_AHEAD_TICKS = 1.5;
 /** Inputs older than this are forgotten [s]. */
 const KEPT_S = 5;
@@ -78,7 +78,7 @@ export class Motion {
     if (!input) return this.last.inputs[this.own];
     const [acceleration, steering] = inputOfShares(limits, input.acceleration, input.steering);
     if (!input.assist) return [acceleration, steering];
-    // The server adds lane keeping: what it last added is kept.
+    // The server adds lane keeping: its last contribution is kept.
     const acked = this.acknowledged();
     const kept = this.last.inputs[this.own][1] - inputOfShares(limits, 0, acked?.steering ?? 0)[1];
     return [acceleration, kept + steering];
@@ -104,7 +104,7 @@ export class Motion {
     });
   }
 
-  /** What is drawn at wall time `now` [s]: time, states, and the steering angles. */
+  /** Time, states and steering angles to draw at wall time `now` [s]. */
   shown(now) {
     if (!this.last) return null;
     const time = this.timeAt(now);

@@ -10,7 +10,7 @@ export class PadDriver {
     this.pressed = new Set();
   }
 
-  /** The shares of pedals and wheel, none without a controller; `act(name)` is called once for each press of a button. */
+  /** The shares of pedals and wheel; null without a controller. `act(name)` is called once for each press of a button. */
   read(act) {
     const pad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected && pad.mapping === "standard");
     if (!pad) return null;

@@ -1,6 +1,6 @@
 // The page: its phases, the messages to and from the server, and the loop that draws at the screen's rate.
 //
-// Phases: connecting, menu (with a list of families or one of them), ready (a card tells what to do; the run stands still),
+// Phases: connecting, menu (with a list of families or one of them), ready (a card before the start; the run is paused),
 // held (the same without a card, after a restart or a step back), driving, paused, score, gone; in a study also trial, between
 // two runs.
 
@@ -19,10 +19,10 @@ import { WorldView } from "./world.js";
 /** Longest time between two inputs while driving, and between two measurements of the connection [s]. */
 const INPUT_S = 0.09;
 const ECHO_S = 2;
-/** A connection that takes longer than this to answer is named [ms]. */
+/** A higher latency of the connection is reported [ms]. */
 const SLOW_MS = 120;
 const REWIND_S = 5;
-/** A change of a share smaller than this is not sent at once. */
+/** Smaller changes of a share are not sent at once. */
 const SHARE_STEP = 0.004;
 
 const overlay = document.getElementById("overlay");
@@ -39,7 +39,7 @@ let socket, phase, families = [], family, world, motion, score, isHelping = fals
 let seq = 0, sentAt = 0, echoAt = 0, drawnAt = 0, assist = true;
 let input = { acceleration: 0, steering: 0, assist };
 let lastSent = null;
-/** Set when a restart was asked for: the world that may follow needs no card. */
+/** Set after a requested restart: the next world needs no card. */
 let isAgain = false;
 
 const send = (message) => socket?.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
@@ -92,7 +92,7 @@ function go() {
   enter("driving");
 }
 
-/** What keys, buttons, fingers and controllers ask for; returns whether it made sense now. */
+/** Actions of keys, buttons, touches and controllers; each returns whether it was possible. */
 function act(name, number) {
   if (world?.study && phase !== "trial" && BARRED.includes(name)) return false;
   if (isHelping) {
@@ -137,12 +137,12 @@ function act(name, number) {
       return true;
     case "handOver": {
       if (!isOn || !motion?.last) return false;
-      send({ type: "hand_over", to: motion.last.driven_by === "you" ? "negotiation" : null });
+      send({ type: "hand_over", to: motion.last.driven_by === "you" ? world.co_driver : null });
       if (isHeld) go();
       return true;
     }
     case "changeSeat": {
-      // While a card is open the key moves among its buttons.
+      // While a card is open, the key moves between its buttons.
       if (!isOn || world.seats.length < 2 || (!overlay.hidden && document.activeElement?.tagName !== "BUTTON")) return false;
       send({ type: "seat", seat: world.seats[(world.seats.indexOf(world.seat) + 1) % world.seats.length] });
       return true;
@@ -206,7 +206,7 @@ const receive = {
     hud.take(message, seconds());
   },
   score(message) {
-    // The planners' rows may come after the person went on: the same drive is not scored again.
+    // The rows of the planners may come after the person continued: the same drive is not scored again.
     const isFirst = JSON.stringify(score?.you) !== JSON.stringify(message.you);
     if (phase === "menu" || (!isFirst && phase !== "score")) return;
     const scrolled = overlay.scrollTop;
@@ -233,11 +233,11 @@ function connect() {
     if (Object.hasOwn(receive, message.type)) receive[message.type](message);
   });
   socket.addEventListener("close", () => {
-    if (opened === socket && phase !== "gone") enter("gone", goneView("The connection to the server ended. The drive up to then is saved by the server.", connect));
+    if (opened === socket && phase !== "gone") enter("gone", goneView("The connection to the server has ended. The server has saved the drive.", connect));
   });
 }
 
-/** The input of now: of fingers or a controller if they are used, of keys otherwise. */
+/** The present input: of touch or a controller if they are used, otherwise of keys. */
 function readInput(elapsed) {
   const own = world.vehicles[motion.own];
   const speed = motion.last?.states[motion.own]?.[3] ?? 0;
@@ -250,7 +250,7 @@ function readInput(elapsed) {
 
 function sendInput(now) {
   const isNew = !lastSent || ["acceleration", "steering"].some((part) => Math.abs(input[part] - lastSent[part]) > SHARE_STEP) || input.assist !== lastSent.assist;
-  // The end of a movement is sent exactly.
+  // The final value of a movement is always sent.
   const isOff = lastSent && ["acceleration", "steering"].some((part) => input[part] !== lastSent[part] && [0, 1, -1].includes(input[part]));
   if (!isNew && !isOff && now - sentAt < INPUT_S) return;
   lastSent = input;
@@ -290,7 +290,7 @@ function draw() {
 
 listenToKeys(keys, () => ["ready", "held", "driving"].includes(phase) && !isHelping, act);
 document.addEventListener("visibilitychange", () => document.hidden && phase === "driving" && pause());
-/** For tests of the page: its phase, and what is drawn now. */
+/** For tests of the page: its phase, and the drawn state. */
 globalThis.interplayPlay = { phase: () => phase, shown: () => motion?.shown(seconds()) ?? null, own: () => motion?.own ?? -1, frame: () => motion?.last ?? null };
 connect();
 requestAnimationFrame(draw);

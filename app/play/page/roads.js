@@ -38,7 +38,7 @@ export class RoadShape {
     }
   }
 
-  /** Marks the goal: a chequered line to cross, or arrows along the lane to be in. */
+  /** Marks the goal: a chequered line to cross, or arrows along the lane to reach. */
   drawGoal(context, own, pixel) {
     const { line, lane } = this.goal ?? {};
     if (line) this.drawFinish(context, line);
@@ -85,7 +85,7 @@ export class RoadShape {
       }
   }
 
-  /** Draws what traffic lights show at a time, with the lit one of three lamps beside the bar: its place says it, too. */
+  /** Draws the traffic lights at a time, with three lamps beside the bar so that position also tells the colour. */
   drawLights(context, time_s, pixel, place) {
     const bars = [];
     for (const { bar, colours = [], cycle_s } of this.lights) {

@@ -1,4 +1,4 @@
-// The score: the person beside the planners from the same start, what happened, and where the drive was saved.
+// The score: the person and the planners from the same start, the events, and the path of the saved drive.
 
 import { button, element } from "./dom.js";
 
@@ -17,9 +17,9 @@ const METRICS = [
 
 /** The headline in one line. */
 function verdict({ contact, off_road, has_task, reached_s, rules_broken }) {
-  if (contact) return "You touched somebody";
+  if (contact) return "You crashed";
   if (off_road) return "You left the road";
-  if (!has_task) return rules_broken ? `You came through, with ${rules_broken} ${rules_broken === 1 ? "rule" : "rules"} broken` : "You came through without contact";
+  if (!has_task) return rules_broken ? `You drove to the end, with ${rules_broken} ${rules_broken === 1 ? "rule" : "rules"} broken` : "You drove to the end without contact";
   if (!Number.isFinite(reached_s)) return "You did not reach the goal";
   const broken = rules_broken ? `, with ${rules_broken} ${rules_broken === 1 ? "rule" : "rules"} broken` : "";
   return `You reached the goal after ${reached_s.toFixed(1)}\u00a0s${broken}`;
@@ -32,7 +32,7 @@ function table(rows) {
     const values = best ? rows.map(value) : [];
     const top = best ? best(...values) : NaN;
     const cells = rows.map((row, index) => {
-      // What is shown alike is equally good.
+      // Values that are displayed alike are equally good.
       const isBest = isComparable && best && Number.isFinite(top) && of(row) === of(rows[values.indexOf(top)]) && rows.some((other) => of(other) !== of(row));
       const text = `${of(row)}${isBest ? " ★" : ""}`;
       return element("td", { textContent: text, className: [isBad?.(row) ? "bad" : "", row.name === "you" ? "you" : ""].join(" ").trim(), title: isBest ? "the best" : "" });
@@ -42,7 +42,7 @@ function table(rows) {
   return element("table", {}, element("thead", {}, head), element("tbody", {}, lines));
 }
 
-/** The overlay with a score; `act(name)` does what the buttons ask for. */
+/** The overlay with a score; `act(name)` carries out the action of a button. */
 export function scoreView(world, score, act) {
   const { you, others = [], story = [], saved, animation } = score;
   const rows = [{ ...you, name: "you" }, ...others];
@@ -54,7 +54,7 @@ export function scoreView(world, score, act) {
   ];
   const below = [];
   if (story.length) below.push(element("div", {}, element("h2", { textContent: "What happened" }), element("ol", { className: "story" }, story.map((line) => element("li", { textContent: line })))));
-  // Only what the server itself serves is loaded.
+  // Only content of the server is loaded.
   if (typeof animation === "string" && animation.startsWith("/") && !animation.startsWith("//"))
     below.push(element("figure", {}, element("img", { src: animation, alt: "Animation of your drive" }), element("figcaption", {}, element("a", { href: animation, download: "", textContent: "Save the animation" }))));
   if (below.length) parts.push(element("div", { className: "both" }, below));

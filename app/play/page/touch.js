@@ -1,8 +1,8 @@
-// Fingers: a stick for the left thumb that steers, two pedals for the right one.
+// Touch controls: a stick for the left thumb to steer, two pedals for the right thumb.
 
 import { element } from "./dom.js";
 
-/** How far a thumb moves for the whole angle [px]. */
+/** Movement of the thumb for the full angle [px]. */
 const STICK_PX = 56;
 
 export class TouchDriver {

@@ -27,7 +27,7 @@ export function roundedPath(ring, radius = 0) {
   return path;
 }
 
-/** What is drawn of a vehicle, in metres ahead and to the left of its mass centre, prepared once. */
+/** The shapes of a vehicle, in metres ahead and to the left of its mass centre, prepared once. */
 export class VehicleShape {
   constructor(vehicle) {
     const { body, colour, shape = [], shadow, wheels, lamps } = vehicle;
@@ -54,7 +54,7 @@ export class VehicleShape {
   drawShadow(context, state, turn) {
     if (!this.shadow) return;
     const off = 0.16 * this.width_m;
-    // To the lower right of the screen, however the vehicle stands.
+    // To the lower right of the screen for any heading.
     const angle = -Math.PI / 4 - turn - state[2];
     context.save();
     enterBody(context, state);

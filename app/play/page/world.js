@@ -7,7 +7,7 @@ import { drawLamps, RoadShape } from "./roads.js";
 import { enterBody, VehicleShape } from "./vehicles.js";
 
 const GRASS = "#B9CBA4";
-/** Times at which the own car is outlined on the plan that it is asked to follow, as shares of it. */
+/** Times at which the own car is outlined on a requested plan, as shares of the plan. */
 const ASKED_AT = [0.4, 0.8];
 
 export class WorldView {
@@ -49,7 +49,7 @@ export class WorldView {
     this.context.fillRect(0, 0, ...this.size);
   }
 
-  /** Draws what is seen: `shown` from the motion, the last frame, the free part of the screen [px] and seconds of wall time. */
+  /** Draws the world from `shown` of the motion, the last frame, the free part of the screen [px] and seconds of wall time. */
   draw(shown, frame, area, seconds, elapsed) {
     this.clear();
     if (!this.world || !shown) return;
@@ -98,7 +98,7 @@ export class WorldView {
     }
   }
 
-  /** Outlines where the own car is asked to be. */
+  /** Outlines the requested positions of the own car. */
   drawAsked(frame, pixel) {
     const { context } = this;
     for (const { from, to, points } of frame.proposals ?? []) {
@@ -137,7 +137,7 @@ export class WorldView {
     const asked = (frame.proposals ?? []).filter(({ to }) => to === seat && this.showsPlans).flatMap(({ points }) => points ?? []);
     const dots = asked.map((point) => this.camera.place(point)).map(([x, y]) => ({ left: x - 6, right: x + 6, top: y - 6, bottom: y + 6 }));
     const labels = new Labels(this.context, area, [...boxes.filter((_, index) => isThere(index)), ...dots]);
-    // The person first, then partners, then the nearest.
+    // The person first, then partners, then the nearest vehicles.
     const away = (index) => (index === own ? -2 : partners.has(index) ? -1 : Math.hypot(...[0, 1].map((axis) => shown.states[index][axis] - shown.states[own][axis])));
     const order = vehicles.map((_, index) => index).filter((index) => isThere(index) && !vehicles[index].is_obstacle);
     order.sort((one, other) => away(one) - away(other));
@@ -156,7 +156,7 @@ export class WorldView {
     }
   }
 
-  /** What a driver believes, and how far it follows what it is asked for. */
+  /** The belief of a driver, and its acceptance of a request. */
   thoughts(frame, name, seat) {
     const words = [];
     for (const { of, about, nice, text } of frame.beliefs ?? []) {

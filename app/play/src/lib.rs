@@ -1,24 +1,24 @@
-//! A person at the wheel.
+//! Driving in a browser: a person drives a vehicle of a scenario, and the run is saved as a scenario that repeats it.
 //!
 //! ```text
-//! page -> wishes -> session: input at every plan -> Simulation::step -> moment -> page
+//! page -> controls -> session: input at every plan -> Simulation::step -> frame -> page
 //!                         \-> record of inputs -> a scenario that repeats the run, bit for bit
 //! ```
 //!
-//! A [`Session`] is a run with people in it and knows no network: a script plays it as well ([`play_script`]). The server brings
-//! wishes from pages to a session, and moments back.
+//! A [`Session`] is a run with people in some seats. It does not depend on the network, so a script can play it as well
+//! ([`play_script`]). The server passes controls from pages to a session, and frames back.
 
-mod kept;
 mod menu;
 mod protocol;
+mod saved_file;
 mod script;
 mod server;
 mod session;
 mod study;
 
-pub use kept::{keep, write};
-pub use protocol::{PageMessage, ServerMessage};
+pub use protocol::PageMessage;
+pub use saved_file::{save_played, write_played};
 pub use script::{ScriptError, ScriptLine, play_script, read_script};
 pub use server::{PlayServer, ServeError, ServeOptions, StopPlay};
-pub use session::{Score, ScoreRow, Session, SessionError, Wish, check_seats};
+pub use session::{Controls, Score, ScoreRow, Session, SessionError, check_seats};
 pub use study::{PlannedStudy, Study, StudyError, StudyPlace};

@@ -1,4 +1,4 @@
-//! What there is to be played.
+//! The menu of scenarios that can be played.
 
 use interplay_scenarios::{Registry, embedded};
 

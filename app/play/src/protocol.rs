@@ -1,87 +1,84 @@
-//! What pages and server say to each other: one JSON document a message.
+//! Messages between pages and server, one JSON document each.
 
-use interplay_presentation::stage::{Stage, StageMoment};
+use interplay_presentation::stage::{Stage, StageFrame};
 use serde::{Deserialize, Serialize};
 
 use crate::session::{PlayGoal, Score};
 use crate::study::StudyPlace;
 
-/// What a page says.
+/// A message of a page.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PageMessage {
-    /// A scenario and a seat were chosen.
+    /// Starts a scenario in a seat.
     Start {
         /// The name of the scenario.
         scenario: String,
         /// The vehicle.
         seat: String,
     },
-    /// What the person wishes from now on.
+    /// Sets the controls of the person.
     Input {
-        /// The number of the message.
+        /// Number of the message.
         #[serde(default)]
         seq: u64,
         /// Share of the strongest braking (negative) or acceleration.
         acceleration: f64,
         /// Share of the largest steering angle, positive to the left.
         steering: f64,
-        /// Whether the lane is kept, and steering is a wish to change sideways.
+        /// Whether the lane is kept automatically; steering then moves the vehicle sideways.
         #[serde(default)]
         assist: bool,
     },
-    /// Time stands still, or goes on.
+    /// Pauses or resumes.
     Pause {
-        /// Whether it stands still.
+        /// Whether to pause.
         paused: bool,
     },
-    /// The same start again.
+    /// Restarts the scenario.
     Restart,
-    /// Some seconds back.
+    /// Rewinds.
     Rewind {
-        /// How many.
+        /// Time to go back \[s\].
         seconds: f64,
     },
-    /// A planner takes the wheel, or the person again.
+    /// Hands the wheel to a planner, or back to the person.
     HandOver {
-        /// The kind of planner; without it the person.
+        /// The kind of planner; `None` for the person.
         to: Option<String>,
     },
-    /// How fast time passes: 1 is as it is.
+    /// Sets the rate of time.
     Rate {
-        /// Simulated seconds in a second.
+        /// Simulated seconds per second.
         ratio: f64,
     },
-    /// Another seat, from the start again.
+    /// Restarts in another seat.
     Seat {
         /// The vehicle.
         seat: String,
     },
-    /// The next scenario of the list.
+    /// Starts the next scenario of the menu.
     Next,
-    /// Back to the menu.
+    /// Returns to the menu.
     Menu,
-    /// The run ends here.
+    /// Ends the run.
     End,
-    /// A person agrees to take part in the study.
+    /// The person agrees to take part in the study.
     Agree,
-    /// A person takes part no longer.
+    /// The person leaves the study.
     Leave,
-    /// Asks for an answer, to measure how long that takes.
+    /// Requests an answer, to measure the latency.
     Echo {
-        /// The page's clock \[ms\].
+        /// Clock of the page \[ms\].
         at: f64,
     },
 }
 
 /// A scenario of the menu.
 #[derive(Clone, Debug, Serialize)]
-pub struct MenuScenario {
-    /// Its name.
+pub(crate) struct MenuScenario {
     pub name: String,
-    /// Its title.
     pub title: String,
-    /// What it shows.
     pub shows: String,
     /// The vehicles that a person can drive.
     pub seats: Vec<String>,
@@ -89,106 +86,89 @@ pub struct MenuScenario {
 
 /// A family of the menu.
 #[derive(Clone, Debug, Serialize)]
-pub struct MenuFamily {
-    /// Its name.
+pub(crate) struct MenuFamily {
     pub family: String,
-    /// Its first scenario's title.
+    /// The title of the first scenario.
     pub title: String,
-    /// Its scenarios.
     pub scenarios: Vec<MenuScenario>,
 }
 
 /// A scenario and a seat.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Chosen {
-    /// The name of the scenario.
+pub(crate) struct Chosen {
     pub scenario: String,
-    /// The vehicle.
     pub seat: String,
 }
 
-/// What the server says.
+/// A message of the server.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
-pub enum ServerMessage {
-    /// What there is to be played.
+pub(crate) enum ServerMessage {
+    /// The menu.
     Menu {
-        /// The families of scenarios.
         families: Vec<MenuFamily>,
-        /// What was asked for on the command line, or is being played.
+        /// The scenario of the command line, or the present one.
         chosen: Option<Chosen>,
     },
-    /// A world before its first tick.
+    /// The world before the first tick.
     World {
-        /// The name of the scenario.
         scenario: String,
         /// The vehicle of this page.
         seat: String,
         /// The vehicles that a person can drive.
         seats: Vec<String>,
-        /// What is drawn.
         #[serde(flatten)]
         stage: Box<Stage>,
-        /// What the seat wants.
         goal: PlayGoal,
-        /// The same as a sentence.
+        /// What the scenario shows.
         help: String,
-        /// Where the vehicles start: x, y, heading and speed.
+        /// Initial states of the vehicles: x, y, heading and speed.
         states: Vec<[f64; 4]>,
-        /// In a study, where in it the person is: nothing is told of who drives how.
+        /// The kind of planner that takes the wheel if the person hands it over.
+        co_driver: Option<&'static str>,
+        /// The progress in a study, in which the page does not show the drivers.
         study: Option<StudyPlace>,
     },
-    /// A tick.
+    /// The state after a tick.
     Frame {
-        /// Its number.
         tick: usize,
         /// Simulated time at its end \[s\].
         time_s: f64,
-        /// Simulated seconds that a second should have.
+        /// The requested rate of time.
         real: f64,
-        /// Simulated seconds that the last seconds had, as a share of that.
+        /// The actual rate of time, as a share of the requested one.
         dilation: f64,
-        /// Whether time stands still.
         paused: bool,
-        /// `you`, or the kind of planner that has the wheel.
+        /// `you`, or the kind of planner at the wheel.
         driven_by: String,
         /// The vehicle of this page.
         seat: String,
-        /// The number of the last input that was applied.
+        /// The number of the last applied controls.
         ack: u64,
-        /// What is seen.
         #[serde(flatten)]
-        moment: Box<StageMoment>,
+        stage_frame: Box<StageFrame>,
     },
-    /// How it went.
+    /// The score of a finished run.
     Score {
-        /// The person's run beside those of planners.
         #[serde(flatten)]
         score: Score,
-        /// Where what was played is kept.
+        /// The path of the saved run.
         saved: Option<String>,
-        /// The moving picture of the run.
+        /// The address of the animation of the run.
         animation: Option<String>,
     },
     /// In a study: before the first run, between two of them and after the last.
     Study {
-        /// Where in it the person is.
         #[serde(flatten)]
         place: StudyPlace,
     },
-    /// A request that is not possible.
-    Refused {
-        /// Why.
-        text: String,
-    },
+    /// A request was refused.
+    Refused { text: String },
     /// The server ends.
-    Bye {
-        /// Why.
-        text: String,
-    },
+    Bye { text: String },
     /// The answer to an echo.
     Echo {
-        /// The page's clock \[ms\].
+        /// Clock of the page \[ms\].
         at: f64,
     },
 }

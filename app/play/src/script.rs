@@ -1,64 +1,64 @@
-//! Playing from a file, without a page: each line is a message of a page with the tick at which it comes.
+//! Scripts, which play a session without a page: each line is a message of a page with its tick.
 
-use interplay_planners::WHEEL_KINDS;
+use interplay_planners::Driver;
 use serde_json::Value as Json;
 use thiserror::Error;
 
 use crate::protocol::PageMessage;
-use crate::session::{Session, SessionError, Wish};
+use crate::session::{Controls, Session, SessionError};
 
 /// Most lines of a script.
-const MOST_LINES: usize = 1_000_000;
+const MAX_LINES: usize = 1_000_000;
 
-/// A message and the tick before which it comes.
+/// A message with its tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptLine {
-    /// Ticks that have passed.
+    /// Number of ticks before the message.
     pub tick: usize,
-    /// What the page says.
+    /// The message of a page.
     pub message: PageMessage,
 }
 
-/// Why a script cannot be played.
+/// A script cannot be played.
 #[derive(Debug, Error)]
 pub enum ScriptError {
-    /// A line is no message.
+    /// A line is not a message.
     #[error("{file}:{line}: {reason}; a line is a message with its tick, such as {EXAMPLE}")]
     Line {
         /// The file.
         file: String,
         /// The line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// The file is too long.
-    #[error("{0}: more than {MOST_LINES} lines")]
+    #[error("{0}: more than {MAX_LINES} lines")]
     TooLong(String),
 }
 
 const EXAMPLE: &str = r#"{"tick": 5, "type": "input", "acceleration": -0.5, "steering": 0}"#;
 
-/// Reads a script; empty lines are passed over.
+/// Reads a script; empty lines are ignored.
 ///
 /// # Errors
-/// [`ScriptError`] names file, line, and what is wrong.
+/// [`ScriptError`] with file, line and fault.
 pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptError> {
     let mut lines: Vec<ScriptLine> = Vec::new();
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
-        if index >= MOST_LINES {
+        if index >= MAX_LINES {
             return Err(ScriptError::TooLong(file.to_owned()));
         }
         let refused = |reason: String| ScriptError::Line { file: file.to_owned(), line: index + 1, reason };
         let mut json: Json = serde_json::from_str(line).map_err(|error| refused(error.to_string()))?;
         let tick = json.as_object_mut().and_then(|object| object.remove("tick"));
-        let tick = tick.as_ref().and_then(Json::as_u64).ok_or_else(|| refused("there is no `tick`".to_owned()))?;
+        let tick = tick.as_ref().and_then(Json::as_u64).ok_or_else(|| refused("`tick` is missing".to_owned()))?;
         let message: PageMessage = serde_json::from_value(json).map_err(|error| refused(error.to_string()))?;
         if let PageMessage::HandOver { to: Some(kind) } = &message
-            && !WHEEL_KINDS.contains(&kind.as_str())
+            && Driver::at_wheel(kind).is_none()
         {
-            let kinds = WHEEL_KINDS.join(", ");
-            return Err(refused(format!("there is no planner `{kind}` that takes the wheel; choose from {kinds}")));
+            let kinds = Driver::wheel_kinds();
+            return Err(refused(format!("`{kind}` is not a planner that can take the wheel; choose from {kinds}")));
         }
         if lines.last().is_some_and(|last| last.tick as u64 > tick) {
             return Err(refused(format!("tick {tick} comes after a later one")));
@@ -68,11 +68,11 @@ pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptErro
     Ok(lines)
 }
 
-/// Plays a script in a seat to the end of the scenario, or to where the script ends the run. Ticks of lines are counted through: after a
-/// rewind they go on.
+/// Plays a script in a seat, to the end of the scenario or of the script. The ticks of lines count all ticks that were made, also
+/// after a rewind.
 ///
 /// # Errors
-/// [`SessionError`] if the world cannot go on, or a message asks for what is not there.
+/// [`SessionError`] if the simulation fails, or if a message is refused.
 pub fn play_script(session: &mut Session, seat: &str, lines: &[ScriptLine]) -> Result<(), SessionError> {
     let mut lines = lines.iter().peekable();
     let mut passed = 0;
@@ -80,14 +80,15 @@ pub fn play_script(session: &mut Session, seat: &str, lines: &[ScriptLine]) -> R
         while let Some(line) = lines.next_if(|line| line.tick <= passed) {
             match &line.message {
                 PageMessage::Input { seq, acceleration, steering, assist } => {
-                    let wish = Wish { seq: *seq, acceleration: *acceleration, steering: *steering, assist: *assist };
-                    session.wish(seat, wish)?;
+                    let controls =
+                        Controls { seq: *seq, acceleration: *acceleration, steering: *steering, assist: *assist };
+                    session.set_controls(seat, controls)?;
                 }
                 PageMessage::HandOver { to } => session.hand_over(seat, to.as_deref())?,
                 PageMessage::Rewind { seconds } => session.rewind(*seconds)?,
                 PageMessage::Restart => session.rewind(f64::INFINITY)?,
                 PageMessage::End => return Ok(()),
-                // What concerns the page alone.
+                // Messages that concern the page only.
                 _ => {}
             }
         }
@@ -103,16 +104,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_message_is_refused_with_its_line() {
+    fn invalid_lines_are_refused_with_their_numbers() {
         let text = "{\"tick\": 0, \"type\": \"restart\"}\n\n{\"tick\": 3, \"type\": \"fly\"}\n";
-        let error = read_script("drive.jsonl", text).expect_err("nobody flies").to_string();
+        let error = read_script("drive.jsonl", text).expect_err("an unknown type").to_string();
         assert!(error.starts_with("drive.jsonl:3: unknown variant `fly`"), "{error}");
         for (line, part) in [
-            ("{\"type\": \"restart\"}", "there is no `tick`"),
-            ("[]", "there is no `tick`"),
+            ("{\"type\": \"restart\"}", "`tick` is missing"),
+            ("[]", "`tick` is missing"),
             ("{\"tick\": 1, \"type\": \"input\", \"acceleration\": 0}", "missing field `steering`"),
             ("{\"tick\": 1, \"type\": \"rewind\", \"seconds\": 1, \"far\": 2}", "unknown field `far`"),
-            ("{\"tick\": 1, \"type\": \"hand_over\", \"to\": \"x\"}", "drive.jsonl:1: there is no planner `x`"),
+            ("{\"tick\": 1, \"type\": \"hand_over\", \"to\": \"x\"}", "drive.jsonl:1: `x` is not a planner"),
         ] {
             let error = read_script("drive.jsonl", line).expect_err("a fault").to_string();
             assert!(error.contains(part), "{error}");

@@ -1,4 +1,4 @@
-//! A study: people are walked through the runs of a plan, and what they did is rows beside those of the planners.
+//! A study: people drive the runs of a plan one after another, and their runs become rows like those of the planners.
 
 use std::path::Path;
 
@@ -9,18 +9,18 @@ use thiserror::Error;
 
 use crate::session::{Session, SessionError, check_seats};
 
-/// Most runs that one person is asked to drive.
-const MOST_TRIALS: usize = 500;
-/// Most runs of a plan, the others of which planners make.
-const MOST_RUNS: u64 = 50_000;
+/// Most runs per person.
+const MAX_TRIALS: usize = 500;
+/// Most runs of a plan, including those of planners.
+const MAX_RUNS: u64 = 50_000;
 
-/// Why there is no study.
+/// A study cannot be made.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// A run of the plan is refused, or its row cannot be written.
     #[error(transparent)]
     Plan(#[from] SweepError),
-    /// Nobody could sit there.
+    /// A seat is not possible.
     #[error(transparent)]
     Seats(#[from] SessionError),
     /// No scenario has a seat.
@@ -31,40 +31,39 @@ pub enum StudyError {
     NoSeatHere {
         /// The scenario.
         scenario: String,
-        /// The seats that were asked for.
+        /// The requested seats.
         seats: String,
     },
-    /// Planners would drive for ever.
-    #[error("the plan has {0} runs, and {MOST_RUNS} are most in a study; lower its `samples`")]
+    /// The plan has too many runs.
+    #[error("the plan has {0} runs; a study has at most {MAX_RUNS}; lower its `samples`")]
     TooLarge(u64),
-    /// A person cannot drive so much.
-    #[error("each person would have to drive {0} runs, and {MOST_TRIALS} are most; lower `samples` of the plan")]
+    /// A person would have to drive too many runs.
+    #[error("each person would have to drive {0} runs; at most {MAX_TRIALS} are possible; lower `samples` of the plan")]
     TooMany(usize),
 }
 
-/// What each person drives of a plan, before there is a folder.
+/// The runs that each person drives, before the folder is opened.
 pub struct PlannedStudy {
     plan: SweepPlan,
-    /// In the plan's order.
     trials: Vec<Trial>,
     minutes: f64,
 }
 
-/// People who drive the runs of a plan, one after another.
+/// A study in progress.
 pub struct Study {
     planned: PlannedStudy,
     rows: PeopleRows,
     now: Option<Participant>,
 }
 
-/// A run of the plan and the seat in it.
+/// A run of the plan and the seat of the person.
 #[derive(Clone, Debug)]
 struct Trial {
     index: u64,
     seat: String,
 }
 
-/// A person and how far it has come.
+/// A person with progress.
 struct Participant {
     number: u32,
     trials: Vec<Trial>,
@@ -72,26 +71,26 @@ struct Participant {
     restarts: u32,
 }
 
-/// Where in a study somebody is.
+/// The progress of a person in a study.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StudyPlace {
-    /// The number of the person; none before the person has agreed.
+    /// The number of the person; `None` before the person has agreed.
     pub participant: Option<u32>,
-    /// How many runs are done.
+    /// Number of finished runs.
     pub done: usize,
-    /// How many there are.
+    /// Number of all runs.
     pub of: usize,
-    /// How long all of them take \[min\].
+    /// Duration of all runs \[min\].
     pub minutes: f64,
 }
 
 impl PlannedStudy {
-    /// A study with the runs of a plan. A person takes one of the seats, in each scenario every one that it has; without any, the ego. The
-    /// person stands in for the planner if that is the ego, and otherwise for the style: of several planners or styles that it stands in
-    /// for, the first is driven.
+    /// Plans a study with the runs of a plan. In each scenario a person drives in all the given seats that it has, or without seats as
+    /// the ego. As the ego the person replaces the planner, otherwise the driver of a style; of several planners or styles only the
+    /// runs of the first are driven.
     ///
     /// # Errors
-    /// [`StudyError`] if a run or a seat is refused, or they are too many.
+    /// [`StudyError`] if a run or a seat is refused, or if there are too many.
     pub fn of(plan: SweepPlan, seats: &[&str]) -> Result<PlannedStudy, StudyError> {
         let (trials, duration_s) = trials_of(&plan, seats)?;
         Ok(PlannedStudy { plan, trials, minutes: duration_s / 60.0 })
@@ -102,7 +101,7 @@ impl PlannedStudy {
         &self.plan
     }
 
-    /// Opens the rows of people in the folder that has those of the planners.
+    /// Opens the rows of people in the folder with the rows of the planners.
     ///
     /// # Errors
     /// [`SweepError`] if they cannot be read, or the folder is in use.
@@ -117,7 +116,7 @@ fn scenario_of(plan: &SweepPlan, point: &SweepPoint) -> Result<Scenario, SweepEr
 }
 
 impl Study {
-    /// Where in it somebody is.
+    /// The progress of the present person.
     pub fn place(&self) -> StudyPlace {
         StudyPlace {
             participant: self.now.as_ref().map(|person| person.number),
@@ -127,7 +126,7 @@ impl Study {
         }
     }
 
-    /// Somebody agrees: the runs come in an order of their own, which the person's number and the plan decide.
+    /// Begins with a new person. The order of the runs depends on the number of the person and on the plan.
     pub fn begin(&mut self) {
         let number = self.rows.begin_participant();
         let mut trials = self.planned.trials.clone();
@@ -138,19 +137,19 @@ impl Study {
         self.now = Some(Participant { number, trials, done: 0, restarts: 0 });
     }
 
-    /// Nobody drives any more.
+    /// The person leaves the study.
     pub fn leave(&mut self) {
         self.now = None;
     }
 
-    /// The run is begun anew.
-    pub fn begin_again(&mut self) {
+    /// Counts a restart of the present run.
+    pub fn count_restart(&mut self) {
         if let Some(person) = &mut self.now {
             person.restarts += 1;
         }
     }
 
-    /// The next run and its seat; none where nobody drives or all is done.
+    /// The next run and its seat; `None` without a person or after the last run.
     ///
     /// # Errors
     /// [`SweepError`] if the run is refused.
@@ -162,7 +161,7 @@ impl Study {
         Ok(Some((point.scenario, scenario, trial.seat.clone())))
     }
 
-    /// A run is done: it becomes a row.
+    /// Adds a finished run as a row.
     ///
     /// # Errors
     /// [`SweepError`] if the row cannot be written.
@@ -181,9 +180,9 @@ impl Study {
     }
 }
 
-/// What a person drives of a plan, and how long that takes \[s\].
+/// The runs that a person drives, and their total duration \[s\].
 fn trials_of(plan: &SweepPlan, seats: &[&str]) -> Result<(Vec<Trial>, f64), StudyError> {
-    if plan.run_count() > MOST_RUNS {
+    if plan.run_count() > MAX_RUNS {
         return Err(StudyError::TooLarge(plan.run_count()));
     }
     let [_, styles, planners] = plan.names();
@@ -206,7 +205,7 @@ fn trials_of(plan: &SweepPlan, seats: &[&str]) -> Result<(Vec<Trial>, f64), Stud
                 trials.push(Trial { index, seat });
             }
         }
-        if trials.len() > MOST_TRIALS {
+        if trials.len() > MAX_TRIALS {
             return Err(StudyError::TooMany(trials.len()));
         }
     }

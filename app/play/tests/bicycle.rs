@@ -1,4 +1,4 @@
-//! The numbers by which the page's bicycle is tested (`node --test tests/browser/play_parts.mjs`) are Rust's.
+//! The reference values for the bicycle model of the page (`node --test tests/browser/play_parts.mjs`) are those of the Rust model.
 
 use std::path::Path;
 use std::{env, fs};
@@ -36,7 +36,7 @@ fn case(scale: f64, speed_mps: f64, turn: f64) -> Json {
 }
 
 #[test]
-fn the_cases_of_the_page_are_those_of_this_bicycle() {
+fn the_reference_values_of_the_page_equal_the_rust_model() {
     let cases = json!([case(1.0, 1.0, 0.2), case(1.0, 0.05, -0.6), case(10.0, 1.4, 0.4)]);
     if env::var_os("INTERPLAY_BLESS").is_some() {
         let text = serde_json::to_string_pretty(&cases).expect("JSON") + "\n";

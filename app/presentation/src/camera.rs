@@ -1,18 +1,18 @@
-//! Where the camera is: it follows the ego and whoever is near enough to be seen with it, without jerks.
+//! The camera, which follows the ego and the vehicles near enough to be in view with it, smoothly.
 
 use interplay_scenarios::{Branch, Scenario};
 
-use crate::extent::extent;
-pub use crate::shown_extent::{CameraMoment, car_m, partners};
+use crate::rectangle::extent;
+pub use crate::shown_extent::{CameraFrame, car_m, partners};
 use crate::shown_extent::{Extent, LEAST_MARGIN_CARS, Largest, keeping_partners, shown_extent};
 
-/// How long the camera takes to follow a change of place, and of scale \[s\]: standard deviations.
+/// Standard deviations of the smoothing of the position and of the scale \[s\].
 const SMOOTHING_S: [f64; 2] = [0.7, 0.8];
-/// The same of what still brings the partners into view.
+/// Standard deviation of the correction that brings the partners into view \[s\].
 const CORRECTION_S: f64 = 0.3;
-/// How long before and after somebody is spoken of it is kept in view \[s\]: what is smoothed has come there by then.
+/// A vehicle is kept in view this long before and after it is mentioned \[s\], so that the smoothed camera arrives in time.
 const KEPT_S: f64 = 2.0 * SMOOTHING_S[1];
-/// A camera whose scale changes by less than this share stands still in scale.
+/// If the largest scale is below this multiple of the smallest, the scale is constant.
 const STILL_SCALE_RATIO: f64 = 1.3;
 
 /// Sizes of the views of a run.
@@ -26,13 +26,13 @@ pub struct ViewFormat {
     pub straight_height_px: [f64; 2],
     /// Least and greatest length of a car \[px\].
     pub car_px: [f64; 2],
-    /// Least length of a car while somebody further away is spoken of \[px\]: to see both matters more than to see large cars.
+    /// Least length of a car while a more distant vehicle is mentioned \[px\]: to see both matters more than to see large cars.
     pub least_car_px: f64,
     /// Time from one view to the next \[s\], at 1/10 scale.
     pub step_s: f64,
 }
 
-/// A part of the world that is seen.
+/// The visible part of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
     /// The position in the middle of the view \[m\].
@@ -50,20 +50,20 @@ impl CameraView {
         [right, 0.5 * self.size_px[1] - self.px_per_m * (y - self.centre_m[1])]
     }
 
-    /// Least and greatest coordinates that are seen \[m\].
+    /// Least and greatest visible coordinates \[m\].
     pub fn bounds_m(&self) -> [[f64; 2]; 2] {
         let half = self.size_px.map(|part| 0.5 * part / self.px_per_m);
         [[0, 1].map(|axis| self.centre_m[axis] - half[axis]), [0, 1].map(|axis| self.centre_m[axis] + half[axis])]
     }
 
-    /// The same view moved by less than a pixel, so that what stands still does not flicker.
+    /// The view moved to whole pixels, so that standing objects do not flicker.
     fn on_pixels(self) -> CameraView {
         CameraView { centre_m: self.centre_m.map(|part| (part * self.px_per_m).round() / self.px_per_m), ..self }
     }
 }
 
-/// The view at every moment; all have one height.
-pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat) -> Vec<CameraView> {
+/// One view per frame; all have the same height.
+pub fn views(scenario: &Scenario, moments: &[CameraFrame], format: &ViewFormat) -> Vec<CameraView> {
     let car_m = car_m(scenario);
     let [least, greatest] = format.car_px.map(|length| length / car_m);
     if let Some(road_m) = straight_road_m(scenario) {
@@ -73,7 +73,7 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
     let height_px = format.height_px[1];
     let largest = largest(format, car_m, height_px);
     let shown: Vec<Extent> = moments.iter().map(|moment| shown_extent(scenario, moment, &largest)).collect();
-    let fit = |([low, high], moment): (&Extent, &CameraMoment)| {
+    let fit = |([low, high], moment): (&Extent, &CameraFrame)| {
         let needed = |axis: usize, pixels: f64| pixels / (high[axis] - low[axis]).max(1e-6);
         let least = if moment.partners.is_empty() { least } else { format.least_car_px / car_m };
         needed(0, format.width_px).min(needed(1, height_px)).clamp(least, greatest)
@@ -99,7 +99,7 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
         smooth(&logarithms, SMOOTHING_S[1] / format.step_s).into_iter().map(libm::exp).collect()
     };
     let middles = [0, 1].map(|axis| smooth(&middles(&shown, axis), SMOOTHING_S[0] / format.step_s));
-    // No higher than what is ever shown.
+    // Not higher than the tallest content.
     let tallest = shown.iter().zip(&scales).map(|([low, high], scale)| scale * (high[1] - low[1])).fold(0.0, f64::max);
     let height_px = 2.0 * (0.5 * tallest.clamp(format.height_px[0], height_px)).ceil();
     let view = |index: usize| CameraView {
@@ -114,7 +114,7 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
 /// The views of a straight road along x between two lateral coordinates \[m\], in one scale.
 fn straight_views(
     scenario: &Scenario,
-    moments: &[CameraMoment],
+    moments: &[CameraFrame],
     format: &ViewFormat,
     [right_m, left_m]: [f64; 2],
 ) -> Vec<CameraView> {
@@ -124,7 +124,7 @@ fn straight_views(
     let moments = &keeping_partners(moments, KEPT_S / format.step_s);
     let largest = largest(format, car_m, highest_px);
     let shown: Vec<Extent> = moments.iter().map(|moment| shown_extent(scenario, moment, &largest)).collect();
-    let fit = |([low, high], moment): (&Extent, &CameraMoment)| {
+    let fit = |([low, high], moment): (&Extent, &CameraFrame)| {
         let least = if moment.partners.is_empty() { least } else { format.least_car_px / car_m };
         (format.width_px / (high[0] - low[0]).max(1e-6)).clamp(least, greatest)
     };
@@ -141,12 +141,12 @@ fn straight_views(
     kept.into_iter().map(|view| along(view).on_pixels()).collect()
 }
 
-/// The middles of what is shown, along one axis.
+/// The middles of the shown extents along one axis.
 fn middles(shown: &[Extent], axis: usize) -> Vec<f64> {
     shown.iter().map(|[low, high]| 0.5 * (low[axis] + high[axis])).collect()
 }
 
-/// A view that contains everything that is ever shown, if its cars are as long as cars of the smaller of two scales.
+/// A constant view of everything that is shown, if its scale is at least the smaller of two scales.
 fn still(shown: &[Extent], [greatest, least]: [f64; 2], size_px: [f64; 2]) -> Option<CameraView> {
     let [low, high] = extent(shown.iter().flatten().copied());
     let px_per_m = (size_px[0] / (high[0] - low[0])).min(size_px[1] / (high[1] - low[1])).min(greatest);
@@ -154,7 +154,7 @@ fn still(shown: &[Extent], [greatest, least]: [f64; 2], size_px: [f64; 2]) -> Op
     (px_per_m >= least).then(|| CameraView { centre_m, px_per_m, size_px }.on_pixels())
 }
 
-/// Lateral coordinates of the edges of a straight road along x; none of any other.
+/// Lateral coordinates of the edges of a straight road along x; `None` for other roads.
 fn straight_road_m(scenario: &Scenario) -> Option<[f64; 2]> {
     let corridor = scenario.road.corridor(Branch::Main)?;
     let is_alone = scenario.vehicles.iter().all(|vehicle| vehicle.road == Branch::Main);
@@ -168,12 +168,12 @@ fn largest(format: &ViewFormat, car_m: f64, height_px: f64) -> Largest {
     Largest { usual_m: at(format.car_px[0]), spoken_of_m: at(format.least_car_px) }
 }
 
-/// The views moved, and where it helps widened to a least scale, so that the ego is seen, and with it as many partners as there is
-/// space for; the changes are smoothed with a deviation in numbers of views.
+/// Moves the views, and widens them down to a least scale, so that they contain the ego and as many partners as fit. The changes
+/// are smoothed with a standard deviation in numbers of views.
 fn with_partners(
     views: &[CameraView],
     scenario: &Scenario,
-    moments: &[CameraMoment],
+    moments: &[CameraFrame],
     (least_px_per_m, deviation): (f64, f64),
 ) -> Vec<CameraView> {
     let wanted: Vec<CameraView> =
@@ -190,14 +190,14 @@ fn with_partners(
         let (view, moment) = (views[index], &moments[index]);
         let centre_m = [view.centre_m[0] + right_m[index], view.centre_m[1] + up_m[index]];
         let px_per_m = (view.px_per_m * libm::exp(scales[index])).max(least_px_per_m.min(view.px_per_m));
-        let alone = CameraMoment { partners: Vec::new(), ..moment.clone() };
+        let alone = CameraFrame { partners: Vec::new(), ..moment.clone() };
         containing(CameraView { centre_m, px_per_m, ..view }, scenario, &alone, least_px_per_m).on_pixels()
     };
     (0..views.len()).map(moved).collect()
 }
 
-/// The view that contains the ego, and as many partners as a scale allows.
-fn containing(view: CameraView, scenario: &Scenario, moment: &CameraMoment, least_px_per_m: f64) -> CameraView {
+/// The view that contains the ego and as many partners as fit at a scale.
+fn containing(view: CameraView, scenario: &Scenario, moment: &CameraFrame, least_px_per_m: f64) -> CameraView {
     if moment.close_up.is_some() {
         return view;
     }
@@ -221,7 +221,7 @@ fn containing(view: CameraView, scenario: &Scenario, moment: &CameraMoment, leas
     CameraView { centre_m: [centre(0), centre(1)], px_per_m, ..view }
 }
 
-/// The lowest of the values that are at most `reach` away.
+/// For each index the lowest of the values at most `reach` indices away.
 fn lowest_near(values: &[f64], reach: f64) -> Vec<f64> {
     let reach = reach as usize;
     let near = |index: usize| &values[index.saturating_sub(reach)..(index + reach + 1).min(values.len())];
@@ -234,7 +234,7 @@ fn smooth(values: &[f64], deviation: f64) -> Vec<f64> {
     let weight = |offset: isize| libm::exp(-0.5 * (offset as f64 / deviation) * (offset as f64 / deviation));
     let weights: Vec<f64> = (-reach..=reach).map(weight).collect();
     let last = values.len() as isize - 1;
-    // Beyond its ends a line goes on as it ended, so that the camera moves from the first picture on.
+    // The values are extrapolated beyond their ends, so that the camera moves from the first picture on.
     let value = |index: isize| {
         let inside = index.clamp(0, last);
         let mirrored = (2 * inside - index).clamp(0, last);

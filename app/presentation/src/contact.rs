@@ -1,9 +1,9 @@
-//! Where two vehicles touch.
+//! The place of a contact of two vehicles, and the star that marks it.
 
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
-/// The middle between the corners of two vehicles that are nearest to the other \[m\].
+/// The point midway between the corner of each vehicle that is nearest to the other vehicle \[m\].
 pub fn contact_place(scenario: &Scenario, between: [usize; 2], states: [&State; 2]) -> Option<[f64; 2]> {
     let nearest = |own: usize| {
         let corners = scenario.vehicles[between[own]].body.corners(states[own]);
@@ -15,14 +15,14 @@ pub fn contact_place(scenario: &Scenario, between: [usize; 2], states: [&State; 
     Some([0, 1].map(|axis| 0.5 * (one[axis] + two[axis])))
 }
 
-/// A star with eight points around a place.
+/// The corners of a star with eight points around a place.
 pub fn star([x, y]: [f64; 2], size: f64) -> Vec<[f64; 2]> {
     let radius = |point: i32| if point % 2 == 0 { size } else { 0.5 * size };
     let at = |point: i32| libm::sincos(std::f64::consts::PI * f64::from(point) / 8.0);
     (0..16).map(|point| (at(point), radius(point))).map(|((sin, cos), r)| [x + r * cos, y + r * sin]).collect()
 }
 
-/// The indices of two vehicles, by their names.
-pub fn numbers(scenario: &Scenario, between: &[String; 2]) -> Option<[usize; 2]> {
+/// The indices of two vehicles with these names.
+pub fn vehicle_indices(scenario: &Scenario, between: &[String; 2]) -> Option<[usize; 2]> {
     Some([scenario.index_of(&between[0])?, scenario.index_of(&between[1])?])
 }

@@ -13,26 +13,25 @@ const MAX_POINTS: f64 = 4000.0;
 /// A line of points of the world \[m\].
 pub type WorldLine = Vec<[f64; 2]>;
 
-/// The lines of a road that turns.
+/// The lines of a curved road.
 pub struct CurvedRoad<'a> {
     road: &'a Road,
     route: Arc<Route>,
 }
 
 impl<'a> CurvedRoad<'a> {
-    /// The lines of a road; none if it is straight or a network.
+    /// The lines of a road; `None` if it is straight or a network.
     pub fn new(road: &'a Road) -> Option<CurvedRoad<'a>> {
         let route = road.route(Branch::Main)?;
         route.straight().is_none().then_some(CurvedRoad { road, route })
     }
 
-    /// The right and the left edge between two arc lengths \[m\], with as many points: those of one index lie on one line
-    /// across the road.
+    /// The right and the left edge between two arc lengths \[m\]. Points with the same index are opposite each other.
     pub fn edges(&self, range_m: [f64; 2]) -> [WorldLine; 2] {
         [&self.route.right, &self.route.left].map(|edge| self.line(edge, range_m))
     }
 
-    /// The lines between lanes as dashes, with spaces as long as they are \[m\]. Where lane 0 ends, the line to its left ends as well.
+    /// The dashes between lanes, as long as the spaces between them \[m\]. The line to the left of lane 0 ends with this lane.
     pub fn dashes(&self, dash_m: f64, range_m: [f64; 2]) -> Vec<WorldLine> {
         let of_divider = |between: usize| {
             let ([from_m, to_m], divider) = (self.divided(between, range_m), self.divider(between));
@@ -52,7 +51,7 @@ impl<'a> CurvedRoad<'a> {
         Profile::constant(centre_m - 0.5 * self.road.lane_width_m())
     }
 
-    /// The part of a stretch with a lane on both sides of a divider.
+    /// The part of an interval with lanes on both sides of a divider.
     fn divided(&self, between: usize, [from_m, to_m]: [f64; 2]) -> [f64; 2] {
         let end = self.road.lane_end().filter(|_| between == 1);
         let until_m = end.map_or(to_m, |end| taper_m(end)[0]);
@@ -68,7 +67,7 @@ impl<'a> CurvedRoad<'a> {
     }
 }
 
-/// Between which longitudinal coordinates the edge of a lane that ends visibly moves.
+/// The longitudinal coordinates between which the edge of an ending lane tapers.
 pub fn taper_m(end: LaneEnd) -> [f64; 2] {
     [end.end_m - 4.5 * end.taper_m, end.end_m + 0.5 * end.taper_m]
 }
@@ -106,7 +105,7 @@ mod tests {
     fn nothing_divides_a_single_lane_and_straight_roads_have_no_curve() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
-        let route = road.route(Branch::Main).expect("it is no network");
+        let route = road.route(Branch::Main).expect("not a network");
         let dashes = curved.dashes(3.0, [0.0, 125.0]);
         assert!(dashes.len() > 10);
         for point in dashes.iter().flatten() {

@@ -1,4 +1,4 @@
-//! Marks at the edge of a view for vehicles that are spoken of but out of it: in which direction, and how far away.
+//! Marks at the edge of a view for vehicles that are mentioned but out of view: their direction and distance.
 
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
@@ -34,8 +34,8 @@ impl EdgeMark {
     }
 }
 
-/// The marks of those of `spoken_of` of whom nothing is seen.
-pub fn edge_marks(scenario: &Scenario, view: &CameraView, states: &[State], spoken_of: &[usize]) -> Vec<EdgeMark> {
+/// The marks of the mentioned vehicles that are entirely out of view.
+pub fn edge_marks(scenario: &Scenario, view: &CameraView, states: &[State], mentioned: &[usize]) -> Vec<EdgeMark> {
     let ego = &states[scenario.ego_index()];
     let is_seen = |index: usize| {
         let corners = scenario.vehicles[index].body.corners(&states[index]).map(|corner| view.place(corner));
@@ -58,7 +58,7 @@ pub fn edge_marks(scenario: &Scenario, view: &CameraView, states: &[State], spok
         let words = format!("{}, {distance_m:.decimals$} m", scenario.vehicles[index].name);
         EdgeMark { vehicle: index, at, toward: away.map(|part| part / length), words }
     };
-    spoken_of.iter().copied().filter(|index| !is_seen(*index)).map(mark).collect()
+    mentioned.iter().copied().filter(|index| !is_seen(*index)).map(mark).collect()
 }
 
 #[cfg(test)]
@@ -69,7 +69,7 @@ mod tests {
 
     /// Of two vehicles ahead only the one out of view has a mark, at the edge toward it.
     #[test]
-    fn who_is_out_of_view_is_marked_where_it_is() {
+    fn a_vehicle_out_of_view_is_marked_at_the_edge_toward_it() {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let at = |x_m: f64, y_m: f64| State { x_m, y_m, ..State::default() };
         let view = CameraView { centre_m: [0.0, 0.0], px_per_m: 100.0, size_px: [720.0, 300.0] };

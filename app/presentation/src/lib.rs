@@ -1,6 +1,6 @@
-//! What people see of a run: recordings for Rerun, drawings, pages, figures and reports.
+//! Output of runs: recordings for Rerun, animations, figures, pages and reports.
 //!
-//! Everything here is made from the plain values of [`interplay_simulation`]: its frames and its report.
+//! All output is made from the frames and the report of [`interplay_simulation`].
 //!
 //! ```
 //! use interplay_presentation::report::summary;
@@ -14,19 +14,14 @@
 //! ```
 
 pub mod animation;
-mod answer;
-mod body_shape;
-mod body_style;
+mod body;
 mod camera;
 mod contact;
+mod crowd;
 mod curved_road;
 mod edge_mark;
-mod extent;
 pub mod figures;
-mod font;
-mod lane_change;
 mod light_shapes;
-mod nearest;
 mod network_lines;
 pub mod page;
 mod palette;
@@ -35,6 +30,7 @@ pub mod plot;
 pub mod record;
 mod rectangle;
 pub mod report;
+mod requests;
 mod road_shapes;
 mod road_widths;
 pub mod shell;

@@ -18,7 +18,7 @@ pub struct LightShape {
     pub lane: String,
     /// The ends of the bar, on the right and on the left of the lane \[m\].
     pub bar: [[f64; 2]; 2],
-    /// What it shows when.
+    /// Its colours over time.
     pub cycle: Arc<LightCycle>,
 }
 

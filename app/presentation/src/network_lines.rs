@@ -6,32 +6,32 @@ use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, 
 use interplay_scenarios::Scenario;
 
 use crate::curved_road::WorldLine;
-use crate::extent::extent;
+use crate::rectangle::extent;
 use crate::road_widths::SHOULDER_LANES;
 
 /// Largest distance between two points of a line, by the width of the lane.
 const POINT_DISTANCE_RATIO: f64 = 0.25;
-/// How often the interval between two points is halved in which an edge changes its style.
+/// Number of bisections to locate a change of the style of an edge.
 const CHANGE_BISECTIONS: usize = 4;
 /// Most points of the line of a lane.
 const MAX_POINTS: f64 = 2000.0;
-/// Edges that are nearer to each other than this share of the lane's width are one line.
+/// Edges closer than this share of the lane width are one line.
 const SHARED_RATIO: f64 = 0.15;
-/// A line is inside of a lane if it is further from its edges than this share of the width.
+/// A line is inside a lane if it is further from the edges than this share of the width.
 const INSIDE_RATIO: f64 = 0.001;
-/// Where the edges of several lanes of a junction cross, pieces of them may be outside of all; shorter ones than this, by the
-/// width of the lane, are left out.
+/// Where edges of lanes of a junction cross, short pieces may be outside all lanes. Pieces shorter than this, in lane widths, are
+/// left out.
 const MIN_PIECE_RATIO: f64 = 0.5;
-/// Length of the dashes across a lane that yields at its end, and of the spaces between them, by its width.
+/// Length of the dashes of a yield line and of the spaces between them, in lane widths.
 const YIELD_DASH_RATIO: f64 = 0.125;
 
 /// The lines of a network of lanes, for drawing.
 pub struct NetworkLines<'a> {
     lanes: &'a [Lane],
     numbers: BTreeMap<&'a str, usize>,
-    /// The right and the left edge of each lane, with points beside each other.
+    /// The right and the left edge of each lane, with points opposite each other.
     edges: Vec<[WorldLine; 2]>,
-    /// The smallest rectangle around each lane: its least and greatest coordinates.
+    /// Least and greatest coordinates of each lane.
     bounds: Vec<[[f64; 2]; 2]>,
 }
 
@@ -42,7 +42,7 @@ enum LaneSide {
     Left,
 }
 
-/// How a part of an edge is drawn.
+/// The style of a part of an edge.
 #[derive(Clone, Copy, PartialEq)]
 enum EdgeStyle {
     Solid,
@@ -59,7 +59,6 @@ struct EdgePart {
 }
 
 impl<'a> NetworkLines<'a> {
-    /// The lines of a network.
     pub fn new(network: &'a RoadNetwork) -> NetworkLines<'a> {
         let lanes = network.lanes();
         let edges: Vec<[WorldLine; 2]> = lanes
@@ -71,12 +70,12 @@ impl<'a> NetworkLines<'a> {
         NetworkLines { lanes, numbers, edges, bounds }
     }
 
-    /// The right and the left edge of each lane, with as many points: those of one index lie on one line across the lane \[m\].
+    /// The right and the left edge of each lane \[m\]. Points with the same index are opposite each other.
     pub fn surfaces(&self) -> &[[WorldLine; 2]] {
         &self.edges
     }
 
-    /// The lines that nobody may cross: where the network ends sideways, and between lanes into which nobody may change \[m\].
+    /// The solid lines: at the sides of the network, and between lanes without lane changes \[m\].
     pub fn edges(&self) -> Vec<WorldLine> {
         let is_long = |part: &EdgePart| {
             let least_m = MIN_PIECE_RATIO * self.lanes[part.lane].width.value(part.range_m[0]);
@@ -86,7 +85,7 @@ impl<'a> NetworkLines<'a> {
         solid.map(|part| line(&self.lanes[part.lane], part.side, part.range_m)).collect()
     }
 
-    /// The lines between lanes into which vehicles may change, as dashes with spaces as long as they are \[m\].
+    /// The dashes between lanes with lane changes, as long as the spaces between them \[m\].
     pub fn dashes(&self, dash_m: f64) -> Vec<WorldLine> {
         let of_part = |part: EdgePart| {
             let [from_m, to_m] = part.range_m;
@@ -98,7 +97,7 @@ impl<'a> NetworkLines<'a> {
         self.parts().into_iter().filter(|part| part.style == EdgeStyle::Dashed).flat_map(of_part).collect()
     }
 
-    /// The lines across lanes at the ends of which vehicles stop, and the dashes where they yield \[m\].
+    /// The stop lines across lanes, and the dashes of yield lines \[m\].
     pub fn stop_lines(&self) -> Vec<WorldLine> {
         let across = |lane: &Lane, [from, to]: [f64; 2]| {
             let end_m = lane.centre.length_m();
@@ -143,7 +142,7 @@ impl<'a> NetworkLines<'a> {
         parts
     }
 
-    /// Where between two arc lengths an edge changes from the style at the first of them, by bisection \[m\].
+    /// The arc length between two others at which an edge changes its style, by bisection \[m\].
     fn change_m(&self, lane: usize, side: LaneSide, [mut from_m, mut to_m]: [f64; 2], style: EdgeStyle) -> f64 {
         for _ in 0..CHANGE_BISECTIONS {
             let middle_m = 0.5 * (from_m + to_m);
@@ -156,8 +155,8 @@ impl<'a> NetworkLines<'a> {
         0.5 * (from_m + to_m)
     }
 
-    /// How the edge of a lane is drawn at an arc length: a line that two lanes share is drawn once, and a line inside of
-    /// another lane is not drawn.
+    /// The style of an edge at an arc length: a line that two lanes share is drawn once, and a line inside another lane is not
+    /// drawn.
     fn style(&self, number: usize, side: LaneSide, along_m: f64) -> EdgeStyle {
         let lane = &self.lanes[number];
         let shared_m = SHARED_RATIO * lane.width.value(along_m);
@@ -178,10 +177,10 @@ impl<'a> NetworkLines<'a> {
                 };
             }
         }
-        // The asphalt reaches a shoulder beyond every lane: no line is drawn where that of another lane lies beside this one.
+        // The asphalt reaches a shoulder beyond every lane. No line is drawn where the shoulder of another lane is beside the edge.
         let shoulder_m = SHOULDER_LANES * lane.width.value(along_m);
         let beyond = edge_position(lane, side, along_m, shared_m - shoulder_m);
-        // Where one lane joins another, the edge of one may be inside of the other, and a place beyond it outside of both.
+        // Where one lane joins another, an edge may be inside the other lane while a place beyond it is outside both.
         let inside_m = INSIDE_RATIO * lane.width.value(along_m);
         let is_inside = (0..self.lanes.len()).any(|other| {
             other != number && (self.holds(other, beyond, -shoulder_m) || self.holds(other, at, inside_m))
@@ -189,8 +188,8 @@ impl<'a> NetworkLines<'a> {
         if is_inside { EdgeStyle::Hidden } else { EdgeStyle::Solid }
     }
 
-    /// The lane on a side of a lane, if one of both names the other: its number, in which direction it is driven, and whether
-    /// vehicles may change from one to the other.
+    /// The neighbour on a side of a lane, if one of both names the other: its index, whether it is oncoming, and whether lane changes
+    /// are allowed.
     fn beside(&self, number: usize, side: LaneSide) -> Option<(usize, NeighbourRelation, bool)> {
         let lane = &self.lanes[number];
         let [own, back] = match side {
@@ -200,7 +199,7 @@ impl<'a> NetworkLines<'a> {
         let names = |neighbour: &Option<LaneNeighbour>| {
             neighbour.as_ref().filter(|neighbour| neighbour.lane == lane.name).cloned()
         };
-        // Who is named on the other side by a lane in the same direction, or on the same side by an oncoming one, is beside it.
+        // A lane is also a neighbour if a lane in the same direction names it on the other side, or an oncoming one on the same side.
         let names_back = |other: &Lane| {
             let (same, oncoming) = match side {
                 LaneSide::Left => (names(&other.right), names(&other.left)),
@@ -222,7 +221,7 @@ impl<'a> NetworkLines<'a> {
             .map(|(other, neighbour)| (other, neighbour.relation, neighbour.may_change))
     }
 
-    /// Whether a position is on a lane, further from its edges than a distance \[m\].
+    /// Whether a position is on a lane, at more than a distance from its edges \[m\].
     fn holds(&self, number: usize, position: [f64; 2], inside_m: f64) -> bool {
         let [low, high] = self.bounds[number];
         if !(0..2).all(|axis| (low[axis]..=high[axis]).contains(&position[axis])) {
@@ -236,8 +235,7 @@ impl<'a> NetworkLines<'a> {
     }
 }
 
-/// The smallest rectangle around the parts of their routes on which vehicles will be if they drive as they wish: its least and
-/// greatest coordinates \[m\].
+/// Least and greatest coordinates of the parts of their routes that vehicles cover at their wanted speeds \[m\].
 pub fn expected_bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
     let places = scenario.vehicles.iter().flat_map(|vehicle| {
         let (route, speed_mps) =
@@ -255,7 +253,7 @@ fn edge_position(lane: &Lane, side: LaneSide, along_m: f64, beyond_m: f64) -> [f
     lane.centre.position(along_m, if side == LaneSide::Left { across_m } else { -across_m })
 }
 
-/// Arc lengths that are dense enough for a line \[m\].
+/// Arc lengths at which a line is sampled \[m\].
 fn ranges_m(lane: &Lane, [from_m, to_m]: [f64; 2]) -> Vec<f64> {
     let wanted = (to_m - from_m) / (POINT_DISTANCE_RATIO * lane.width.value(from_m));
     let count = wanted.ceil().clamp(1.0, MAX_POINTS) as usize;
@@ -285,7 +283,7 @@ mod tests {
         lines.iter().flat_map(|line| line.windows(2).map(apart)).sum()
     }
 
-    /// Two edges, and one line in the middle that is dashed where one may overtake.
+    /// Two edges, and a middle line that is dashed where overtaking is allowed.
     #[test]
     fn a_line_that_two_lanes_share_is_drawn_once() {
         for (overtaking, solid_m, dashed_m) in [(true, 1200.0, 600.0), (false, 1800.0, 0.0)] {
@@ -312,7 +310,7 @@ mod tests {
         assert_eq!(on_right(5.0, 175.0), 0);
     }
 
-    /// Nothing is drawn inside of a junction, and each lane that must wait has its line.
+    /// No line is inside a junction, and each lane that must wait has a stop or yield line.
     #[test]
     fn junctions_are_free_of_lines() {
         let scenario = scenario("kind = 'all-way-stop'", "west-in");

@@ -1,4 +1,4 @@
-//! The colours of everything that is drawn, so that the same car has the same colour in recordings, figures and animations.
+//! Colours, shared by recordings, figures and animations so that a vehicle has the same colour in all of them.
 //!
 //! The colours of vehicles are those of Okabe and Ito, moved until every two of them, the asphalt and the colour of a failure
 //! are at least 12 apart by CIEDE2000 (a test computes it) for people with full colour vision and for those who lack one kind of cone. They
@@ -9,7 +9,7 @@ use interplay_scenarios::Scenario;
 /// A colour, red, green and blue.
 pub type Colour = [u8; 3];
 
-/// Smallest difference by CIEDE2000 of two colours that must not be taken for each other, whatever the colour vision.
+/// Least CIEDE2000 difference between colours that must be distinguishable with any kind of colour vision.
 #[cfg(test)]
 const MIN_COLOUR_DISTANCE: f64 = 12.0;
 
@@ -18,7 +18,6 @@ const MIN_COLOUR_DISTANCE: f64 = 12.0;
 pub struct NamedColour {
     /// Red, green and blue.
     pub rgb: Colour,
-    /// What people call it.
     pub word: &'static str,
 }
 
@@ -34,22 +33,21 @@ pub const PURPLE: NamedColour = NamedColour { rgb: [0xB4, 0x76, 0xA9], word: "pu
 pub const SKY: NamedColour = NamedColour { rgb: [0x7C, 0xB8, 0xEA], word: "sky blue" };
 /// The fifth of the others.
 pub const OLIVE: NamedColour = NamedColour { rgb: [0x9D, 0x9F, 0x71], word: "olive" };
-/// Limits, and what went wrong: a plan that is only a fallback. No vehicle has it.
+/// Limits and failures, such as a fallback plan. No vehicle has this colour.
 pub const VERMILLION: NamedColour = NamedColour { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
 
-/// The others in the scenario's order; who comes later starts again.
+/// The other vehicles in the scenario's order; the colours repeat after the last.
 pub const OTHERS: [NamedColour; 5] = [BLUE, GREEN, PURPLE, SKY, OLIVE];
 
-/// What stands and nobody drives.
 pub const OBSTACLE: NamedColour = NamedColour { rgb: [0x9A, 0x9E, 0xA4], word: "grey" };
 
 /// One of many vehicles that no picture names.
 pub const UNNAMED: Colour = [0xC8, 0xCB, 0xCF];
 
-/// The surface of paths for people on foot.
+/// The surface of footpaths.
 pub const PATH: Colour = [0x8C, 0x8B, 0x86];
-/// The surface of lanes for some vehicles only.
-pub const KEPT_LANE: Colour = [0x6A, 0x4C, 0x45];
+/// The surface of lanes that are reserved for some users.
+pub const RESERVED_LANE: Colour = [0x6A, 0x4C, 0x45];
 /// The surface of roads.
 pub const ASPHALT: Colour = [0x4B, 0x4F, 0x56];
 /// The strip of gravel beside a road.
@@ -62,13 +60,10 @@ pub const GRASS: Colour = [0xB9, 0xCB, 0xA4];
 pub const PAINT: Colour = [0xEC, 0xEC, 0xE6];
 /// Arrows on the road.
 pub const ARROW: Colour = [0xB9, 0xBC, 0xBE];
-/// Tyres.
 pub const TYRE: Colour = [0x17, 0x18, 0x1A];
 /// Windows.
 pub const GLASS: Colour = [0x22, 0x2C, 0x38];
-/// Headlights.
 pub const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
-/// Tail lights.
 pub const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
 /// A lit brake light.
 pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
@@ -180,7 +175,7 @@ mod tests {
 
     /// Pairs of the table that the authors of the formula publish for tests of it.
     #[test]
-    fn differences_are_those_of_the_published_table() {
+    fn ciede2000_reproduces_the_published_table() {
         let pairs = [
             ([50.0, 2.6772, -79.7751], [50.0, 0.0, -82.7485], 2.0425),
             ([50.0, 2.5, 0.0], [73.0, 25.0, -18.0], 27.1492),
@@ -194,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_told_apart_without_one_kind_of_cone() {
+    fn colours_are_distinguishable_with_any_kind_of_colour_vision() {
         let vehicles = [ORANGE, BLUE, GREEN, PURPLE, SKY, OLIVE].map(|colour| (colour.word, colour.rgb));
         let others = [("asphalt", ASPHALT), (VERMILLION.word, VERMILLION.rgb)];
         for (vision, matrix) in &VISIONS {
@@ -207,9 +202,9 @@ mod tests {
         }
     }
 
-    /// A lit indicator is seen on every vehicle; its dark rim separates it from headlights.
+    /// A lit indicator is distinguishable from every vehicle; its dark rim separates it from headlights.
     #[test]
-    fn indicators_are_seen_on_every_vehicle() {
+    fn indicators_are_visible_on_every_vehicle() {
         for (vision, matrix) in &VISIONS {
             let apart = |one: Colour, other: Colour| ciede2000(lab(one, matrix), lab(other, matrix));
             for vehicle in [ORANGE, BLUE, GREEN, PURPLE, SKY, OLIVE] {

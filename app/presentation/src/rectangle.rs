@@ -1,6 +1,4 @@
-//! Rectangles of pictures: left, top, right and bottom, y downwards.
-
-use crate::extent::extent;
+//! Rectangles around points. In pictures: left, top, right and bottom, y downwards.
 
 /// Left, top, right and bottom \[px\].
 pub type Rectangle = [f64; 4];
@@ -29,4 +27,22 @@ pub fn rounded_corners(ring: &[[f64; 2]], radius: f64) -> impl Iterator<Item = [
         };
         [toward(before), here, toward(after)]
     })
+}
+
+/// Least and greatest coordinates of some points; of none from +∞ to −∞.
+pub fn extent(points: impl IntoIterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+    points.into_iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
+        [[0, 1].map(|axis| low[axis].min(point[axis])), [0, 1].map(|axis| high[axis].max(point[axis]))]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::extent;
+
+    #[test]
+    fn an_extent_holds_every_point() {
+        assert_eq!(extent([[1.0, -2.0], [0.5, 3.0], [0.7, 0.0]]), [[0.5, -2.0], [1.0, 3.0]]);
+        assert_eq!(extent([]), [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]);
+    }
 }

@@ -1,4 +1,4 @@
-//! The road as shapes in the world, whatever its form: asphalt, lines, arrows. Recordings, animations and figures draw the same.
+//! Roads of all forms as shapes in the world: asphalt, lines, arrows. Recordings, animations and figures share them.
 
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Axes, Corridor};
@@ -10,15 +10,15 @@ use crate::network_lines::NetworkLines;
 
 /// Length of a dash and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
-/// Most dashes of one line: on a longer road they are farther apart.
+/// Most dashes of one line; on a longer road they are farther apart.
 const MAX_DASHES: f64 = 4000.0;
-/// How many points the edge of a lane that ends has.
+/// Number of points of the edge of an ending lane.
 const TAPER_POINTS: usize = 48;
-/// How far the road goes on beyond the ends of a network, in lane widths.
+/// How far the road continues beyond the ends of a network, in lane widths.
 const WAY_OUT_LANES: f64 = 80.0;
-/// Points of a line that are nearer than this to the line without them are left out, in lane widths.
-const FLATNESS_LANES: f64 = 0.002;
-/// Distance of a stop line from the front of the vehicle that stands there, in lane widths.
+/// Tolerance of the simplification of lines, in lane widths.
+const TOLERANCE_LANES: f64 = 0.002;
+/// Distance of a stop line from the front of a standing vehicle, in lane widths.
 const STOP_LINE_AHEAD_LANES: f64 = 0.12;
 /// Distance of an arrow from the end of its lane, in lane widths.
 const ARROW_LANES: f64 = 2.2;
@@ -26,7 +26,7 @@ const ARROW_LANES: f64 = 2.2;
 const MIN_ARROW_LANE_LANES: f64 = 5.0;
 /// Breadth of a bar of a zebra crossing, by the crossing's width.
 const ZEBRA_BAR_RATIO: f64 = 0.16;
-/// From this angle on a way is a turn \[rad\].
+/// A successor lane that turns by more than this is a turn \[rad\].
 const TURN_RAD: f64 = 0.6;
 
 /// A road, all lengths in metres of the world.
@@ -36,25 +36,25 @@ pub struct RoadShapes {
     pub lane_m: f64,
     /// Closed polygons that together cover the road.
     pub surfaces: Vec<WorldLine>,
-    /// Lines that nobody may cross.
+    /// Solid lines.
     pub edges: Vec<WorldLine>,
     /// Dashes between lanes.
     pub dashes: Vec<WorldLine>,
     /// Lines across lanes where vehicles stop or yield.
     pub stop_lines: Vec<WorldLine>,
-    /// Closed polygons of paths for people on foot.
+    /// Closed polygons of footpaths.
     pub paths: Vec<WorldLine>,
-    /// Closed polygons of lanes that are kept for some vehicles.
-    pub kept_lanes: Vec<WorldLine>,
+    /// Closed polygons of lanes that are reserved for some users.
+    pub reserved_lanes: Vec<WorldLine>,
     /// The bars of zebra crossings, closed polygons.
     pub zebra_bars: Vec<WorldLine>,
     /// Traffic lights.
     pub lights: Vec<LightShape>,
-    /// Arrows: place, direction \[rad\], and where one may go.
+    /// Arrows: place, direction \[rad\], and the allowed directions.
     arrows: Vec<([f64; 2], f64, Ways)>,
 }
 
-/// Where one may go from a lane.
+/// The allowed directions at the end of a lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Ways {
     left: bool,
@@ -86,9 +86,9 @@ impl RoadShapes {
             }
             shapes.add_stop_lines(scenario);
         }
-        let flatness_m = FLATNESS_LANES * shapes.lane_m;
+        let tolerance_m = TOLERANCE_LANES * shapes.lane_m;
         for line in shapes.surfaces.iter_mut().chain(&mut shapes.edges).chain(&mut shapes.dashes) {
-            *line = flattened(line, flatness_m);
+            *line = simplified(line, tolerance_m);
         }
         shapes
     }
@@ -99,7 +99,7 @@ impl RoadShapes {
             let paths = network.with_lanes(|lane| lane.is_path() && !lane.is_zebra);
             self.paths = NetworkLines::new(&paths).surfaces().iter().map(ring).collect();
             let kept = network.with_lanes(|lane| !lane.users.is_empty() && !lane.is_path());
-            self.kept_lanes = NetworkLines::new(&kept).surfaces().iter().map(ring).collect();
+            self.reserved_lanes = NetworkLines::new(&kept).surfaces().iter().map(ring).collect();
             self.zebra_bars = network.lanes().iter().filter(|lane| lane.is_zebra).flat_map(zebra_bars).collect();
         }
         self.lights = LightShape::all(network);
@@ -124,7 +124,7 @@ impl RoadShapes {
         }
     }
 
-    /// Goes on beyond the ends of the network, where vehicles go on too, at least as far as the bounds.
+    /// Continues the road beyond the ends of the network, at least as far as the bounds, since vehicles continue there.
     fn add_ways_out(
         &mut self,
         network: &RoadNetwork,
@@ -196,7 +196,7 @@ impl RoadShapes {
         }
     }
 
-    /// A line ahead of every vehicle that stands before the crossing of two roads at first: there it stops.
+    /// Adds a stop line ahead of every vehicle that initially stands before the crossing of two roads.
     fn add_stop_lines(&mut self, scenario: &Scenario) {
         for vehicle in scenario.vehicles.iter().filter(|vehicle| vehicle.start.speed_mps == 0.0) {
             let zone = scenario.road.conflict_zone_m(vehicle.road).zip(scenario.road.corridor(vehicle.road));
@@ -211,7 +211,7 @@ impl RoadShapes {
         }
     }
 
-    /// The arrows: where one may go from the lanes before a choice, and away from a lane that ends.
+    /// The arrows before junctions, and away from ending lanes.
     pub fn arrows(&self) -> impl Iterator<Item = ArrowShape> {
         self.arrows.iter().map(|(at_m, heading_rad, ways)| ways.shape(*at_m, *heading_rad, self.lane_m))
     }
@@ -219,16 +219,16 @@ impl RoadShapes {
 
 /// An arrow on the road, all lengths in metres of the world.
 pub struct ArrowShape {
-    /// The straight line that all its ways begin with.
+    /// The common straight line.
     pub stem: WorldLine,
-    /// The lines that turn off it.
+    /// The lines that branch off.
     pub bends: Vec<WorldLine>,
     /// The triangles at the ends.
     pub heads: Vec<[[f64; 2]; 3]>,
 }
 
 impl Ways {
-    /// The arrow at a place, on a lane of a width.
+    /// The shape of the arrow at a place, on a lane of a width.
     fn shape(self, at_m: [f64; 2], heading_rad: f64, lane_m: f64) -> ArrowShape {
         let axes = Axes::along(heading_rad);
         let place = |[along, across]: [f64; 2]| {
@@ -246,8 +246,8 @@ impl Ways {
     }
 }
 
-/// A line without the points that change it by less than a distance: the method of Douglas and Peucker.
-fn flattened(line: &[[f64; 2]], distance: f64) -> WorldLine {
+/// A line simplified with a tolerance, by the method of Douglas and Peucker.
+fn simplified(line: &[[f64; 2]], distance: f64) -> WorldLine {
     let (Some(first), Some(last)) = (line.first(), line.last()) else { return Vec::new() };
     let mut kept = vec![*first];
     let mut waiting = vec![(0, line.len() - 1)];
@@ -270,7 +270,7 @@ fn flattened(line: &[[f64; 2]], distance: f64) -> WorldLine {
     kept
 }
 
-/// The bars of a zebra crossing, which lie across the way of whoever walks on it.
+/// The bars of a zebra crossing, across the direction of walking.
 fn zebra_bars(lane: &Lane) -> Vec<WorldLine> {
     let bar_m = ZEBRA_BAR_RATIO * lane.width.value(0.0);
     let count = (lane.centre.length_m() / (2.0 * bar_m)) as u32;
@@ -282,7 +282,7 @@ fn zebra_bars(lane: &Lane) -> Vec<WorldLine> {
     (0..count).map(bar).collect()
 }
 
-/// Where the lanes after a lane lead.
+/// The directions of the successors of a lane.
 fn ways(network: &RoadNetwork, lane: &Lane) -> Ways {
     let end_rad = direction(lane, lane.centre.length_m());
     let mut ways = Ways::default();
@@ -310,13 +310,13 @@ fn corners([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
     [low, [low[0], high[1]], high, [high[0], low[1]]]
 }
 
-/// Least and greatest of four coordinates, and a little more.
+/// Least and greatest of four coordinates, with a margin.
 fn range(values: [f64; 4], beyond: f64) -> [f64; 2] {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     [low - beyond, values.iter().copied().fold(f64::NEG_INFINITY, f64::max) + beyond]
 }
 
-/// Dashes at whole multiples of their period, so that they stand still while the camera moves.
+/// Dashes at whole multiples of their period, so that they do not move with the camera.
 fn dashes([from_m, to_m]: [f64; 2], dash_m: f64) -> Vec<[f64; 2]> {
     let period_m = (2.0 * dash_m).max((to_m - from_m) / MAX_DASHES);
     let first = (from_m / period_m).ceil() as i64;
@@ -372,14 +372,14 @@ mod tests {
     #[test]
     fn flat_lines_keep_their_form_with_few_points() {
         let arc: Vec<[f64; 2]> = (0..=400).map(|i| libm::sincos(f64::from(i) / 400.0)).map(|(x, y)| [x, y]).collect();
-        let few = flattened(&arc, 1e-3);
+        let few = simplified(&arc, 1e-3);
         assert!(few.len() > 5 && few.len() < 40, "{}", few.len());
         assert_eq!((few.first(), few.last()), (arc.first(), arc.last()));
         assert!(few.windows(2).all(|pair| pair[1][0] > pair[0][0]), "in order");
         let middles =
             few.windows(2).map(|pair| libm::hypot(0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])));
         assert!(middles.into_iter().all(|radius| (1.0 - radius) < 1.1e-3));
-        assert_eq!(flattened(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 0.1), [[0.0, 0.0], [2.0, 0.0]]);
+        assert_eq!(simplified(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 0.1), [[0.0, 0.0], [2.0, 0.0]]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Words as a POSIX shell reads them, and programs as it finds them.
+//! Quoting of words for a POSIX shell, and the search for programs on the path.
 
 use std::env;
 use std::path::PathBuf;

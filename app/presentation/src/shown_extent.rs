@@ -1,47 +1,46 @@
-//! What the camera shows at a moment: the ego, those with whom it deals, and those near enough to be seen with them.
+//! The extent that the camera shows: the ego, its partners, and vehicles nearby.
 
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::VehicleFrame;
 
-use crate::body_style::scale;
-use crate::extent::extent;
+use crate::body::scale;
+use crate::rectangle::extent;
 
 /// Length of a car of 1/10 scale \[m\].
 const CAR_M: f64 = 0.4;
 /// Space between the vehicles and the edge of the view, in lengths of a car.
 const MARGIN_CARS: f64 = 1.3;
-/// The same where two are shown close.
+/// The same in a close view of two vehicles.
 const CLOSE_MARGIN_CARS: f64 = 0.4;
-/// How far ahead of each vehicle the view reaches, in its motion at 1/10 scale \[s\].
+/// How far ahead of each vehicle the view reaches, as driving time at 1/10 scale \[s\].
 const LOOK_AHEAD_S: f64 = 0.35;
-/// A vehicle that is further away than this many widths of the largest view does not draw the camera.
+/// The camera does not follow vehicles further away than this many widths of the largest view.
 const NEAR_WIDTHS: f64 = 2.5;
-/// Around an ego that is alone, this share of the largest view is shown.
+/// Share of the largest view that is shown around an ego without other vehicles nearby.
 const ALONE_RATIO: f64 = 0.7;
-/// Space between whoever must be seen and the edge of the view, in lengths of a car.
+/// Least space between a vehicle that must be in view and the edge, in lengths of a car.
 pub const LEAST_MARGIN_CARS: f64 = 0.35;
 
 /// Least and greatest coordinates \[m\].
 pub type Extent = [[f64; 2]; 2];
 
-/// The vehicles at a moment, as far as the camera needs them.
+/// The input of the camera for one view.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CameraMoment {
+pub struct CameraFrame {
     /// Every vehicle, in the scenario's order.
     pub states: Vec<State>,
-    /// The vehicles with which the ego interacts, by index: first those that it asks, then those with which the passing
-    /// is open.
+    /// Indices of the vehicles with which the ego interacts: first those with a request, then those with an open passing order.
     pub partners: Vec<usize>,
-    /// Two vehicles that the camera shows alone, as large as it can.
+    /// Two vehicles of a close view, which shows them alone.
     pub close_up: Option<[usize; 2]>,
 }
 
 /// The largest extents that are shown \[m\].
 pub struct Largest {
-    /// Largest extent with vehicles that are near anyway.
+    /// Largest extent for vehicles nearby.
     pub usual_m: [f64; 2],
-    /// Largest extent with a vehicle that the caption names.
+    /// Largest extent for a mentioned vehicle.
     pub spoken_of_m: [f64; 2],
 }
 
@@ -50,8 +49,7 @@ pub fn car_m(scenario: &Scenario) -> f64 {
     CAR_M * scenario.ego().map_or(1.0, |ego| scale(&ego.body))
 }
 
-/// The vehicles with which a vehicle interacts, by index: first those that it asks, then those with which the passing
-/// is open.
+/// Indices of the vehicles with which a vehicle interacts: first those with a request, then those with an open passing order.
 pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
     let asked = vehicle.plan.proposals.iter().map(|proposal| &proposal.to);
     let mut partners = Vec::new();
@@ -63,10 +61,10 @@ pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
     partners
 }
 
-/// The same moments, where each also has the partners of the moments that are less than `reach` away from it.
-pub fn keeping_partners(moments: &[CameraMoment], reach: f64) -> Vec<CameraMoment> {
+/// The frames, each with the additional partners of the frames less than `reach` away from it.
+pub fn keeping_partners(moments: &[CameraFrame], reach: f64) -> Vec<CameraFrame> {
     let reach = reach as usize;
-    let kept = |(index, moment): (usize, &CameraMoment)| {
+    let kept = |(index, moment): (usize, &CameraFrame)| {
         let mut kept = moment.clone();
         let near = &moments[index.saturating_sub(reach)..(index + reach + 1).min(moments.len())];
         for partner in near.iter().flat_map(|moment| &moment.partners) {
@@ -79,7 +77,7 @@ pub fn keeping_partners(moments: &[CameraMoment], reach: f64) -> Vec<CameraMomen
     moments.iter().enumerate().map(kept).collect()
 }
 
-/// Least and greatest coordinates of some vehicles and of where they will be soon, with a margin in lengths of a car \[m\].
+/// Least and greatest coordinates of some vehicles and of their near future, with a margin in lengths of a car \[m\].
 fn extent_of(
     scenario: &Scenario,
     states: &[State],
@@ -102,9 +100,9 @@ fn fits([low, high]: &Extent, largest_m: [f64; 2]) -> bool {
     (0..2).all(|axis| high[axis] - low[axis] <= largest_m[axis])
 }
 
-/// Least and greatest coordinates of the ego and of those near it, with a margin, within the largest extent \[m\].
-pub fn shown_extent(scenario: &Scenario, moment: &CameraMoment, largest: &Largest) -> Extent {
-    let CameraMoment { states, partners, close_up } = moment;
+/// Least and greatest coordinates of the ego and of vehicles near it, with a margin, within the largest extent \[m\].
+pub fn shown_extent(scenario: &Scenario, moment: &CameraFrame, largest: &Largest) -> Extent {
+    let CameraFrame { states, partners, close_up } = moment;
     if let Some(pair) = close_up {
         return extent_of(scenario, states, pair, (CLOSE_MARGIN_CARS, LOOK_AHEAD_S));
     }
@@ -124,7 +122,7 @@ pub fn shown_extent(scenario: &Scenario, moment: &CameraMoment, largest: &Larges
     let rank = |index: &usize| partners.iter().position(|partner| partner == index).unwrap_or(partners.len());
     others.sort_by(|a, b| rank(a).cmp(&rank(b)).then(away_m(*a).total_cmp(&away_m(*b))));
     let next = others.first().copied();
-    // Whoever is not spoken of is seen where that does not make the others smaller.
+    // Vehicles that are not mentioned are included only if the scale stays the same.
     let most_m = [0, 1].map(|axis| largest.usual_m[axis].max(shown[1][axis] - shown[0][axis]));
     for other in others {
         kept.push(other);
@@ -136,7 +134,7 @@ pub fn shown_extent(scenario: &Scenario, moment: &CameraMoment, largest: &Larges
     if kept.len() > 1 {
         return shown;
     }
-    // Nobody fits: as much as there is space for of the way to the one who comes next.
+    // No further vehicle fits: extend as far as possible toward the next one.
     let largest_m = if partners.is_empty() { largest.usual_m } else { largest.spoken_of_m };
     let is_coming = |next: usize| {
         let is_near = away_m(next) < NEAR_WIDTHS * largest_m[0];
@@ -148,7 +146,7 @@ pub fn shown_extent(scenario: &Scenario, moment: &CameraMoment, largest: &Larges
     with_space(shown, largest.usual_m.map(|most_m| ALONE_RATIO * most_m))
 }
 
-/// As much of the way from an extent to a place as there is space for.
+/// Extends an extent toward a place as far as the largest extent allows.
 fn toward([mut low, mut high]: Extent, place_m: [f64; 2], largest_m: [f64; 2]) -> Extent {
     for axis in 0..2 {
         if place_m[axis] < low[axis] {
@@ -160,7 +158,7 @@ fn toward([mut low, mut high]: Extent, place_m: [f64; 2], largest_m: [f64; 2]) -
     [low, high]
 }
 
-/// An extent that is at least so large, around the same middle.
+/// The extent widened to a least size around its middle.
 fn with_space([low, high]: Extent, least_m: [f64; 2]) -> Extent {
     let half_m = [0, 1].map(|axis| 0.5 * (least_m[axis] - (high[axis] - low[axis])).max(0.0));
     [[0, 1].map(|axis| low[axis] - half_m[axis]), [0, 1].map(|axis| high[axis] + half_m[axis])]

@@ -1,24 +1,22 @@
-//! What vehicles signal: brake lights and indicators.
+//! Brake lights and indicators of vehicles, from their accelerations and plans.
 
-use interplay_planners::Route;
-use interplay_planners::road::network::RouteLeg;
+use interplay_planners::road::network::{Lane, LaneNeighbour, RoadNetwork, RouteLeg};
+use interplay_planners::{Route, State};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::VehicleFrame;
 
-use crate::lane_change::lane_change;
-
 /// A vehicle brakes visibly if its acceleration is below this \[m/s²\].
 const BRAKING_MPS2: f64 = -0.1;
-/// How much a way turns away from the lane before it, where there is a choice, to be indicated \[rad\].
+/// A route that turns by more than this at a junction is indicated \[rad\].
 const TURN_RAD: f64 = 0.6;
 /// How far ahead a turn is indicated, in lane widths.
 const TURN_AHEAD_LANES: f64 = 5.0;
-/// How long before it crosses the line a vehicle indicates a change of lane \[s\], at 1/10 scale: 3 s of a real car.
+/// Time before crossing the line from which a lane change is indicated \[s\], at 1/10 scale: 3 s of a real car.
 const LANE_CHANGE_AHEAD_S: f64 = 1.0;
 
-/// The side to which a vehicle is going to move.
+/// The side on which a vehicle indicates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
+pub enum IndicatorSide {
     /// The vehicle moves to the left.
     Left,
     /// The vehicle moves to the right.
@@ -30,19 +28,19 @@ pub fn is_braking(acceleration_mps2: f64) -> bool {
     acceleration_mps2 < BRAKING_MPS2
 }
 
-/// To which side a plan leads: into another lane, or on a network around a corner.
-pub fn turn(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<Turn> {
+/// The side on which a vehicle indicates, if its plan changes the lane or turns on a network.
+pub fn indicator_side(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<IndicatorSide> {
     let states = &seen.plan.trajectory.states;
     let ahead = (LANE_CHANGE_AHEAD_S * vehicle.body.time_ratio() / scenario.step_s).ceil() as usize;
     let to_another_lane = lane_change(scenario, vehicle, &states[..states.len().min(ahead + 1)]);
     let along_m = vehicle.route.along(seen.state.position());
     let leftward = to_another_lane.or_else(|| turned_rad(scenario, &vehicle.route, along_m))?;
-    Some(if leftward > 0.0 { Turn::Left } else { Turn::Right })
+    Some(if leftward > 0.0 { IndicatorSide::Left } else { IndicatorSide::Right })
 }
 
-/// How much the way of a vehicle turns at the next lane from which several lead on, if that is near \[rad\].
+/// The angle by which the route turns where the next lane with several successors ends, if that is near \[rad\].
 ///
-/// From a lane that is itself bent at its end, as on a ring, a lane that is bent as much leads straight on.
+/// The bend of the lane itself does not count: on a ring, a successor with the same bend leads straight on.
 fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
     let network = scenario.network.as_ref()?;
     let ahead_m = TURN_AHEAD_LANES * scenario.road.lane_width_m();
@@ -67,4 +65,59 @@ fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
 pub fn wrapped(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     (angle_rad + PI).rem_euclid(TAU) - PI
+}
+
+/// A plan changes the lane if it crosses the edge by more than this, in lane widths.
+const OVER_THE_LINE_LANES: f64 = 0.1;
+
+/// The lateral offset of the first state in another lane from the centre of the lane before, positive to the left of the vehicle
+/// \[lane widths\]; `None` if all states stay in the first lane and its successors.
+pub fn lane_change(scenario: &Scenario, vehicle: &Vehicle, states: &[State]) -> Option<f64> {
+    match &scenario.network {
+        Some(network) => on_network(network, states),
+        None => on_parallel_lanes(scenario, vehicle, states),
+    }
+}
+
+fn on_parallel_lanes(scenario: &Scenario, vehicle: &Vehicle, states: &[State]) -> Option<f64> {
+    let width_m = scenario.road.lane_width_m();
+    let first_m = scenario.road.lane_centre_m(vehicle.road, 0)?;
+    let in_lanes = |state: &State| (vehicle.route.locate(state.position(), None).across_m - first_m) / width_m;
+    let lane = in_lanes(states.first()?).round();
+    states.iter().map(|state| in_lanes(state) - lane).find(|off| off.abs() > 0.5 + OVER_THE_LINE_LANES)
+}
+
+/// Looks for the first state beyond an edge with a neighbouring lane, along the first lane and its successors.
+fn on_network(network: &RoadNetwork, states: &[State]) -> Option<f64> {
+    let first = states.first()?;
+    let place = network.locate(first.position(), first.heading_rad).into_iter().next()?;
+    let mut lane = network.lane(&place.lane)?;
+    for state in states {
+        let mut point = lane.centre.project(state.position(), None);
+        if point.along_m > lane.centre.length_m() {
+            lane = nearest_successor(network, lane, state)?;
+            point = lane.centre.project(state.position(), None);
+        }
+        let off = point.across_m / lane.width.value(point.along_m);
+        let beside: &Option<LaneNeighbour> = if off > 0.0 { &lane.left } else { &lane.right };
+        let holds = |neighbour: &LaneNeighbour| network.lane(&neighbour.lane).is_some_and(|lane| contains(lane, state));
+        if off.abs() > 0.5 + OVER_THE_LINE_LANES && beside.as_ref().is_some_and(holds) {
+            // In a lane that is driven against its direction, the left of the lane is the right of the vehicle.
+            return Some(off.copysign(off * libm::cos(state.heading_rad - point.heading_rad)));
+        }
+    }
+    None
+}
+
+/// Whether a state is within a lane.
+fn contains(lane: &Lane, state: &State) -> bool {
+    let point = lane.centre.project(state.position(), None);
+    (0.0..=lane.centre.length_m()).contains(&point.along_m) && point.across_m.abs() <= lane.half_width_m(point.along_m)
+}
+
+/// The successor of a lane whose centre is nearest to a state.
+fn nearest_successor<'a>(network: &'a RoadNetwork, lane: &Lane, state: &State) -> Option<&'a Lane> {
+    let successors = lane.successors.iter().filter_map(|name| network.lane(name));
+    let off_m = |lane: &Lane| lane.centre.project(state.position(), None).across_m.abs();
+    successors.min_by(|a, b| off_m(a).total_cmp(&off_m(b)))
 }

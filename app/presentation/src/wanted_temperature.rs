@@ -1,11 +1,11 @@
-//! Which temperatures are neither cold nor warm: those that are wanted.
+//! Wanted temperatures of zones, and the colours of deviations from them.
 
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::ZoneFrame;
 
 use crate::palette::{COLOUR_RANGE_K, Colour, temperature_colour};
 
-/// The temperature that each zone usually has to have while people are there \[°C\].
+/// The mean wanted temperature of each zone while it is occupied \[°C\].
 pub fn usual_wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
     let mean_c = |values: &mut dyn Iterator<Item = f64>| {
         let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
@@ -26,7 +26,7 @@ pub fn middle_c(usual_c: &[f64]) -> f64 {
     usual_c.iter().sum::<f64>() / usual_c.len().max(1) as f64
 }
 
-/// The colour of a zone, by its deviation from what is wanted now, or where nothing is, from what it usually has to have.
+/// The colour of a zone by its deviation from the wanted temperature, or from its usual one while none is wanted.
 pub fn zone_colour(zone: &ZoneFrame, temperature_c: f64, usual_c: f64) -> Colour {
     deviation_colour(temperature_c - zone.reference_c.unwrap_or(usual_c))
 }
@@ -36,7 +36,7 @@ pub fn deviation_colour(deviation_k: f64) -> Colour {
     temperature_colour(deviation_k / COLOUR_RANGE_K)
 }
 
-/// A number with one decimal and, where it is negative, a minus sign and not a hyphen.
+/// A number with one decimal, and with a minus sign instead of a hyphen.
 pub fn one_decimal(value: f64) -> String {
     let rounded = (10.0 * value).round() / 10.0;
     let sign = if rounded < 0.0 { "−" } else { "" };
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hours_of_a_zone_say_what_it_usually_has_to_have() {
+    fn the_usual_temperature_is_the_mean_of_the_schedule() {
         let names = ["office", "flat"].map(str::to_owned);
         let scenario = load("building/office-and-flat", &[]).expect("embedded");
         let usual_c = usual_wanted_c(&scenario, &names);
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_follow_what_is_wanted_now() {
+    fn colours_follow_the_wanted_temperature_or_the_usual_one() {
         let zone = |reference_c| ZoneFrame {
             temperature_c: 21.0,
             next_c: 21.0,

@@ -36,7 +36,7 @@ struct Plans(Sender<Plan>);
 
 impl Watcher for Plans {
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
-        self.0.send(frame.vehicles[0].plan.clone())?;
+        self.0.send(Plan::clone(&frame.vehicles[0].plan))?;
         Ok(())
     }
 

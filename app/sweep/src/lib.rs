@@ -55,7 +55,8 @@ mod version;
 
 pub use error::SweepError;
 pub use interplay_tables::{
-    DetectorWriter, RowTable, SeriesWriter, TableColumn, TableFile, TableFormat, TableFormatError, TrajectoryWriter,
+    DetectorWriter, RowTable, SeriesWriter, TableColumn, TableError, TableFile, TableFormat, TableFormatError,
+    TrajectoryWriter,
 };
 pub use key::RunKey;
 pub use merge::{MergedSweep, merge};

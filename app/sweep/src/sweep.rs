@@ -104,7 +104,7 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
         }
         journal.lock().unwrap_or_else(PoisonError::into_inner).append(&row)?;
         (options.advance)();
-        Ok(())
+        Ok::<(), SweepError>(())
     })?;
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.sync()?;

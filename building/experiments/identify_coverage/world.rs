@@ -70,7 +70,7 @@ impl World {
     }
 }
 
-/// What nobody measured, in each minute.
+/// Unmeasured heat and sun in each minute.
 pub struct Unmeasured {
     pub heat_kw: Vec<f64>,
     /// Losses to outdoors through windows.

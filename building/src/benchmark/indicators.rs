@@ -2,13 +2,14 @@
 
 use serde::Serialize;
 
-use super::integral::{peak, trapezoid};
 use super::measurements::{Carrier, MeasuredRun, MeasurementError, PowerSignal};
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
 /// Kilowatt-hours of a joule, with the digits of BOPTEST's `kpi_calculator.py` (exactly 1/3.6e6).
 const KWH_PER_J: f64 = 2.777_78e-7;
 const W_PER_KW: f64 = 1000.0;
+/// Length of the windows of a peak \[s\].
+const PEAK_WINDOW_S: f64 = 900.0;
 
 /// BOPTEST's key performance indicators of a test, without its computational time ratio (see
 /// [`Indicators::computational_time_ratio`]).
@@ -97,4 +98,27 @@ fn peak_kw_per_m2(measured: &MeasuredRun, carrier: Carrier) -> Option<f64> {
     }
     let total_w = |i: usize| signals.iter().map(|signal| signal.power_w[i]).sum::<f64>();
     Some(peak(&measured.times_s, total_w)? / W_PER_KW / measured.area_m2)
+}
+
+/// The integral of `values(index)` over the times by the trapezoidal rule \[unit of the values times seconds\].
+fn trapezoid(times_s: &[f64], values: impl Fn(usize) -> f64) -> f64 {
+    (1..times_s.len()).map(|i| 0.5 * (values(i - 1) + values(i)) * (times_s[i] - times_s[i - 1])).sum()
+}
+
+/// The largest mean of the samples within a quarter of an hour. Windows begin at the first time and include their first instant, as
+/// those of pandas do; samples count alike, whatever the time between them. `None` without samples.
+fn peak(times_s: &[f64], values: impl Fn(usize) -> f64) -> Option<f64> {
+    let window = |i: usize| ((times_s[i] - times_s[0]) / PEAK_WINDOW_S).floor();
+    let mut peak: Option<f64> = None;
+    let mut from = 0;
+    while from < times_s.len() {
+        let mut to = from;
+        while to < times_s.len() && window(to) == window(from) {
+            to += 1;
+        }
+        let mean = (from..to).map(&values).sum::<f64>() / (to - from) as f64;
+        peak = Some(peak.map_or(mean, |largest| largest.max(mean)));
+        from = to;
+    }
+    peak
 }

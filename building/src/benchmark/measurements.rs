@@ -1,4 +1,4 @@
-//! What a test case measured, and what its indicators are judged by.
+//! The measurements of a test case from which its indicators are computed.
 
 use thiserror::Error;
 
@@ -77,7 +77,7 @@ pub struct MeasuredRun {
 /// Measurements of which no indicators can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeasurementError {
-    /// There is no interval of time.
+    /// There are fewer than two times, so an integral is not defined.
     #[error("there are {count} times; an integral takes at least 2")]
     TooFewTimes {
         /// How many there are.
@@ -108,7 +108,7 @@ pub enum MeasurementError {
         times: usize,
     },
     /// A value is not finite.
-    #[error("{signal} is no finite number at time {index}")]
+    #[error("{signal} is not a finite number at time {index}")]
     NotFinite {
         /// The signal, in words.
         signal: &'static str,

@@ -14,7 +14,6 @@
 //! buildings", Journal of Building Performance Simulation 14(5), 2021.
 
 mod indicators;
-mod integral;
 mod measurements;
 
 pub use indicators::Indicators;

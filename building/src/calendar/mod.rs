@@ -54,10 +54,10 @@ const WEEK: [Weekday; 7] = [
     Weekday::Sunday,
 ];
 
-/// The kind of a day: a holiday, whatever its weekday, or else its weekday.
+/// The weekday of a day, or that it is a holiday.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DayKind {
-    /// A day of the week that is no holiday.
+    /// A weekday that is not a holiday.
     Plain(Weekday),
     /// A holiday.
     Holiday,
@@ -71,7 +71,7 @@ pub struct RunDays {
     holidays: Vec<usize>,
 }
 
-/// A calendar whose dates cannot be read or are missing.
+/// A date of the calendar that cannot be read or is missing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CalendarError {
@@ -142,7 +142,7 @@ impl Calendar {
     /// The days of a run. `weather_weekday` is the weekday that a weather file states for the first day.
     ///
     /// # Errors
-    /// [`CalendarError`] if a text is no date, or a holiday has no day to count from.
+    /// [`CalendarError`] if a text is not a date, or a holiday is stated without the date of the first day.
     pub fn days(&self, weather_weekday: Option<Weekday>) -> Result<RunDays, CalendarError> {
         let first_day = self.first_date()?;
         let mut holidays = Vec::with_capacity(self.holidays.len());
@@ -164,7 +164,7 @@ impl Calendar {
     /// Month and day of the first day, if a date is stated.
     ///
     /// # Errors
-    /// [`CalendarError`] if the text is no date.
+    /// [`CalendarError`] if the text is not a date.
     pub fn first_month_and_day(&self) -> Result<Option<(u32, u32)>, CalendarError> {
         let date = self.first_date()?;
         Ok(date.map(|date| (u32::from(date.month().unsigned_abs()), u32::from(date.day().unsigned_abs()))))
@@ -173,7 +173,7 @@ impl Calendar {
     /// The date of the first day, if one is stated.
     ///
     /// # Errors
-    /// [`CalendarError`] if the text is no date.
+    /// [`CalendarError`] if the text is not a date.
     pub fn first_date(&self) -> Result<Option<Date>, CalendarError> {
         self.first_day.as_ref().map(|text| date(text, &SettingKey::from("first_day"))).transpose()
     }
@@ -188,7 +188,7 @@ pub fn local_days(date: Date) -> f64 {
 fn date(text: &str, key: &SettingKey) -> Result<Date, CalendarError> {
     let digits = text.len() == 10 && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-');
     let date = text.parse().ok().filter(|_| digits);
-    let problem = || format!("`{key}` is `{text}`, which is no date: write year-month-day, such as 2026-07-06");
+    let problem = || format!("`{key}` is `{text}`, which is not a date: write year-month-day, such as 2026-07-06");
     date.ok_or_else(|| CalendarError { key: key.clone(), problem: problem() })
 }
 
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_date_is_refused() {
+    fn a_text_that_is_not_a_date_is_refused() {
         for text in ["2026-02-30", "6.7.2026", "2026-7-6", "", "today", "2026-07-06T00:00"] {
             let error = calendar(Some(text), &[]).days(None).expect_err(text);
             assert_eq!(error.key.as_str(), "first_day");

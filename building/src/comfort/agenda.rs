@@ -1,4 +1,4 @@
-//! What is wanted on each day of a run, and what heat costs on it.
+//! The wanted temperatures and the prices of heat on each day of a run.
 
 use super::bounds::ComfortBounds;
 use super::targets::{Setpoints, SetpointsError, Targets};
@@ -8,7 +8,7 @@ use crate::schedule::{Timetable, ZoneSchedule};
 /// The targets of every day.
 #[derive(Clone, Debug)]
 pub struct Agenda {
-    /// The targets of a day without schedules, at the mean price.
+    /// The targets without schedules, at the mean price.
     common: Targets,
     setpoints: Setpoints,
     timetable: Timetable,
@@ -29,31 +29,31 @@ impl Agenda {
         Ok(Self { common, setpoints, timetable, bounds: None, tariff: None, heat_pump: None, step_s })
     }
 
-    /// These targets with the schedules of a timetable.
+    /// Adds the schedules of a timetable.
     #[must_use]
     pub fn following(self, timetable: Timetable) -> Self {
         Self { timetable, ..self }
     }
 
-    /// These targets with the prices of a checked tariff and a checked heat pump.
+    /// Adds a checked tariff and a checked heat pump.
     #[must_use]
     pub fn supplied(self, tariff: Option<Tariff>, heat_pump: Option<HeatPump>) -> Self {
         Self { tariff, heat_pump, ..self }
     }
 
-    /// These targets within the bounds of another program, which take the place of schedules.
+    /// Adds comfort bounds of another program, which replace schedules.
     #[must_use]
     pub fn bounded(self, bounds: ComfortBounds) -> Self {
         Self { bounds: Some(bounds), ..self }
     }
 
-    /// These targets with the prices of a checked tariff, and the heat pump that they had.
+    /// Replaces the tariff; the heat pump stays.
     #[must_use]
     pub fn priced(self, tariff: Tariff) -> Self {
         Self { tariff: Some(tariff), ..self }
     }
 
-    /// The targets of day `day`, counted from zero; they know those of the next day where days differ.
+    /// The targets of day `day`, counted from zero; with those of the next day if days differ.
     pub fn of_day(&self, day: usize) -> Targets {
         let mut targets = self.alone(day);
         let bounded = self.bounds.is_some();
@@ -100,7 +100,7 @@ impl Agenda {
         targets
     }
 
-    /// Writes the schedule of a zone into the targets; nobody is there without one.
+    /// Writes the schedule of a zone into the targets; without one the zone is unoccupied.
     fn follow(&self, targets: &mut Targets, zone: usize, schedule: Option<&ZoneSchedule>) {
         let other_c = schedule.and_then(|schedule| schedule.other_c);
         for step in 0..targets.steps() {

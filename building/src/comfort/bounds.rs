@@ -1,8 +1,8 @@
-//! Bounds of comfort that another program states for every moment of a run.
+//! Comfort bounds that another program (such as BOPTEST) states for all times of a run.
 
 use super::targets::{Setpoints, Targets};
 
-/// Bounds whose width is the least of the run to this count as those of people who are there \[K\].
+/// A zone counts as occupied while its bounds are at most this much wider than the narrowest ones of the run \[K\].
 const WIDTH_TOLERANCE_K: f64 = 0.05;
 const DAY_S: f64 = 86_400.0;
 
@@ -63,7 +63,7 @@ impl ZoneBounds {
         self.upper_c.iter().zip(&self.lower_c).map(|(upper, lower)| upper - lower).fold(f64::INFINITY, f64::min)
     }
 
-    /// The bounds of the temperature at the end of a step: the closer ones of those just before and at that moment.
+    /// The bounds at the end of a step: the narrower ones of those just before and at that time.
     fn at_end(&self, from_s: f64, to_s: f64, interval_s: f64) -> (f64, f64) {
         let value = |values: &[f64], time_s: f64| {
             let place = (time_s / interval_s + 1e-9).floor().max(0.0) as usize;

@@ -159,11 +159,11 @@ impl Targets {
         self.reference_c.len() / self.zones.max(1)
     }
 
-    /// By how much a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` counts
-    /// as in the stacked quantities.
+    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` is
+    /// an index of stacked quantities.
     ///
     /// # Panics
-    /// When there is no entry `i`.
+    /// When `i` is out of range.
     pub fn beyond_k(&self, i: usize, temperature_c: f64) -> f64 {
         if !self.occupied[i] {
             return 0.0;
@@ -248,7 +248,7 @@ impl Targets {
     /// Prices, emissions and equipment of the `steps` steps from step `t` of the day on, with the days of [`Targets::ahead`]. The outdoor
     /// temperature is not known.
     #[must_use]
-    pub fn supply_ahead(&self, t: usize, steps: usize) -> EnergySupply {
+    pub(crate) fn supply_ahead(&self, t: usize, steps: usize) -> EnergySupply {
         let tomorrow = self.tomorrow.as_deref().unwrap_or(self);
         let stacked = |of: fn(&EnergySupply) -> &Option<Vec<f64>>| -> Option<Vec<f64>> {
             (t..t + steps)

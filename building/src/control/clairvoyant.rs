@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::interface::ControllerKind;
-use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
+use super::{Control, ControlError, DayAhead, Observation, optimum};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
@@ -61,10 +61,6 @@ impl Control for Clairvoyant {
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let n = self.lifted.zones();
         self.planned_kw[observation.step * n..(observation.step + 1) * n].to_vec()
-    }
-
-    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
-        Ok(())
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

@@ -2,19 +2,37 @@
 
 use std::ops::Deref;
 
+use interplay_common::foreign::{ForeignSettings, KindTable};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::interface::ControllerKind;
+
+/// The settings of a controller whose kind another crate provides.
+pub type ForeignController = ForeignSettings<dyn ControllerKind>;
 
 /// Makes the enumeration of the listed kinds, each with its settings.
 macro_rules! controllers {
     ($($(#[$doc:meta])* $kind:ident($settings:ty),)*) => {
         /// The controller of a building with its settings; `kind` in a scenario file chooses.
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
         #[serde(tag = "kind", rename_all = "kebab-case")]
         pub enum Controller {
             $($(#[$doc])* $kind($settings),)*
+            /// A kind of another crate. It is read by the registry that knows the kind.
+            #[serde(skip)]
+            Foreign(ForeignController),
+        }
+
+        /// A table with the `kind` and the settings, as a scenario file has it.
+        impl Serialize for Controller {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let kind = self.kind();
+                match self {
+                    $(Controller::$kind(settings) => KindTable { kind, settings }.serialize(serializer),)*
+                    Controller::Foreign(foreign) => foreign.serialize(serializer),
+                }
+            }
         }
 
         /// What its kind says of a controller.
@@ -24,6 +42,7 @@ macro_rules! controllers {
             fn deref(&self) -> &Self::Target {
                 match self {
                     $(Controller::$kind(settings) => settings,)*
+                    Controller::Foreign(foreign) => foreign.settings(),
                 }
             }
         }

@@ -7,7 +7,7 @@
 //! D̂_k+1 + bias                            the prediction for day k + 1
 //! ```
 //!
-//! The source plans with D̂_k+1 alone and so learns nothing. The forecast itself need not be expressed as zone heat: its
+//! The dissertation plans with D̂_k+1 alone and so learns nothing. The forecast itself need not be expressed as zone heat: its
 //! effect is simulated, and D_k − D̂_k = G⁻¹ (T_k − T_free) − U_k with T_free under the forecast.
 
 use schemars::JsonSchema;

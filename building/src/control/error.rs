@@ -56,7 +56,7 @@ pub enum ControlError {
         /// The least value that is possible.
         floor: f64,
     },
-    /// A design with dense matrices was asked for a building that is too large for them.
+    /// A design with dense matrices was used for a building that is too large for them.
     #[error("the {design} design has {found} unknowns for this building, at most {most}: use the distributed one")]
     TooManyUnknowns {
         /// Name of the design.
@@ -83,7 +83,7 @@ pub enum ControlError {
         /// The largest number for which it is solved in reasonable time.
         most: usize,
     },
-    /// No feedback has the decay rate that was asked for.
+    /// No feedback has the stated decay rate.
     #[error(
         "`decay` is {decay}, but walls settle by a factor of {floor:.4} in a step whatever a feedback of the zones does, so \
          that it must be above that: leave it out for {works:.4}"
@@ -96,12 +96,12 @@ pub enum ControlError {
         /// A rate that works, the default.
         works: f64,
     },
-    /// A feedback is certified less well than was asked for.
+    /// A feedback is certified with a slower decay rate than stated.
     #[error(
         "the certificate of the decay rate {wanted:.4} was not found ({reason}); the feedback has another one, of {certified:.4}"
     )]
     WeakerFeedback {
-        /// The rate per step that was asked for.
+        /// The stated rate per step.
         wanted: f64,
         /// The rate that is certified.
         certified: f64,
@@ -155,7 +155,7 @@ pub enum ControlError {
     StepWithoutPlan {
         /// The step, counted from midnight.
         step: usize,
-        /// Why there is no plan.
+        /// Why no plan was found.
         why: Box<ControlError>,
     },
     /// The clairvoyant controller did not get the actual disturbance.

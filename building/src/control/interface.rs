@@ -1,5 +1,4 @@
-//! What every controller provides, its settings, [`ControllerKind`], and what acts with them, [`Control`]; and what a controller
-//! is given and told of a day.
+//! The interface of controllers: settings ([`ControllerKind`]), the running controller ([`Control`]), and its inputs and outputs.
 
 use std::fmt;
 
@@ -93,6 +92,12 @@ pub trait ControllerKind: fmt::Debug + Send + Sync {
     /// The word for this kind in a scenario file.
     fn kind(&self) -> &'static str;
 
+    /// What tells the results of this kind from those of its earlier versions, such as `env!("CARGO_PKG_VERSION")`; empty for those
+    /// of Interplay, whose version counts for all of them.
+    fn version(&self) -> &'static str {
+        ""
+    }
+
     /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
     /// of steps of a day.
     ///
@@ -132,13 +137,15 @@ pub trait ControllerKind: fmt::Debug + Send + Sync {
     }
 }
 
-/// A controller with all that it remembers.
+/// A running controller with its state.
 pub trait Control: fmt::Debug + Send + Sync {
     /// Plans the day.
     ///
     /// # Errors
-    /// [`ControlError`] if there is no plan.
-    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError>;
+    /// [`ControlError`] if the controller cannot work on this day.
+    fn start_of_day(&mut self, _day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        Ok(())
+    }
 
     /// Returns the heat that each zone shall get until the next step \[kW\], negative for cooling. Called once for each step
     /// of the day, in order.
@@ -148,9 +155,11 @@ pub trait Control: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the record is of another day or building.
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError>;
+    fn end_of_day(&mut self, _record: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
 
-    /// Why the last step that was asked for follows an earlier plan than its own; `None` if it does not.
+    /// Why the last step follows an earlier plan than its own; `None` if it has its own.
     fn trouble(&self) -> Option<&ControlError> {
         None
     }
@@ -160,7 +169,7 @@ pub trait Control: fmt::Debug + Send + Sync {
         Design::default()
     }
 
-    /// A copy that remembers the same, for snapshots of a run. `None` for a controller that cannot be copied.
+    /// A copy with the same state, for snapshots of a run. `None` for a controller that cannot be copied.
     fn fork(&self) -> Option<Box<dyn Control>> {
         None
     }

@@ -2,10 +2,10 @@
 //!
 //! At midnight a controller gets the targets and the forecast of the day ([`DayAhead`]). At each step it gets the
 //! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets what happened
-//! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the source.
+//! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the dissertation.
 //!
 //! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], model [`predictive`] control, and the [`optimum()`] of
-//! a day that is known beforehand. [`economic`] model predictive control minimises money. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
+//! a day that is known beforehand. [`economic`] model predictive control minimises money. The designs of the dissertation are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
 //! (chapter 5, with its centralised counterpart). They plan each day with what earlier days taught, and follow the plan
 //! with feedback; what they say of it is a [`Design`]. When a design fails, its controller repeats the day before, says
 //! why, and goes on. [`ControllerKind`] is what the settings of each provide, [`Control`] what acts with them; [`Controller`] lists
@@ -36,12 +36,13 @@ pub mod pid;
 mod planning;
 mod powers;
 pub mod predictive;
+mod receding_plan;
 pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
 
 pub use clairvoyant::{Clairvoyant, ClairvoyantSettings};
-pub use controller::Controller;
+pub use controller::{Controller, ForeignController};
 pub use design::{Design, Exchange};
 pub use error::ControlError;
 pub use interface::{Control, ControllerKind, DayAhead, DayRecord, Disturbance, Observation};

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::interface::ControllerKind;
-use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use super::{Control, ControlError, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
 
@@ -104,16 +104,8 @@ impl ControllerKind for PidSettings {
 }
 
 impl Control for Pid {
-    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
-        Ok(())
-    }
-
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         self.act_on_top(&vec![0.0; self.limits.zones()], observation)
-    }
-
-    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
-        Ok(())
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

@@ -50,12 +50,12 @@ impl PlanHistory {
         self.plan.as_ref()
     }
 
-    /// Inputs and temperatures of yesterday, as they were.
+    /// Recorded inputs and temperatures of yesterday.
     pub fn yesterday(&self) -> Option<&DayPlan> {
         self.yesterday.as_ref()
     }
 
-    /// Describes the plan of today.
+    /// The description of today's plan.
     pub fn design(&self) -> &Design {
         &self.design
     }
@@ -105,7 +105,7 @@ pub(super) trait PlanningDesign: Clone + fmt::Debug + Send + Sync + 'static {
     /// The plans.
     fn history(&self) -> &PlanHistory;
 
-    /// Plans the day. There is no plan before the first day has ended.
+    /// Plans the day; returns no plan before the first day has ended.
     ///
     /// # Errors
     /// [`ControlError`] if the design fails.
@@ -114,7 +114,7 @@ pub(super) trait PlanningDesign: Clone + fmt::Debug + Send + Sync + 'static {
     /// The heat of each zone \[kW\].
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64>;
 
-    /// Why the last step did not follow the design as it was made; `None` if it did.
+    /// Why the last step deviated from the design; `None` if it did not.
     fn trouble(&self) -> Option<&ControlError> {
         None
     }

@@ -8,8 +8,8 @@
 //! ⎣ AF − BM      r² S       ⎦ ≻ 0                                              (eq. 3.23, corrected)
 //! ```
 //!
-//! The source prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
-//! than the diagonal: the printed inequality certifies nothing ([`lmi_margin`] shows it).
+//! The dissertation prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
+//! than the diagonal: the printed inequality certifies nothing.
 //!
 //! Heat flows from warm to cold, so A is nonnegative. For such systems a vector f > 0 is a certificate:
 //!
@@ -19,22 +19,8 @@
 //!
 //! It is linear in f and M = K diag f, and so scales to hundreds of zones ([`positive_decay`]).
 
-use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables, triangle};
+use interplay_convex::{Block, Program, Variable, Variables, triangle};
 use nalgebra::DMatrix;
-
-use super::ControlError;
-
-/// A form of the matrix inequality.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lmi {
-    /// The inequality (3.23) as printed.
-    Printed,
-    /// The corrected inequality with the decay rate r.
-    Corrected {
-        /// The decay rate r per step, at most 1.
-        decay: f64,
-    },
-}
 
 /// Largest magnitude of the eigenvalues of a square matrix; NaN if an entry is not finite.
 ///
@@ -82,29 +68,6 @@ pub fn closed_loop(a: &DMatrix<f64>, b: &DMatrix<f64>, gain: &DMatrix<f64>) -> D
     closed
 }
 
-/// Largest μ for which some F, M = KF and S satisfy the inequality with μ I to spare: positive if it accepts the closed
-/// loop matrix `closed`. The corrected one is homogeneous, and tr S is then the order.
-///
-/// # Errors
-/// [`ControlError`] if the solver fails.
-pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> {
-    let order = closed.nrows();
-    let mut program = Program::new();
-    let certificate = Certificate::new(&mut program, order, |_, _| true);
-    let margin = program.variables("margin", 1).at(0);
-    program.linear(margin, -1.0);
-    let moved = |i: usize, j: usize| -> Vec<(Variable, f64)> {
-        (0..order).filter_map(|k| Some((certificate.f(k, j)?, closed[(i, k)]))).collect()
-    };
-    certificate.inequality(&mut program, lmi, moved, Spare::Maximised(margin));
-    match lmi {
-        Lmi::Printed => certificate.positive(&mut program, 0.0),
-        Lmi::Corrected { .. } => certificate.unit_trace(&mut program),
-    }
-    let solution = Solver::new(&program, &SolverSettings::default())?.solve()?;
-    Ok(solution.at(margin))
-}
-
 /// The best decay rate that a vector f proves: min over f > 0 of maxᵢ Σⱼ |Mᵢⱼ| fⱼ / fᵢ, the spectral radius of |M|, by
 /// the power method. An upper bound for the spectral radius of M, and equal to it where M is nonnegative.
 pub fn positive_decay(closed: &DMatrix<f64>) -> f64 {
@@ -135,15 +98,6 @@ pub(super) struct Certificate {
     s: Variables,
 }
 
-/// The margin by which the inequality holds.
-#[derive(Clone, Copy)]
-pub(super) enum Spare {
-    /// A variable that is maximised.
-    Maximised(Variable),
-    /// A number.
-    Fixed(f64),
-}
-
 impl Certificate {
     /// Declares F and S, of an order; `free` says which entries of F are unknowns.
     pub fn new(program: &mut Program, order: usize, free: impl Fn(usize, usize) -> bool) -> Self {
@@ -165,18 +119,18 @@ impl Certificate {
         self.s.at(high * (high + 1) / 2 + low)
     }
 
-    /// The inequality, with AF − BM given entry by entry.
+    /// The inequality with decay rate r = `decay` and `margin` I to spare; `moved` gives AF − BM entry by entry.
     pub fn inequality(
         &self,
         program: &mut Program,
-        lmi: Lmi,
+        decay: f64,
         moved: impl Fn(usize, usize) -> Vec<(Variable, f64)>,
-        spare: Spare,
+        margin: f64,
     ) {
         let n = self.order;
         let block = program.semidefinite("stability", 2 * n);
         for (i, j, weight) in triangle(2 * n) {
-            let (mut entry, mut constant) = (Vec::new(), 0.0);
+            let mut entry = Vec::new();
             match (i < n, j < n) {
                 (true, true) => {
                     entry.extend(self.f(i, j).map(|f| (f, 1.0)));
@@ -185,17 +139,9 @@ impl Certificate {
                 }
                 // The upper right block is (AF − BM)ᵀ.
                 (true, false) => entry = moved(j - n, i),
-                (false, _) => match lmi {
-                    Lmi::Printed => constant = if i == j { 1.0 } else { 0.0 },
-                    Lmi::Corrected { decay } => entry.push((self.s(i - n, j - n), decay * decay)),
-                },
+                (false, _) => entry.push((self.s(i - n, j - n), decay * decay)),
             }
-            if i == j {
-                match spare {
-                    Spare::Maximised(margin) => entry.push((margin, -1.0)),
-                    Spare::Fixed(margin) => constant -= margin,
-                }
-            }
+            let constant = if i == j { -margin } else { 0.0 };
             inside(program, block, entry, constant, weight);
         }
     }

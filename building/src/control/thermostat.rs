@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::interface::ControllerKind;
-use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use super::{Control, ControlError, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
 
@@ -61,10 +61,6 @@ impl ControllerKind for ThermostatSettings {
 }
 
 impl Control for Thermostat {
-    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
-        Ok(())
-    }
-
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, targets } = *observation;
         let wanted = targets.reference_at(step).iter().zip(targets.weight_at(step));
@@ -82,10 +78,6 @@ impl Control for Thermostat {
         let limit_kw = |zone: usize, running: f64| self.limits.towards_kw(zone, running);
         let running = self.running.iter().enumerate();
         running.map(|(zone, running)| running * self.settings.power * limit_kw(zone, *running)).collect()
-    }
-
-    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
-        Ok(())
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

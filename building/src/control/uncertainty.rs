@@ -110,7 +110,7 @@ impl Uncertainty {
 
     /// First-order noises that make up the disturbance, as their impulse responses over a day \[kW\], n·N by n + 1: one in
     /// each zone with the deviation while occupied, and the common one last.
-    pub fn impulse_responses(&self, zones: usize, steps: usize) -> DMatrix<f64> {
+    pub(crate) fn impulse_responses(&self, zones: usize, steps: usize) -> DMatrix<f64> {
         let [common_kw, zone_kw, _] = self.deviations_kw();
         let UncertaintySettings { common_correlation, zone_correlation, .. } = self.settings;
         let mut responses = DMatrix::zeros(zones * steps, zones + 1);

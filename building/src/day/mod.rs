@@ -8,11 +8,11 @@
 //! end of the day  Day::learn    the controller gets the record
 //! ```
 //!
-//! The application calls these functions from its phases, [`run_day`] calls them in one go; there is no other loop.
+//! The application calls these functions from its phases, [`run_day`] calls them in one go; no other loop exists.
 //!
 //! # When a controller fails
 //!
-//! A design that finds no plan for a day is no error: its controller repeats the day before, and says why
+//! A design that finds no plan for a day is not an error: its controller repeats the day before, and says why
 //! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] when the controller
 //! cannot work with this building or this day at all. The run then ends with that error, and no temperature moves any more.
 
@@ -47,7 +47,7 @@ pub struct Day {
     pub actual: Disturbance,
     /// The record of the steps so far.
     pub record: DayRecord,
-    /// What is forecast for the day after, where that is known.
+    /// The forecast for the day after, if it is known.
     outlook: Option<Disturbance>,
     /// The targets under the forecast, where it changes them.
     expected_targets: Option<Targets>,
@@ -133,7 +133,7 @@ impl Day {
         self.record_step(&temperatures_c[..plant.network().zone_count()], heat);
     }
 
-    /// Records a step that ended with these temperatures of the zones \[°C\], whoever computed them.
+    /// Records a step that ended with these temperatures of the zones \[°C\], computed here or by another program.
     pub fn record_step(&mut self, zones_c: &[f64], heat: &Heat) {
         self.record.temperatures_c.extend_from_slice(zones_c);
         self.record.heat_kw.extend_from_slice(&heat.applied_kw);

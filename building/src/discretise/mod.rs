@@ -14,7 +14,7 @@
 //! Euler   B = h C⁻¹                                          A = I − h C⁻¹L
 //! ```
 //!
-//! Euler is the source's. It is stable only below h = 2/λ_max, with λ_max the fastest rate of the network, and is refused
+//! Euler is the dissertation's. It is stable only below h = 2/λ_max, with λ_max the fastest rate of the network, and is refused
 //! beyond. The exact one is stable and keeps temperatures in order for every step.
 //!
 //! # Small and large networks
@@ -24,7 +24,6 @@
 //! Laplacian, summed to the last digit. Both are exact; tests compare them.
 
 mod gain;
-mod phi;
 mod spectrum;
 
 use nalgebra::DMatrix;
@@ -58,10 +57,10 @@ pub enum Form {
     Series,
 }
 
-/// Why a step has no discretisation.
+/// Why a network cannot be discretised with a step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// The step is no positive duration.
+    /// The step is not a positive duration.
     #[error("the step is {step_s} s; it must be a positive number of seconds, at most a year")]
     BadStep {
         /// Duration of the step \[s\].
@@ -87,21 +86,8 @@ pub struct Model {
     network: Network,
     step_s: f64,
     method: Discretisation,
-    /// B: change of the temperatures at the end of the step.
-    end: Gain,
-    /// Change of the mean temperatures over the step; Euler takes the temperatures at its start for their mean.
-    mean: Option<Gain>,
-}
-
-/// Where the heat of one step went \[kWh\]; `heat_in = lost + stored`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
-    /// Heat from equipment, people, sun and machines.
-    pub heat_in_kwh: f64,
-    /// Heat lost to the air outside.
-    pub lost_kwh: f64,
-    /// Heat stored in zones and walls.
-    pub stored_kwh: f64,
+    /// B.
+    gain: Gain,
 }
 
 impl Model {
@@ -131,16 +117,12 @@ impl Model {
     /// [`ModelError::BadStep`].
     pub fn exact_in(form: Form, network: &Network, step_s: f64) -> Result<Self, ModelError> {
         check(step_s)?;
-        let end = |rate_per_s: f64| step_s * phi::reached(rate_per_s * step_s);
-        let mean = |rate_per_s: f64| step_s * phi::mean(rate_per_s * step_s);
-        let (end, mean) = match form {
-            Form::Dense => {
-                let spectrum = Spectrum::compute(network);
-                (Gain::dense(&spectrum, end), Gain::dense(&spectrum, mean))
-            }
-            Form::Series => (Gain::series(network, end), Gain::series(network, mean)),
+        let of_rate = |rate_per_s: f64| step_s * phi_1(rate_per_s * step_s);
+        let gain = match form {
+            Form::Dense => Gain::dense(&Spectrum::compute(network), of_rate),
+            Form::Series => Gain::series(network, of_rate),
         };
-        Ok(Self { network: network.clone(), step_s, method: Discretisation::Exact, end, mean: Some(mean) })
+        Ok(Self { network: network.clone(), step_s, method: Discretisation::Exact, gain })
     }
 
     /// Discretises by forward Euler.
@@ -157,8 +139,8 @@ impl Model {
                 return Err(ModelError::Unstable { step_s, largest_step_s: 2.0 / fastest_per_s });
             }
         }
-        let end = Gain::Diagonal(network.capacities_kj_per_k().iter().map(|capacity| step_s / capacity).collect());
-        Ok(Self { network: network.clone(), step_s, method: Discretisation::Euler, end, mean: None })
+        let gain = Gain::Diagonal(network.capacities_kj_per_k().iter().map(|capacity| step_s / capacity).collect());
+        Ok(Self { network: network.clone(), step_s, method: Discretisation::Euler, gain })
     }
 
     /// The network.
@@ -171,7 +153,7 @@ impl Model {
         self.step_s
     }
 
-    /// How time is cut into steps.
+    /// A method of discretisation in time.
     pub fn method(&self) -> Discretisation {
         self.method
     }
@@ -186,50 +168,17 @@ impl Model {
     /// When a slice has another length.
     pub fn step(&self, temperatures_c: &mut [f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
         let net_kw = self.network.net_heat_kw(temperatures_c, heat_kw, ambient_c, gains_kw);
-        self.advance(temperatures_c, &net_kw);
+        for (temperature_c, risen_k) in temperatures_c.iter_mut().zip(self.gain.product(&self.network, &net_kw)) {
+            *temperature_c += risen_k;
+        }
     }
 
     /// Like [`Model::step`] at 0 °C outdoors and without gains: what heat from equipment alone does.
     ///
     /// # Panics
     /// When a slice has another length.
-    pub fn step_by_heat(&self, temperatures_c: &mut [f64], heat_kw: &[f64]) {
+    pub(crate) fn step_by_heat(&self, temperatures_c: &mut [f64], heat_kw: &[f64]) {
         self.step(temperatures_c, heat_kw, 0.0, &vec![0.0; self.network.gain_count()]);
-    }
-
-    /// Like [`Model::step`], and says where the heat went.
-    ///
-    /// # Panics
-    /// When a slice has another length.
-    pub fn step_balanced(
-        &self,
-        temperatures_c: &mut [f64],
-        heat_kw: &[f64],
-        ambient_c: f64,
-        gains_kw: &[f64],
-    ) -> Balance {
-        let start_c = temperatures_c.to_vec();
-        let net_kw = self.network.net_heat_kw(&start_c, heat_kw, ambient_c, gains_kw);
-        self.advance(temperatures_c, &net_kw);
-        let risen_k = self.mean.as_ref().map_or(vec![0.0; start_c.len()], |mean| mean.product(&self.network, &net_kw));
-        let hours = self.step_s / 3600.0;
-        let lost_kw: f64 = (self.network.ambient_kw_per_k().iter().zip(start_c.iter().zip(&risen_k)))
-            .map(|(k, (start_c, risen_k))| k * (start_c + risen_k - ambient_c))
-            .sum();
-        let stored_kj: f64 = (self.network.capacities_kj_per_k().iter().zip(temperatures_c.iter().zip(&start_c)))
-            .map(|(capacity, (end_c, start_c))| capacity * (end_c - start_c))
-            .sum();
-        Balance {
-            heat_in_kwh: hours * heat_kw.iter().chain(gains_kw).sum::<f64>(),
-            lost_kwh: hours * lost_kw,
-            stored_kwh: stored_kj / 3600.0,
-        }
-    }
-
-    fn advance(&self, temperatures_c: &mut [f64], net_kw: &[f64]) {
-        for (temperature_c, risen_k) in temperatures_c.iter_mut().zip(self.end.product(&self.network, net_kw)) {
-            *temperature_c += risen_k;
-        }
     }
 
     /// The product B x, for any x over the nodes.
@@ -238,7 +187,7 @@ impl Model {
     /// When `x` has not one number per node.
     pub fn gain_product(&self, x: &[f64]) -> Vec<f64> {
         assert_eq!(x.len(), self.network.node_count(), "one number per node");
-        self.end.product(&self.network, x)
+        self.gain.product(&self.network, x)
     }
 
     /// The product A x = x − B L x, for any x over the nodes.
@@ -304,7 +253,7 @@ impl Model {
     }
 
     pub(crate) fn gain(&self) -> &Gain {
-        &self.end
+        &self.gain
     }
 }
 
@@ -314,6 +263,11 @@ impl Network {
     pub fn time_constants_s(&self) -> Vec<f64> {
         spectrum::rates_per_s(self).into_iter().map(|rate_per_s| 1.0 / rate_per_s).collect()
     }
+}
+
+/// φ₁(z) = (1 − e⁻ᶻ)/z for z ≥ 0, with φ₁(0) = 1.
+fn phi_1(z: f64) -> f64 {
+    if z == 0.0 { 1.0 } else { -libm::expm1(-z) / z }
 }
 
 fn check(step_s: f64) -> Result<(), ModelError> {

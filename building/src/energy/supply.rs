@@ -34,11 +34,6 @@ impl EnergySupply {
         Some(self.price_per_kwh.as_ref()?.get(step)? * electric_kwh)
     }
 
-    /// What `electric_kwh` emit in a step \[kg\]; none where the tariff does not state it.
-    pub fn emitted_kg(&self, step: usize, electric_kwh: f64) -> Option<f64> {
-        Some(self.emissions_kg_per_kwh.as_ref()?.get(step)? * electric_kwh)
-    }
-
     /// How much more than on average a kilowatt of heat counts in a plan, by the COP alone. A zone is expected to be heated
     /// where it is colder outdoors than wanted, and cooled where it is not.
     pub(crate) fn cop_weight(&self, wanted_c: f64, outdoor_c: f64) -> f64 {

@@ -88,7 +88,7 @@ impl Tariff {
         if let Err(error) = setting::check(self) {
             return Err(TariffError { key: error.key.clone(), problem: error.to_string() });
         }
-        // Whoever reads the file puts its prices in the place of its name.
+        // The reader of the file replaces its name by its prices.
         if self.file.is_some() {
             return Ok(());
         }
@@ -97,7 +97,7 @@ impl Tariff {
             return refused("prices_per_kwh", problem);
         }
         if !is_whole(DAY_S / self.interval_s) {
-            let problem = format!("a day is no whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
+            let problem = format!("a day is not a whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
             return refused("interval_s", problem);
         }
         let mean = self.mean_per_kwh();
@@ -108,7 +108,7 @@ impl Tariff {
     }
 
     /// The mean of all prices \[currency/kWh\].
-    pub fn mean_per_kwh(&self) -> f64 {
+    pub(crate) fn mean_per_kwh(&self) -> f64 {
         self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
@@ -149,7 +149,7 @@ impl Tariff {
     }
 
     /// The emissions in each step of a day, counted from zero \[kg/kWh\]; `None` where they are not stated.
-    pub fn day_emissions(&self, day: usize, step_s: f64, steps: usize) -> Option<Vec<f64>> {
+    pub(crate) fn day_emissions(&self, day: usize, step_s: f64, steps: usize) -> Option<Vec<f64>> {
         let stated = &self.emissions_kg_per_kwh;
         (!stated.is_empty()).then(|| by_step((stated, HOUR_S), day, step_s, steps))
     }

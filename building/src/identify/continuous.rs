@@ -13,7 +13,6 @@
 
 use nalgebra::DMatrix;
 
-use super::cross_checks::CheckedEstimate;
 use super::estimate::Estimate;
 use super::free_run::RunZone;
 use super::normal::product;
@@ -28,10 +27,9 @@ const MOST_TERMS: i32 = 1000;
 /// The estimates of all zones as rates of the continuous network.
 ///
 /// A model that settles within a step has no continuous counterpart; its estimates are returned as they are.
-pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[CheckedEstimate]) -> Vec<Estimate> {
-    let sampled = estimates.iter().map(|checked| checked.estimate.clone());
+pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[Estimate]) -> Vec<Estimate> {
     let loss = loss(telemetry, zones);
-    let Some(factor) = factor(&loss) else { return sampled.collect() };
+    let Some(factor) = factor(&loss) else { return estimates.to_vec() };
     let rates = product(&factor, &loss) / telemetry.step_s;
     let convert = |(zone, mut estimate): (usize, Estimate)| {
         let own = factor[(zone, zone)];
@@ -47,7 +45,7 @@ pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[
         estimate.covariance *= own * own;
         estimate
     };
-    sampled.enumerate().map(convert).collect()
+    estimates.iter().cloned().enumerate().map(convert).collect()
 }
 
 /// The share of a zone's temperature difference that decays within a step, M_ii.
@@ -109,7 +107,7 @@ mod tests {
     use crate::identify::normal::product;
 
     #[test]
-    fn for_one_zone_it_is_the_logarithm() {
+    fn the_rate_of_one_zone_is_the_logarithm_of_its_decay() {
         for y in [0.01, 0.1, 0.5, 0.9] {
             let k = factor(&DMatrix::from_element(1, 1, y)).expect("converges")[(0, 0)];
             assert!((k - -(1.0_f64 - y).ln() / y).abs() < 1e-12);
@@ -119,7 +117,7 @@ mod tests {
 
     /// exp(−K M) = I − M, summed as a power series.
     #[test]
-    fn it_inverts_the_exponential() {
+    fn continuous_rates_invert_the_matrix_exponential() {
         let m = DMatrix::from_row_slice(3, 3, &[0.3, -0.1, 0.0, -0.05, 0.2, -0.1, 0.0, -0.2, 0.4]);
         let rates = product(&factor(&m).expect("converges"), &m);
         let (mut power, mut exponential) = (DMatrix::<f64>::identity(3, 3), DMatrix::<f64>::identity(3, 3));

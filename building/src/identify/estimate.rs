@@ -1,6 +1,6 @@
 //! The two estimators of a zone's coefficients.
 //!
-//! **`semiparametric`** (the source, eq. 2.4 to 2.10): every series minus its kernel smooth, which removes the
+//! **`semiparametric`** (the dissertation, eq. 2.4 to 2.10): every series minus its kernel smooth, which removes the
 //! non-parametric term; then one Newton step. Unknown heat that varies faster than the bandwidth biases the result. So does
 //! sensor noise, which the smoother removes less than the signal: conductances come out too large.
 //!
@@ -12,10 +12,11 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::normal::{LogLikelihood, condition_number, robust_covariance};
+use super::normal::{LogLikelihood, robust_covariance};
 use super::regression::{Regression, ZoneModel};
 use super::telemetry::Telemetry;
 use super::{Estimator, IdentifyError, IdentifySettings, arma};
+use crate::staged::dense::dot;
 
 /// Coefficients of one zone, in the order of its model's terms.
 #[derive(Debug, Clone)]
@@ -26,8 +27,6 @@ pub(super) struct Estimate {
     pub unconstrained: Vec<f64>,
     /// Covariance of the unconstrained ones; an infinite variance means that the data do not determine one.
     pub covariance: DMatrix<f64>,
-    /// √(λ_max/λ_min) of the scaled normal equations.
-    pub condition_number: f64,
 }
 
 /// Estimates the coefficients of `model` on `segments` of the telemetry.
@@ -66,7 +65,7 @@ fn semiparametric(
     let covariance =
         robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
     let coefficients = likelihood.non_negative_maximum();
-    Ok(Estimate { coefficients, unconstrained, covariance, condition_number: condition_number(&regression) })
+    Ok(Estimate { coefficients, unconstrained, covariance })
 }
 
 fn prediction_error(
@@ -101,12 +100,11 @@ fn prediction_error(
         coefficients,
         unconstrained: free.regression[..count].to_vec(),
         covariance: free.covariance.view((0, 0), (count, count)).into_owned(),
-        condition_number: condition_number(&regression),
     })
 }
 
 fn column_length(column: &[f64]) -> f64 {
-    super::normal::dot(column, column).sqrt()
+    dot(column, column).sqrt()
 }
 
 /// The deterministic regressors of the disturbance: a constant, and `harmonics` of the day, at the start of each step.

@@ -5,18 +5,15 @@ use std::ops::Range;
 use interplay_common::spelling::counted;
 
 use super::continuous::{continuous, decay};
-use super::cross_checks::CheckedEstimate;
 use super::diagnostics::{Confidence, whiteness};
 use super::estimate::Estimate;
 use super::free_run::{self, ResidualForecast, RunZone};
-use super::physical::{Physical, correlation};
+use super::physical::Physical;
 use super::regression::Coefficient;
-use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, WallReport, ZoneReport};
+use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, ZoneReport};
 use super::residual::steps;
-use super::settings::IdentifySettings;
-use super::shared_walls::{SideEstimate, compare};
-use super::telemetry::{Neighbour, Telemetry};
-use super::train_test_split::TrainTestSplit;
+use super::settings::{IdentifySettings, TrainTestSplit};
+use super::telemetry::Telemetry;
 use crate::discretise;
 
 /// Everything that a report is made from.
@@ -25,7 +22,7 @@ pub(super) struct Findings<'a> {
     pub settings: &'a IdentifySettings,
     pub split: &'a TrainTestSplit,
     /// One a zone.
-    pub estimates: &'a [CheckedEstimate],
+    pub estimates: &'a [Estimate],
     /// One a zone.
     pub zones: &'a [RunZone],
 }
@@ -35,9 +32,7 @@ impl Findings<'_> {
     pub fn report(&self) -> IdentificationReport {
         let physical = match self.settings.discretisation {
             discretise::Discretisation::Exact => continuous(self.telemetry, self.zones, self.estimates),
-            discretise::Discretisation::Euler => {
-                self.estimates.iter().map(|checked| checked.estimate.clone()).collect()
-            }
+            discretise::Discretisation::Euler => self.estimates.to_vec(),
         };
         let train = self.errors(&self.split.train);
         let test = (!self.split.test.is_empty()).then(|| self.errors(&self.split.test));
@@ -54,7 +49,7 @@ impl Findings<'_> {
             left_out_rows: self.telemetry.left_out_rows,
             segments: self.telemetry.segments.len(),
             warnings: self.warnings(&zones),
-            walls: self.walls(&physical),
+            walls: Vec::new(),
             models: Vec::new(),
             suspicions: Vec::new(),
             zones,
@@ -64,9 +59,8 @@ impl Findings<'_> {
     /// The report on one zone; `continuous` is its estimate as rates of the continuous network.
     fn zone(&self, zone: usize, continuous: &Estimate, train: ErrorReport, test: Option<ErrorReport>) -> ZoneReport {
         let run = &self.zones[zone];
-        let estimate = &self.estimates[zone].estimate;
+        let estimate = &self.estimates[zone];
         let coefficients = run.model.coefficients(self.telemetry);
-        let count = coefficients.len();
         let order = self.settings.autoregressive_order;
         // The first r innovations of a segment are zeros, on which the others are conditioned.
         let long_enough = steps(&self.split.train).into_iter().filter(|rows| rows.len() > order);
@@ -75,10 +69,8 @@ impl Findings<'_> {
             name: self.telemetry.zones[zone].name.clone(),
             coefficients: self.physical(zone, estimate, &coefficients).coefficients(),
             physical: self.physical(zone, continuous, &coefficients).quantities(),
-            correlations: (0..count)
-                .map(|i| (0..count).map(|j| correlation(&estimate.covariance, i, j)).collect())
-                .collect(),
-            condition_number: Some(estimate.condition_number).filter(|condition| condition.is_finite()),
+            correlations: Vec::new(),
+            condition_number: None,
             residual_model: Some(ResidualReport {
                 psi: run.constant.0.psi(),
                 constant: run.constant.0.arma.clone(),
@@ -92,7 +84,7 @@ impl Findings<'_> {
 
     fn physical<'b>(&'b self, zone: usize, estimate: &'b Estimate, coefficients: &'b [Coefficient]) -> Physical<'b> {
         let heat_has_unit = self.telemetry.zones[zone].power_has_unit;
-        Physical { coefficients, estimate, checked: &self.estimates[zone], heat_has_unit }
+        Physical { coefficients, estimate, heat_has_unit }
     }
 
     /// Errors of every zone on some segments.
@@ -117,23 +109,6 @@ impl Findings<'_> {
             },
         };
         self.zones.iter().enumerate().map(zone_errors).collect()
-    }
-
-    /// Walls between zones, as estimated from both sides.
-    fn walls(&self, physical: &[Estimate]) -> Vec<WallReport> {
-        let side_estimate = |zone: usize, other: usize| {
-            let coefficients = self.zones[zone].model.coefficients(self.telemetry);
-            let to = &self.telemetry.zones[other].name;
-            let index = coefficients.iter().position(|kind| *kind == Coefficient::Wall { to: to.clone() });
-            let conductance =
-                index.map(|index| self.physical(zone, &physical[zone], &coefficients).conductance(index, to));
-            SideEstimate::new(&self.telemetry.zones[zone].name, conductance.as_ref())
-        };
-        let pairs = self.telemetry.walls.iter().filter_map(|wall| match wall.other {
-            Neighbour::Zone(other) => Some((wall.zone, other)),
-            Neighbour::Boundary(_) => None,
-        });
-        pairs.map(|(one, other)| compare(&side_estimate(one, other), &side_estimate(other, one))).collect()
     }
 
     /// Warnings about numbers that must not be used without a second look.

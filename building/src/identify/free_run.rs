@@ -20,7 +20,7 @@ pub enum ResidualForecast {
     None,
     /// The term is constant.
     Constant,
-    /// By a constant and ARMA(r,1), the source's residual model.
+    /// By a constant and ARMA(r,1), the dissertation's residual model.
     Arma,
     /// By the daily profile.
     Profile,

@@ -31,7 +31,7 @@ mod tests {
     use crate::identify::synthetic_classroom::Classroom;
 
     #[test]
-    fn watts_for_kilowatts_are_told_and_a_classroom_is_not() {
+    fn heat_in_watts_instead_of_kilowatts_is_remarked_upon() {
         let telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
         assert!(remarks(&telemetry).is_empty());
         for (factor, word) in [(1000.0, "reaches"), (0.0001, "never above")] {

@@ -1,7 +1,7 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! The temperature of each zone follows its neighbours and the known heat; what else there is, the source calls the
-//! non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; the dissertation calls everything
+//! else the non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
@@ -14,68 +14,62 @@
 
 mod arma;
 mod continuous;
-mod cross_checks;
 mod diagnostics;
 mod error;
 mod estimate;
 mod findings;
 mod free_run;
 mod heat_units;
-mod identified_network;
 mod normal;
 mod physical;
-mod progress;
 mod regression;
 mod report;
 mod residual;
 mod settings;
-mod shared_walls;
 mod smoothing;
 mod state_space;
 pub mod synthetic_classroom;
 mod telemetry;
-mod train_test_split;
 
 pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
-pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
-pub use progress::Progress;
 pub use report::{
-    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
-    SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, IdentifiedNetwork, ModelRow,
+    NetworkUncertainty, Quantity, ResidualReport, SuspectedCause, Suspicion, WallReport, ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
-pub use smoothing::local_linear;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, EnergyUnit, Gaps, HeatColumns, Hold,
     IrradianceUnit, Mapping, MeasuredWall, MeasuredZone, MeterReading, Neighbour, PowerUnit, RecordedDays, SolarColumn,
-    SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape,
-    WaterFlowUnit, ZoneColumns,
+    SupplyAir, TableForm, Telemetry, TelemetryError, TemperatureUnit, TimeAxis, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;
 
-use cross_checks::CheckedEstimate;
+use estimate::{Estimate, estimate};
 use findings::Findings;
 use free_run::RunZone;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
-use train_test_split::TrainTestSplit;
+use settings::TrainTestSplit;
+
+/// Receives a few words about the next fit while an identification runs, from any thread.
+pub type Progress<'a> = dyn Fn(&str) + Sync + 'a;
 
 /// Identifies every zone of the telemetry.
 ///
 /// # Errors
 /// [`IdentifyError`] for a setting out of range, a zone without anything to identify or whose temperature never changes, or too few
 /// rows. A parameter that the
-/// data do not determine is no error: its [`ParameterVerdict`] says so.
+/// data do not determine is not an error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     identify_with_progress(telemetry, settings, &|_| {})
 }
 
-/// Processor time of [`identify`] on one core of the reference machine, to about a factor of three \[s\]; nothing worth a word but by
-/// `state-space`.
+/// Processor time of [`identify`] on one core of the reference machine, to about a factor of three \[s\]; zero for the
+/// other methods.
 pub fn expected_processor_s(telemetry: &Telemetry, settings: &IdentifySettings) -> f64 {
     match settings.method {
         Estimator::StateSpace => state_space::expected_processor_s(telemetry, settings),
@@ -83,7 +77,7 @@ pub fn expected_processor_s(telemetry: &Telemetry, settings: &IdentifySettings) 
     }
 }
 
-/// As [`identify`], which tells `progress` what it does next. Only `state-space` takes long enough to tell anything.
+/// As [`identify`], and reports to `progress` which fit comes next. Only `state-space` takes long enough to report anything.
 ///
 /// # Errors
 /// As [`identify`].
@@ -115,7 +109,7 @@ fn by_method(
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
         .collect::<Result<Vec<_>, _>>()?;
-    let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
+    let (estimates, zones): (Vec<Estimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let findings = Findings { telemetry, settings, split: &split, estimates: &estimates, zones: &zones };
     let report = findings.report();
     let network = Err("only the method `state-space` makes a network of what it finds".into());
@@ -144,13 +138,13 @@ fn fit_zone(
     zone: usize,
     train: &[Range<usize>],
     settings: &IdentifySettings,
-) -> Result<(CheckedEstimate, RunZone), IdentifyError> {
+) -> Result<(Estimate, RunZone), IdentifyError> {
     let model = ZoneModel::new(telemetry, zone);
     if model.coefficients(telemetry).is_empty() {
         return Err(IdentifyError::NothingToIdentify { zone: telemetry.zones[zone].name.clone() });
     }
-    let estimate = CheckedEstimate::new(telemetry, &model, train, settings)?;
-    let coefficients = estimate.estimate.coefficients.clone();
+    let estimate = estimate(telemetry, &model, train, settings)?;
+    let coefficients = estimate.coefficients.clone();
     let residual = |harmonics: usize| -> Result<(ResidualModel, ResidualSeries), IdentifyError> {
         let order = (settings.autoregressive_order, harmonics);
         let fitted = ResidualModel::fit(telemetry, &model, &coefficients, train, order)?;

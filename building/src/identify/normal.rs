@@ -17,6 +17,7 @@ use std::ops::Range;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::regression::Regression;
+use crate::staged::dense::dot;
 
 /// Smallest eigenvalue of a Gram matrix with unit diagonal, as a share of the largest, that is not treated as zero: about 450
 /// rounding units, above the rounding errors of the sums in its entries.
@@ -106,14 +107,6 @@ impl LogLikelihood {
         // A matrix times a vector, unlike a product of matrices, rounds alike everywhere.
         &self.moment - &self.gram * scaled
     }
-}
-
-/// The condition number of scaled columns, √(λ_max / λ_min) of their Gram matrix; infinite when they are dependent.
-pub(super) fn condition_number(regression: &Regression) -> f64 {
-    let eigenvalues = SymmetricEigen::new(LogLikelihood::new(regression).gram).eigenvalues;
-    let (low, high) = (eigenvalues.min(), eigenvalues.max());
-    // Below rounding the smallest eigenvalue may even be negative.
-    if low <= MIN_EIGENVALUE_RATIO * high { f64::INFINITY } else { (high / low).sqrt() }
 }
 
 /// Covariance of least-squares coefficients when residuals are correlated over time and differ in size (Newey and West):
@@ -218,18 +211,14 @@ pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum())
 }
 
-/// Σ a_t b_t, in the order of time.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    use super::{LogLikelihood, condition_number, robust_covariance};
+    use super::{LogLikelihood, robust_covariance};
     use crate::identify::regression::Regression;
+    use crate::staged::dense::dot;
 
     fn regression(columns: Vec<Vec<f64>>, target: Vec<f64>) -> Regression {
         let rows = target.len();
@@ -239,7 +228,7 @@ mod tests {
     /// ∇l of the unscaled problem.
     fn gradient(problem: &Regression, coefficients: &[f64]) -> Vec<f64> {
         let rest = problem.residuals(coefficients);
-        problem.columns.iter().map(|column| super::dot(column, &rest)).collect()
+        problem.columns.iter().map(|column| dot(column, &rest)).collect()
     }
 
     fn data(rows: usize, columns: usize) -> impl Strategy<Value = Regression> {
@@ -286,7 +275,7 @@ mod tests {
             .collect();
         let problem = regression(columns, target);
         let exact = LogLikelihood::new(&problem).maximum();
-        let gram = DMatrix::from_fn(3, 3, |i, j| super::dot(&problem.columns[i], &problem.columns[j]));
+        let gram = DMatrix::from_fn(3, 3, |i, j| dot(&problem.columns[i], &problem.columns[j]));
         let distance_after = |hessian: &DMatrix<f64>, steps: usize| {
             let inverse = hessian.clone().try_inverse().expect("regular");
             let mut theta = DVector::zeros(3);
@@ -309,22 +298,13 @@ mod tests {
     }
 
     #[test]
-    fn robust_errors_are_the_usual_ones_for_white_residuals_and_infinite_for_what_does_not_vary() {
+    fn robust_errors_match_least_squares_for_white_residuals_and_are_infinite_for_constant_regressors() {
         let column: Vec<f64> = (0..400).map(|t| f64::from((t * 37) % 41) / 41.0 - 0.5).collect();
         let residuals: Vec<f64> = (0..400).map(|t| if (t / 2) % 2 == 0 { 0.1 } else { -0.1 }).collect();
         let columns = vec![column.clone(), vec![0.0; 400]];
         let found = robust_covariance(&columns, &residuals, &[0..200, 200..400], 0);
-        let usual = 0.01 / super::dot(&column, &column);
+        let usual = 0.01 / dot(&column, &column);
         assert!((found[(0, 0)] / usual - 1.0).abs() < 1e-9);
         assert_eq!(found[(1, 1)], f64::INFINITY);
-    }
-
-    #[test]
-    fn the_condition_number_forgets_units_and_sees_dependence() {
-        let (a, b): (Vec<f64>, Vec<f64>) = (0..100).map(|t| (f64::from(t % 7) - 3.0, f64::from(t % 5) - 2.0)).unzip();
-        let scaled = a.iter().map(|value| 1e6 * value).collect();
-        let condition = |columns| condition_number(&regression(columns, vec![0.0; 100]));
-        assert!((condition(vec![a.clone(), b.clone()]) / condition(vec![scaled, b]) - 1.0).abs() < 1e-9);
-        assert_eq!(condition(vec![a.clone(), a.iter().map(|value| -2.0 * value).collect()]), f64::INFINITY);
     }
 }

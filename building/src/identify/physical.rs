@@ -11,7 +11,6 @@
 
 use nalgebra::DMatrix;
 
-use super::cross_checks::CheckedEstimate;
 use super::diagnostics::{Confidence, ParameterVerdict, STANDARD_ERRORS_OF_95_PERCENT, judge};
 use super::estimate::Estimate;
 use super::regression::Coefficient;
@@ -22,8 +21,6 @@ pub(super) struct Physical<'a> {
     pub coefficients: &'a [Coefficient],
     /// As estimated, or as rates of the continuous network.
     pub estimate: &'a Estimate,
-    /// As estimated, with other estimates of the same.
-    pub checked: &'a CheckedEstimate,
     /// Whether heat is in kW.
     pub heat_has_unit: bool,
 }
@@ -44,12 +41,7 @@ impl Physical<'_> {
         let (name, symbol, unit) = self.labels(index);
         let unconstrained = self.estimate.unconstrained[index];
         let error = self.error(index);
-        let others = (0..self.coefficients.len()).filter(|&other| other != index);
-        let entangled: Vec<_> = others
-            .filter_map(|other| Some((self.labels(other).0, correlation(&self.estimate.covariance, index, other)?)))
-            .collect();
-        let verdict =
-            judge(&name, unconstrained, error, &entangled).disputed(self.checked.dispute(index, "it").as_deref());
+        let verdict = judge(&name, unconstrained, error);
         let known = verdict.confidence != Confidence::NotIdentifiable;
         let end = |sign: f64| (unconstrained + sign * STANDARD_ERRORS_OF_95_PERCENT * error).max(0.0);
         Quantity {
@@ -60,7 +52,7 @@ impl Physical<'_> {
             interval: if known { (Some(end(-1.0)), Some(end(1.0))) } else { (None, None) },
             name,
             verdict,
-            checks: self.checked.others.iter().map(|other| other.check(index)).collect(),
+            checks: Vec::new(),
         }
     }
 
@@ -98,8 +90,7 @@ impl Physical<'_> {
         self.over_heat("heat capacity".into(), "c", "kJ/K", |zeros| Linear { constant: 1.0, weights: zeros })
     }
 
-    /// Conductance of the wall with coefficient number `index` \[kW/K\].
-    pub fn conductance(&self, index: usize, to: &str) -> Quantity {
+    fn conductance(&self, index: usize, to: &str) -> Quantity {
         self.over_heat(format!("conductance to {to}"), "1/R", "kW/K", |_| self.only(index))
     }
 
@@ -200,10 +191,7 @@ impl Physical<'_> {
         let f = n / d;
         let error = (var_n - 2.0 * f * between + f * f * var_d).max(0.0).sqrt() / d;
         let value = numerator.at(&self.estimate.coefficients) / denominator.at(&self.estimate.coefficients);
-        let dispute = (0..theta.len())
-            .filter(|&index| involved(index))
-            .find_map(|index| self.checked.dispute(index, &format!("the {}", self.labels(index).0)));
-        let verdict = judge(&labels.0, f, error, &[]).disputed(dispute.as_deref());
+        let verdict = judge(&labels.0, f, error);
         let (name, symbol, unit) = (labels.0, labels.1.into(), labels.2.into());
         let standard_error = Some(error);
         Quantity { name, symbol, unit, value: Some(value), standard_error, interval, verdict, checks: Vec::new() }
@@ -227,7 +215,7 @@ fn product(covariance: &DMatrix<f64>, a: &Linear, b: &Linear) -> f64 {
     sum
 }
 
-/// Fieller's interval of n/d, cut at zero; an end is `None` where there is no bound.
+/// Fieller's interval of n/d, cut at zero; an unbounded end is `None`.
 fn fieller((n, d): (f64, f64), (var_n, var_d, between): (f64, f64, f64)) -> (Option<f64>, Option<f64>) {
     let z2 = STANDARD_ERRORS_OF_95_PERCENT * STANDARD_ERRORS_OF_95_PERCENT;
     let (a, b, c) = (d * d - z2 * var_d, n * d - z2 * between, n * n - z2 * var_n);
@@ -244,12 +232,6 @@ fn fieller((n, d): (f64, f64), (var_n, var_d, between): (f64, f64, f64)) -> (Opt
 /// The positive root of a f² − 2 b f + c with c > 0 and a ≤ 0, without cancellation.
 fn n_over_largest_d(b: f64, root: f64, c: f64) -> f64 {
     c / (b + root)
-}
-
-/// Correlation of two coefficients' estimates; `None` if either is not determined.
-pub(super) fn correlation(covariance: &DMatrix<f64>, i: usize, j: usize) -> Option<f64> {
-    let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-    (scale.is_finite() && scale > 0.0).then(|| covariance[(i, j)] / scale)
 }
 
 fn unknown(
@@ -276,7 +258,7 @@ mod tests {
 
     /// With a certain denominator it is the usual interval, with a certain numerator the inverse of the usual one.
     #[test]
-    fn fieller_has_the_usual_intervals_as_limits() {
+    fn fiellers_interval_reduces_to_the_normal_one_if_one_term_is_certain() {
         let (low, high) = fieller((6.0, 2.0), (0.25, 0.0, 0.0));
         assert!((low.expect("bounded") - (6.0 - 0.98) / 2.0).abs() < 1e-12);
         assert!((high.expect("bounded") - (6.0 + 0.98) / 2.0).abs() < 1e-12);
@@ -286,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_denominator_that_may_be_zero_leaves_a_lower_bound() {
+    fn a_denominator_that_may_be_zero_leaves_only_a_lower_bound() {
         let (low, high) = fieller((1.0, 0.5), (0.0, 0.25, 0.0));
         assert!((low.expect("bounded below") - 1.0 / 1.48).abs() < 1e-12);
         assert_eq!(high, None);

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! linear in b_ik = 1/(c_i R_ik), a_i = 1/c_i and, where irradiance I is measured, s_i = A_i/c_i with an aperture A_i. The
-//! source drops T_s on a_i, and on w_i where it cancels nothing.
+//! dissertation drops T_s on a_i, and on w_i where it cancels nothing.
 
 use std::ops::Range;
 
@@ -109,8 +109,8 @@ impl Regression {
     /// The regression of `model` over the steps within `segments` of the telemetry.
     ///
     /// With a bandwidth \[samples\], target and columns are taken minus their kernel smooths (eq. 2.6 to 2.8), which takes out
-    /// whatever varies slowly, the non-parametric term with it. Two deviations from the source: the known disturbance w stays
-    /// beside u, because a smoother does not reproduce its steps, and without it b comes out wrong by as much as its own size;
+    /// whatever varies slowly, the non-parametric term with it. Two deviations from the dissertation: the known disturbance w stays
+    /// beside u, because a smoother does not reproduce its steps, and without it the error of b is as large as b;
     /// and the change T(t+1) − T(t) is smoothed as one series, because near the ends of a recording the smoothers of T(t+1)
     /// and T(t) are not each other's shift, and eq. 2.6 would not hold there.
     pub fn new(telemetry: &Telemetry, model: &ZoneModel, segments: &[Range<usize>], bandwidth: Option<f64>) -> Self {

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::diagnostics::{ParameterVerdict, Whiteness};
 use super::free_run::ResidualForecast;
-use super::identified_network::IdentifiedNetwork;
 use super::{Arma, Estimator};
+use crate::network::{Wall, Zone};
 
 /// The result of an identification: the report, the series to draw, and the network.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,32 +34,32 @@ pub struct IdentificationReport {
     pub left_out_rows: usize,
     /// Number of pieces into which gaps and batches divide the rows.
     pub segments: usize,
-    /// The names of the two zones.
+    /// The reports of the zones.
     pub zones: Vec<ZoneReport>,
     /// Walls between two zones, seen from both.
     pub walls: Vec<WallReport>,
     /// The models that were compared to choose the order, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelRow>,
-    /// What the data contradict of that which every model takes for granted, by `state-space`.
+    /// Assumptions of every model that the data contradict, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub suspicions: Vec<Suspicion>,
     /// Warnings that a reader must know before using a number.
     pub warnings: Vec<String>,
 }
 
-/// Something that the data contradict, with what would explain it.
+/// An assumption that the data contradict, with a probable cause.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Suspicion {
     /// The zone, if it is of one.
     pub zone: Option<String>,
-    /// What would explain it.
+    /// The probable cause.
     pub cause: SuspectedCause,
     /// The same in words, with the figures.
     pub words: String,
 }
 
-/// What would explain that the data contradict the model.
+/// A probable cause of a contradiction between data and model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SuspectedCause {
@@ -67,7 +67,7 @@ pub enum SuspectedCause {
     Clock,
     /// The sun comes from another side than the measured one.
     Sun,
-    /// Heat that nobody measured comes at the same hours each day, or when people are in.
+    /// Unmeasured heat enters at the same hours each day, or when people are present.
     People,
     /// Heat is lost at times, as through open windows.
     Windows,
@@ -86,7 +86,7 @@ pub struct ModelRow {
     pub parameters: usize,
     /// Log-likelihood at the estimate.
     pub log_likelihood: f64,
-    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
+    /// Twice the gain of log-likelihood over the model that it extends, and the probability of such a gain if the smaller model is right.
     pub gain: Option<(f64, f64)>,
     /// Whether it is worse than the model that it extends, which it contains: its best parameters were not found.
     pub search_failed: bool,
@@ -122,7 +122,7 @@ pub struct ZoneReport {
 pub struct Quantity {
     /// Name of the quantity, as `conductance to outdoor`.
     pub name: String,
-    /// The symbol of the source, as `b`.
+    /// The symbol of the dissertation, as `b`.
     pub symbol: String,
     /// Unit of the value.
     pub unit: String,
@@ -152,7 +152,7 @@ pub struct CrossCheck {
 /// The model of the non-parametric term q \[K per step\].
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualReport {
-    /// The constant ψ of the source's form (2.12).
+    /// The constant ψ of the dissertation's form (2.12).
     pub psi: f64,
     /// ARMA with the constant.
     pub constant: Arma,
@@ -221,4 +221,30 @@ pub struct ZoneSeries {
     pub free_run_with_residual_model_c: Option<Vec<f64>>,
     /// Innovations \[K\]; NaN where there is none.
     pub innovations_k: Vec<f64>,
+}
+
+/// An identified network with its uncertainty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IdentifiedNetwork {
+    /// The zones, as estimated; the limits are the largest heat that was measured.
+    pub zones: Vec<Zone>,
+    /// The walls, as estimated; the first boundary, and any other, is the air outside.
+    pub walls: Vec<Wall>,
+    /// The uncertainty of the estimates.
+    pub uncertainty: NetworkUncertainty,
+    /// Mean temperature of the zones and of the first boundary over the record \[°C\].
+    pub mean_c: (f64, Option<f64>),
+    /// Remarks that a reader must know before using the network.
+    pub remarks: Vec<String>,
+}
+
+/// Ends of 95 % intervals as multiples of the estimates; of several zones or walls the widest one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NetworkUncertainty {
+    /// Interval of heat capacities.
+    pub capacity: (f64, f64),
+    /// Interval of resistances between zones.
+    pub inner_resistance: (f64, f64),
+    /// Interval of resistances to the air outside.
+    pub outer_resistance: (f64, f64),
 }

@@ -1,7 +1,7 @@
 //! The model of the non-parametric term q, eq. 2.11 and 2.12, so that the network can predict.
 //!
-//! q is the residual of the network in each step, computed from the measured temperatures. The source uses smoothed ones,
-//! but a smoother uses future values, which a forecast does not have. Two models are fitted: a constant with ARMA(r,1), as in the source, and
+//! q is the residual of the network in each step, computed from the measured temperatures. The dissertation uses smoothed ones,
+//! but a smoother uses future values, which a forecast does not have. Two models are fitted: a constant with ARMA(r,1), as in the dissertation, and
 //! a daily profile (harmonics) with ARMA(r,1).
 
 use std::ops::Range;

@@ -1,10 +1,13 @@
 //! Settings of an identification.
 
+use std::ops::Range;
+
 use interplay_common::bounds::Bound;
 use interplay_common::setting::{self, SettingError, check_bound};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::telemetry::Telemetry;
 use crate::discretise;
 
 /// The settings of an identification. Every field has a default.
@@ -65,7 +68,7 @@ impl Default for IdentifySettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Estimator {
-    /// The source's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
+    /// The dissertation's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
     /// model is fitted to what is left.
     Semiparametric,
     /// Parameters, daily harmonics and ARMA errors at once, so that the one-step prediction error is smallest. Copes better
@@ -107,5 +110,26 @@ impl IdentifySettings {
         // The highest harmonic must turn slower than the sampling: at most a quarter of the samples a day.
         check_bound("harmonics", self.harmonics as f64, Bound::AtMost((21_600.0 / step_s).floor()))?;
         check_bound("horizon_h", self.horizon_h, Bound::AtLeast(step_h))
+    }
+}
+
+/// Rows to train and to test on, as segments without a gap.
+pub(super) struct TrainTestSplit {
+    pub train: Vec<Range<usize>>,
+    pub test: Vec<Range<usize>>,
+    /// The first row that is not trained on.
+    pub test_start: usize,
+}
+
+impl TrainTestSplit {
+    /// The split after the `train_days` of the settings.
+    pub fn new(telemetry: &Telemetry, settings: &IdentifySettings) -> Self {
+        let limit = settings.train_days.zip(telemetry.time_s.first());
+        let test_start = limit.map_or(telemetry.rows(), |(days, first)| {
+            let end_s = first + days * 86_400.0;
+            telemetry.time_s.iter().position(|&time| time >= end_s).unwrap_or(telemetry.rows())
+        });
+        let (train, test) = telemetry.split_at(test_start);
+        Self { train, test, test_start }
     }
 }

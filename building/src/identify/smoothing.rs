@@ -15,12 +15,12 @@ const CUTOFF_BANDWIDTHS: f64 = 4.0;
 /// The series minus its local-linear kernel smooth; `bandwidth` in samples.
 ///
 /// A constant and a straight line leave nothing. Fewer than three samples leave zeros.
-pub fn without_smooth(series: &[f64], bandwidth: f64) -> Vec<f64> {
+pub(super) fn without_smooth(series: &[f64], bandwidth: f64) -> Vec<f64> {
     local_linear(series, bandwidth).iter().zip(series).map(|(smooth, value)| value - smooth).collect()
 }
 
 /// The local-linear kernel smooth of a series; `bandwidth` in samples.
-pub fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
+fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
     if series.len() < 3 {
         return series.to_vec();
     }
@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_line_is_its_own_smooth(start in -50.0..50.0, slope in -2.0..2.0, length in 3_usize..200, bandwidth in 0.6..30.0) {
+        fn the_smoother_reproduces_straight_lines(start in -50.0..50.0, slope in -2.0..2.0, length in 3_usize..200, bandwidth in 0.6..30.0) {
             let line: Vec<f64> = (0..length).map(|t| start + slope * t as f64).collect();
             for rest in without_smooth(&line, bandwidth) {
                 prop_assert!(rest.abs() < 1e-9, "{rest}");
@@ -72,7 +72,7 @@ mod tests {
         }
 
         #[test]
-        fn smoothing_is_linear(a in prop::collection::vec(-5.0..5.0, 40), b in prop::collection::vec(-5.0..5.0, 40), c in -3.0..3.0) {
+        fn smoothing_is_linear_in_the_series(a in prop::collection::vec(-5.0..5.0, 40), b in prop::collection::vec(-5.0..5.0, 40), c in -3.0..3.0) {
             let both: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + c * b).collect();
             let (sa, sb) = (local_linear(&a, 4.0), local_linear(&b, 4.0));
             for (t, smooth) in local_linear(&both, 4.0).iter().enumerate() {
@@ -84,7 +84,7 @@ mod tests {
 
     /// The definition, solved afresh at each point by 2×2 normal equations without cut-off.
     #[test]
-    fn it_is_the_weighted_least_squares_line() {
+    fn the_smoother_is_the_weighted_least_squares_line() {
         let series: Vec<f64> = (0..60).map(|t| f64::from((t * 37) % 11) + 0.1 * f64::from(t)).collect();
         let bandwidth = 5.0;
         for (centre, smooth) in local_linear(&series, bandwidth).iter().enumerate() {

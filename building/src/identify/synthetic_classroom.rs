@@ -2,7 +2,7 @@
 //!
 //! The classroom lies between two other rooms and the outdoors. An on-off thermostat cools it, with a set-point that changes
 //! every two hours and so excites the temperatures. It is occupied on a known schedule, and disturbed by unmeasured heat. Parameters are those of Table 2.1 (1000 kJ/K, 31.25 K/kW outwards, 62.5 K/kW to each room), the
-//! step is the source's 15 minutes, and time is cut by forward Euler, as in eq. 2.3.
+//! step is the dissertation's 15 minutes, and time is cut by forward Euler, as in eq. 2.3.
 
 use interplay_common::random::Random;
 use schemars::JsonSchema;
@@ -43,7 +43,7 @@ pub struct Classroom {
 pub enum RoomDisturbance {
     /// Smooth over some hours: what a kernel smoother takes out.
     Smooth,
-    /// An ARMA(2,1) process, what the source's residual model describes.
+    /// An ARMA(2,1) process, what the dissertation's residual model describes.
     #[default]
     Arma,
 }

@@ -8,7 +8,7 @@
 //! h_k = E Aᵏ⁻¹ B              E picks the zones among the nodes
 //! ```
 //!
-//! The source writes T = G(U + D) + T_in. Here T_free = T_in + G D is the temperature without equipment: heat that enters
+//! The dissertation writes T = G(U + D) + T_in. Here T_free = T_in + G D is the temperature without equipment: heat that enters
 //! through a wall with a capacity of its own is not equal to any heat input of the moment, so D is not asked for. Going
 //! back, G⁻¹(T − T_free) is the equipment heat that explains measured temperatures, and the difference to the known one
 //! is the disturbance as if it were all zone heat.

@@ -13,7 +13,7 @@ pub enum Part {
     Wall(usize),
 }
 
-/// Why zones and walls make no network.
+/// Why zones and walls do not form a network.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NetworkError {
     /// There is nothing to heat or cool.
@@ -38,7 +38,7 @@ pub enum NetworkError {
         name: String,
     },
     /// A wall leads to a zone that does not exist.
-    #[error("{called} leads to `{name}`, which is no zone (outdoors is `ambient`): {suggestion}")]
+    #[error("{called} leads to `{name}`, which is not a zone (outdoors is `ambient`): {suggestion}")]
     UnknownZone {
         /// Position of the wall, from zero.
         wall: usize,

@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn factors_act_on_what_they_name() {
+    fn each_mismatch_factor_scales_the_quantity_that_it_names() {
         let real = Network::testbed();
         assert_eq!(real.believed(&ModelMismatch::default()).expect("right"), real);
         let mismatch =

@@ -1,4 +1,4 @@
-//! The thermal network: who exchanges heat with whom (section 2.2).
+//! The thermal network of zones and walls (section 2.2).
 //!
 //! # The model
 //!
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! with heat from equipment u (zones only) and from people, sun and machines w \[kW\] (sun also on walls that store heat), outdoor temperature T₀, kᵢ = 1/R₀ᵢ, and L the
-//! conductance Laplacian of the graph plus diag(k). The source prints −L as R_T and calls it a resistance matrix; it is a
+//! conductance Laplacian of the graph plus diag(k). The dissertation prints −L as R_T and calls it a resistance matrix; it is a
 //! matrix of conductances \[kW/K\] whose rows sum to −kᵢ. L is symmetric and positive semidefinite, so every network is
 //! stable, and all its modes are real.
 //!
@@ -24,7 +24,6 @@ mod power_limits;
 mod presets;
 mod remarks;
 mod settings;
-mod sunlight;
 mod window;
 
 use nalgebra::DMatrix;
@@ -210,7 +209,13 @@ impl Network {
     ///
     /// # Panics
     /// When a slice has another length.
-    pub fn net_heat_kw(&self, temperatures_c: &[f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) -> Vec<f64> {
+    pub(crate) fn net_heat_kw(
+        &self,
+        temperatures_c: &[f64],
+        heat_kw: &[f64],
+        ambient_c: f64,
+        gains_kw: &[f64],
+    ) -> Vec<f64> {
         assert_eq!(heat_kw.len(), self.zone_count, "one heat input per zone");
         assert_eq!(gains_kw.len(), self.gain_count(), "one gain per zone, or per node where the sun falls on walls");
         let mut net_kw = self.conduct(temperatures_c);

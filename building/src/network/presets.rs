@@ -1,4 +1,4 @@
-//! Networks that the source and the benchmarks use.
+//! Networks that the dissertation and the benchmarks use.
 
 use super::{AMBIENT, Network, Wall, Zone};
 

@@ -37,8 +37,8 @@ impl Network {
         remarks
     }
 
-    /// Capacity over total conductance of each node \[s\]; infinite for one that exchanges heat with nobody.
-    pub fn node_time_constants_s(&self) -> Vec<f64> {
+    /// Capacity over total conductance of each node \[s\]; infinite for an isolated node.
+    pub(crate) fn node_time_constants_s(&self) -> Vec<f64> {
         let mut conductance_kw_per_k = self.ambient_kw_per_k.clone();
         for link in &self.links {
             conductance_kw_per_k[link.from] += link.conductance_kw_per_k;

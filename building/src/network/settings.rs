@@ -52,7 +52,7 @@ fn default_limit_kw() -> f64 {
 }
 
 impl Zone {
-    /// A zone of the source's testbed: 1000 kJ/K, at most 2 kW of heating or cooling (Table 2.1), no windows.
+    /// A zone of the dissertation's testbed: 1000 kJ/K, at most 2 kW of heating or cooling (Table 2.1), no windows.
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

@@ -86,7 +86,7 @@ impl Timetable {
 
     /// What a zone follows on a day, counted from zero: `None` if it follows no schedule at all, `Some(None)` if it has none
     /// for this day.
-    pub fn look_up(&self, zone: usize, day: usize) -> Option<Option<&ZoneSchedule>> {
+    pub(crate) fn look_up(&self, zone: usize, day: usize) -> Option<Option<&ZoneSchedule>> {
         let own = self.zones.get(zone)?.as_ref()?;
         Some(own[self.days.kind(day).index()].map(|number| &self.schedules[number]))
     }

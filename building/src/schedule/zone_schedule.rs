@@ -92,7 +92,7 @@ pub enum DayChoice {
 
 impl DayChoice {
     /// Whether the choice includes days of this kind.
-    pub fn includes(self, kind: DayKind) -> bool {
+    pub(crate) fn includes(self, kind: DayKind) -> bool {
         let DayKind::Plain(weekday) = kind else { return matches!(self, Self::Everyday | Self::Holiday) };
         let is_weekend = matches!(weekday, Weekday::Saturday | Weekday::Sunday);
         match self {
@@ -113,12 +113,12 @@ impl DayChoice {
 
 impl ZoneSchedule {
     /// Whether the schedule applies on days of this kind.
-    pub fn applies_on(&self, kind: DayKind) -> bool {
+    pub(crate) fn applies_on(&self, kind: DayKind) -> bool {
         self.days.iter().any(|days| days.includes(kind))
     }
 
     /// The period of an hour; both ends belong to it, and to the earlier one where two meet.
-    pub fn period_at(&self, hour: f64) -> Option<&Period> {
+    pub(crate) fn period_at(&self, hour: f64) -> Option<&Period> {
         let holds = |period: &&Period| period.from_h - ROUNDING_H <= hour && hour <= period.to_h + ROUNDING_H;
         self.periods.iter().filter(holds).min_by(|a, b| a.from_h.total_cmp(&b.from_h))
     }

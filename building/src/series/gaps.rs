@@ -2,32 +2,20 @@
 
 use std::ops::Range;
 
-/// How gaps are filled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    /// Linearly between the values around the gap.
-    Linear,
-    /// With the value before, where the mean of two values means nothing.
-    Previous,
-}
-
-impl Fill {
-    /// Replaces what is not a number, in these gaps, unless there is nothing to go by.
-    pub fn apply(self, values: &mut [f64], gaps: &[Range<usize>]) {
-        for gap in gaps {
-            let before = gap.start.checked_sub(1).map(|index| values[index]);
-            let after = values.get(gap.end).copied();
-            let (Some(from), Some(end)) = (before.or(after), after.or(before)) else { return };
-            let to = if self == Self::Linear { end } else { from };
-            let width = (gap.len() + 1) as f64;
-            for index in gap.clone() {
-                values[index] = from + (to - from) * (index - gap.start + 1) as f64 / width;
-            }
+/// Fills these gaps linearly between the values around them, or with the only neighbour; a series without any value stays as it is.
+pub fn bridge(values: &mut [f64], gaps: &[Range<usize>]) {
+    for gap in gaps {
+        let before = gap.start.checked_sub(1).map(|index| values[index]);
+        let after = values.get(gap.end).copied();
+        let (Some(from), Some(to)) = (before.or(after), after.or(before)) else { return };
+        let width = (gap.len() + 1) as f64;
+        for index in gap.clone() {
+            values[index] = from + (to - from) * (index - gap.start + 1) as f64 / width;
         }
     }
 }
 
-/// Where values are not numbers.
+/// The ranges of values that are missing (NaN).
 pub fn gaps(values: &[f64]) -> Vec<Range<usize>> {
     let mut gaps: Vec<Range<usize>> = Vec::new();
     for (index, _) in values.iter().enumerate().filter(|(_, value)| value.is_nan()) {
@@ -44,18 +32,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gaps_are_bridged() {
+    fn gaps_are_filled_linearly_and_ends_by_their_neighbour() {
         const NONE: f64 = f64::NAN;
-        let filled = |fill: Fill, values: &[f64]| {
+        let filled = |values: &[f64]| {
             let mut filled = values.to_vec();
-            fill.apply(&mut filled, &gaps(values));
+            bridge(&mut filled, &gaps(values));
             filled
         };
         let values = [NONE, 1.0, NONE, NONE, 4.0, 5.0, NONE, 9.0, NONE];
         assert_eq!(gaps(&values), [0..1, 2..4, 6..7, 8..9]);
-        assert_eq!(filled(Fill::Linear, &values), [1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 9.0]);
-        assert_eq!(filled(Fill::Previous, &[350.0, NONE, 10.0]), [350.0, 350.0, 10.0]);
-        assert!(filled(Fill::Linear, &[NONE, NONE]).iter().all(|value| value.is_nan()));
-        assert_eq!(filled(Fill::Linear, &[2.0]), [2.0]);
+        assert_eq!(filled(&values), [1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 9.0]);
+        assert!(filled(&[NONE, NONE]).iter().all(|value| value.is_nan()));
+        assert_eq!(filled(&[2.0]), [2.0]);
     }
 }

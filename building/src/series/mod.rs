@@ -1,12 +1,11 @@
 //! Series of values at equal intervals, and the tables that state them: prices, weather, heat of people.
 
-mod error;
+pub(crate) mod clock;
 mod gaps;
 mod held;
 mod read;
 mod row_time;
 
-pub use error::SeriesError;
-pub use gaps::{Fill, gaps};
+pub use gaps::{bridge, gaps};
 pub use held::HeldSeries;
-pub use read::{SeriesColumn, SeriesTable};
+pub use read::{SeriesColumn, SeriesError, SeriesTable};

@@ -9,7 +9,6 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use interplay_common::cell::shown_cell;
 use jiff::civil::Date;
 
-use super::error::SeriesError;
 use super::row_time::{RowTime, TimeForm};
 
 /// The most that the interval between two rows may differ from the first one, as a share of it.
@@ -41,6 +40,22 @@ pub struct SeriesColumn {
     pub title: String,
     /// Its values; NaN where they are missing.
     pub values: Vec<f64>,
+}
+
+/// A table of series that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {problem}")]
+pub struct SeriesError {
+    /// The line, from one.
+    pub line: usize,
+    /// What is wrong, and what would work.
+    pub problem: String,
+}
+
+impl SeriesError {
+    fn new(line: usize, problem: impl Into<String>) -> Self {
+        Self { line, problem: problem.into() }
+    }
 }
 
 impl SeriesTable {
@@ -192,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_of_several_forms_are_the_same() {
+    fn separators_decimal_signs_and_quotes_do_not_change_a_table() {
         let plain = SeriesTable::parse("hour,a,b\n0,1.5,2\n0.25,,3\n").expect("a table");
         assert_eq!((plain.first_s, plain.interval_s, plain.titles()), (0.0, 900.0, vec!["a", "b"]));
         assert!(plain.columns[0].values[1].is_nan());
@@ -221,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_has_a_line() {
+    fn every_fault_of_a_table_is_reported_with_its_line() {
         for (text, line, words) in [
             ("", 1, "empty"),
             ("hour,a\n", 1, "no rows"),

@@ -1,16 +1,15 @@
 //! The time of a row of a table of series.
 
-use jiff::civil::{Date, DateTime};
-use jiff::fmt::strtime::BrokenDownTime;
+use jiff::civil::{Date, Time};
+
+use super::clock::{ClockTime, parsed};
 
 /// Patterns of dates with a time that are understood; `%z` is an offset from UTC.
-const PATTERNS: [&str; 12] = [
-    "%Y-%m-%dT%H:%M:%S%:z",
-    "%Y-%m-%dT%H:%M%:z",
-    "%Y-%m-%d %H:%M:%S%:z",
-    "%Y-%m-%d %H:%M%:z",
+const PATTERNS: [&str; 10] = [
     "%Y-%m-%dT%H:%M:%S%z",
+    "%Y-%m-%dT%H:%M%z",
     "%Y-%m-%d %H:%M:%S%z",
+    "%Y-%m-%d %H:%M%z",
     "%Y-%m-%dT%H:%M:%S",
     "%Y-%m-%dT%H:%M",
     "%Y-%m-%d %H:%M:%S",
@@ -71,13 +70,9 @@ impl TimeForm {
 }
 
 fn calendar(text: &str) -> Option<RowTime> {
-    let utc = text.strip_suffix('Z').map(|local| format!("{local}+00:00"));
-    let text = utc.as_deref().unwrap_or(text);
-    let parsed = PATTERNS.iter().find_map(|pattern| BrokenDownTime::parse(pattern, text).ok())?;
+    let parsed = PATTERNS.iter().find_map(|pattern| parsed(pattern, text))?;
     let here = parsed.to_datetime().ok()?;
-    let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
-    let midnight = here.date().to_datetime(jiff::civil::Time::midnight());
-    let since_1970 = here.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64();
-    let local = (here.date(), here.duration_since(midnight).as_secs_f64());
-    Some(RowTime { elapsed_s: since_1970 - offset_s, local: Some(local) })
+    let since_midnight = here.duration_since(here.date().to_datetime(Time::midnight()));
+    let local = Some((here.date(), since_midnight.as_secs_f64()));
+    Some(RowTime { elapsed_s: ClockTime::stated(&parsed)?.elapsed_s, local })
 }

@@ -65,6 +65,11 @@ fn accumulate_block(target: &mut [f64], source: &[f64], rows: usize, from: usize
     }
 }
 
+/// Σ aᵢ bᵢ, in order.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// The product A B.
 pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(a.nrows(), b.ncols());

@@ -2,9 +2,8 @@
 //! left to reduce.
 
 use super::pairs::{Direction, Groups, Pairs, PerRow};
-use super::program::{Peak, PlanStage, StagedProgram};
+use super::program::{Peak, PlanStage, StagedError, StagedProgram, StagedSolution};
 use super::recursion::{Curvature, Recursion};
-use super::solution::{StagedError, StagedSolution};
 
 /// Iterations after which the method gives up. Problems of buildings take 10 to 40.
 const MAX_ITERATIONS: u32 = 120;
@@ -15,7 +14,7 @@ const LEAST_FIRST_SLACK_K: f64 = 0.01;
 const MOST_FIRST_SLACK_K: f64 = 10.0;
 /// The cost of inputs is taken for at least this share of that of a kelvin beyond all soft bounds.
 const LEAST_SCALE_SHARE: f64 = 1e-6;
-/// A shorter step is no progress.
+/// A shorter step does not count as progress.
 const LEAST_STEP: f64 = 1e-8;
 /// How much larger than the accepted one the gap may be where rounding ends the iterations.
 const STALLED_FACTOR: f64 = 1e3;

@@ -21,10 +21,8 @@ mod interior_point;
 mod pairs;
 mod program;
 mod recursion;
-mod solution;
 mod stage_map;
 
 pub use interior_point::solve;
-pub use program::{Peak, PlanStage, SoftBound, StagedProgram};
-pub use solution::{StagedError, StagedSolution};
+pub use program::{Peak, PlanStage, SoftBound, StagedError, StagedProgram, StagedSolution};
 pub use stage_map::{HeatInput, StageMap};

@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_parts_make_up_the_whole() {
+    fn direct_and_diffuse_radiation_add_up_to_the_global_one() {
         for (zenith_deg, global) in [(10.0_f64, 900.0), (60.0, 120.0), (86.0, 30.0), (88.0, 10.0), (95.0, 3.0)] {
             let sun = SunPosition { zenith_rad: zenith_deg.to_radians(), azimuth_rad: 0.0, distance_au: 1.0 };
             let SplitRadiation { direct_normal_w_per_m2, diffuse_w_per_m2 } = split_global(&sun, global);
@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn the_share_has_no_jumps() {
+    fn the_diffuse_share_is_continuous_in_the_clearness() {
         for bound in [0.22, 0.8] {
             assert!((diffuse_share(bound - 1e-9) - diffuse_share(bound + 1e-9)).abs() < 2e-3, "{bound}");
         }

@@ -12,9 +12,7 @@ mod erbs;
 mod perez;
 mod plane;
 mod position;
-mod radiation;
 
 pub use erbs::{SplitRadiation, split_global};
-pub use plane::Plane;
+pub use plane::{Plane, SkyRadiation};
 pub use position::{Site, SunPosition, days_since_2000};
-pub use radiation::SkyRadiation;

@@ -2,7 +2,17 @@
 
 use super::perez::sky_diffuse_w_per_m2;
 use super::position::SunPosition;
-use super::radiation::SkyRadiation;
+
+/// Radiation of the sun and the sky at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyRadiation {
+    /// Direct radiation on a plane towards the sun \[W/m²\].
+    pub direct_normal_w_per_m2: f64,
+    /// Diffuse radiation on a horizontal plane \[W/m²\].
+    pub diffuse_w_per_m2: f64,
+    /// Global radiation on a horizontal plane \[W/m²\].
+    pub global_w_per_m2: f64,
+}
 
 /// A flat surface: where it faces, and what lies before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,16 +27,16 @@ pub struct Plane {
 
 impl Plane {
     /// Cosine of the angle between the plane's normal and the sun; negative where the sun is behind it.
-    pub fn incidence(&self, sun: &SunPosition) -> f64 {
+    pub(crate) fn incidence(&self, sun: &SunPosition) -> f64 {
         let tilt_rad = self.tilt_deg.to_radians();
         let across_rad = sun.azimuth_rad - self.facing_deg.to_radians();
         libm::cos(sun.zenith_rad) * libm::cos(tilt_rad)
             + libm::sin(sun.zenith_rad) * libm::sin(tilt_rad) * libm::cos(across_rad)
     }
 
-    /// Radiation on the plane \[W/m²\]. While the sun is below the horizon there is no direct radiation, and the diffuse one comes
-    /// evenly from the sky.
-    pub fn radiation_w_per_m2(&self, sun: &SunPosition, sky: &SkyRadiation) -> f64 {
+    /// Radiation on the plane \[W/m²\]. While the sun is below the horizon, direct radiation is zero and diffuse radiation is
+    /// isotropic.
+    pub(crate) fn radiation_w_per_m2(&self, sun: &SunPosition, sky: &SkyRadiation) -> f64 {
         let cos_tilt = libm::cos(self.tilt_deg.to_radians());
         let ground = 0.5 * self.ground_reflectance * sky.global_w_per_m2 * (1.0 - cos_tilt);
         let incidence = self.incidence(sun);

@@ -7,7 +7,6 @@
 mod climate;
 pub mod epw;
 mod forecast;
-mod on_plane;
 mod recorded;
 mod sky;
 mod time_series;

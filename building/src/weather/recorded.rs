@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Forecast, Sky, TimeSeries, Weather};
-use crate::series::{Fill, SeriesColumn, SeriesError, SeriesTable, gaps};
+use crate::series::{SeriesColumn, SeriesError, SeriesTable, bridge, gaps};
 use crate::sun::{Site, SplitRadiation};
 
 const HOUR_S: f64 = 3600.0;
@@ -223,7 +223,7 @@ impl Reader<'_> {
             let problem = format!("`{title}` is missing in {rows} rows that the run uses, and is bridged");
             self.remarks.push(SeriesError { line: self.table.lines[first.start], problem });
         }
-        Fill::Linear.apply(&mut values, &gaps);
+        bridge(&mut values, &gaps);
         Ok(values)
     }
 
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_what_is_stated_of_them() {
+    fn rows_are_read_as_instants_or_means_as_stated() {
         let table = SeriesTable::parse(&text()).expect("a table");
         let at = |rows: RowMeaning, hours: f64| {
             let read = RecordedWeather { rows, ..settings() }.read(&table, &span(DAY_S, 1.0)).expect("weather");
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_run_uses_must_be_there() {
+    fn missing_or_implausible_values_are_refused_only_if_the_run_uses_them() {
         let refused = |text: &str, settings: RecordedWeather, span: RunSpan| {
             let table = SeriesTable::parse(text).expect("a table");
             settings.read(&table, &span).expect_err("must be refused")

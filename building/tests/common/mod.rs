@@ -10,12 +10,12 @@ pub mod reference;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
 use proptest::prelude::*;
 
-/// A wall between two of `zones` places, the last of which is outdoors.
-fn wall(zones: usize) -> impl Strategy<Value = Wall> {
+/// A wall between two of `places` places, of which that number `zones` is outdoors.
+fn wall(zones: usize, places: usize) -> impl Strategy<Value = Wall> {
     let place = move |index: usize| if index == zones { AMBIENT.to_owned() } else { format!("z{index}") };
-    (0..zones, 1..=zones, 5.0..200.0, proptest::option::weighted(0.3, 50.0..2000.0)).prop_map(
+    (0..zones, 1..places, 5.0..200.0, proptest::option::weighted(0.3, 50.0..2000.0)).prop_map(
         move |(one, shift, resistance_k_per_kw, capacity_kj_per_k)| {
-            let other = (one + shift) % (zones + 1);
+            let other = (one + shift) % places;
             Wall { capacity_kj_per_k, ..Wall::new(place(one), place(other), resistance_k_per_kw) }
         },
     )
@@ -23,16 +23,21 @@ fn wall(zones: usize) -> impl Strategy<Value = Wall> {
 
 /// Any network: connected or not, with or without a way out, with walls that store heat.
 pub fn network(largest: usize) -> impl Strategy<Value = Network> {
-    (1..=largest)
-        .prop_flat_map(|zones| {
-            let capacities = proptest::collection::vec(50.0..5000.0, zones);
-            (capacities, proptest::collection::vec(wall(zones), 0..3 * zones))
-        })
-        .prop_map(|(capacities, walls)| {
-            let zone = |(i, capacity_kj_per_k)| Zone { capacity_kj_per_k, ..Zone::named(format!("z{i}")) };
-            let zones: Vec<Zone> = capacities.into_iter().enumerate().map(zone).collect();
-            Network::new(&zones, &walls).expect("names and quantities are valid by construction")
-        })
+    (1..=largest).prop_flat_map(|zones| network_of(zones, zones + 1))
+}
+
+/// Any network of at least two zones without walls to the air outside.
+pub fn isolated_network(largest: usize) -> impl Strategy<Value = Network> {
+    (2..=largest).prop_flat_map(|zones| network_of(zones, zones))
+}
+
+fn network_of(zones: usize, places: usize) -> impl Strategy<Value = Network> {
+    let capacities = proptest::collection::vec(50.0..5000.0, zones);
+    (capacities, proptest::collection::vec(wall(zones, places), 0..3 * zones)).prop_map(|(capacities, walls)| {
+        let zone = |(i, capacity_kj_per_k)| Zone { capacity_kj_per_k, ..Zone::named(format!("z{i}")) };
+        let zones: Vec<Zone> = capacities.into_iter().enumerate().map(zone).collect();
+        Network::new(&zones, &walls).expect("names and quantities are valid by construction")
+    })
 }
 
 /// Numbers that look random and are the same every time, in ±`scale`.

@@ -239,7 +239,7 @@ proptest! {
 }
 
 #[test]
-fn failures_have_lapack_s_codes() {
+fn failures_return_the_codes_of_lapack() {
     let (n, one, mut info, mut pivots) = (2 as c_int, 1 as c_int, -9, [0 as c_int; 2]);
     let mut indefinite = [1.0, 2.0, 2.0, 1.0];
     let mut singular = [1.0, 2.0, 2.0, 4.0];

@@ -1,8 +1,16 @@
 //! A planner of one's own: it waits in its lane until the gap in the lane of its goal is long enough.
 
+mod controller;
 mod metric;
+mod observation;
+mod obstacle;
+mod road;
 
+pub use controller::Proportional;
 pub use metric::WAITING_SHARE;
+pub use observation::Headway;
+pub use obstacle::BOLLARD;
+pub use road::OneWay;
 
 // shown from here
 use interplay_planners::scene::inferred_futures::InferredFutures;

@@ -1,4 +1,4 @@
-//! Every command of Interplay, with one more kind of driver and one more metric.
+//! Every command of Interplay, with one more kind of driver, controller and road and one more metric.
 
 // shown from here
 use std::process::ExitCode;
@@ -8,6 +8,8 @@ use interplay_simulation::measure::RegisterMetrics;
 
 fn main() -> Result<ExitCode, RegistryError> {
     let registry = Registry::default().with_driver::<own_planner::GapAcceptance>()?;
+    let registry = registry.with_controller::<own_planner::Proportional>()?.with_road::<own_planner::OneWay>()?;
+    let registry = registry.with_obstacle(own_planner::BOLLARD)?;
     let registry = registry.with_metric(own_planner::WAITING_SHARE)?;
     Ok(interplay::main_with(&registry))
 }

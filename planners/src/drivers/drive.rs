@@ -3,11 +3,14 @@
 use std::any::Any;
 use std::fmt;
 
+use serde_json::{Map, Value as Json};
+
 use crate::plan::diagnostic::Explanation;
 use crate::prediction::Prediction;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::input_record::InputRecord;
 use crate::scene::record::Record;
+use crate::scene::road_rules::RuleKeeping;
 use crate::{DriverSettingError, Goal, Plan, PlanError, PlanTime, Scene};
 
 /// The settings of one kind of driver, with all that is known of such a driver before it plans.
@@ -82,6 +85,21 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether a run needs inputs from outside while it goes on: they were not recorded.
+    fn awaits_inputs(&self) -> bool {
+        self.is_driven_from_outside() && self.inputs().is_none()
+    }
+
+    /// Whether the driver can take the wheel from a person or an agent, with the default settings of its kind.
+    fn can_take_wheel(&self) -> bool {
+        !self.is_driven_from_outside()
+    }
+
+    /// Whether a person or an agent can drive in place of this driver.
+    fn can_be_replaced(&self) -> bool {
+        true
+    }
+
     /// The motion that its vehicle carries out, whatever its inputs are; `None` for a driver whose inputs move it. While the record
     /// lasts, the others are told nothing of its plan.
     fn record(&self) -> Option<Record> {
@@ -98,12 +116,54 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         None
     }
 
+    /// The settings of a real driver of this kind, by key and at full size, where a scenario of people leaves them out.
+    fn people_defaults(&self) -> Map<String, Json> {
+        Map::new()
+    }
+
+    /// Whether a vehicle with this driver keeps the rules of the road where a scenario of people leaves it out.
+    fn people_rules(&self) -> RuleKeeping {
+        RuleKeeping::Kept
+    }
+
+    /// The settings that follow from the width of the road's lanes \[m\], by key, where a scenario leaves them out.
+    fn lane_defaults(&self, _lane_width_m: f64) -> Map<String, Json> {
+        Map::new()
+    }
+
+    /// The place of this kind among the planners that `interplay why` tries instead of another one; `None` if it does not.
+    fn replacement_in_why(&self) -> Option<StandardReplacement> {
+        None
+    }
+
+    /// The rank of this kind among the planners that `interplay play` compares with a person, from 0; `None` if it does not. The
+    /// first takes the wheel if a person hands it over.
+    fn rank_beside_person(&self) -> Option<u8> {
+        None
+    }
+
     /// Checks settings that depend on each other, or on the number of steps of a plan.
     ///
     /// # Errors
     /// [`DriverSettingError`] names the setting that does not fit.
     fn check(&self, _horizon_steps: usize) -> Result<(), DriverSettingError> {
         Ok(())
+    }
+}
+
+/// The place of a kind of driver among the planners that `interplay why` tries instead of another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StandardReplacement {
+    /// Planners of a lower rank are tried first.
+    pub rank: u8,
+    /// The factor on which the outcome depends if this planner changes it.
+    pub factor: &'static str,
+}
+
+impl StandardReplacement {
+    /// A planner that interacts.
+    pub(crate) const fn planner(rank: u8) -> StandardReplacement {
+        StandardReplacement { rank, factor: "planner" }
     }
 }
 

@@ -1,13 +1,16 @@
 //! The list of all drivers, with the word that a scenario file uses for each.
 
 use std::ops::Deref;
+use std::sync::LazyLock;
 
+use interplay_common::foreign::{ForeignSettings, KindTable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::drivers::drive::DriverKind;
-use crate::drivers::foreign_driver::ForeignDriver;
-use crate::scene::input_record::WHEEL_KINDS;
+
+/// The settings of a driver whose kind another crate provides.
+pub type ForeignDriver = ForeignSettings<dyn DriverKind>;
 
 /// Makes the enumeration of the listed kinds, each with the settings of its folder.
 macro_rules! drivers {
@@ -22,12 +25,15 @@ macro_rules! drivers {
             Foreign(ForeignDriver),
         }
 
+        static KINDS: LazyLock<Vec<Driver>> =
+            LazyLock::new(|| vec![$(Driver::$kind(crate::drivers::$folder::Settings::default()),)*]);
+
         /// A table with the `kind` and the settings, as a scenario file has it.
         impl Serialize for Driver {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 let kind = self.kind();
                 match self {
-                    $(Driver::$kind(settings) => DriverTable { kind, settings }.serialize(serializer),)*
+                    $(Driver::$kind(settings) => KindTable { kind, settings }.serialize(serializer),)*
                     Driver::Foreign(foreign) => foreign.serialize(serializer),
                 }
             }
@@ -45,13 +51,6 @@ macro_rules! drivers {
             }
         }
     };
-}
-
-#[derive(Serialize)]
-struct DriverTable<'a, S> {
-    kind: &'a str,
-    #[serde(flatten)]
-    settings: &'a S,
 }
 
 drivers! {
@@ -86,9 +85,20 @@ drivers! {
 }
 
 impl Driver {
-    /// The driver of a kind that may take the wheel ([`WHEEL_KINDS`]), with the defaults of its settings.
-    pub fn of_kind(kind: &str) -> Option<Driver> {
-        let is_known = WHEEL_KINDS.contains(&kind);
-        is_known.then(|| serde_json::from_value(serde_json::json!({ "kind": kind })).ok()).flatten()
+    /// The kinds of Interplay, each with the defaults of its settings.
+    pub fn kinds() -> &'static [Driver] {
+        &KINDS
+    }
+
+    /// The driver of a kind that can take the wheel, with the defaults of its settings.
+    pub fn at_wheel(kind: &str) -> Option<Driver> {
+        let mut able = Driver::kinds().iter().filter(|driver| driver.can_take_wheel());
+        able.find(|driver| driver.kind() == kind).cloned()
+    }
+
+    /// The kinds that can take the wheel, for messages.
+    pub fn wheel_kinds() -> String {
+        let able = Driver::kinds().iter().filter(|driver| driver.can_take_wheel());
+        able.map(|driver| driver.kind()).collect::<Vec<&str>>().join(", ")
     }
 }

@@ -8,8 +8,8 @@ pub use crate::scene::input_record::{InputRecord as Settings, WheelHandOver};
 use crate::drivers::drive::{Drive, DriverKind};
 use crate::drivers::external::External;
 use crate::prediction::Prediction;
-use crate::scene::input_record::{InputRecord, WHEEL_KINDS};
-use crate::{DriverSettingError, PlanTime};
+use crate::scene::input_record::InputRecord;
+use crate::{Driver, DriverSettingError, PlanTime};
 
 impl DriverKind for InputRecord {
     fn kind(&self) -> &'static str {
@@ -45,11 +45,11 @@ impl DriverKind for InputRecord {
             let reason = format!("row {} of `inputs` is not later than the one before it", at + 2);
             return refused("inputs", reason, "state each row once, the earliest first");
         }
-        let is_unknown = |to: &&str| !WHEEL_KINDS.contains(to);
+        let is_unknown = |to: &&str| Driver::at_wheel(to).is_none();
         match self.hand_overs.iter().filter_map(|handed| handed.to.as_deref()).find(is_unknown) {
             Some(to) => {
                 let reason = format!("`{to}` is not a driver that can take over");
-                refused("hand_overs", reason, &format!("choose from {}", WHEEL_KINDS.join(", ")))
+                refused("hand_overs", reason, &format!("choose from {}", Driver::wheel_kinds()))
             }
             None => Ok(()),
         }
@@ -69,14 +69,13 @@ mod tests {
 
     #[test]
     fn only_kinds_that_drive_may_take_over() {
-        for kind in WHEEL_KINDS {
-            assert_eq!(crate::Driver::of_kind(kind).map(|driver| driver.kind()), Some(kind));
+        let planners = "human, idm, conservative, negotiation, bayesian, game, cooperative, nash, contingency";
+        assert_eq!(Driver::wheel_kinds(), planners);
+        for kind in planners.split(", ") {
+            assert_eq!(Driver::at_wheel(kind).map(|driver| driver.kind()), Some(kind));
         }
-        assert!(
-            ["external", "inputs", "recorded", "walker", "no-such-kind"]
-                .iter()
-                .all(|kind| crate::Driver::of_kind(kind).is_none())
-        );
+        let others = ["external", "inputs", "recorded", "walker", "no-such-kind"];
+        assert!(others.iter().all(|kind| Driver::at_wheel(kind).is_none()));
     }
 
     #[test]

@@ -11,7 +11,6 @@ pub(crate) mod drive;
 mod driver;
 mod driver_setting;
 pub mod external;
-mod foreign_driver;
 pub mod game;
 pub mod human;
 pub mod idm;
@@ -25,7 +24,6 @@ pub mod recorded;
 pub mod scripted;
 pub mod walker;
 
-pub use drive::{Drive, DriverKind};
-pub use driver::Driver;
+pub use drive::{Drive, DriverKind, StandardReplacement};
+pub use driver::{Driver, ForeignDriver};
 pub use driver_setting::DriverSettingError;
-pub use foreign_driver::ForeignDriver;

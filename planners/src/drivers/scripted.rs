@@ -76,6 +76,10 @@ impl DriverKind for Settings {
     fn can_be_asked(&self) -> bool {
         false
     }
+
+    fn can_take_wheel(&self) -> bool {
+        false
+    }
 }
 
 /// A driver that follows a script.

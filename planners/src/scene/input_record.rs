@@ -6,10 +6,6 @@ use serde_json::json;
 
 use crate::Input;
 
-/// The kinds of drivers that may take the wheel, with the defaults of their settings.
-pub const WHEEL_KINDS: [&str; 9] =
-    ["human", "idm", "conservative", "negotiation", "bayesian", "game", "cooperative", "nash", "contingency"];
-
 /// The settings of a driver that repeats inputs: what was handed in, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -8,7 +8,7 @@ pub(crate) mod relation;
 pub(crate) mod road_rules;
 pub mod trigger;
 
-pub use input_record::{InputRecord, WHEEL_KINDS};
+pub use input_record::InputRecord;
 
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 //! One tick is
 //!
 //! ```text
-//! sense     the caller writes state, last input and damage of every road user into a `Traffic`
+//! sense     Traffic::begin_plan       predictions, rules and decisions of the last plan are cleared
 //! predict   Traffic::predict          each vehicle is expected to continue its last plan, from where it really is
 //! plan      Traffic::plan             each driver decides, in `planning_order`; failures fall back
 //! act       Traffic::applied_inputs   the first input of each plan, within the limits
@@ -26,6 +26,7 @@ mod committed;
 mod limits;
 mod neighbours;
 mod planning_order;
+mod presence;
 mod road_user;
 mod room;
 #[cfg(test)]
@@ -37,10 +38,12 @@ pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 pub use neighbours::Neighbours;
 pub use planning_order::planning_order;
+pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
 
 use crate::prediction::without_plans;
-use crate::rules::{Obliged, RuleBook};
+use crate::rules::{Obliged, RoadRules, RuleBook};
+use crate::trajectory::Statistics;
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
 
 /// All road users at the start of a tick.
@@ -66,7 +69,7 @@ pub struct Decision {
     /// The index of the vehicle among the road users.
     pub vehicle: usize,
     /// The plan that is carried out: the planner's, or a fallback without diagnostics and events.
-    pub plan: Plan,
+    pub plan: Arc<Plan>,
     /// Where the plan comes from.
     pub origin: Origin,
     /// Why the planner found none, if it was asked and failed.
@@ -74,6 +77,32 @@ pub struct Decision {
 }
 
 impl Traffic {
+    /// Prepares every road user for the plan number `tick`, which is made at `time_s` \[s\]: predictions, rules and decisions of the
+    /// last one are cleared. A vehicle that follows a record is expected to keep its speed, whatever it planned before.
+    pub fn begin_plan(&mut self, tick: usize, time_s: f64) {
+        (self.tick, self.near) = (tick, Neighbours::default());
+        let (prediction, plan) = (Arc::default(), Arc::default());
+        for user in &mut self.road_users {
+            user.agent.prediction = Arc::clone(&prediction);
+            (user.agent.rules, user.agent.urgency) = (RoadRules::default(), 1.0);
+            (user.plan, user.origin) = (Arc::clone(&plan), Origin::default());
+            if user.follows_record_at(time_s) {
+                user.committed = CommittedPlan::default();
+            }
+        }
+    }
+
+    /// The road users follow their last plans for another tick: what happened while they planned is not reported again.
+    pub fn follow_plans(&mut self) {
+        for user in &mut self.road_users {
+            if !user.plan.events.is_empty() || user.plan.statistics != Statistics::default() {
+                let plan = Arc::make_mut(&mut user.plan);
+                plan.events.clear();
+                plan.statistics = Statistics::default();
+            }
+        }
+    }
+
     /// Finds out which vehicles can matter to which, from where all are now.
     pub fn find_neighbours(&mut self) {
         self.near = Neighbours::find(&self.road_users, self.horizon_s());
@@ -88,7 +117,7 @@ impl Traffic {
     pub fn predict(&mut self) {
         self.find_neighbours();
         let Traffic { tick, horizon, step_s, .. } = *self;
-        let present = || self.road_users.iter().filter(|user| !user.is_absent);
+        let present = || self.road_users.iter().filter(|user| !user.is_absent());
         let obliged = present().map(|user| Obliged {
             agent: &user.agent,
             wanted_mps: user.goal.target.speed_mps,
@@ -96,15 +125,15 @@ impl Traffic {
             keeps_rules: user.keeps_rules,
         });
         let rules = self.rule_book.judge(tick, step_s, &obliged.collect::<Vec<_>>());
-        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent).zip(rules) {
+        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent()).zip(rules) {
             user.agent.rules = rules;
         }
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = Arc::new(committed.prediction(agent, horizon, step_s));
         }
         for vehicle in 0..self.road_users.len() {
-            let RoadUser { agent, keeps_rules, is_absent, .. } = &self.road_users[vehicle];
-            if *is_absent || (!keeps_rules && agent.limits.comfort.is_none()) {
+            let RoadUser { agent, keeps_rules, presence, .. } = &self.road_users[vehicle];
+            if presence.is_absent() || (!keeps_rules && agent.limits.comfort.is_none()) {
                 continue;
             }
             let (keeps_rules, mut scene) = (*keeps_rules, self.moment(vehicle));
@@ -141,7 +170,7 @@ impl Traffic {
     /// predictions of drivers that go first are their plans.
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         let order = planning_order(&self.road_users);
-        let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent).collect::<Vec<_>>();
+        let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent()).collect::<Vec<_>>();
         present.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
     }
 
@@ -160,6 +189,8 @@ impl Traffic {
             user.agent.prediction = Arc::clone(&trajectory);
         }
         let plan = plan.unwrap_or_else(|| Plan { trajectory: (*trajectory).clone(), ..Plan::default() });
+        let plan = Arc::new(plan);
+        (user.plan, user.origin) = (Arc::clone(&plan), origin);
         Decision { vehicle, plan, origin, failure }
     }
 

@@ -25,7 +25,7 @@ pub struct Neighbours {
 impl Neighbours {
     /// Sorts the road users on the road into cells.
     pub fn find(road_users: &[RoadUser], horizon_s: f64) -> Neighbours {
-        let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent);
+        let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent());
         let reaches_m: Vec<f64> = road_users.iter().map(|user| reach_m(&user.agent, horizon_s)).collect();
         // Those who come towards each other meet within both reaches.
         let farthest_m = present().map(|(index, user)| reaches_m[index] + margin_m(&user.agent)).fold(0.0, f64::max);
@@ -39,7 +39,7 @@ impl Neighbours {
     pub fn of(&self, vehicle: usize, road_users: &[RoadUser]) -> Vec<usize> {
         let ego = &road_users[vehicle].agent;
         if self.cells.is_empty() {
-            let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent);
+            let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent());
             return present.map(|(other, _)| other).collect();
         }
         let is_near =

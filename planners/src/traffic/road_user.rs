@@ -1,16 +1,20 @@
 //! A vehicle with all that the loop keeps of it.
 
-use super::committed::CommittedPlan;
-use crate::{Agent, Goal, Input};
+use std::sync::Arc;
 
-/// One vehicle of the closed loop: how the others see it, its goal, and its committed plan.
+use super::committed::{CommittedPlan, Origin};
+use super::presence::{Presence, Stay};
+use crate::scene::record::Record;
+use crate::{Agent, Goal, Input, Plan};
+
+/// One vehicle of the closed loop: the only place where its state, its last input, its goal and its plan are kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadUser {
-    /// The vehicle as all others see it.
+    /// The vehicle as the others see it: state, last input, body, limits, route, prediction and rules.
     pub agent: Agent,
     /// The goal of the vehicle.
     pub goal: Goal,
-    /// Whether it plans before all others and publishes its plan to them.
+    /// Whether it plans before, and publishes its plan to, those that do not.
     pub goes_first: bool,
     /// Whether it knows the plans of the others.
     pub knows_plans: bool,
@@ -18,14 +22,22 @@ pub struct RoadUser {
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
-    /// Whether it is not on the road now: it has not come yet, or has left. No driver sees it, and its planner is not asked.
-    pub is_absent: bool,
+    /// Whether it is on the road now. The others do not see an absent vehicle, and its planner is not asked.
+    pub presence: Presence,
+    /// When the scenario wants it on the road.
+    pub stay: Stay,
+    /// The recorded motion that it carries out, whatever its inputs are; `None` for a vehicle that its inputs move.
+    pub record: Option<Arc<Record>>,
     /// The plan that it decided on last.
     pub committed: CommittedPlan,
+    /// The last decision with its reasons; after a failure, the fallback. Empty for a vehicle that made none.
+    pub plan: Arc<Plan>,
+    /// Where the plan comes from.
+    pub origin: Origin,
 }
 
 impl RoadUser {
-    /// A vehicle that has not planned yet and knows the plans of the others.
+    /// A vehicle on the road that has not planned yet and knows the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
         RoadUser {
             agent,
@@ -34,14 +46,28 @@ impl RoadUser {
             knows_plans: true,
             keeps_rules: false,
             is_crashed: false,
-            is_absent: false,
+            presence: Presence::Present,
+            stay: Stay::default(),
+            record: None,
             committed: CommittedPlan::default(),
+            plan: Arc::default(),
+            origin: Origin::default(),
         }
+    }
+
+    /// Whether it is not on the road now.
+    pub fn is_absent(&self) -> bool {
+        self.presence.is_absent()
     }
 
     /// The first input of its plan.
     pub fn planned_input(&self) -> Input {
         let planned = self.committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
         planned.copied().unwrap_or_default()
+    }
+
+    /// Whether a record moves it at this time, so that the others do not know its plan \[s\].
+    pub(super) fn follows_record_at(&self, time_s: f64) -> bool {
+        self.record.as_ref().is_some_and(|record| record.holds_at(time_s))
     }
 }

@@ -15,7 +15,7 @@ impl Traffic {
     /// to brake hard.
     pub fn has_room_for(&self, newcomer: usize) -> bool {
         let own = &self.road_users[newcomer].agent;
-        let others = self.road_users.iter().enumerate().filter(|(index, user)| *index != newcomer && !user.is_absent);
+        let others = self.road_users.iter().enumerate().filter(|(index, user)| *index != newcomer && !user.is_absent());
         others.into_iter().all(|(_, other)| is_apart(own, &other.agent))
     }
 }
@@ -40,13 +40,13 @@ fn is_apart(own: &Agent, other: &Agent) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::RoadUser;
+    use super::super::{Presence, RoadUser};
     use super::*;
     use crate::fixture::{agent, scene};
 
     fn traffic(others: &[Agent]) -> Traffic {
         let user = |agent: &Agent| RoadUser::new(agent.clone(), scene(agent.clone(), Vec::new()).goal, false);
-        let newcomer = RoadUser { is_absent: true, ..user(&agent(0.0, 0.185, 0.0, 1.0)) };
+        let newcomer = RoadUser { presence: Presence::Awaited, ..user(&agent(0.0, 0.185, 0.0, 1.0)) };
         Traffic { road_users: std::iter::once(newcomer).chain(others.iter().map(user)).collect(), ..Traffic::default() }
     }
 
@@ -58,7 +58,7 @@ mod tests {
         assert!(!traffic(&[agent(-0.8, 0.185, 0.0, 1.0)]).has_room_for(0), "too near behind");
         assert!(traffic(&[agent(0.8, 0.555, 0.0, 1.0)]).has_room_for(0), "in another lane");
         let mut gone = traffic(&[agent(0.8, 0.185, 0.0, 1.0)]);
-        gone.road_users[1].is_absent = true;
+        gone.road_users[1].presence = Presence::Left;
         assert!(gone.has_room_for(0), "a vehicle that is not there");
     }
 }

@@ -237,7 +237,7 @@ impl Run {
         for Decision { vehicle, plan, failure, .. } in decisions {
             match failure {
                 Some(error) => self.failures.push((tick, self.names[vehicle].clone(), error)),
-                None if vehicle == 0 => self.plans.push(plan),
+                None if vehicle == 0 => self.plans.push(Arc::unwrap_or_clone(plan)),
                 None => {}
             }
         }

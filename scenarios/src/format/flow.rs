@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::format::vehicle_defaults::VehicleDefaults;
+use crate::format::vehicle_config::VehicleDefaults;
 use crate::model::traffic::lane_reference::LaneReference;
 use crate::text::name;
 

@@ -10,5 +10,4 @@ pub(crate) mod scenario_file;
 pub(crate) mod start;
 pub(crate) mod stated;
 pub(crate) mod vehicle_config;
-pub(crate) mod vehicle_defaults;
 pub(crate) mod weather;

@@ -1,85 +1,166 @@
-//! A vehicle as a file states it.
+//! The keys of vehicles, each declared once: what a file states of one vehicle and of all, what becomes of it in the run, and the
+//! way back.
 
 use interplay_planners::drivers::human;
 use interplay_planners::perception::{belief, sensing};
 use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse};
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Error, json};
 
 use crate::format::start::StartConfig;
 use crate::format::stated::Stated;
 use crate::model::classes::VehicleClass;
+use crate::model::scenario::Vehicle;
 use crate::model::traffic::goal::GoalConfig;
 use crate::model::traffic::weights::Weights;
 use crate::roads::Branch;
 use crate::text::name;
 
-/// One vehicle: start, goal, body, limits and driver.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Vehicle")]
-pub struct VehicleConfig {
+/// Declares the keys of vehicles. A key is
+///
+/// - a field of [`VehicleConfig`], with what the schema and the reference say of it;
+/// - `=> place`: the field of [`Vehicle`] that it becomes, by the rule for its type ([`Key`]). A key without a place is resolved
+///   by hand (`resolve`) and written by hand (`write`), because it depends on the road or on the registry;
+/// - `for_all`: the same key of [`VehicleDefaults`], for all vehicles.
+macro_rules! vehicle_keys {
+    ($(
+        $(#[$about:meta])*
+        $key:ident: $Stated:ty $(=> $($place:ident).+)? $(, for_all { $(#[$of_all:meta])* $OfAll:ty })?;
+    )*) => {
+        /// One vehicle: start, goal, body, limits and driver.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        #[schemars(rename = "Vehicle")]
+        pub struct VehicleConfig {
+            $($(#[$about])* pub $key: $Stated,)*
+        }
+
+        /// What holds for every vehicle that does not state it.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields, default)]
+        pub struct VehicleDefaults {
+            $($($(#[$of_all])* pub $key: $OfAll,)?)*
+        }
+
+        impl VehicleConfig {
+            /// Gives a vehicle the value of each key that has a place in it.
+            ///
+            /// # Errors
+            /// The key whose table could not be read, and why.
+            pub(crate) fn settle_in(self, vehicle: &mut Vehicle) -> Result<(), (&'static str, Error)> {
+                $($(vehicle.$($place).+ = self.$key.settled().map_err(|error| (stringify!($key), error))?;)?)*
+                Ok(())
+            }
+
+            /// What a file states of the keys that have a place in a vehicle.
+            pub(crate) fn of_settled(vehicle: &Vehicle) -> VehicleConfig {
+                let mut config = VehicleConfig::default();
+                $($(config.$key = Key::of_settled(&vehicle.$($place).+);)?)*
+                config
+            }
+        }
+    };
+}
+
+vehicle_keys! {
     /// Its name, unique in the file; it becomes part of paths in the recording.
     #[schemars(extend("pattern" = name::pattern()), example = &"ego")]
-    pub name: String,
+    name: String => name;
     /// What sort of vehicle it is: the default of `body`, `limits` and `safety`, and the size to which the defaults of its
     /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`, which the width of the lanes
     /// may say.
     #[schemars(example = &"car")]
-    pub class: Option<VehicleClass>,
+    class: Option<VehicleClass> => class, for_all {
+        /// The class of each vehicle that states none.
+        #[schemars(example = &"car")]
+        Option<VehicleClass>
+    };
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]
-    pub road: Branch,
+    road: Branch => road;
     /// Where it starts, in a lane or in world coordinates, and its speed there.
     #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
-    pub start: StartConfig,
+    start: StartConfig;
     /// The names of the lanes on which it drives, from that of its start on, each a successor of the one before or a lane
     /// beside it. By default the shortest way to the lane of its goal, or without one the only way there is.
     #[serde(default)]
     #[schemars(length(max = 1000), example = vec!["west-in", "west-to-north", "north-out"])]
-    pub route: Vec<String>,
+    route: Vec<String>;
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
-    pub goal: GoalConfig,
+    goal: GoalConfig => goal, for_all {
+        /// What the goals of vehicles have in common.
+        #[schemars(example = json!({ "speed_mps": 13.9 }))]
+        Option<GoalDefaults>
+    };
     /// Weights of deviations from its goal and of changes of its inputs. With a `class` of real vehicles, those of angles grow by
     /// default with the speed at the start or of the goal.
     #[schemars(with = "Weights", default = "Weights::default")]
-    pub weights: Option<Stated<Weights>>,
+    weights: Option<Stated<Weights>> => weights, for_all {
+        /// Weights of deviations from the goal and of changes of the inputs.
+        #[schemars(example = json!({ "y": 1.0 }))]
+        Option<Stated<Weights>>
+    };
     /// Its size and axles; by default those of its class, or Table 6.1.
     #[schemars(with = "Body", default = "Body::default")]
-    pub body: Option<Stated<Body>>,
+    body: Option<Stated<Body>> => body, for_all {
+        /// Size and axles.
+        #[schemars(example = json!({ "width_m": 0.19 }))]
+        Option<Stated<Body>>
+    };
     /// The bounds of its inputs and its speed; by default those of its class, or Table 6.2.
     #[schemars(with = "Limits", default = "Limits::default")]
-    pub limits: Option<Stated<Limits>>,
+    limits: Option<Stated<Limits>> => limits, for_all {
+        /// The bounds of inputs and speed.
+        #[schemars(example = json!({ "speed_max_mps": 1.5 }))]
+        Option<Stated<Limits>>
+    };
     /// The ellipse around each other vehicle that it keeps out of; by default that of its class, or Table 6.2.
     #[schemars(with = "SafetyEllipse", default = "SafetyEllipse::default")]
-    pub safety: Option<Stated<SafetyEllipse>>,
+    safety: Option<Stated<SafetyEllipse>> => safety, for_all {
+        /// The ellipse around each other vehicle that a vehicle keeps out of.
+        #[schemars(example = json!({ "along_m": 0.75 }))]
+        Option<Stated<SafetyEllipse>>
+    };
     /// Its driver, `kind` choosing; by default a nice human.
     #[schemars(with = "Driver", default = "default_driver")]
-    pub driver: Option<Stated<Driver>>,
+    driver: Option<Stated<Driver>>, for_all {
+        /// The driver. A vehicle with a driver of another `kind` takes nothing from it.
+        #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
+        Option<Stated<Driver>>
+    };
     /// Whether it keeps all rules of roads whose lanes have names, whoever drives it: speed limits, stop signs and right of way. It then
     /// drives no faster than it wants, and a human or a driver after the intelligent driver model passes what stands in its way. Without
     /// it these two keep right of way and signs, and planners settle the order themselves.
     #[schemars(example = json!("kept"))]
-    pub rules: Option<RuleKeeping>,
+    rules: Option<RuleKeeping> => rules, for_all {
+        /// Whether vehicles keep the rules of the road.
+        #[schemars(example = json!("kept"))]
+        Option<RuleKeeping>
+    };
     /// When it comes on the road; by default it is there from the start. It comes once there is room: nobody stands or drives so near
     /// before it that it would have to brake at once \[s\].
     #[schemars(range(min = 0.0), example = 12.0)]
-    pub enters_s: Option<f64>,
+    enters_s: Option<f64> => stay.enters_s;
     /// When it leaves the road; by default never \[s\].
     #[schemars(range(min = 0.0), example = 30.0)]
-    pub leaves_s: Option<f64>,
+    leaves_s: Option<f64> => stay.leaves_s;
     /// Whether it leaves the road where its route ends; by default it drives on straight ahead.
     #[schemars(example = true)]
-    pub leaves_at_end: Option<bool>,
+    leaves_at_end: Option<bool> => stay.leaves_at_end, for_all {
+        /// Whether vehicles leave the road where their routes end.
+        #[schemars(example = true)]
+        Option<bool>
+    };
     /// What it senses of the others; without it, it sees every state as it is.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
-    pub sensing: Option<Stated<sensing::Settings>>,
+    sensing: Option<Stated<sensing::Settings>> => sensing;
     /// How it learns from the others' motion what they will do, where its driver says `prediction = "inferred"`.
     #[schemars(example = json!({ "prior": "tough" }))]
-    pub inference: Option<Stated<belief::Settings>>,
+    inference: Option<Stated<belief::Settings>> => inference;
 }
 
 impl VehicleConfig {
@@ -92,4 +173,64 @@ impl VehicleConfig {
 /// Who drives a vehicle that states no driver.
 pub(crate) fn default_driver() -> Driver {
     Driver::Human(human::Settings::default())
+}
+
+/// What the goals of vehicles have in common.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GoalDefaults {
+    /// The speed that a vehicle aims at \[m/s\].
+    #[schemars(example = 13.9)]
+    pub speed_mps: Option<f64>,
+}
+
+/// How the value of a key in a file, to which all defaults that depend on size were added, becomes that of the vehicle, and back.
+trait Key<Settled>: Sized {
+    fn settled(self) -> Result<Settled, Error>;
+
+    fn of_settled(settled: &Settled) -> Self;
+}
+
+/// The vehicle has what the file states.
+impl<T: Clone> Key<T> for T {
+    fn settled(self) -> Result<T, Error> {
+        Ok(self)
+    }
+
+    fn of_settled(settled: &T) -> T {
+        settled.clone()
+    }
+}
+
+/// A table with defaults.
+impl<T: Clone + Default + DeserializeOwned + Serialize> Key<T> for Option<Stated<T>> {
+    fn settled(self) -> Result<T, Error> {
+        self.map_or_else(|| Ok(T::default()), Stated::settings)
+    }
+
+    fn of_settled(settled: &T) -> Option<Stated<T>> {
+        Some(settled.clone().into())
+    }
+}
+
+/// A table without which the vehicle does not have what it describes.
+impl<T: Clone + DeserializeOwned + Serialize> Key<Option<T>> for Option<Stated<T>> {
+    fn settled(self) -> Result<Option<T>, Error> {
+        self.map(Stated::settings).transpose()
+    }
+
+    fn of_settled(settled: &Option<T>) -> Option<Stated<T>> {
+        settled.clone().map(Stated::from)
+    }
+}
+
+/// A claim that is false by default.
+impl Key<bool> for Option<bool> {
+    fn settled(self) -> Result<bool, Error> {
+        Ok(self.unwrap_or(false))
+    }
+
+    fn of_settled(settled: &bool) -> Option<bool> {
+        settled.then_some(true)
+    }
 }

@@ -237,7 +237,7 @@ pub(crate) fn assemble_on(
     }
     let mut stated = tree.to_json();
     degrees::to_radians(schema, &mut stated);
-    expand(&mut stated, schema);
+    expand(&mut stated, registry);
     resolve(registry, read(stated, tree)?, tree, known_roads)
 }
 

@@ -17,6 +17,7 @@ use interplay_planners::perception::belief;
 use interplay_planners::perception::sensing::{self, Sensor};
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
+pub use interplay_planners::traffic::Stay;
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State};
 
 use crate::model::budget_limits::BudgetLimits;
@@ -179,6 +180,11 @@ impl Scenario {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
 
+    /// A vehicle whose driver needs inputs from outside while the run goes on.
+    pub fn awaiting_inputs(&self) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.driver.awaits_inputs())
+    }
+
     /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
     pub fn tick_count(&self) -> usize {
         if self.vehicles.is_empty() {
@@ -204,7 +210,7 @@ impl Scenario {
 
     /// Who controls the building; a PID controller in each zone unless the scenario says so.
     pub fn controller(&self) -> Controller {
-        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+        self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
     /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
@@ -272,25 +278,30 @@ pub struct Vehicle {
     pub inference: Option<belief::Settings>,
 }
 
-/// When a vehicle is on the road.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stay {
-    /// When it comes; none if it is there from the start \[s\].
-    pub enters_s: Option<f64>,
-    /// When it leaves; none if it does not \[s\].
-    pub leaves_s: Option<f64>,
-    /// Whether it leaves where its route ends.
-    pub leaves_at_end: bool,
-}
-
-impl Stay {
-    /// Whether the vehicle is on the road for the whole run, whatever happens.
-    pub fn is_permanent(&self) -> bool {
-        *self == Stay::default()
-    }
-}
-
 impl Vehicle {
+    /// A vehicle without a name, with the defaults of 1/10 scale cars.
+    pub(crate) fn new(start: State, route: Arc<Route>, driver: Driver) -> Vehicle {
+        Vehicle {
+            name: String::new(),
+            class: None,
+            road: Branch::Main,
+            start,
+            start_acceleration_mps2: 0.0,
+            route,
+            goal: GoalConfig::default(),
+            weights: Weights::default(),
+            body: Body::default(),
+            limits: Limits::default(),
+            safety: SafetyEllipse::default(),
+            driver,
+            rules: None,
+            stay: Stay::default(),
+            obstacle: None,
+            sensing: None,
+            inference: None,
+        }
+    }
+
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
     /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
     /// tracks it.

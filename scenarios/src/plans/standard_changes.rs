@@ -1,15 +1,15 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
 //! - the style of each human, nice or tough, and of whoever walks; instead of another driver who minds nobody's wishes, a human of either style;
-//! - the planner of each interactive vehicle: negotiation, conservative or cooperative;
+//! - the planner of each interactive vehicle: negotiation, conservative or cooperative (`DriverKind::replacement_in_why`);
 //! - instead of it, the intelligent driver model, which does not interact: a factor of its own;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
 //! - each other setting of such a planner to which the file gives another value than the planner has by itself: that value;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
-use interplay_planners::Driver;
 use interplay_planners::drivers::human::Style;
 use interplay_planners::drivers::walker::WalkerStyle;
+use interplay_planners::{Driver, StandardReplacement};
 use serde_json::Value as Json;
 
 use crate::format::json_schema::SchemaNode;
@@ -20,11 +20,8 @@ use crate::load;
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::text::error::LoadError;
 
-/// The planners that an interactive vehicle is given instead of its own.
-const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", IDM];
-
-/// The intelligent driver model, which follows and gives way by rules and weighs nothing.
-const IDM: &str = "idm";
+/// A kind through which a driver loses the settings that its own kind has.
+const OTHER_KIND: &str = "idm";
 
 /// Settings that other changes vary, or that name the planner itself.
 const VARIED_OTHERWISE: [&str; 2] = ["kind", "prediction"];
@@ -57,7 +54,7 @@ impl Registry {
         let stated = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).flat_map(|vehicle| {
             let plain = self.plain_driver(name_or_path, vehicle, overrides);
             let kind = kind_to_state(vehicle, &changed_tree);
-            let changes = changes(vehicle, plain.as_ref(), self.complete()).into_iter();
+            let changes = changes(vehicle, plain.as_ref(), self).into_iter();
             changes.map(move |(factor, change, set)| (factor, change, kind.iter().cloned().chain([set]).collect()))
         });
         let changed = stated.map(|(factor, change, sets): (String, String, Vec<String>)| {
@@ -83,7 +80,7 @@ impl Registry {
         let sets = [
             "counterfactual=[]".to_owned(),
             "expect={}".to_owned(),
-            format!("vehicle.{name}.driver.kind=\"{IDM}\""),
+            format!("vehicle.{name}.driver.kind=\"{OTHER_KIND}\""),
             format!("vehicle.{name}.driver.kind=\"{kind}\""),
         ];
         let plain = self.load(name_or_path, &[overrides, &sets.map(Override::Set)].concat()).ok()?;
@@ -102,7 +99,7 @@ fn kind_to_state(vehicle: &Vehicle, tree: &TomlNode) -> Option<String> {
 /// Factor, change, and the argument of `--set`.
 type Change = (String, String, String);
 
-fn changes(vehicle: &Vehicle, plain: Option<&Driver>, schema: SchemaNode) -> Vec<Change> {
+fn changes(vehicle: &Vehicle, plain: Option<&Driver>, registry: &Registry) -> Vec<Change> {
     let mut changes = match &vehicle.driver {
         Driver::Human(settings) => {
             let styles = [Style::Tough, Style::Nice].into_iter();
@@ -116,13 +113,18 @@ fn changes(vehicle: &Vehicle, plain: Option<&Driver>, schema: SchemaNode) -> Vec
         }
         driver if driver.goes_first() => [Style::Tough, Style::Nice].map(|style| human(vehicle, style)).to_vec(),
         driver => {
-            let others = PLANNERS.into_iter().filter(|kind| *kind != driver.kind());
-            others.map(|kind| planner_change(vehicle, kind)).collect()
+            let mut others: Vec<(StandardReplacement, &str)> = registry
+                .drivers()
+                .filter(|other| other.kind() != driver.kind())
+                .filter_map(|other| Some((other.replacement_in_why()?, other.kind())))
+                .collect();
+            others.sort_by_key(|(replacement, _)| replacement.rank);
+            others.into_iter().map(|(replacement, kind)| planner_change(vehicle, replacement.factor, kind)).collect()
         }
     };
     let settings = serde_json::to_value(&vehicle.driver).unwrap_or_default();
     let plain = plain.and_then(|plain| serde_json::to_value(plain).ok()).unwrap_or_default();
-    for (key, property) in settings_of(&vehicle.driver, schema) {
+    for (key, property) in settings_of(&vehicle.driver, registry.complete()) {
         let value = settings.get(key).unwrap_or(&Json::Null);
         let off = mechanism_change(vehicle, key, property, value);
         let by_itself = plain.get(key).filter(|plain| off.is_none() && *plain != value && !plain.is_null());
@@ -154,9 +156,8 @@ fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
     (format!("{name}'s driver"), format!("{name}: driver = human, {word}"), set)
 }
 
-fn planner_change(Vehicle { name, .. }: &Vehicle, kind: &str) -> Change {
+fn planner_change(Vehicle { name, .. }: &Vehicle, factor: &str, kind: &str) -> Change {
     let set = format!("vehicle.{name}.driver.kind=\"{kind}\"");
-    let factor = if kind == IDM { "replacement by IDM" } else { "planner" };
     (format!("{name}'s {factor}"), format!("{name}: planner = {kind}"), set)
 }
 

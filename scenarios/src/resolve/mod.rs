@@ -19,12 +19,13 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
+use interplay_building::control::Controller;
 use interplay_planners::Driver;
 use interplay_planners::road::network::RoadNetwork;
 
 use crate::format::read::tree::TomlNode;
 use crate::format::registry::Registry;
-use crate::format::scenario_file::{ScenarioFile, defaults};
+use crate::format::scenario_file::{self, ScenarioFile};
 use crate::format::stated::Stated;
 use crate::format::vehicle_config::{VehicleConfig, default_driver};
 use crate::format::weather::WeatherConfig;
@@ -32,7 +33,7 @@ use crate::model::building::gains::GainsConfig;
 use crate::model::building::plant::BuildingPlant;
 use crate::model::building::weather::WeatherSource;
 use crate::model::remark::{ScenarioRemark, ScenarioRemarks};
-use crate::model::scenario::{Scenario, Stay, Vehicle};
+use crate::model::scenario::{Scenario, Vehicle};
 use crate::resolve::check::{consistency, remarks};
 use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
 use crate::roads::Road;
@@ -90,14 +91,22 @@ impl Reader<'_> {
     /// Builds the road and places vehicles and obstacles on it.
     fn placed(&self, file: &mut ScenarioFile, known_roads: &KnownRoads) -> Result<PlacedVehicles, Vec<Fault>> {
         let written = serde_json::to_string(&(&file.road, &file.lights)).unwrap_or_default();
-        let mut road = self.or_default("road", file.road.take())?;
+        let road = file.road.take().map(|stated| self.registry.road(stated)).transpose();
+        let mut road = road.map_err(|error| self.refused("road", &error))?.unwrap_or_default();
         records::read(&mut file.vehicles, self.tree)?;
         let origin = local_origin::move_near_origin(&mut road, &mut file.vehicles, &mut file.obstacles);
         let schema = self.registry.complete();
         let Placed { network, starts } =
             place(&file.vehicles, &road, &file.lights, written, self.tree, schema, known_roads)?;
         let mut vehicles = self.vehicles(std::mem::take(&mut file.vehicles), starts)?;
-        vehicles.extend(obstacles(&file.obstacles, &road, network.as_deref(), self.tree, &vehicles)?);
+        vehicles.extend(obstacles(
+            &file.obstacles,
+            self.registry.obstacles(),
+            &road,
+            network.as_deref(),
+            self.tree,
+            &vehicles,
+        )?);
         let moved = origin.map(|origin| local_origin::remark(origin, self.tree));
         Ok(PlacedVehicles { road, network, vehicles, moved })
     }
@@ -124,11 +133,11 @@ fn read(
         figure: file.figure,
         scale: file.scale,
         conduct: file.conduct,
-        duration_s: file.duration_s.unwrap_or_else(defaults::duration_s),
-        step_s: file.step_s.unwrap_or_else(defaults::step_s),
+        duration_s: file.duration_s.unwrap_or_else(scenario_file::defaults::duration_s),
+        step_s: file.step_s.unwrap_or_else(scenario_file::defaults::step_s),
         ticks_per_plan: 1,
-        horizon_steps: file.horizon_steps.unwrap_or_else(defaults::horizon_steps),
-        seed: file.seed.unwrap_or_else(defaults::seed),
+        horizon_steps: file.horizon_steps.unwrap_or_else(scenario_file::defaults::horizon_steps),
+        seed: file.seed.unwrap_or_else(scenario_file::defaults::seed),
         real_time: reader.optional("real_time", file.real_time)?,
         plant: reader.or_default("plant", file.plant)?,
         lights: file.lights,
@@ -144,7 +153,7 @@ fn read(
         calendar: reader.optional("calendar", file.calendar)?,
         tariff: reader.optional("tariff", file.tariff)?,
         heat_pump: reader.optional("heat_pump", file.heat_pump)?,
-        controller: reader.optional("controller", file.controller)?,
+        controller: reader.controller(file.controller)?,
         iterations: file.iterations,
         budget: reader.or_default("budget", file.budget)?,
         expect: file.expect,
@@ -264,35 +273,22 @@ impl Reader<'_> {
         self.registry.driver(stated).map_err(|error| self.refused(path, &error))
     }
 
+    fn controller(&self, stated: Option<Stated<Controller>>) -> Result<Option<Controller>, Fault> {
+        let read = stated.map(|stated| self.registry.controller(stated)).transpose();
+        read.map_err(|error| self.refused("controller", &error))
+    }
+
     fn vehicles(&self, stated: Vec<VehicleConfig>, starts: Vec<Start>) -> Result<Vec<Vehicle>, Fault> {
         let placed = stated.into_iter().zip(starts).enumerate();
         placed.map(|(index, (vehicle, start))| self.vehicle(index, vehicle, start)).collect()
     }
 
-    fn vehicle(&self, index: usize, stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
+    fn vehicle(&self, index: usize, mut stated: VehicleConfig, (start, route): Start) -> Result<Vehicle, Fault> {
         let path = |key: &str| format!("vehicle.{index}.{key}");
-        Ok(Vehicle {
-            weights: self.or_default(&path("weights"), stated.weights)?,
-            body: self.or_default(&path("body"), stated.body)?,
-            limits: self.or_default(&path("limits"), stated.limits)?,
-            safety: self.or_default(&path("safety"), stated.safety)?,
-            driver: self.driver(&path("driver"), stated.driver)?,
-            sensing: self.optional(&path("sensing"), stated.sensing)?,
-            inference: self.optional(&path("inference"), stated.inference)?,
-            name: stated.name,
-            class: stated.class,
-            road: stated.road,
-            start_acceleration_mps2: stated.start.acceleration_mps2.unwrap_or(0.0),
-            start,
-            route,
-            goal: stated.goal,
-            rules: stated.rules,
-            obstacle: None,
-            stay: Stay {
-                enters_s: stated.enters_s,
-                leaves_s: stated.leaves_s,
-                leaves_at_end: stated.leaves_at_end.unwrap_or(false),
-            },
-        })
+        let driver = self.driver(&path("driver"), stated.driver.take())?;
+        let start_acceleration_mps2 = stated.start.acceleration_mps2.unwrap_or(0.0);
+        let mut vehicle = Vehicle { start_acceleration_mps2, ..Vehicle::new(start, route, driver) };
+        stated.settle_in(&mut vehicle).map_err(|(key, error)| self.refused(&path(key), &error))?;
+        Ok(vehicle)
     }
 }

@@ -2,7 +2,7 @@
 
 /// What is wrong with a road, and where it is written.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct RoadFault {
+pub struct RoadFault {
     /// The path of the key below `road`; empty for the whole table.
     pub path: String,
     /// What stands beside the underlined text.

@@ -11,6 +11,7 @@
 
 mod curve;
 mod fault;
+mod form;
 mod intersection;
 mod junctions;
 mod lanes;
@@ -20,14 +21,17 @@ mod ramp_merge;
 
 use std::sync::Arc;
 
+use interplay_common::foreign::{ForeignSettings, KindTable};
 use interplay_planners::road::network::Lane;
 use interplay_planners::{Corridor, LaneEnd, Route};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 pub(crate) use curve::{CurveFault, Turn};
 pub use curve::{CurveLaneEnd, RoadCurve};
-pub(crate) use fault::{RoadFault, to_centimetres};
+pub use fault::RoadFault;
+pub(crate) use fault::to_centimetres;
+pub use form::RoadForm;
 pub use intersection::Intersection;
 pub use junctions::*;
 pub use lanes::Lanes;
@@ -36,11 +40,14 @@ pub use piece::CurvePiece;
 pub(crate) use piece::PieceFault;
 pub use ramp_merge::RampMerge;
 
+/// The settings of a road whose form another crate provides.
+pub type ForeignRoad = ForeignSettings<dyn RoadForm>;
+
 /// Declares [`Road`] with the forms in `junctions`, and what is asked of every form.
 macro_rules! road {
     ($($file:ident::$Form:ident: $about:literal;)*) => {
         /// A road; `kind` chooses.
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
         #[serde(tag = "kind", rename_all = "kebab-case")]
         pub enum Road {
             /// A straight road along x with parallel lanes; its right edge is y = 0.
@@ -54,6 +61,26 @@ macro_rules! road {
             /// Lanes with names, each with its line, its width, and the lanes after and beside it.
             Network(LaneNetwork),
             $(#[doc = $about] $Form($Form),)*
+            /// A form of another crate. It is read by the registry that knows it.
+            #[serde(skip)]
+            Foreign(ForeignRoad),
+        }
+
+        /// A table with the `kind` and the settings, as a scenario file has it.
+        impl Serialize for Road {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                match self {
+                    Road::Lanes(settings) => KindTable { kind: "lanes", settings }.serialize(serializer),
+                    Road::RampMerge(settings) => KindTable { kind: "ramp-merge", settings }.serialize(serializer),
+                    Road::Intersection(settings) => KindTable { kind: "intersection", settings }.serialize(serializer),
+                    Road::Curve(settings) => KindTable { kind: "curve", settings }.serialize(serializer),
+                    Road::Network(settings) => KindTable { kind: "network", settings }.serialize(serializer),
+                    $(Road::$Form(settings) => {
+                        KindTable { kind: &stringify!($file).replace('_', "-"), settings }.serialize(serializer)
+                    })*
+                    Road::Foreign(foreign) => foreign.serialize(serializer),
+                }
+            }
         }
 
         impl Road {
@@ -66,6 +93,7 @@ macro_rules! road {
                     Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) | Road::Curve(_) => None,
                     Road::Network(network) => Some(network.lanes()),
                     $(Road::$Form(form) => Some(form.lanes()),)*
+                    Road::Foreign(form) => Some(form.settings().lanes()),
                 }
             }
 
@@ -78,6 +106,7 @@ macro_rules! road {
                     Road::Curve(curve) => curve.lane_width_m,
                     Road::Network(network) => network.lanes.first().map_or(0.0, |lane| lane.width_m.first_m()),
                     $(Road::$Form(form) => form.lane_width_m,)*
+                    Road::Foreign(form) => form.settings().lane_width_m(),
                 }
             }
         }

@@ -63,7 +63,7 @@ impl Scenario {
             calendar: self.calendar.clone().map(Stated::from),
             tariff: self.tariff.clone().map(Stated::from),
             heat_pump: self.heat_pump.clone().map(Stated::from),
-            controller: self.controller.map(Stated::from),
+            controller: self.controller.clone().map(Stated::from),
             iterations: self.iterations,
             budget: Some(self.budget.into()),
             expect: self.expect.clone(),
@@ -93,26 +93,13 @@ impl Vehicle {
     fn to_config(&self) -> VehicleConfig {
         let lanes = self.route.legs.iter().filter(|_| self.route.is_in_network());
         VehicleConfig {
-            name: self.name.clone(),
-            class: self.class,
-            road: self.road,
             start: StartConfig {
                 acceleration_mps2: Some(self.start_acceleration_mps2).filter(|stated| *stated != 0.0),
                 ..self.start.into()
             },
             route: lanes.map(|leg| leg.lane.clone()).collect(),
-            goal: self.goal.clone(),
-            weights: Some(self.weights.into()),
-            body: Some(self.body.into()),
-            limits: Some(self.limits.into()),
-            safety: Some(self.safety.into()),
             driver: Some(self.driver.clone().into()),
-            rules: self.rules,
-            enters_s: self.stay.enters_s,
-            leaves_s: self.stay.leaves_s,
-            leaves_at_end: Some(true).filter(|_| self.stay.leaves_at_end),
-            sensing: self.sensing.map(Stated::from),
-            inference: self.inference.map(Stated::from),
+            ..VehicleConfig::of_settled(self)
         }
     }
 

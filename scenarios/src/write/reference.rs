@@ -27,7 +27,7 @@ const HEAD: &str = "# Every key\n\n\
     `detail`, `detector`, `flow`, `gains`, `light`, `obstacle`, `planning_period_s`, `expect.metric`, `expect.rules_kept`,\n  \
     `limits.comfort`, `rules`, `enters_s`, `leaves_s`, `leaves_at_end`, `when`, `users`, `zebra`, `window`, `demand_per_kw`,\n  \
     `emissions_kg_per_kwh`, `interval_s`, `budget.processor_s`, and the kinds `walker`, `recorded`, `inputs`, `economic-mpc`, `csv`\n  \
-    and `boptest` with all that is in them.\n";
+    and `boptest` with all that is in them. Later keys say it themselves.\n";
 
 /// The page.
 pub fn key_reference() -> String {
@@ -130,6 +130,9 @@ fn row(key: &str, property: SchemaNode, required: bool, link: Option<&str>) -> S
     let mut about = property.description().replace(&format!(" [{unit}]"), "");
     if let Some(twin) = in_degrees(key).filter(|_| property.is_deprecated()) {
         about = format!("Older form of `{twin}`. {about}");
+    }
+    if let Some(version) = property.keyword("x-since").and_then(Json::as_str) {
+        about += &format!(" Since version {version}.");
     }
     let unit = if unit == "dimensionless" { "1" } else { unit };
     let cells = [type_of(property, link), unit.to_owned(), bounds(property), default, example, about];

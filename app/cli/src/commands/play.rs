@@ -6,8 +6,8 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 use interplay_play::{
-    PlannedStudy, PlayServer, Score, ScoreRow, ServeOptions, Session, Study, StudyError, check_seats, keep,
-    play_script, read_script, write,
+    PlannedStudy, PlayServer, Score, ScoreRow, ServeOptions, Session, Study, StudyError, check_seats, play_script,
+    read_script, save_played, write_played,
 };
 use interplay_scenarios::{Registry, Scenario, read_regular};
 use serde_json::json;
@@ -210,8 +210,8 @@ impl Play {
             return refused(&error.to_string());
         }
         let kept = match &self.out {
-            Some(path) => write(&session, path).map(|()| path.clone()),
-            None => keep(&session, Path::new("played")),
+            Some(path) => write_played(&session, path).map(|()| path.clone()),
+            None => save_played(&session, Path::new("played")),
         };
         match kept {
             Ok(path) => print_error(&format!("what was played is in {}", path.display())),

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use interplay_presentation::animation::AnimationFile;
 use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
 use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
@@ -12,18 +11,16 @@ use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
-use interplay_sweep::{DetectorWriter, SeriesWriter, SweepError, TableFile, TrajectoryWriter};
 
-use crate::flag_values::export_file::ExportFile;
 use crate::flag_values::files::short_name;
-use crate::flag_values::run_outputs::RunOutputs;
 use crate::flag_values::values;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 use crate::output::program::this_program;
-use crate::output::refusal::gave_up;
+use crate::output::refusal::unwritten;
 use crate::output::{json, print, print_error, print_load_error, without_input};
 use crate::process::watch::WatchedFiles;
+use crate::run_outputs::RunOutputs;
 
 /// Run one scenario, say whether its expectations held, and record it.
 #[derive(Debug, Default, Args)]
@@ -75,30 +72,12 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
 
-    /// Draw a moving picture of the run, seen from above: .gif, .webp, .png (a filmstrip), or .mp4 (through ffmpeg)
-    #[arg(long, value_name = "FILE")]
-    animate: Option<AnimationFile>,
+    #[command(flatten)]
+    outputs: RunOutputs,
 
     /// Until when the moving picture shows the run [s] [default: until all is settled that is expected]
     #[arg(long, value_name = "SECONDS", value_parser = values::time, requires = "animate", allow_negative_numbers = true)]
     animate_until: Option<f64>,
-
-    /// Write what every vehicle did at every tick as a table: .csv or .parquet
-    #[arg(long, value_name = "FILE")]
-    trajectories: Option<TableFile>,
-
-    /// Write what the scenario's detectors count as a table: .csv or .parquet
-    #[arg(long, value_name = "FILE")]
-    detectors: Option<TableFile>,
-
-    /// Write what happened in the building at every step as a table, with weather, forecast, sun and price: .csv or .parquet
-    #[arg(long, value_name = "FILE")]
-    series: Option<TableFile>,
-
-    /// Write the run as a scenario of CommonRoad, all but the ego as obstacles, and beside it NAME.solution.xml: the ego's
-    /// motion as a solution of its planning problem
-    #[arg(long, value_name = "FILE.xml")]
-    export: Option<ExportFile>,
 
     /// Print the report as one JSON document
     #[arg(long)]
@@ -145,28 +124,20 @@ impl Run {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
-        let checked = self.animate.as_ref().map_or(Ok(()), AnimationFile::check).map_err(CommandError::from);
-        let recording = match checked.and_then(|()| Ok(self.begin_recording(&scenario, &name)?)) {
+        let recording = match self.begin_recording(&scenario, &name) {
             Ok(recording) => recording,
             Err(error) => {
                 print_error(&error.to_string());
                 return ExitStatus::Unfinished;
             }
         };
-        let export = match self.export.as_ref().map(|file| file.begin(&scenario, self.scenario())).transpose() {
-            Ok(export) => export,
-            Err(refusal) => return refusal,
+        let mut outputs = match self.outputs.begin(&scenario, self.scenario()) {
+            Ok(outputs) => outputs,
+            Err(error) => return unwritten(error),
         };
-        let tables = match self.begin_tables(&scenario) {
-            Ok(tables) => tables,
-            Err(error) => return gave_up(error),
-        };
-        let passed = self.simulate(&name, scenario, recording, tables).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, recording, outputs.watchers()).and_then(|recorded| {
             self.page(&name, &recorded)?;
-            self.write_animation(&recorded)?;
-            if let (Some(file), Some(export)) = (&self.export, &export) {
-                file.write(export, &recorded)?;
-            }
+            outputs.finish(&recorded, print_error)?;
             self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
         match passed {
@@ -184,51 +155,17 @@ impl Run {
         }
     }
 
-    /// The tables that are written while the run goes on.
-    fn begin_tables(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Watcher>>, SweepError> {
-        let mut tables: Vec<Box<dyn Watcher>> = Vec::new();
-        if let Some(file) = &self.detectors {
-            tables.push(Box::new(DetectorWriter::begin(file, scenario)?));
-        }
-        if let Some(file) = &self.series {
-            tables.push(Box::new(SeriesWriter::begin(file, scenario)?));
-        }
-        if let Some(file) = &self.trajectories {
-            tables.push(Box::new(TrajectoryWriter::begin(file)?));
-        }
-        Ok(tables)
-    }
-
     /// Why an output must not be written.
     fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
         let recording = self.recording(name);
-        let animation = self.animate.as_ref().map(AnimationFile::path);
-        let trajectories = self.trajectories.as_ref().map(TableFile::path);
-        let files = [
-            ("recording", recording.as_deref()),
-            ("animation", animation),
-            ("table of trajectories", trajectories),
-            ("table of detectors", self.detectors.as_ref().map(TableFile::path)),
-            ("table of series", self.series.as_ref().map(TableFile::path)),
-            ("scenario of CommonRoad", self.export.as_ref().map(ExportFile::scenario)),
-            ("solution", self.export.as_ref().map(ExportFile::solution)),
-        ];
-        let files = files.into_iter().filter_map(|(what, path)| Some((what, path?))).collect();
-        let outputs = RunOutputs { files, page: self.report.as_deref() };
-        outputs.refused(registry, self.scenario(), &self.overrides())
+        let besides = (recording.as_deref(), self.report.as_deref());
+        self.outputs.refused(besides, registry, (self.scenario(), &self.overrides()))
     }
 
     /// Why there is nothing to write of what vehicles or the building did.
     fn without_subject(&self, scenario: &Scenario) -> Option<String> {
-        let asked = [("--trajectories", self.trajectories.is_some()), ("--export", self.export.is_some())];
-        if self.detectors.is_some() && scenario.detectors.is_empty() {
-            return Some(format!("--detectors needs a `[[detector]]`, and `{}` has none", self.scenario()));
-        }
-        if self.series.is_some() && scenario.building.is_none() {
-            return Some(format!("--series needs a `[building]`, and `{}` has none", self.scenario()));
-        }
-        let (flag, _) = asked.into_iter().find(|(_, asked)| *asked && scenario.vehicles.is_empty())?;
-        Some(format!("{flag} needs vehicles, and `{}` has none", self.scenario()))
+        let (flag, lacked) = self.outputs.without_subject(scenario)?;
+        Some(format!("--{flag} needs {lacked}, and `{}` has none", self.scenario()))
     }
 
     /// The scenario without its counterfactuals if a flag replaces the planner: they are claims about the file's own planner.
@@ -253,29 +190,19 @@ impl Run {
         name: &str,
         scenario: Scenario,
         recording: Option<OpenRecording>,
-        tables: Vec<Box<dyn Watcher>>,
+        outputs: Vec<Box<dyn Watcher>>,
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
         if let Some(recording) = &recording {
             watchers.push(Box::new(recording.clone()));
         }
-        watchers.extend(tables);
-        if self.report.is_some() || self.animate.is_some() || self.export.is_some() {
+        watchers.extend(outputs);
+        if self.report.is_some() || self.outputs.needs_frames() {
             watchers.push(Box::new(frame_log.clone()));
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
-        let tables = [
-            ("trajectories", &self.trajectories),
-            ("what detectors counted", &self.detectors),
-            ("series of the building", &self.series),
-        ];
-        for (what, file) in tables {
-            if let Some(file) = file {
-                print_error(&format!("{what} in {}", file.path().display()));
-            }
-        }
         let recorded = RecordedRun::to_draw(scenario, frame_log.frames(), report);
         Ok(RecordedRun { command: self.words(), shown_until_s: self.animate_until, ..recorded })
     }
@@ -288,14 +215,6 @@ impl Run {
         let what = |file: &String| format!("the recording; \u{201c}interplay view {file}\u{201d} opens it");
         let page = run_page(recorded, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
         print_error(&format!("page in {}", page.display()));
-        Ok(())
-    }
-
-    /// Draws the moving picture, if that is asked for.
-    fn write_animation(&self, recorded: &RecordedRun) -> Result<(), CommandError> {
-        let Some(file) = &self.animate else { return Ok(()) };
-        file.write(recorded)?;
-        print_error(&format!("animation in {}", file.path().display()));
         Ok(())
     }
 
@@ -342,7 +261,7 @@ impl Run {
         };
         let Some(sink) = sink else { return Ok(None) };
         let mut recorder = Recorder::begin(scenario, name, &sink)?;
-        recorder.repeat_with(&self.command())?;
+        recorder.set_command(&self.command())?;
         Ok(Some(OpenRecording::new(recorder)))
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use clap::{Args, Subcommand, ValueEnum};
-use interplay_presentation::record::record_again;
+use interplay_presentation::record::record_sweep_run;
 use interplay_scenarios::{LoadError, Registry, Scenario, SweepPlan, embedded_plans};
 use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
 use rayon::ThreadPool;
@@ -200,7 +200,7 @@ fn make_rows(
 ) -> Result<SweepOutcome, SweepError> {
     let checks = CheckProgress::start(plan.run_count());
     let progress: OnceLock<Progress> = OnceLock::new();
-    let keep = |row: &SweepRow, scenario: &Scenario| record_again(folder, row, scenario);
+    let keep = |row: &SweepRow, scenario: &Scenario| record_sweep_run(folder, row, scenario);
     let options = SweepOptions {
         folder,
         shard,

@@ -10,6 +10,8 @@ use interplay_presentation::record::RecordError;
 use interplay_simulation::run::RunError;
 use thiserror::Error;
 
+use crate::run_outputs::OutputError;
+
 /// Why there is no result, or why it is not where it should be.
 #[derive(Debug, Error)]
 pub(crate) enum CommandError {
@@ -23,6 +25,8 @@ pub(crate) enum CommandError {
     Plot(#[from] PlotError),
     #[error(transparent)]
     Animation(#[from] AnimationError),
+    #[error(transparent)]
+    RunOutput(#[from] OutputError),
     #[error("{scenario}: {reason}")]
     FailedAnimation { scenario: String, reason: AnimationError },
     #[error("cannot write `{}`: {reason}; choose another place for it", path.display())]

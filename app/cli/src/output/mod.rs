@@ -107,7 +107,7 @@ pub(crate) fn json(what: &'static str, value: &impl Serialize) -> Result<String,
 
 /// Why a scenario cannot be run by the command: a vehicle of it waits for inputs from outside.
 pub(crate) fn without_input(scenario: &Scenario) -> Option<String> {
-    let external = scenario.vehicles.iter().find(|vehicle| vehicle.driver.kind() == "external")?;
+    let external = scenario.awaiting_inputs()?;
     Some(format!(
         "`{name}` has `driver = {{ kind = \"external\" }}`, and nothing drives it here: a program of your own does \
          (`Simulation::apply`), or `--set 'vehicle.{name}.driver={{ kind = \"human\" }}'` gives it another driver",

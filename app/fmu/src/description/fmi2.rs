@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::unit::{Description, Variable, escaped};
+use super::{Description, Variable, escaped};
 
-/// The file in FMI 2.0.
+/// The description in FMI 2.0.
 pub(super) fn xml(unit: &Description<'_>) -> String {
     let variables = unit.variables();
     let mut lists = String::new();
@@ -26,13 +26,13 @@ pub(super) fn xml(unit: &Description<'_>) -> String {
     }
     let outputs: String =
         (unit.zones.len() + 1..=variables.len()).map(|index| format!("      <Unknown index=\"{index}\"/>\n")).collect();
-    let (title, identifier, guid, about) = (escaped(unit.title), unit.identifier, unit.guid, unit.about());
+    let (title, identifier, guid, summary) = (escaped(unit.title), unit.identifier, unit.guid, unit.summary());
     let (step_s, stop_s, version) = (unit.step_s, unit.stop_s, env!("CARGO_PKG_VERSION"));
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{title}" guid="{guid}" generationTool="Interplay {version}"
     variableNamingConvention="flat" numberOfEventIndicators="0"
-    description="{about}">
+    description="{summary}">
   <CoSimulation modelIdentifier="{identifier}" canHandleVariableCommunicationStepSize="false"
       canInterpolateInputs="false" canBeInstantiatedOnlyOncePerProcess="false"
       canNotUseMemoryManagementFunctions="true" canGetAndSetFMUstate="true" canSerializeFMUstate="true"

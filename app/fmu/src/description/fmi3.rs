@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::unit::{Description, Variable, escaped};
+use super::{Description, Variable, escaped};
 
-/// The file in FMI 3.0. Its value references are those of FMI 2.0, and time comes last.
+/// The description in FMI 3.0. The value references are those of FMI 2.0, and time is the last variable.
 pub(super) fn xml(unit: &Description<'_>) -> String {
     let variables = unit.variables();
     let mut list = String::new();
@@ -28,14 +28,14 @@ pub(super) fn xml(unit: &Description<'_>) -> String {
         references.clone().map(|reference| format!("    <Output valueReference=\"{reference}\"/>\n")).collect();
     let unknowns: String =
         references.map(|reference| format!("    <InitialUnknown valueReference=\"{reference}\"/>\n")).collect();
-    let (title, identifier, guid, about) = (escaped(unit.title), unit.identifier, unit.guid, unit.about());
+    let (title, identifier, guid, summary) = (escaped(unit.title), unit.identifier, unit.guid, unit.summary());
     let (step_s, stop_s, version) = (unit.step_s, unit.stop_s, env!("CARGO_PKG_VERSION"));
     let time = variables.len();
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="{title}" instantiationToken="{guid}"
     generationTool="Interplay {version}" variableNamingConvention="flat"
-    description="{about}">
+    description="{summary}">
   <CoSimulation modelIdentifier="{identifier}" canBeInstantiatedOnlyOncePerProcess="false"
       canGetAndSetFMUState="true" canSerializeFMUState="true" providesDirectionalDerivatives="false"
       canHandleVariableCommunicationStepSize="false" fixedInternalStepSize="{step_s}" hasEventMode="false"/>

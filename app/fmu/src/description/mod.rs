@@ -1,17 +1,106 @@
-//! `modelDescription.xml`: what an importer is told of the variables, in either version of FMI.
+//! `modelDescription.xml`, the description of the variables, in either version of FMI.
 
 mod fmi2;
 mod fmi3;
-mod unit;
 
-pub(crate) use unit::Description;
+use interplay_building::network::PowerLimits;
 
 use crate::version::FmiVersion;
 
-/// The file.
+/// The description of a unit in a version of FMI.
 pub(crate) fn xml(unit: &Description<'_>, version: FmiVersion) -> String {
     match version {
         FmiVersion::Two => fmi2::xml(unit),
         FmiVersion::Three => fmi3::xml(unit),
     }
+}
+
+/// The content of a description.
+#[derive(Clone, Debug)]
+pub(crate) struct Description<'a> {
+    /// The title of the scenario.
+    pub title: &'a str,
+    /// The name of the library.
+    pub identifier: &'a str,
+    /// The GUID, which the resources repeat.
+    pub guid: &'a str,
+    /// The names of the zones.
+    pub zones: &'a [String],
+    /// The power limits of each zone.
+    pub limits: &'a PowerLimits,
+    /// Time from one step to the next \[s\].
+    pub step_s: f64,
+    /// End of the weather \[s\].
+    pub stop_s: f64,
+}
+
+/// A variable of both versions.
+struct Variable {
+    pub name: String,
+    pub description: String,
+    /// Heat, which is zero until it is set; all others are outputs.
+    pub is_input: bool,
+    pub unit: &'static str,
+}
+
+impl Description<'_> {
+    /// The description of the unit in words.
+    fn summary(&self) -> String {
+        let step_s = self.step_s;
+        format!(
+            "A thermal network with its weather. Heat is held between steps; steps are whole multiples of {step_s} s."
+        )
+    }
+
+    /// The variables in the order of their value references (`library/instance.rs`).
+    fn variables(&self) -> Vec<Variable> {
+        let PowerLimits { heating_kw, cooling_kw } = self.limits;
+        let heat = |(index, zone): (usize, &String)| Variable {
+            name: format!("{zone}.heat"),
+            description: format!(
+                "Heat of the equipment of {zone}, at most {} kW; negative when it cools, at most {} kW",
+                heating_kw[index], cooling_kw[index]
+            ),
+            is_input: true,
+            unit: "kW",
+        };
+        let temperature = |zone: &String| Variable {
+            name: format!("{zone}.temperature"),
+            description: format!("Temperature of {zone}"),
+            is_input: false,
+            unit: "degC",
+        };
+        let gains = |zone: &String| Variable {
+            name: format!("{zone}.gains"),
+            description: format!("Heat of people, machines and sun in {zone}, until the next step"),
+            is_input: false,
+            unit: "kW",
+        };
+        let outdoor = Variable {
+            name: "outdoor temperature".to_owned(),
+            description: "Temperature outdoors, until the next step".to_owned(),
+            is_input: false,
+            unit: "degC",
+        };
+        let heats = self.zones.iter().enumerate().map(heat);
+        let temperatures = self.zones.iter().map(temperature);
+        heats.chain(temperatures).chain(self.zones.iter().map(gains)).chain([outdoor]).collect()
+    }
+}
+
+/// A text within an attribute. Characters that XML does not allow are replaced by question marks.
+fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\u{FFFE}' | '\u{FFFF}' => safe.push('?'),
+            _ if character.is_control() => safe.push('?'),
+            _ => safe.push(character),
+        }
+    }
+    safe
 }

@@ -7,7 +7,7 @@ use std::process;
 use interplay_building::discretise::Model;
 use interplay_building::network::{Network, Wall, Zone};
 
-/// The identity of the FMU.
+/// The GUID of the FMU.
 pub const GUID: &str = "{0-0}";
 /// Time from one step to the next \[s\].
 pub const STEP_S: f64 = 1800.0;
@@ -72,7 +72,7 @@ mod by_columns {
     }
 }
 
-/// A folder of resources that is removed in the end.
+/// A folder of resources that is removed when it is dropped.
 pub struct Resources(PathBuf);
 
 impl Resources {
@@ -92,7 +92,7 @@ impl Resources {
 
 impl Drop for Resources {
     fn drop(&mut self) {
-        // What is left behind in a folder for temporary files harms nobody.
+        // A folder that stays behind among the temporary files does no harm.
         let _ = fs::remove_dir_all(&self.0);
     }
 }

@@ -20,8 +20,8 @@ fn step(unit: &Unit, run: usize, step: usize) -> [u64; 2] {
     [temperatures_c[0].to_bits(), temperatures_c[1].to_bits()]
 }
 
-/// A run that has the process for itself.
-fn alone(fmi: Fmi, folder: &Resources, run: usize) -> Vec<[u64; 2]> {
+/// A run without other instances in the process.
+fn run_alone(fmi: Fmi, folder: &Resources, run: usize) -> Vec<[u64; 2]> {
     let unit = Unit::new(fmi, folder.path(), GUID).expect("an instance");
     assert_eq!(unit.begin(0.0), OK);
     (0..STEPS).map(|at| step(&unit, run, at)).collect()
@@ -30,7 +30,7 @@ fn alone(fmi: Fmi, folder: &Resources, run: usize) -> Vec<[u64; 2]> {
 #[test]
 fn instances_that_take_turns_do_not_change_each_other() {
     let folder = Resources::write("turns", &resources(&model(), STEPS));
-    let expected: Vec<_> = (0..3).map(|run| alone(Fmi::Two, &folder, run)).collect();
+    let expected: Vec<_> = (0..3).map(|run| run_alone(Fmi::Two, &folder, run)).collect();
     assert!(expected[0] != expected[1] && expected[1] != expected[2]);
     for fmi in BOTH {
         // The third begins when the others are halfway, in the other version, and the first is freed before they end.
@@ -49,19 +49,19 @@ fn instances_that_take_turns_do_not_change_each_other() {
             }
         }
         assert_eq!(units[1].as_ref().map(Unit::reset), Some(OK));
-        let last = units[2].as_ref().expect("it lives").get(&[2]).1[0];
-        assert_eq!(last.to_bits(), expected[2][STEPS - 1][0], "a reset is one of its own instance");
+        let last = units[2].as_ref().expect("the instance exists").get(&[2]).1[0];
+        assert_eq!(last.to_bits(), expected[2][STEPS - 1][0], "a reset changes its own instance only");
     }
 }
 
 #[test]
 fn instances_run_side_by_side_in_threads() {
     let folder = Resources::write("threads", &resources(&model(), STEPS));
-    let expected: Vec<_> = (0..4).map(|run| alone(Fmi::Two, &folder, run)).collect();
+    let expected: Vec<_> = (0..4).map(|run| run_alone(Fmi::Two, &folder, run)).collect();
     let side_by_side: Vec<_> = thread::scope(|scope| {
         let folder = &folder;
-        let runs: Vec<_> = (0..4).map(|run| scope.spawn(move || alone(BOTH[run % 2], folder, run))).collect();
-        runs.into_iter().map(|run| run.join().expect("it ends")).collect()
+        let runs: Vec<_> = (0..4).map(|run| scope.spawn(move || run_alone(BOTH[run % 2], folder, run))).collect();
+        runs.into_iter().map(|run| run.join().expect("the thread ends")).collect()
     });
     assert_eq!(side_by_side, expected);
 }

@@ -6,6 +6,7 @@ mod instances;
 #[path = "../../library/lib.rs"]
 mod library;
 mod moves;
+#[allow(unsafe_code, reason = "the functions of FMI take pointers")]
 mod refusals;
 mod states;
 #[allow(unsafe_code, reason = "the functions of FMI take pointers")]

@@ -4,7 +4,7 @@ use crate::house::{GUID, Resources, STEP_S, ambient_c, gains_kw, model, resource
 use crate::unit::{BOTH, ERROR, Fmi, OK, Unit};
 
 #[test]
-fn the_library_moves_as_the_network_does() {
+fn temperatures_equal_those_of_the_network() {
     let (model, steps) = (model(), 60);
     let folder = Resources::write("moves", &resources(&model, steps));
     for fmi in BOTH {
@@ -30,7 +30,7 @@ fn the_library_moves_as_the_network_does() {
                     "{fmi:?} {round} {step}: {values:?} {expected:?}"
                 );
             }
-            // The weather is over.
+            // The weather has ended.
             assert_eq!(unit.step(STEP_S * steps as f64, STEP_S), ERROR);
             assert_eq!(unit.reset(), OK);
         }
@@ -59,7 +59,7 @@ fn both_versions_compute_the_same_bits() {
 }
 
 #[test]
-fn a_simulation_begins_at_the_time_that_is_asked_for() {
+fn a_simulation_begins_at_the_given_start_time() {
     let folder = Resources::write("begins", &resources(&model(), 10));
     for fmi in BOTH {
         let unit = Unit::new(fmi, folder.path(), GUID).expect("an instance");
@@ -69,9 +69,9 @@ fn a_simulation_begins_at_the_time_that_is_asked_for() {
     }
 }
 
-/// A path is no URI: FMI 3.0 gives the folder as the system writes it.
+/// FMI 3.0 gives the folder as a path of the system, in which `%20` is not an escape.
 #[test]
-fn a_path_of_fmi_3_may_have_a_percent_sign() {
+fn a_path_in_fmi_3_may_contain_a_percent_sign() {
     let folder = Resources::write("100%20", &resources(&model(), 3));
     assert!(Unit::new(Fmi::Three, folder.path(), GUID).is_ok());
 }

@@ -10,7 +10,7 @@ use crate::library;
 use crate::unit::{BOTH, ERROR, Fmi, Log, OK, Unit, instantiate3};
 
 #[test]
-fn wrong_calls_are_errors_and_leave_the_instance_as_it_was() {
+fn invalid_calls_fail_and_leave_the_instance_unchanged() {
     let folder = Resources::write("wrong", &resources(&model(), 10));
     for fmi in BOTH {
         assert!(Unit::new(fmi, folder.path(), "{another}").is_err());
@@ -34,17 +34,18 @@ fn wrong_calls_are_errors_and_leave_the_instance_as_it_was() {
         assert_eq!(unit.set(&[7], &[20.0]), ERROR, "time");
         assert_eq!(unit.set(&[8], &[20.0]), ERROR, "no variable");
         assert_eq!((unit.get(&[8]).0, unit.get(&[u32::MAX]).0), (ERROR, ERROR));
-        assert_eq!(unit.begin(100.0), ERROR, "no whole step");
+        assert_eq!(unit.begin(100.0), ERROR, "not a whole step");
         assert_eq!(unit.begin(10.0 * STEP_S), ERROR, "no weather");
         assert_eq!(unit.get(&[0, 2, 7]), (OK, vec![0.0, 20.0, 0.0]), "{fmi:?}");
         assert_eq!(unit.step(0.0, STEP_S), OK);
     }
     assert_eq!(library::fmi2DoStep(ptr::null_mut(), 0.0, STEP_S, 0), ERROR);
-    assert_eq!(library::fmi3Reset(ptr::null_mut()), ERROR);
+    // SAFETY: the instance is null.
+    assert_eq!(unsafe { library::fmi3Reset(ptr::null_mut()) }, ERROR);
 }
 
 #[test]
-fn an_importer_of_fmi_3_is_told_what_is_wrong() {
+fn an_importer_of_fmi_3_gets_an_error_message() {
     let folder = Resources::write("told", &resources(&model(), 10));
     let unit = Unit::new(Fmi::Three, folder.path(), GUID).expect("an instance");
     assert_eq!(unit.begin(0.0), OK);
@@ -65,9 +66,9 @@ fn an_importer_of_fmi_3_is_told_what_is_wrong() {
 }
 
 #[test]
-fn spoilt_resources_are_refused() {
+fn corrupt_resources_are_refused() {
     let sound = resources(&model(), 3);
-    let spoilt = [
+    let corrupt = [
         String::new(),
         sound.replace("interplay-plant 1", "interplay-plant 2"),
         sound[..sound.len() / 2].to_owned(),
@@ -80,9 +81,9 @@ fn spoilt_resources_are_refused() {
         sound.replace("step_s 1800", "step_s -1"),
         sound.replace("initial_c 20", "initial_c NaN"),
     ];
-    for (number, text) in spoilt.iter().enumerate() {
+    for (number, text) in corrupt.iter().enumerate() {
         assert_ne!(text, &sound);
-        let folder = Resources::write(&format!("spoilt-{number}"), text);
+        let folder = Resources::write(&format!("corrupt-{number}"), text);
         for fmi in BOTH {
             assert!(Unit::new(fmi, folder.path(), GUID).is_err(), "{fmi:?} {number}");
         }
@@ -91,12 +92,12 @@ fn spoilt_resources_are_refused() {
 }
 
 #[test]
-fn what_is_not_supported_says_so() {
+fn unsupported_functions_fail() {
     let null = ptr::null_mut();
-    assert_eq!(library::fmi2GetInteger(null, ptr::null(), 0, null), OK, "no variables are asked for");
+    assert_eq!(library::fmi2GetInteger(null, ptr::null(), 0, null), OK, "an empty list of variables");
     assert_eq!(library::fmi2SetString(null, ptr::null(), 1, null), ERROR);
     assert_eq!(library::fmi2CancelStep(null), ERROR);
-    assert_eq!(library::fmi3GetInt32(null, ptr::null(), 0, ptr::null_mut(), 0), OK, "no variables are asked for");
+    assert_eq!(library::fmi3GetInt32(null, ptr::null(), 0, ptr::null_mut(), 0), OK, "an empty list of variables");
     assert_eq!(library::fmi3GetInt32(null, ptr::null(), 1, ptr::null_mut(), 1), ERROR);
     assert_eq!(library::fmi3EnterEventMode(null), ERROR);
 }

@@ -38,17 +38,17 @@ fn values(unit: &Unit) -> Vec<u64> {
 }
 
 #[test]
-fn a_run_from_a_state_is_the_run_that_went_on() {
+fn a_run_from_a_restored_state_equals_the_original_run() {
     let folder = Resources::write("state", &resources(&model(), STEPS));
     for fmi in BOTH {
         let (unit, mut state) = halfway(fmi, &folder);
         let then = values(&unit);
-        let went_on = walk(&unit, STEPS / 2, STEPS);
+        let continued = walk(&unit, STEPS / 2, STEPS);
         // Twice: the state is a copy, which steps do not change.
         for round in 0..2 {
             assert_eq!(unit.restore(&state), OK);
             assert_eq!(values(&unit), then, "{fmi:?} {round}");
-            assert_eq!(walk(&unit, STEPS / 2, STEPS), went_on, "{fmi:?} {round}");
+            assert_eq!(walk(&unit, STEPS / 2, STEPS), continued, "{fmi:?} {round}");
         }
         // The memory of a state is used again.
         let place = state.0;
@@ -58,7 +58,7 @@ fn a_run_from_a_state_is_the_run_that_went_on() {
         assert_eq!((unit.reset(), unit.restore(&state)), (OK, OK));
         assert_eq!(values(&unit), end);
         assert_eq!((unit.forget(&mut state), state.0.is_null()), (OK, true));
-        assert_eq!(unit.forget(&mut state), OK, "there is none any more");
+        assert_eq!(unit.forget(&mut state), OK, "freeing a null state succeeds");
         assert_eq!(unit.restore(&state), ERROR);
         assert_eq!(values(&unit), end);
     }
@@ -71,34 +71,34 @@ fn bytes_of_a_state_continue_in_another_instance_of_either_version() {
         let (unit, mut state) = halfway(fmi, &folder);
         let (status, bytes) = unit.bytes(&state);
         assert_eq!(status, OK);
-        let went_on = walk(&unit, STEPS / 2, STEPS);
+        let continued = walk(&unit, STEPS / 2, STEPS);
         assert_eq!(unit.forget(&mut state), OK);
         drop(unit);
         let unit = Unit::new(other, folder.path(), GUID).expect("an instance");
         let (status, mut state) = unit.state_of(&bytes);
         assert_eq!((status, unit.bytes(&state)), (OK, (OK, bytes)));
         assert_eq!(unit.restore(&state), OK);
-        assert_eq!(walk(&unit, STEPS / 2, STEPS), went_on, "{fmi:?} {other:?}");
+        assert_eq!(walk(&unit, STEPS / 2, STEPS), continued, "{fmi:?} {other:?}");
         assert_eq!(unit.forget(&mut state), OK);
     }
 }
 
 #[test]
-fn spoilt_bytes_make_no_state() {
-    let folder = Resources::write("spoilt-bytes", &resources(&model(), STEPS));
+fn corrupt_bytes_are_refused() {
+    let folder = Resources::write("corrupt-bytes", &resources(&model(), STEPS));
     let (unit, mut state) = halfway(Fmi::Three, &folder);
-    let (_, sound) = unit.bytes(&state);
+    let (_, valid) = unit.bytes(&state);
     let identity = "interplay-state 1\n".len() + 8;
     let with = |at: usize, bytes: &[u8]| {
-        let mut spoilt = sound.clone();
-        spoilt[at..at + bytes.len()].copy_from_slice(bytes);
-        spoilt
+        let mut corrupt = valid.clone();
+        corrupt[at..at + bytes.len()].copy_from_slice(bytes);
+        corrupt
     };
     let step = identity + GUID.len();
-    let mut spoilt: Vec<(Vec<u8>, &str)> = vec![
-        (Vec::new(), "no state"),
-        (with(0, b"I"), "no state"),
-        ([&sound[..], &[0]].concat(), "more bytes"),
+    let mut corrupt: Vec<(Vec<u8>, &str)> = vec![
+        (Vec::new(), "not a state"),
+        (with(0, b"I"), "not a state"),
+        ([&valid[..], &[0]].concat(), "more bytes"),
         (with(identity, b"{1-0}"), "another FMU"),
         (with(identity - 8, &u64::MAX.to_le_bytes()), "fewer bytes"),
         (with(step, &(STEPS as u64 + 1).to_le_bytes()), "does not fit"),
@@ -106,18 +106,18 @@ fn spoilt_bytes_make_no_state() {
         (with(step + 8, &[4, 0, 0, 0, 0, 0, 0, 0, 1]), "does not fit"),
         (with(step + 24, &f64::NAN.to_le_bytes()), "finite"),
     ];
-    spoilt.extend((18..sound.len()).map(|length| (sound[..length].to_vec(), "fewer bytes")));
-    for (bytes, said) in &spoilt {
+    corrupt.extend((18..valid.len()).map(|length| (valid[..length].to_vec(), "fewer bytes")));
+    for (bytes, said) in &corrupt {
         let (status, state) = unit.state_of(bytes);
         assert_eq!((status, state.0.is_null()), (ERROR, true), "{said}");
         let message = unit.last_message();
-        assert!(message.contains(said), "`{said}` is not said in `{message}`");
+        assert!(message.contains(said), "`{message}` does not contain `{said}`");
     }
     assert_eq!(unit.forget(&mut state), OK);
 }
 
 #[test]
-fn a_state_that_is_null_is_refused() {
+fn a_null_state_is_refused() {
     let folder = Resources::write("null-state", &resources(&model(), STEPS));
     for fmi in BOTH {
         let unit = Unit::new(fmi, folder.path(), GUID).expect("an instance");

@@ -30,7 +30,7 @@ pub struct State(pub *mut c_void);
 /// What an instance logged.
 pub type Log = RefCell<Vec<String>>;
 
-/// An instance, which is freed in the end.
+/// An instance, which is freed when it is dropped.
 #[derive(Debug)]
 pub struct Unit {
     fmi: Fmi,
@@ -69,15 +69,16 @@ impl Unit {
 
     /// Begins at a time \[s\].
     pub fn begin(&self, time_s: f64) -> c_int {
-        match self.fmi {
-            Fmi::Two => {
-                let status = library::fmi2SetupExperiment(self.instance, 0, 0.0, time_s, 0, 0.0);
-                status
-                    .max(library::fmi2EnterInitializationMode(self.instance))
-                    .max(library::fmi2ExitInitializationMode(self.instance))
+        let instance = self.instance;
+        // SAFETY: the instance is not freed yet.
+        unsafe {
+            match self.fmi {
+                Fmi::Two => library::fmi2SetupExperiment(instance, 0, 0.0, time_s, 0, 0.0)
+                    .max(library::fmi2EnterInitializationMode(instance))
+                    .max(library::fmi2ExitInitializationMode(instance)),
+                Fmi::Three => library::fmi3EnterInitializationMode(instance, false, 0.0, time_s, false, 0.0)
+                    .max(library::fmi3ExitInitializationMode(instance)),
             }
-            Fmi::Three => library::fmi3EnterInitializationMode(self.instance, false, 0.0, time_s, false, 0.0)
-                .max(library::fmi3ExitInitializationMode(self.instance)),
         }
     }
 
@@ -108,7 +109,7 @@ impl Unit {
         }
     }
 
-    /// Moves on. In FMI 3.0 the last time must be that of the plant, and nothing else be asked for.
+    /// Advances. In FMI 3.0 also checks that the last successful time is that of the plant and that no flag is raised.
     pub fn step(&self, time_s: f64, duration_s: f64) -> c_int {
         if self.fmi == Fmi::Two {
             return library::fmi2DoStep(self.instance, time_s, duration_s, 0);
@@ -125,13 +126,16 @@ impl Unit {
 
     /// Returns to the first midnight.
     pub fn reset(&self) -> c_int {
-        match self.fmi {
-            Fmi::Two => library::fmi2Reset(self.instance),
-            Fmi::Three => library::fmi3Reset(self.instance),
+        // SAFETY: the instance is not freed yet.
+        unsafe {
+            match self.fmi {
+                Fmi::Two => library::fmi2Reset(self.instance),
+                Fmi::Three => library::fmi3Reset(self.instance),
+            }
         }
     }
 
-    /// Copies the state into one that is held, or into a new one for a null pointer.
+    /// Copies the state into `state`, or into a new one if its pointer is null.
     pub fn save(&self, state: &mut State) -> c_int {
         // SAFETY: the pointer is null or that of a state.
         unsafe {

@@ -1,4 +1,4 @@
-//! The game: sessions in real time, and who sits where. It has a thread of its own; pages reach it by requests.
+//! The game: the session in real time and its pages. It runs in its own thread and receives requests from pages.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use interplay_scenarios::Scenario;
 use serde_json::Error as JsonError;
 use tokio::sync::{mpsc, oneshot};
 
-use super::options::ServeOptions;
+use super::ServeOptions;
 use super::playing::Playing;
 use super::request::{PageAtGame, Request};
 use crate::menu::Menu;
@@ -15,15 +15,15 @@ use crate::protocol::{Chosen, PageMessage, ServerMessage};
 use crate::session::SessionError;
 use crate::study::Study;
 
-/// How long the game sleeps while nothing is played.
-const IDLE: Duration = Duration::from_millis(250);
+/// Longest wait for a request without a running session.
+const IDLE_WAIT: Duration = Duration::from_millis(250);
 /// Most pages at a time.
-const MOST_PAGES: usize = 16;
+const MAX_PAGES: usize = 16;
 
-/// The game and all pages at it.
+/// The game with its pages.
 pub(super) struct Game {
     options: ServeOptions,
-    /// The path of the moving picture.
+    /// The address of the animation.
     animation: String,
     received: Receiver<Request>,
     requests: Sender<Request>,
@@ -57,14 +57,14 @@ impl Game {
         }
     }
 
-    /// Plays until the server ends; what is being played then is kept.
+    /// Runs until the server ends, and then saves the played run.
     pub fn run(mut self) {
         if let Some((scenario, seat)) = self.options.chosen.clone() {
             self.start(&scenario, &seat);
         }
         loop {
             let now = Instant::now();
-            let wait = self.playing.as_ref().and_then(|playing| playing.next_tick(now)).unwrap_or(IDLE);
+            let wait = self.playing.as_ref().and_then(|playing| playing.next_tick(now)).unwrap_or(IDLE_WAIT);
             match self.received.recv_timeout(wait) {
                 Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
                 Ok(request) => self.answer(request),
@@ -73,7 +73,7 @@ impl Game {
             self.tick();
         }
         self.save();
-        self.tell(&ServerMessage::Bye { text: "the server has ended".to_owned() });
+        self.broadcast(&ServerMessage::Bye { text: "the server has ended".to_owned() });
     }
 
     fn answer(&mut self, request: Request) {
@@ -87,7 +87,7 @@ impl Game {
             Request::Others { run, rows } => {
                 if let Some(playing) = self.playing.as_mut().filter(|playing| playing.run == run) {
                     playing.others = Some(rows);
-                    playing.tell_score(&self.pages);
+                    playing.send_score(&self.pages);
                 }
             }
             Request::Stop => {}
@@ -95,10 +95,10 @@ impl Game {
     }
 
     fn join(&mut self, seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64>) {
-        if self.pages.len() >= MOST_PAGES {
+        if self.pages.len() >= MAX_PAGES {
             return;
         }
-        // Whoever opens the address anew begins with what was asked for on the command line.
+        // The first page begins with the scenario of the command line.
         if let (None, true, Some((scenario, seat))) =
             (&self.playing, self.pages.is_empty(), self.options.chosen.clone())
         {
@@ -116,17 +116,17 @@ impl Game {
             None => page.send(&ServerMessage::Menu { families: self.menu.families.clone(), chosen }),
         };
         if let Some(playing) = &mut self.playing {
-            playing.come(&page);
+            playing.welcome(&page);
         }
         self.pages.push(page);
     }
 
-    /// A page is gone: its seat is braked. When the last one goes, time stands still and what was played is kept.
+    /// Removes a page and brakes its seat. After the last page, pauses and saves the run.
     fn leave(&mut self, number: u64) {
         let Some(place) = self.pages.iter().position(|page| page.number == number) else { return };
         let page = self.pages.remove(place);
         if let Some(playing) = &mut self.playing {
-            playing.go(&page);
+            playing.dismiss(&page);
             if self.pages.is_empty() {
                 playing.pause(true);
                 self.save();
@@ -137,14 +137,14 @@ impl Game {
         }
     }
 
-    /// Keeps what is being played. A run of a study is kept when it is over.
+    /// Saves the played run. Runs of a study are saved only when they are finished.
     fn save(&mut self) {
         if let Some(playing) = self.playing.as_mut().filter(|playing| playing.study.is_none()) {
             playing.save();
         }
     }
 
-    fn tell(&mut self, message: &ServerMessage) {
+    fn broadcast(&mut self, message: &ServerMessage) {
         let gone: Vec<u64> = self.pages.iter().filter(|page| !page.send(message)).map(|page| page.number).collect();
         gone.into_iter().for_each(|page| self.leave(page));
     }
@@ -162,7 +162,7 @@ impl Game {
             Ok(message) => self.follow(number, message),
             Err(error) => {
                 let reason = error.to_string();
-                Err(format!("this is no message: {}", reason.split(" at line").next().unwrap_or_default()))
+                Err(format!("not a message: {}", reason.split(" at line").next().unwrap_or_default()))
             }
         };
         if let Err(text) = heard {
@@ -170,7 +170,7 @@ impl Game {
         }
     }
 
-    /// Does what a page asks for, or says why not.
+    /// Carries out a message of a page; an error is the reason for the refusal.
     fn follow(&mut self, number: u64, message: PageMessage) -> Result<(), String> {
         match message {
             PageMessage::Start { scenario, seat } => self.start_as(&scenario, &seat),
@@ -178,7 +178,7 @@ impl Game {
                 self.save();
                 self.playing = None;
                 let families = self.menu.families.clone();
-                self.tell(&ServerMessage::Menu { families, chosen: None });
+                self.broadcast(&ServerMessage::Menu { families, chosen: None });
                 Ok(())
             }
             PageMessage::Echo { at } => {
@@ -190,22 +190,22 @@ impl Game {
             PageMessage::Next => {
                 let name = self.playing.as_ref().map(|playing| playing.session.name().to_owned()).unwrap_or_default();
                 let Some((scenario, seat)) = self.menu.after(&name) else {
-                    return Err("there is no next one".to_owned());
+                    return Err("there are no other scenarios".to_owned());
                 };
                 self.start_as(&scenario, &seat)
             }
             PageMessage::Seat { seat } => {
-                let playing = self.playing.as_ref().ok_or("nothing is played: choose a scenario")?;
+                let playing = self.playing.as_ref().ok_or("no scenario is running: choose one")?;
                 let name = playing.session.name().to_owned();
                 self.start_as(&name, &seat)
             }
             PageMessage::Restart => {
-                let playing = self.playing.as_ref().ok_or("nothing is played: choose a scenario")?;
+                let playing = self.playing.as_ref().ok_or("no scenario is running: choose one")?;
                 let (name, seat) = (playing.session.name().to_owned(), playing.main_seat().to_owned());
                 self.start_as(&name, &seat)
             }
             other => {
-                let playing = self.playing.as_mut().ok_or("nothing is played: choose a scenario")?;
+                let playing = self.playing.as_mut().ok_or("no scenario is running: choose one")?;
                 let page = self.pages.iter().find(|page| page.number == number).ok_or("this page is gone")?;
                 playing.follow(page, other, &self.pages).map_err(|error: SessionError| error.to_string())
             }
@@ -231,14 +231,14 @@ impl Game {
         let study = self.study.as_ref().map(Study::place);
         let playing = self.playing.insert(playing);
         playing.study = study;
-        self.pages.iter().for_each(|page| playing.come(page));
+        self.pages.iter().for_each(|page| playing.welcome(page));
         Ok(())
     }
 
-    /// The same where nobody hears why it cannot be.
+    /// Starts a scenario, and tells all pages if it is refused.
     fn start(&mut self, scenario: &str, seat: &str) {
         if let Err(text) = self.start_as(scenario, seat) {
-            self.tell(&ServerMessage::Refused { text });
+            self.broadcast(&ServerMessage::Refused { text });
         }
     }
 
@@ -247,12 +247,12 @@ impl Game {
         if let Err(error) = playing.tick_if_due(Instant::now(), &self.pages) {
             playing.pause(true);
             self.save();
-            self.tell(&ServerMessage::Refused { text: error.to_string() });
+            self.broadcast(&ServerMessage::Refused { text: error.to_string() });
         }
         self.end_trial();
     }
 
-    /// Does what a page asks for in a study: it drives, and goes on when a run is over. Whoever stops time begins the run anew.
+    /// Carries out a message of a page in a study. A person can only drive, continue and leave; a pause restarts the run.
     fn follow_study(&mut self, page: u64, message: PageMessage) -> Result<(), String> {
         let is_driving = self.playing.is_some();
         match message {
@@ -260,7 +260,7 @@ impl Game {
             PageMessage::Pause { paused } if is_driving => {
                 if paused && self.playing.as_ref().is_some_and(|playing| playing.session.ticks() > 0) {
                     self.playing = None;
-                    self.study.as_mut().into_iter().for_each(Study::begin_again);
+                    self.study.as_mut().into_iter().for_each(Study::count_restart);
                     return self.begin_trial();
                 }
                 self.follow(page, message)
@@ -275,7 +275,7 @@ impl Game {
             PageMessage::Leave => {
                 self.playing = None;
                 self.study.as_mut().into_iter().for_each(Study::leave);
-                self.tell_place();
+                self.send_place();
                 Ok(())
             }
             _ => Err("this is a study: drive to the end of the run, or leave".to_owned()),
@@ -287,34 +287,34 @@ impl Game {
         match study.next().map_err(|error| error.to_string())? {
             Some((name, scenario, seat)) => self.play(&name, &scenario, &seat),
             None => {
-                self.tell_place();
+                self.send_place();
                 Ok(())
             }
         }
     }
 
-    /// When a run of a study is over, it becomes a row, and the page asks whether to go on.
+    /// Adds a finished run of a study as a row, and shows the page between runs.
     fn end_trial(&mut self) {
         let Some(study) = &mut self.study else { return };
         let Some(playing) = self.playing.take_if(|playing| playing.has_ended()) else { return };
         if let Err(error) = study.add(&playing.session) {
-            self.tell(&ServerMessage::Refused { text: error.to_string() });
+            self.broadcast(&ServerMessage::Refused { text: error.to_string() });
         }
-        self.tell_place();
+        self.send_place();
     }
 
-    /// The last page has gone: the run that it drove is begun anew by the next.
+    /// Drops an unfinished run of a study after the last page is gone; the next page restarts it.
     fn drop_trial(&mut self) {
         if let Some(study) = &mut self.study
             && self.playing.take().is_some_and(|playing| playing.session.ticks() > 0)
         {
-            study.begin_again();
+            study.count_restart();
         }
     }
 
-    fn tell_place(&mut self) {
+    fn send_place(&mut self) {
         if let Some(place) = self.study.as_ref().map(Study::place) {
-            self.tell(&ServerMessage::Study { place });
+            self.broadcast(&ServerMessage::Study { place });
         }
     }
 }

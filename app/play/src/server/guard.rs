@@ -1,7 +1,7 @@
-//! Who is served: whoever knows the token, from a page of this server, by a name of this machine.
+//! Access control: a request needs the token, the origin of this server, and a host name of this machine.
 //!
-//! Another page in the same browser may send requests to any address. It does not know the token; its `Origin` is its own; and if its
-//! name was bound to this machine's address, `Host` is that name. So each of them is checked.
+//! Pages of other sites in the same browser can send requests to any address. They do not know the token, they have another
+//! `Origin`, and after DNS rebinding they have another `Host`. Each of the three is checked.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -13,15 +13,15 @@ use axum::response::{IntoResponse, Response};
 
 /// Names of this machine.
 const LOOPBACK: [&str; 3] = ["localhost", "127.0.0.1", "[::1]"];
-/// Everything comes from this server, and nobody shows it in a frame.
+/// All content is from this server, and other sites cannot embed it in a frame.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What a request must know.
+/// The token and the host names that a request must have.
 #[derive(Debug)]
 pub(super) struct Guard {
     token: String,
-    /// Names by which the server may be called.
+    /// Allowed host names.
     names: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl Guard {
         self.names.iter().any(|known| known.eq_ignore_ascii_case(name))
     }
 
-    /// Why a request is refused.
+    /// The status of a refused request.
     fn refusal(&self, headers: &HeaderMap, path: &str) -> Option<StatusCode> {
         let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
         if !text(header::HOST).is_some_and(|host| self.knows(host)) {
@@ -59,7 +59,7 @@ impl Guard {
         if text(header::ORIGIN).is_some_and(|origin| !of_own_page(origin)) {
             return Some(StatusCode::FORBIDDEN);
         }
-        // A browser always names the origin of a socket.
+        // A browser always sends the origin of a socket.
         let is_socket = path.ends_with("/socket");
         (is_socket && text(header::ORIGIN).is_none()).then_some(StatusCode::FORBIDDEN)
     }
@@ -67,7 +67,7 @@ impl Guard {
 
 pub(super) async fn check(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let mut response = match guard.refusal(request.headers(), request.uri().path()) {
-        Some(status) => (status, "this server is for its own page only").into_response(),
+        Some(status) => (status, "this server serves its own page only").into_response(),
         None => next.run(request).await,
     };
     let headers = response.headers_mut();

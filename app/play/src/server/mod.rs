@@ -2,15 +2,12 @@
 
 mod game;
 mod guard;
-mod options;
 mod pages;
-mod pictures;
 mod playing;
 mod request;
 
-pub use options::ServeOptions;
-
-use std::net::SocketAddr;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use axum::Router;
@@ -20,6 +17,7 @@ use axum::http::StatusCode;
 use axum::middleware;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use interplay_scenarios::Registry;
 use serde::Deserialize;
 use thiserror::Error;
 use tokio::net::TcpListener;
@@ -30,15 +28,46 @@ use self::guard::Guard;
 use self::request::Request;
 use crate::study::Study;
 
-/// Messages of pages are longer than this only by mistake or malice \[bytes\].
-const MOST_BYTES: usize = 4096;
-/// Messages that wait for a slow page. A page that reads none for so long is closed.
-const MOST_WAITING: usize = 256;
+/// Longest message of a page \[bytes\].
+const MAX_MESSAGE_BYTES: usize = 4096;
+/// Most queued messages for a slow page. When the queue is full, the page is closed.
+const MAX_QUEUED: usize = 256;
 
-/// Why nothing is served.
+/// Options of the server.
+#[derive(Clone, Debug)]
+pub struct ServeOptions {
+    /// The address; by default that of this machine alone.
+    pub address: IpAddr,
+    /// The port; 0 takes a free one.
+    pub port: u16,
+    /// The first scenario and its seat; `None` for the menu.
+    pub chosen: Option<(String, String)>,
+    /// A second seat, for a second page.
+    pub joined: Option<String>,
+    /// The folder of saved runs.
+    pub folder: PathBuf,
+    /// The kinds of drivers and metrics.
+    pub registry: Registry,
+}
+
+impl ServeOptions {
+    /// A server for this machine alone, on a free port.
+    pub fn new(registry: &Registry) -> ServeOptions {
+        ServeOptions {
+            address: Ipv4Addr::LOCALHOST.into(),
+            port: 0,
+            chosen: None,
+            joined: None,
+            folder: PathBuf::from("played"),
+            registry: registry.clone(),
+        }
+    }
+}
+
+/// The server failed.
 #[derive(Debug, Error)]
 pub enum ServeError {
-    /// The address cannot be taken.
+    /// The address is not available.
     #[error("cannot listen on {address}: {reason}; `--port 0` takes a free port")]
     Listen {
         /// The address.
@@ -46,7 +75,7 @@ pub enum ServeError {
         /// The reason.
         reason: std::io::Error,
     },
-    /// The system gives no threads, sockets or random numbers.
+    /// The system refuses threads, sockets or random numbers.
     #[error("the server cannot be started: {0}")]
     Start(String),
 }
@@ -56,13 +85,13 @@ pub enum ServeError {
 pub struct StopPlay(Arc<tokio::sync::Notify>);
 
 impl StopPlay {
-    /// The server ends; what is being played is kept.
+    /// Ends the server, which saves the played run.
     pub fn stop(&self) {
         self.0.notify_one();
     }
 }
 
-/// A server that has an address and waits for a page.
+/// A server with an address, before it serves pages.
 pub struct PlayServer {
     stop: StopPlay,
     runtime: tokio::runtime::Runtime,
@@ -72,7 +101,7 @@ pub struct PlayServer {
     study: Option<Study>,
 }
 
-/// What every request is served with.
+/// The state of the request handlers.
 #[derive(Clone)]
 struct Served {
     guard: Arc<Guard>,
@@ -80,10 +109,10 @@ struct Served {
 }
 
 impl PlayServer {
-    /// Takes the address.
+    /// Binds the address.
     ///
     /// # Errors
-    /// [`ServeError`] if that is not possible.
+    /// [`ServeError`] if the address is not available or the system refuses resources.
     pub fn bind(options: ServeOptions) -> Result<PlayServer, ServeError> {
         let start = |error: &dyn std::fmt::Display| ServeError::Start(error.to_string());
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
@@ -95,7 +124,7 @@ impl PlayServer {
         Ok(PlayServer { stop: StopPlay::default(), runtime, listener, guard, options, study: None })
     }
 
-    /// The same server, which walks people through a study instead of showing them a menu.
+    /// The server with a study instead of the menu.
     #[must_use]
     pub fn with_study(self, study: Study) -> PlayServer {
         PlayServer { study: Some(study), ..self }
@@ -107,7 +136,7 @@ impl PlayServer {
         format!("http://{}/{}/", SocketAddr::new(self.options.address, port), self.guard.token())
     }
 
-    /// What ends it.
+    /// A handle that ends the server.
     pub fn stop_handle(&self) -> StopPlay {
         self.stop.clone()
     }
@@ -115,7 +144,7 @@ impl PlayServer {
     /// Serves until Ctrl-C, or until it is stopped.
     ///
     /// # Errors
-    /// [`ServeError::Start`] if the server breaks down.
+    /// [`ServeError::Start`] if the server fails.
     pub fn run(self) -> Result<(), ServeError> {
         let PlayServer { stop, runtime, listener, guard, options, study } = self;
         let (requests, received) = std::sync::mpsc::channel();
@@ -132,7 +161,7 @@ impl PlayServer {
                 () = stop.0.notified() => Ok(()),
             }
         });
-        // The game keeps what was played.
+        // The game saves the played run.
         let _ = requests.send(Request::Stop);
         let _ = thread.join();
         ended
@@ -144,7 +173,7 @@ fn routes(served: Served) -> Router {
     Router::new()
         .route(&format!("/{token}/"), get(pages::index))
         .route(&format!("/{token}/socket"), get(socket))
-        .route(&format!("/{token}/pictures/{{file}}"), get(pictures::picture))
+        .route(&format!("/{token}/pictures/{{file}}"), get(pages::family_picture))
         .route(&format!("/{token}/animation.webp"), get(animation))
         .route(&format!("/{token}/{{file}}"), get(pages::file))
         .fallback(|| async { (StatusCode::NOT_FOUND, "not found") })
@@ -159,13 +188,13 @@ struct SocketQuery {
 }
 
 async fn socket(State(served): State<Served>, Query(query): Query<SocketQuery>, upgrade: WebSocketUpgrade) -> Response {
-    let upgrade = upgrade.max_message_size(MOST_BYTES).max_frame_size(MOST_BYTES);
-    upgrade.on_upgrade(move |socket| talk(socket, served, query.seat))
+    let upgrade = upgrade.max_message_size(MAX_MESSAGE_BYTES).max_frame_size(MAX_MESSAGE_BYTES);
+    upgrade.on_upgrade(move |socket| relay(socket, served, query.seat))
 }
 
-/// Carries messages between a page and the game until either is gone.
-async fn talk(mut socket: WebSocket, served: Served, seat: Option<String>) {
-    let (outgoing, mut waiting) = mpsc::channel(MOST_WAITING);
+/// Passes messages between a page and the game until either is gone.
+async fn relay(mut socket: WebSocket, served: Served, seat: Option<String>) {
+    let (outgoing, mut waiting) = mpsc::channel(MAX_QUEUED);
     let (number, mut confirmed) = tokio::sync::oneshot::channel();
     if served.requests.send(Request::Join { seat, outgoing, number }).is_err() {
         return;
@@ -188,7 +217,7 @@ async fn talk(mut socket: WebSocket, served: Served, seat: Option<String>) {
                     }
                 }
                 Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
-                // Bytes are no message of ours; whoever sends them is no page of ours.
+                // Pages never send binary messages, so the sender is not a page of this server.
                 Some(Ok(Message::Binary(_) | Message::Close(_)) | Err(_)) | None => break,
             },
         }
@@ -201,7 +230,7 @@ async fn animation(State(served): State<Served>) -> Response {
     let _ = served.requests.send(Request::Animation { answer });
     match answered.await {
         Ok(Some(scenarios)) => {
-            let drawn = tokio::task::spawn_blocking(move || pictures::animation(scenarios)).await;
+            let drawn = tokio::task::spawn_blocking(move || pages::animation(scenarios)).await;
             drawn.ok().flatten().map_or_else(|| StatusCode::NOT_FOUND.into_response(), pages::image)
         }
         _ => StatusCode::NOT_FOUND.into_response(),

@@ -1,10 +1,17 @@
-//! The files of the page, which are in the binary.
+//! The files of the page, which are part of the binary; pictures of families, and animations of played runs.
+
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use axum::extract::Path;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use interplay_presentation::animation::{AnimationFormat, encoded};
+use interplay_presentation::figures::RecordedRun;
+use interplay_scenarios::{Scenario, embedded, load};
+use interplay_simulation::Simulation;
 
-/// A file of the page by its name.
+/// Lists files of the page with their content.
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
         const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../page/", $name)))),*];
@@ -63,28 +70,65 @@ pub(super) fn image(bytes: Vec<u8>) -> Response {
     ([(header::CONTENT_TYPE, kind)], bytes).into_response()
 }
 
+/// The picture of a family shows its first scenario after this share of its duration.
+const PICTURE_TIME_SHARE: f64 = 0.25;
+
+/// Cache of drawn pictures.
+static DRAWN: LazyLock<Mutex<BTreeMap<&'static str, Vec<u8>>>> = LazyLock::new(Mutex::default);
+
+pub(super) async fn family_picture(Path(file): Path<String>) -> Response {
+    let family = file.split('.').next().unwrap_or_default().to_owned();
+    let drawn = tokio::task::spawn_blocking(move || of_family(&family)).await;
+    drawn.ok().flatten().map_or_else(|| StatusCode::NOT_FOUND.into_response(), image)
+}
+
+fn of_family(family: &str) -> Option<Vec<u8>> {
+    let name = embedded().iter().map(|file| file.name).find(|name| name.split('/').next() == Some(family))?;
+    let known = DRAWN.lock().unwrap_or_else(PoisonError::into_inner).get(name).cloned();
+    known.or_else(|| {
+        let picture = drawn(name)?;
+        DRAWN.lock().unwrap_or_else(PoisonError::into_inner).insert(name, picture.clone());
+        Some(picture)
+    })
+}
+
+fn drawn(name: &str) -> Option<Vec<u8>> {
+    let scenario = load(name, &[]).ok()?;
+    let mut world = Simulation::new(&scenario).ok()?;
+    while world.time_s() < PICTURE_TIME_SHARE * scenario.duration_s && world.step().ok()?.is_some() {}
+    let frame = world.frame()?.clone();
+    let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
+    encoded(&now, AnimationFormat::Filmstrip).ok()
+}
+
+/// The animation of a run, which is repeated for it. The scenarios are the written and the played one.
+pub(super) fn animation([written, played]: [Scenario; 2]) -> Option<Vec<u8>> {
+    let again = RecordedRun::record("played", played, Vec::new(), "").ok()?;
+    encoded(&RecordedRun::to_draw(written, again.frames, again.report), AnimationFormat::WebP).ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Every file of the folder is served, and what it asks for is there.
+    /// Every file of the folder is served, and every imported file exists.
     #[test]
-    fn the_page_is_whole() {
+    fn the_page_is_complete() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/page");
         let there = std::fs::read_dir(folder).expect("the folder of the page");
         let mut there: Vec<String> =
             there.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into()).collect();
         let mut known: Vec<String> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
-        // It tells Node what the files are, and no browser.
+        // For Node only.
         there.retain(|name| name != "package.json");
         there.sort();
         known.sort();
         assert_eq!(known, there);
         for (name, text) in FILES {
             for asked in text.split("from \"./").skip(1).filter_map(|rest| rest.split('"').next()) {
-                assert!(FILES.iter().any(|(known, _)| *known == asked), "{name} asks for {asked}");
+                assert!(FILES.iter().any(|(known, _)| *known == asked), "{name} imports {asked}");
             }
-            assert!(!text.contains("https://") || *name == "icon.svg", "{name} fetches something from elsewhere");
+            assert!(!text.contains("https://") || *name == "icon.svg", "{name} uses an external address");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What the game is asked for, and the pages that ask.
+//! Requests to the game, and its pages.
 
 use interplay_scenarios::Scenario;
 use tokio::sync::{mpsc, oneshot};
@@ -6,17 +6,17 @@ use tokio::sync::{mpsc, oneshot};
 use crate::protocol::ServerMessage;
 use crate::session::ScoreRow;
 
-/// What the game is asked for.
+/// A request to the game.
 pub(super) enum Request {
-    /// A page is there; it is told its number.
+    /// A page has connected; the game answers with its number.
     Join { seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64> },
-    /// A page says something.
+    /// A message of a page.
     Said { page: u64, text: String },
     /// A page is gone.
     Leave { page: u64 },
-    /// Somebody wants the moving picture of the run: the scenario as it is written, and as it was played.
+    /// A page requests the animation of the run; the answer has the written and the played scenario.
     Animation { answer: oneshot::Sender<Option<[Scenario; 2]>> },
-    /// Planners have driven from the same start.
+    /// The measures of planners from the same start.
     Others { run: u64, rows: Vec<ScoreRow> },
     /// The server ends.
     Stop,
@@ -25,21 +25,20 @@ pub(super) enum Request {
 /// A page.
 pub(super) struct PageAtGame {
     pub number: u64,
-    /// The seat that its address names.
+    /// The seat in its address.
     pub seat: Option<String>,
     outgoing: mpsc::Sender<String>,
 }
 
 impl PageAtGame {
-    /// A page with a number of its own.
+    /// A page with a unique number.
     pub fn new(number: u64, seat: Option<String>, outgoing: mpsc::Sender<String>) -> PageAtGame {
         PageAtGame { number, seat, outgoing }
     }
 
-    /// Sends a message; a page for whom too many wait is gone.
+    /// Queues a message. Returns false if the queue of the page is full or closed.
     pub fn send(&self, message: &ServerMessage) -> bool {
         let Ok(text) = serde_json::to_string(message) else { return true };
-        // A tick that does not arrive is followed by others; what else does not arrive would be missing.
         self.outgoing.try_send(text).is_ok()
     }
 }

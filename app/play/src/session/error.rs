@@ -1,30 +1,30 @@
-//! Why a session cannot do what it is asked for.
+//! Errors of a session.
 
 use interplay_simulation::NotCopied;
 use interplay_simulation::run::RunError;
 use thiserror::Error;
 
-/// Why a session cannot do what it is asked for.
+/// A request to a session failed.
 #[derive(Debug, Error)]
 pub enum SessionError {
-    /// No such vehicle, or nobody could drive it.
-    #[error("there is no seat `{seat}`; choose from {seats}")]
+    /// The vehicle does not exist, or a person cannot drive it.
+    #[error("`{seat}` is not a seat; choose from {seats}")]
     NoSeat {
-        /// What was asked for.
+        /// The requested seat.
         seat: String,
         /// The vehicles that a person can drive.
         seats: String,
     },
-    /// There is nobody to drive.
-    #[error("`{0}` has no vehicle that a person can drive; `interplay list` shows what there is")]
+    /// The scenario has no vehicle for a person.
+    #[error("`{0}` has no vehicle that a person can drive; `interplay list` shows all scenarios")]
     NoVehicles(String),
-    /// No such planner.
-    #[error("there is no planner `{0}` that takes the wheel")]
+    /// The planner does not exist, or cannot take the wheel.
+    #[error("`{0}` is not a planner that can take the wheel")]
     NoPlanner(String),
-    /// The world cannot go on.
+    /// The simulation failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The world cannot be copied.
+    /// The simulation cannot be copied.
     #[error(transparent)]
     NotCopied(#[from] NotCopied),
 }

@@ -1,24 +1,24 @@
-//! What a seat wants to reach, in words and as a mark on the road.
+//! The goal of a seat, in words and as a mark on the road.
 
 use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
-/// What a person in a seat wants to reach.
+/// The goal of a person in a seat.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlayGoal {
     /// `lane`, `cross`, `last-lane` or `drive`.
     pub kind: &'static str,
-    /// The same in words.
+    /// The goal in words.
     pub text: String,
-    /// A line to be crossed \[m\].
+    /// The line to cross \[m\].
     pub line: Option<[[f64; 2]; 2]>,
-    /// The middle of the lane to be reached \[m\].
+    /// The middle of the lane to reach \[m\].
     pub lane: Option<Vec<[f64; 2]>>,
 }
 
-/// The mark of a lane reaches so many lengths of a car ahead.
-const MARK_CARS: f64 = 30.0;
-const MARK_PLACES: usize = 24;
+/// Length of the mark of a lane, in lengths of the vehicle.
+const MARK_LENGTHS: f64 = 30.0;
+const MARK_POINTS: usize = 24;
 
 pub(super) fn of(scenario: &Scenario, index: usize) -> PlayGoal {
     let vehicle = &scenario.vehicles[index];
@@ -29,28 +29,28 @@ pub(super) fn of(scenario: &Scenario, index: usize) -> PlayGoal {
         Some([-half_m, half_m].map(|across_m| route.position(along_m, across_m)))
     };
     if let Some([_, end_m]) = scenario.road.conflict_zone_m(vehicle.road) {
-        let text = "Get across the other road".to_owned();
+        let text = "Cross the other road".to_owned();
         return PlayGoal { kind: "cross", text, line: line(end_m + vehicle.body.rear_m), lane: None };
     }
     let last = route.legs.last().filter(|_| scenario.road.parallel_lanes().is_none() && route.legs.len() > 1);
     if let Some(leg) = last {
-        let text = format!("Drive to the end of your way: {}", leg.lane.replace(['-', '_'], " "));
+        let text = format!("Drive to the end of your route: {}", leg.lane.replace(['-', '_'], " "));
         return PlayGoal { kind: "last-lane", text, line: line(leg.from_m + vehicle.body.rear_m), lane: None };
     }
     let across_m = route.across(vehicle.target(&scenario.road).position());
     let is_elsewhere = (across_m - start_m[1]).abs() > 0.5 * vehicle.body.width_m;
     let text = match (is_elsewhere, across_m > start_m[1]) {
-        (false, _) => "Stay in your lane and drive on. Others may want in: let them, or do not".to_owned(),
-        (true, true) => "Get into the lane on your left".to_owned(),
-        (true, false) => "Get into the lane on your right".to_owned(),
+        (false, _) => "Stay in your lane and drive on. Other drivers may want to merge: let them in or not".to_owned(),
+        (true, true) => "Change to the lane on your left".to_owned(),
+        (true, false) => "Change to the lane on your right".to_owned(),
     };
     let lane = is_elsewhere.then(|| mark(vehicle, start_m[0], across_m));
     PlayGoal { kind: if is_elsewhere { "lane" } else { "drive" }, text, line: None, lane }
 }
 
-/// The middle of a lane from beside the start on \[m\].
+/// The middle of a lane, from beside the start on \[m\].
 fn mark(vehicle: &Vehicle, from_m: f64, across_m: f64) -> Vec<[f64; 2]> {
-    let reach_m = MARK_CARS * (vehicle.body.front_m + vehicle.body.rear_m);
-    let place = |place: usize| from_m + reach_m * place as f64 / MARK_PLACES as f64;
-    (0..=MARK_PLACES).map(|at| vehicle.route.position(place(at), across_m)).collect()
+    let reach_m = MARK_LENGTHS * (vehicle.body.front_m + vehicle.body.rear_m);
+    let place = |place: usize| from_m + reach_m * place as f64 / MARK_POINTS as f64;
+    (0..=MARK_POINTS).map(|at| vehicle.route.position(place(at), across_m)).collect()
 }

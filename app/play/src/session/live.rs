@@ -1,11 +1,11 @@
-//! The run itself: ticks, wishes, and what is kept of it.
+//! The run of a session: ticks, controls, and snapshots for rewinding.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use interplay_planners::drivers::external;
 use interplay_planners::{Driver, State};
-use interplay_presentation::stage::{Stage, StageMoment, StageWitness};
+use interplay_presentation::stage::{Stage, StageFrame, StageObserver};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
@@ -13,46 +13,47 @@ use interplay_simulation::{Simulation, Snapshot};
 
 use super::error::SessionError;
 use super::goal::{self, PlayGoal};
-use super::seat::{Seat, Wish};
+use super::seat::{Controls, Seat};
 
-/// A moment to come back to is kept this often \[s\],
-const KEEP_EVERY_S: f64 = 1.0;
-/// and so many of them.
-const MOST_KEPT: usize = 20;
+/// Interval between rewind snapshots \[s\].
+const SNAPSHOT_INTERVAL_S: f64 = 1.0;
+/// Most rewind snapshots.
+const MAX_SNAPSHOTS: usize = 20;
 
-/// A run in which people have some seats, with all that they did.
+/// A run with people in some seats, and the record of their inputs.
 pub struct Session {
     name: String,
-    /// As it is written, and with its seats driven from outside.
+    /// The scenario as it is written.
     written: Arc<Scenario>,
+    /// The scenario with its seats driven from outside.
     scenario: Arc<Scenario>,
     seats: Vec<Seat>,
     world: Simulation,
-    witness: StageWitness,
-    kept: VecDeque<KeptMoment>,
+    observer: StageObserver,
+    snapshots: VecDeque<RewindSnapshot>,
     ticks: usize,
 }
 
-/// A moment to come back to.
-struct KeptMoment {
+/// A state that the run can be rewound to.
+struct RewindSnapshot {
     snapshot: Snapshot,
     seats: Vec<Seat>,
-    witness: StageWitness,
+    observer: StageObserver,
     ticks: usize,
 }
 
 /// The vehicles of a scenario that a person can drive.
 pub(crate) fn seats_of(scenario: &Scenario) -> Vec<String> {
     let is_seat = |vehicle: &&Vehicle| {
-        vehicle.obstacle.is_none() && vehicle.driver.record().is_none() && vehicle.driver.kind() != "walker"
+        vehicle.obstacle.is_none() && vehicle.driver.record().is_none() && vehicle.driver.can_be_replaced()
     };
     scenario.vehicles.iter().filter(is_seat).map(|vehicle| vehicle.name.clone()).collect()
 }
 
-/// The vehicles of seats of a scenario, called `name`, by index.
+/// The vehicle indices of seats of a scenario, called `name`.
 ///
 /// # Errors
-/// [`SessionError::NoVehicles`]; [`SessionError::NoSeat`] if a seat is none.
+/// [`SessionError::NoVehicles`]; [`SessionError::NoSeat`] if a seat does not exist.
 pub fn check_seats(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Vec<usize>, SessionError> {
     let possible = seats_of(scenario);
     if possible.is_empty() {
@@ -69,9 +70,9 @@ impl Session {
     /// A session of a scenario, called `name`, before its first tick, with people in these seats.
     ///
     /// # Errors
-    /// [`SessionError`] if a seat is none, or the world cannot be built.
+    /// [`SessionError`] if a seat does not exist, or the simulation cannot be built.
     pub fn new(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Session, SessionError> {
-        // Nobody sits in a building, and its days come after the drive.
+        // A session simulates the vehicles only: the days of a building come after the drive.
         let written = scenario.clone().without_counterfactuals().without_building();
         let indices = check_seats(name, &written, seats)?;
         let mut played = written.clone();
@@ -85,11 +86,11 @@ impl Session {
             written: Arc::new(written),
             scenario: Arc::new(played),
             world,
-            witness: StageWitness::default(),
-            kept: VecDeque::new(),
+            observer: StageObserver::default(),
+            snapshots: VecDeque::new(),
             ticks: 0,
         };
-        session.keep()?;
+        session.take_snapshot()?;
         Ok(session)
     }
 
@@ -98,7 +99,7 @@ impl Session {
         &self.name
     }
 
-    /// The seats in which people are.
+    /// The seats of people.
     pub fn seats(&self) -> impl Iterator<Item = &str> {
         self.seats.iter().map(|seat| seat.name.as_str())
     }
@@ -108,12 +109,12 @@ impl Session {
         &self.written
     }
 
-    /// What is drawn of it.
+    /// The world as a page draws it.
     pub fn stage(&self) -> Stage {
         Stage::of(&self.scenario)
     }
 
-    /// What a seat wants to reach.
+    /// The goal of a seat.
     pub fn goal(&self, seat: &str) -> PlayGoal {
         goal::of(&self.written, self.written.index_of(seat).unwrap_or_default())
     }
@@ -128,12 +129,12 @@ impl Session {
         self.ticks
     }
 
-    /// Whether the time of the scenario is over.
+    /// Whether the duration of the scenario has passed.
     pub fn is_over(&self) -> bool {
         self.ticks >= self.scenario.tick_count()
     }
 
-    /// Whether everybody in a seat has reached the goal or touched somebody.
+    /// Whether every seat has reached its goal or has had a contact.
     pub fn is_decided(&self) -> bool {
         let measures = self.world.measures();
         let is_done = |seat: &Seat| {
@@ -148,37 +149,37 @@ impl Session {
         self.world.states()
     }
 
-    /// The last tick; none before the first. Others are not kept: the run is repeated where they are needed.
+    /// The frame of the last tick; `None` before the first tick.
     pub fn frame(&self) -> Option<&Frame> {
         self.world.frame()
     }
 
-    /// What was measured so far.
+    /// The report of the run so far.
     pub fn report(&self) -> Report {
         self.world.report()
     }
 
-    /// What a person wishes from the next plan on.
+    /// Sets the controls of a seat from the next plan on.
     ///
     /// # Errors
     /// [`SessionError::NoSeat`].
-    pub fn wish(&mut self, seat: &str, wish: Wish) -> Result<(), SessionError> {
-        self.seat(seat)?.wish = wish;
+    pub fn set_controls(&mut self, seat: &str, controls: Controls) -> Result<(), SessionError> {
+        self.seat(seat)?.controls = controls;
         Ok(())
     }
 
-    /// The number of the last wish of a seat that was applied, and who has its wheel.
+    /// The number of the last applied controls of a seat, and the planner at its wheel.
     pub fn wheel(&self, seat: &str) -> (u64, Option<&str>) {
         let found = self.seats.iter().find(|candidate| candidate.name == seat);
         found.map_or((0, None), |seat| (seat.applied, seat.planner.as_deref()))
     }
 
-    /// A planner takes the wheel of a seat from the next plan on, or the person again.
+    /// Hands the wheel of a seat to a planner, or back to the person, from the next plan on.
     ///
     /// # Errors
     /// [`SessionError::NoSeat`]; [`SessionError::NoPlanner`].
     pub fn hand_over(&mut self, seat: &str, to: Option<&str>) -> Result<(), SessionError> {
-        if let Some(kind) = to.filter(|kind| Driver::of_kind(kind).is_none()) {
+        if let Some(kind) = to.filter(|kind| Driver::at_wheel(kind).is_none()) {
             return Err(SessionError::NoPlanner(kind.to_owned()));
         }
         self.seat(seat)?.handed_to = Some(to.map(str::to_owned));
@@ -191,11 +192,11 @@ impl Session {
         found.ok_or_else(|| SessionError::NoSeat { seat: name.to_owned(), seats: names.join(", ") })
     }
 
-    /// One tick; none once the time of the scenario is over.
+    /// Makes one tick. Returns `None` after the duration of the scenario.
     ///
     /// # Errors
-    /// [`SessionError::Run`] if the world cannot go on.
-    pub fn tick(&mut self) -> Result<Option<StageMoment>, SessionError> {
+    /// [`SessionError::Run`] if the simulation fails.
+    pub fn tick(&mut self) -> Result<Option<StageFrame>, SessionError> {
         if self.is_over() {
             return Ok(None);
         }
@@ -205,52 +206,59 @@ impl Session {
                 seat.decide(plan, &mut self.world)?;
             }
         }
-        // Steps of a building between two ticks are no ticks.
+        // Steps of a building between two ticks do not count.
         while self.world.step()?.is_some_and(|frame| frame.vehicles.is_empty()) {}
         self.ticks += 1;
         let Some(frame) = self.world.frame() else { return Ok(None) };
         let people = self.seats.iter().filter(|seat| seat.planner.is_none()).map(|seat| seat.vehicle);
-        let moment = self.witness.tick(&self.scenario, frame, &self.world.states(), &people.collect::<Vec<_>>());
-        let every = (KEEP_EVERY_S / self.scenario.step_s).round().max(1.0) as usize * self.scenario.ticks_per_plan;
+        let stage_frame =
+            self.observer.convert(&self.scenario, frame, &self.world.states(), &people.collect::<Vec<_>>());
+        let every =
+            (SNAPSHOT_INTERVAL_S / self.scenario.step_s).round().max(1.0) as usize * self.scenario.ticks_per_plan;
         if self.ticks.is_multiple_of(every) {
-            self.keep()?;
+            self.take_snapshot()?;
         }
-        Ok(Some(moment))
+        Ok(Some(stage_frame))
     }
 
-    fn keep(&mut self) -> Result<(), SessionError> {
-        let (seats, witness) = (self.seats.clone(), self.witness.clone());
-        self.kept.push_back(KeptMoment { snapshot: self.world.snapshot()?, seats, witness, ticks: self.ticks });
-        if self.kept.len() > MOST_KEPT {
-            // The start stays.
-            self.kept.remove(1);
+    fn take_snapshot(&mut self) -> Result<(), SessionError> {
+        let (seats, observer) = (self.seats.clone(), self.observer.clone());
+        self.snapshots.push_back(RewindSnapshot {
+            snapshot: self.world.snapshot()?,
+            seats,
+            observer,
+            ticks: self.ticks,
+        });
+        if self.snapshots.len() > MAX_SNAPSHOTS {
+            // The snapshot of the start is kept.
+            self.snapshots.remove(1);
         }
         Ok(())
     }
 
-    /// Goes back by at least so many seconds, or to the start. What was done since then was never done.
+    /// Rewinds by at least this many seconds, or to the start. Later inputs are discarded.
     ///
     /// # Errors
-    /// [`SessionError::Run`] if the world cannot be resumed.
+    /// [`SessionError::Run`] if the simulation cannot be resumed.
     pub fn rewind(&mut self, seconds: f64) -> Result<(), SessionError> {
         let until_s = self.time_s() - seconds.max(0.0);
         let step_s = self.scenario.step_s;
-        let is_before = |kept: &KeptMoment| kept.ticks as f64 * step_s <= until_s + 1e-9;
-        let place = self.kept.iter().rposition(is_before).unwrap_or(0);
-        self.kept.truncate(place + 1);
-        let Some(kept) = self.kept.back() else { return Ok(()) };
+        let is_before = |kept: &RewindSnapshot| kept.ticks as f64 * step_s <= until_s + 1e-9;
+        let place = self.snapshots.iter().rposition(is_before).unwrap_or(0);
+        self.snapshots.truncate(place + 1);
+        let Some(kept) = self.snapshots.back() else { return Ok(()) };
         self.world.restore(&kept.snapshot)?;
-        let wishes: Vec<Wish> = self.seats.iter().map(|seat| seat.wish).collect();
+        let controls: Vec<Controls> = self.seats.iter().map(|seat| seat.controls).collect();
         self.seats.clone_from(&kept.seats);
-        for (seat, wish) in self.seats.iter_mut().zip(wishes) {
-            seat.wish = wish;
+        for (seat, controls) in self.seats.iter_mut().zip(controls) {
+            seat.controls = controls;
         }
-        self.witness = kept.witness.clone();
+        self.observer = kept.observer.clone();
         self.ticks = kept.ticks;
         Ok(())
     }
 
-    /// What was played until now as a scenario: `interplay run` gives the same run, digest for digest.
+    /// The run so far as a scenario, which `interplay run` repeats bit for bit.
     pub fn played(&self) -> Scenario {
         let mut played = (*self.scenario).clone();
         for seat in &self.seats {

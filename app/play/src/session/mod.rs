@@ -1,4 +1,4 @@
-//! A run with people in it.
+//! A run with people in some seats.
 
 mod error;
 mod goal;
@@ -9,9 +9,9 @@ mod seat;
 mod tests;
 
 pub use error::SessionError;
-pub use goal::PlayGoal;
+pub(crate) use goal::PlayGoal;
 pub(crate) use live::seats_of;
 pub use live::{Session, check_seats};
-pub(crate) use score::others;
+pub(crate) use score::{planner_rows, planners_beside_person};
 pub use score::{Score, ScoreRow};
-pub use seat::Wish;
+pub use seat::Controls;

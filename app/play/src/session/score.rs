@@ -1,4 +1,4 @@
-//! How a run went, beside the same start as planners drive it.
+//! The score of a run, and those of planners from the same start.
 
 use interplay_planners::Driver;
 use interplay_scenarios::Scenario;
@@ -9,45 +9,50 @@ use serde::Serialize;
 use super::error::SessionError;
 use super::live::Session;
 
-/// Who drives the ego beside a person who did.
-const PLANNERS: [&str; 3] = ["negotiation", "conservative", "bayesian"];
+/// The planners that drive the ego for comparison with a person, in the order of the score; the first also takes the wheel.
+pub(crate) fn planners_beside_person() -> Vec<&'static Driver> {
+    let mut ranked: Vec<&Driver> =
+        Driver::kinds().iter().filter(|driver| driver.rank_beside_person().is_some()).collect();
+    ranked.sort_by_key(|driver| driver.rank_beside_person());
+    ranked
+}
 
-/// How a run went.
+/// The score of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Score {
-    /// The person's run.
+    /// The run of the person.
     pub you: ScoreRow,
-    /// The same start as others drive it.
+    /// Runs of planners from the same start.
     pub others: Vec<ScoreRow>,
-    /// Who let whom go first, in sentences.
+    /// Right of way and contacts in sentences.
     pub story: Vec<String>,
 }
 
-/// A run in some numbers.
+/// The measures of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScoreRow {
-    /// Who drove.
+    /// The driver.
     pub name: String,
-    /// Whether there was anything to reach.
+    /// Whether the vehicle had a goal to reach.
     pub has_task: bool,
     /// When the goal was reached \[s\].
     pub reached_s: Option<f64>,
-    /// The smallest distance to anybody \[m\].
+    /// The smallest distance to another vehicle \[m\].
     pub smallest_gap_m: Option<f64>,
     /// The strongest braking \[m/s²\].
     pub hardest_braking_mps2: Option<f64>,
     /// The largest jerk \[m/s³\].
     pub largest_jerk_mps3: Option<f64>,
-    /// How often a rule of the road was broken.
+    /// Number of violations of traffic rules.
     pub rules_broken: u64,
-    /// Whether somebody was touched.
+    /// Whether the vehicle touched another one.
     pub contact: bool,
-    /// Whether the road was left.
+    /// Whether the vehicle left the road.
     pub off_road: bool,
 }
 
 impl ScoreRow {
-    /// The run of a vehicle by its report.
+    /// The measures of a vehicle from a report.
     fn of(name: &str, vehicle: &str, report: &Report) -> ScoreRow {
         let found = report.vehicle(vehicle);
         let number = |metric: &str| found.and_then(|vehicle| vehicle.metrics.number(metric));
@@ -66,7 +71,7 @@ impl ScoreRow {
 }
 
 impl Session {
-    /// How the run of a seat has gone until now, without the runs of others.
+    /// The score of a seat so far, without the runs of planners.
     pub fn score(&self, seat: &str) -> Score {
         let report = self.report();
         let yielded = report.right_of_way.iter().filter(|passage| passage.yielded);
@@ -85,15 +90,13 @@ impl Session {
     }
 }
 
-/// The same start as others drive it, for as long: planners in place of the ego, and in place of anybody else whom the scenario has.
-///
-/// # Errors
-/// [`SessionError::Run`] if a run cannot be finished.
-pub(crate) fn others(written: &Scenario, seat: &str, duration_s: f64) -> Result<Vec<ScoreRow>, SessionError> {
+/// The measures of runs without people, from the same start and for the same time. Several planners drive the seat if it is the
+/// ego; otherwise the driver of the scenario does.
+pub(crate) fn planner_rows(written: &Scenario, seat: &str, duration_s: f64) -> Result<Vec<ScoreRow>, SessionError> {
     let Some(index) = written.index_of(seat) else { return Ok(Vec::new()) };
     let as_written = written.vehicles[index].driver.clone();
     let drivers: Vec<(String, Driver)> = if index == written.ego_index() {
-        PLANNERS.iter().filter_map(|kind| Some(((*kind).to_owned(), Driver::of_kind(kind)?))).collect()
+        planners_beside_person().into_iter().map(|driver| (driver.kind().to_owned(), driver.clone())).collect()
     } else {
         vec![(as_written.description(), as_written)]
     };

@@ -1,4 +1,4 @@
-//! A seat: what its person wishes, and what was done.
+//! A seat: the controls of its person, and the record of the inputs.
 
 use interplay_planners::drivers::inputs::{self, WheelHandOver};
 use interplay_planners::drivers::lanes::{RoadLanes, towards};
@@ -7,38 +7,38 @@ use interplay_simulation::Simulation;
 
 use super::error::SessionError;
 
-/// What a person wishes: keys, a stick or a finger.
+/// The controls of a person: keys, a stick or a finger.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wish {
-    /// The number of the message that brought it.
+pub struct Controls {
+    /// The number of the message with these controls.
     pub seq: u64,
     /// Share of the strongest braking (negative) or acceleration.
     pub acceleration: f64,
     /// Share of the largest steering angle, positive to the left.
     pub steering: f64,
-    /// Whether the lane is kept, and steering is a wish to change sideways.
+    /// Whether the lane is kept automatically; steering then moves the vehicle sideways.
     pub assist: bool,
 }
 
-/// With the lane kept, full steering moves the place that is steered to by so many widths of a lane in a second of a real car.
+/// With lane keeping, full steering moves the lateral target by this many lane widths per second, for a real car.
 const SIDEWAYS_LANES_PS: f64 = 0.5;
 
-/// A seat with all that was done in it.
+/// A seat with the record of its inputs.
 #[derive(Clone, Debug)]
 pub(super) struct Seat {
     pub vehicle: usize,
     pub name: String,
-    pub wish: Wish,
-    /// The number of the last wish that was applied.
+    pub controls: Controls,
+    /// The number of the last applied controls.
     pub applied: u64,
-    /// Who takes the wheel at the next plan, if anybody does.
+    /// The planner (or `None` for the person) that takes the wheel at the next plan, if a hand-over is pending.
     pub handed_to: Option<Option<String>>,
-    /// The kind of planner that has the wheel; none while a person has it.
+    /// The kind of planner at the wheel; `None` for the person.
     pub planner: Option<String>,
-    /// What was handed in.
+    /// The recorded inputs.
     pub record: inputs::Settings,
-    /// With the lane kept, where across the route it steers to \[m\].
-    place_m: Option<f64>,
+    /// With lane keeping, the lateral target on the route \[m\].
+    target_m: Option<f64>,
 }
 
 impl Seat {
@@ -46,23 +46,23 @@ impl Seat {
         Seat {
             vehicle,
             name: name.to_owned(),
-            wish: Wish::default(),
+            controls: Controls::default(),
             applied: 0,
             handed_to: None,
             planner: None,
             record: inputs::Settings::default(),
-            place_m: None,
+            target_m: None,
         }
     }
 
-    /// Hands over the wheel if that was asked for, and hands in the input of a plan, if a person has it.
+    /// Makes a pending hand-over, and applies the input of the person, if the person has the wheel.
     pub fn decide(&mut self, plan: usize, world: &mut Simulation) -> Result<(), SessionError> {
         if let Some(to) = self.handed_to.take().filter(|to| *to != self.planner) {
             world.hand_over(&self.name, to.as_deref().and_then(Driver::of_kind).as_ref())?;
             self.record.hand_overs.push(WheelHandOver { plan: plan as u32, to: to.clone() });
-            (self.planner, self.place_m) = (to, None);
+            (self.planner, self.target_m) = (to, None);
         }
-        self.applied = self.wish.seq;
+        self.applied = self.controls.seq;
         if self.planner.is_some() {
             return Ok(());
         }
@@ -70,7 +70,7 @@ impl Seat {
         let input = self.input(&scene);
         world.apply(&self.name, input)?;
         let before = self.record.at(plan);
-        // The row that holds may be one of before the wheel was handed over.
+        // The last recorded row may be from before a hand-over.
         if self.record.inputs.is_empty() || before.to_array().map(f64::to_bits) != input.to_array().map(f64::to_bits) {
             let [acceleration, steering] = input.to_array();
             self.record.inputs.push([plan as f64, acceleration, steering]);
@@ -78,29 +78,29 @@ impl Seat {
         Ok(())
     }
 
-    /// The input that a wish means.
+    /// The input that follows from the controls.
     fn input(&mut self, scene: &Scene) -> Input {
         let (ego, limits) = (&scene.ego, &scene.ego.limits);
-        let share = |wish: f64| if wish.is_finite() { wish.clamp(-1.0, 1.0) } else { 0.0 };
-        let [acceleration, steering] = [self.wish.acceleration, self.wish.steering].map(share);
+        let share = |value: f64| if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+        let [acceleration, steering] = [self.controls.acceleration, self.controls.steering].map(share);
         let acceleration_mps2 = acceleration * limits.strongest_mps2(acceleration);
-        if !self.wish.assist {
-            self.place_m = None;
+        if !self.controls.assist {
+            self.target_m = None;
             let most_rad = limits.steering_max_at_rad(&ego.body, ego.state.speed_mps);
             return Input { acceleration_mps2, steering_rad: steering * most_rad };
         }
         let lanes = RoadLanes::of_road(scene, None);
         let now_m = ego.route.across(ego.state.position());
-        let mut place_m = self.place_m.unwrap_or(now_m);
+        let mut target_m = self.target_m.unwrap_or(now_m);
         if steering == 0.0 {
-            // Whoever lets go comes to the middle of the lane in which it is.
-            place_m = lanes.centre_m(lanes.at(place_m));
+            // Without steering, the target is the middle of the present lane.
+            target_m = lanes.centre_m(lanes.at(target_m));
         } else {
             let rate_mps = SIDEWAYS_LANES_PS * lanes.width_m() / ego.body.real_ratio().sqrt();
             let [right_m, left_m] = [lanes.centre_m(0), lanes.centre_m(lanes.count() - 1)];
-            place_m = (place_m + steering * rate_mps * scene.step_s).max(right_m).min(left_m);
+            target_m = (target_m + steering * rate_mps * scene.step_s).max(right_m).min(left_m);
         }
-        self.place_m = Some(place_m);
-        Input { acceleration_mps2, ..towards(scene, place_m, ego.state.speed_mps) }
+        self.target_m = Some(target_m);
+        Input { acceleration_mps2, ..towards(scene, target_m, ego.state.speed_mps) }
     }
 }

@@ -1,4 +1,4 @@
-//! What was played is a scenario that repeats it, whatever was played.
+//! A played run is saved as a scenario that repeats it.
 
 use interplay_scenarios::{embedded, from_text, load};
 use interplay_simulation::run::run;
@@ -7,36 +7,36 @@ use super::*;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::Frame;
 
-/// Numbers from 0 to below `count` that follow from a seed.
-struct Dice(u64);
+/// A generator of random numbers from 0 to below `count`.
+struct Random(u64);
 
-impl Dice {
-    fn roll(&mut self, count: u64) -> u64 {
+impl Random {
+    fn below(&mut self, count: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % count
     }
 }
 
-/// The digest of what was played, and that of a run of the scenario that it is written as.
+/// The digests of a played run and of a run of the scenario that it is saved as.
 fn digests(session: &Session) -> (String, String) {
     let text = session.played().to_file().to_toml();
-    let again = from_text("played.toml", &text, &[]).expect("what was played is a scenario");
+    let again = from_text("played.toml", &text, &[]).expect("the played run is a scenario");
     (session.report().digest, run("again", &again, Vec::new()).expect("a run").digest)
 }
 
 /// Plays at random, with rewinds and hand-overs, for some ticks.
-fn play(scenario: &Scenario, seat: &str, ticks: u64, dice: &mut Dice) -> Session {
+fn play(scenario: &Scenario, seat: &str, ticks: u64, random: &mut Random) -> Session {
     let mut session = Session::new("played", scenario, &[seat]).expect("a session");
     for _ in 0..ticks {
-        match dice.roll(40) {
-            0 => session.rewind(0.1 * dice.roll(30) as f64).expect("a moment before"),
+        match random.below(40) {
+            0 => session.rewind(0.1 * random.below(30) as f64).expect("a snapshot"),
             1 => session.hand_over(seat, Some("conservative")).expect("a planner"),
             2 | 3 => session.hand_over(seat, None).expect("the person again"),
             4..12 => {
-                let axis = |dice: &mut Dice| dice.roll(201) as f64 / 100.0 - 1.0;
-                let (acceleration, steering) = (axis(dice), 0.3 * axis(dice));
-                let wish = Wish { seq: 1, acceleration, steering, assist: dice.roll(2) == 0 };
-                session.wish(seat, wish).expect("a seat");
+                let axis = |random: &mut Random| random.below(201) as f64 / 100.0 - 1.0;
+                let (acceleration, steering) = (axis(random), 0.3 * axis(random));
+                let controls = Controls { seq: 1, acceleration, steering, assist: random.below(2) == 0 };
+                session.set_controls(seat, controls).expect("a seat");
             }
             _ => {}
         }
@@ -46,25 +46,25 @@ fn play(scenario: &Scenario, seat: &str, ticks: u64, dice: &mut Dice) -> Session
 }
 
 #[test]
-fn what_was_played_is_repeated_bit_for_bit() {
-    let mut dice = Dice(7);
+fn a_played_run_is_repeated_bit_for_bit() {
+    let mut random = Random(7);
     for name in ["lane-change/front-nice", "intersection/nice", "ramp-merge/nice", "mixed/garage"] {
         let scenario = load(name, &[]).expect("authored");
         let seats = seats_of(&scenario);
         for play_number in 0..4 {
-            let seat = &seats[dice.roll(seats.len() as u64) as usize];
-            let session = play(&scenario, seat, 50, &mut dice);
+            let seat = &seats[random.below(seats.len() as u64) as usize];
+            let session = play(&scenario, seat, 50, &mut random);
             let (played, repeated) = digests(&session);
             assert_eq!(played, repeated, "{name} as {seat}, play {play_number}");
         }
     }
 }
 
-/// The same for every family, many times over: `cargo test --release -p interplay-play -- --ignored`.
+/// The same for every family, many times: `cargo test --release -p interplay-play -- --ignored`.
 #[test]
 #[ignore = "takes minutes"]
 fn two_hundred_plays_of_all_families_are_repeated() {
-    let mut dice = Dice(3);
+    let mut random = Random(3);
     let mut families: Vec<Vec<&str>> = Vec::new();
     for file in embedded() {
         let family = file.name.split('/').next();
@@ -76,14 +76,14 @@ fn two_hundred_plays_of_all_families_are_repeated() {
     let mut plays = 0;
     while plays < 200 {
         for family in &families {
-            let scenario = load(family[dice.roll(family.len() as u64) as usize], &[]).expect("authored");
+            let scenario = load(family[random.below(family.len() as u64) as usize], &[]).expect("authored");
             let seats = seats_of(&scenario);
             if seats.is_empty() {
                 continue;
             }
-            let seat = &seats[dice.roll(seats.len() as u64) as usize];
-            let ticks = 20 + dice.roll(60);
-            let session = play(&scenario, seat, ticks, &mut dice);
+            let seat = &seats[random.below(seats.len() as u64) as usize];
+            let ticks = 20 + random.below(60);
+            let session = play(&scenario, seat, ticks, &mut random);
             let (played, repeated) = digests(&session);
             assert_eq!(played, repeated, "{} as {seat}, play {plays}", family[0]);
             plays += 1;
@@ -91,7 +91,7 @@ fn two_hundred_plays_of_all_families_are_repeated() {
     }
 }
 
-/// Planners are told nothing of what a person is about to do: as long as two people do the same, everybody plans the same.
+/// Planners do not know the future inputs of a person: all plans are equal as long as the inputs are.
 #[test]
 fn plans_are_equal_as_long_as_inputs_are() {
     const SAME: usize = 20;
@@ -100,7 +100,9 @@ fn plans_are_equal_as_long_as_inputs_are() {
         let mut session = Session::new("played", &scenario, &["front"]).expect("a session");
         let frames = (0..SAME + 10).filter_map(|tick| {
             let acceleration = if tick < SAME { 0.1 } else { later };
-            session.wish("front", Wish { acceleration, assist: true, ..Wish::default() }).expect("a seat");
+            session
+                .set_controls("front", Controls { acceleration, assist: true, ..Controls::default() })
+                .expect("a seat");
             session.tick().expect("a tick");
             session.frame().cloned()
         });
@@ -111,19 +113,19 @@ fn plans_are_equal_as_long_as_inputs_are() {
     };
     let is_equal = |tick: usize| {
         let [one, other] = [&plays[0], &plays[1]].map(|frames| plans(frames, tick));
-        // The seat's own plan in the tick of the first difference is what it did then.
+        // The plan of the seat itself differs at the tick of the first different input.
         one.iter().zip(&other).enumerate().all(|(index, (one, other))| index == 1 || one == other)
     };
     assert!((0..=SAME).all(is_equal));
-    assert!(!(SAME..SAME + 10).all(is_equal), "and afterwards they are not");
+    assert!(!(SAME..SAME + 10).all(is_equal), "plans differ after the inputs do");
 }
 
 #[test]
-fn a_seat_is_a_vehicle_that_somebody_drives() {
+fn a_seat_is_a_vehicle_with_a_driver() {
     let scenario = load("lane-change/front-nice", &[]).expect("authored");
-    let error = Session::new("played", &scenario, &["nobody"]).err().map(|error| error.to_string());
-    assert_eq!(error.as_deref(), Some("there is no seat `nobody`; choose from ego, front, rear"));
+    let error = Session::new("played", &scenario, &["stranger"]).err().map(|error| error.to_string());
+    assert_eq!(error.as_deref(), Some("`stranger` is not a seat; choose from ego, front, rear"));
     let mut session = Session::new("played", &scenario, &["ego"]).expect("a session");
     assert!(session.hand_over("ego", Some("inputs")).is_err());
-    assert!(session.wish("front", Wish::default()).is_err(), "nobody sits there");
+    assert!(session.set_controls("front", Controls::default()).is_err(), "no person sits in front");
 }

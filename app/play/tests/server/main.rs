@@ -1,4 +1,4 @@
-//! The server beside pages that are wrong, slow, gone, or not its own.
+//! The server with pages that are invalid, slow, gone, or from another site.
 
 mod pages;
 mod study;
@@ -44,7 +44,7 @@ fn only_the_own_page_is_served() {
 }
 
 #[test]
-fn what_is_played_is_kept_when_the_page_is_gone_and_repeats_itself() {
+fn the_played_run_is_saved_when_the_page_is_gone_and_is_deterministic() {
     let folder = tempfile::tempdir().expect("a folder");
     let served = Served::start(folder.path());
     let mut page = served.own_page();
@@ -58,23 +58,23 @@ fn what_is_played_is_kept_when_the_page_is_gone_and_repeats_itself() {
     while page.hear("frame")["driven_by"] != "negotiation" {}
     drop(page);
     drop(other);
-    wait_for("what was played is kept", || files(folder.path()) == 1);
+    wait_for("the played run is saved", || files(folder.path()) == 1);
     served.end();
     let path = folder.path().join("lane-change-front-nice-1.toml");
-    let scenario = load(&path.to_string_lossy(), &[]).expect("what was played is a scenario");
+    let scenario = load(&path.to_string_lossy(), &[]).expect("the played run is a scenario");
     let twice = [1, 2].map(|_| run("played", &scenario, Vec::new()).expect("a run").digest);
     assert_eq!(twice[0], twice[1]);
     assert!(scenario.vehicles.iter().filter(|vehicle| vehicle.driver.kind() == "inputs").count() == 2);
 }
 
 #[test]
-fn garbage_is_refused_and_nobody_else_notices() {
+fn garbage_is_refused_and_does_not_disturb_other_pages() {
     let folder = tempfile::tempdir().expect("a folder");
     let served = Served::start(folder.path());
     let mut page = served.own_page();
     page.hear("world");
     let mut state = 1_u64;
-    // Ten thousand frames; fewer at a time than wait for a page that reads none.
+    // Ten thousand messages; fewer at a time than the queue of a page holds.
     for round in 0..100 {
         for _ in 0..100 {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -86,9 +86,10 @@ fn garbage_is_refused_and_nobody_else_notices() {
         page.say(&json!({ "type": "echo", "at": f64::from(round) }));
         assert_eq!(page.hear("echo")["at"], f64::from(round));
     }
-    for wrong in
-        [json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }), json!({ "type": "seat", "seat": "nobody" })]
-    {
+    for wrong in [
+        json!({ "type": "start", "scenario": "nowhere", "seat": "ego" }),
+        json!({ "type": "seat", "seat": "stranger" }),
+    ] {
         page.say(&wrong);
     }
     page.hear("refused");
@@ -101,9 +102,9 @@ fn garbage_is_refused_and_nobody_else_notices() {
     served.end();
 }
 
-/// A page that reads nothing holds up nobody.
+/// A page that reads nothing does not delay other pages.
 #[test]
-fn a_slow_reader_is_not_waited_for() {
+fn the_server_does_not_wait_for_a_slow_page() {
     let folder = tempfile::tempdir().expect("a folder");
     let served = Served::start(folder.path());
     let mut slow = served.own_page();
@@ -114,6 +115,6 @@ fn a_slow_reader_is_not_waited_for() {
     page.drive();
     let score = page.hear("score");
     assert_eq!(score["you"]["name"], "you");
-    wait_for("the run is kept", || files(folder.path()) == 1);
+    wait_for("the run is saved", || files(folder.path()) == 1);
     served.end();
 }

@@ -1,4 +1,4 @@
-//! A server in a thread and pages at it.
+//! A server in a thread, and its pages.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -63,7 +63,7 @@ impl Served {
 
     pub fn end(self) {
         self.stop.stop();
-        self.thread.join().expect("no panic").expect("it ends well");
+        self.thread.join().expect("no panic").expect("the server ends without error");
     }
 }
 

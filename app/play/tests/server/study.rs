@@ -1,4 +1,4 @@
-//! People who are walked through a plan.
+//! Studies: people who drive the runs of a plan.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ fn plan(folder: &Path) -> SweepPlan {
     SweepPlan::from_text("people", PLAN, folder).expect("a plan")
 }
 
-/// Rows of planners, without which there is no folder.
+/// Makes the rows of planners, which a study needs.
 fn make_rows(folder: &Path) {
     let options = SweepOptions {
         folder,
@@ -37,7 +37,7 @@ fn serve(folder: &Path, seats: &[&str]) -> Served {
     Served::of(PlayServer::bind(options).expect("a free port").with_study(study))
 }
 
-/// Drives a run to its end; returns where the person is then.
+/// Drives a run to its end; returns the progress of the person.
 fn drive(page: &mut Page) -> Json {
     page.hear("world");
     page.drive();
@@ -49,13 +49,17 @@ fn compared(folder: &Path) -> Comparison {
 }
 
 #[test]
-fn what_people_do_is_rows_beside_those_of_planners() {
+fn runs_of_people_become_rows_like_those_of_planners() {
     let folder = tempfile::tempdir().expect("a folder");
     make_rows(folder.path());
     let served = serve(folder.path(), &["front"]);
     let mut page = served.own_page();
     let place = page.hear("study");
-    assert_eq!((&place["participant"], &place["of"]), (&Json::Null, &json!(2)), "two planners, and nobody has agreed");
+    assert_eq!(
+        (&place["participant"], &place["of"]),
+        (&Json::Null, &json!(2)),
+        "two planners, and no person has agreed"
+    );
     page.say(&json!({ "type": "agree" }));
     assert_eq!(drive(&mut page)["done"], 1);
     page.say(&json!({ "type": "next" }));
@@ -70,7 +74,7 @@ fn what_people_do_is_rows_beside_those_of_planners() {
     }
     page.drive();
     while page.hear("frame")["tick"].as_u64().unwrap_or_default() < 2 {}
-    // Whoever stops time begins anew.
+    // A pause restarts the run.
     page.say(&json!({ "type": "pause", "paused": true }));
     let place = drive(&mut page);
     assert_eq!((&place["done"], &place["participant"]), (&json!(2), &json!(1)));
@@ -90,7 +94,7 @@ fn what_people_do_is_rows_beside_those_of_planners() {
 }
 
 #[test]
-fn a_person_in_the_ego_stands_in_for_a_planner_and_nobody_is_counted_who_leaves() {
+fn a_person_as_the_ego_replaces_a_planner_and_unfinished_runs_do_not_count() {
     let folder = tempfile::tempdir().expect("a folder");
     make_rows(folder.path());
     let served = serve(folder.path(), &[]);
@@ -116,10 +120,10 @@ fn a_person_in_the_ego_stands_in_for_a_planner_and_nobody_is_counted_who_leaves(
 }
 
 #[test]
-fn who_cannot_sit_there_is_refused() {
+fn seats_that_no_scenario_has_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let refused = |seats: &[&str]| PlannedStudy::of(plan(folder.path()), seats).err().expect("nobody sits there");
-    assert!(matches!(refused(&["nobody"]), StudyError::NoSeatHere { .. }));
-    assert!(refused(&["nobody"]).to_string().contains("has none of the seats nobody"));
+    let refused = |seats: &[&str]| PlannedStudy::of(plan(folder.path()), seats).err().expect("a refusal");
+    assert!(matches!(refused(&["stranger"]), StudyError::NoSeatHere { .. }));
+    assert!(refused(&["stranger"]).to_string().contains("has none of the seats stranger"));
     assert!(std::fs::read_dir(folder.path()).expect("the folder").next().is_none(), "nothing is written");
 }

@@ -5,9 +5,9 @@ use interplay_simulation::frame::{BuildingFrame, Frame};
 use super::camera::WIDTH_PX;
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::chart::Chart;
+use super::overlay::{BAR, TITLE_PX, WORDS, draw_title};
 use super::pictures::{Pictures, Rgb};
 use super::rooms::Rooms;
-use super::title::{BAR, TITLE_PX, WORDS, draw_title};
 use crate::figures::RecordedRun;
 use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, GREEN, ORANGE, temperature_colour};
 use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, usual_wanted_c, zone_colour};
@@ -25,9 +25,9 @@ const INDOORS_PX: [f64; 4] = [440.0, 260.0, 704.0, 404.0];
 const OUTDOORS_ABOVE_PX: [f64; 4] = [440.0, 62.0, 704.0, 146.0];
 const PRICE_PX: [f64; 4] = [440.0, 190.0, 704.0, 260.0];
 const INDOORS_BELOW_PX: [f64; 4] = [440.0, 304.0, 704.0, 404.0];
-/// How many pictures show a day.
-const PICTURES_A_DAY: usize = 32;
-/// In a longer run only the first and the last day are shown.
+/// Number of pictures of a day.
+const PICTURES_PER_DAY: usize = 32;
+/// Of a longer run only the first and the last day are shown.
 const MAX_SHOWN_DAYS: usize = 2;
 const HOURS: f64 = 24.0;
 
@@ -35,20 +35,20 @@ const HOURS: f64 = 24.0;
 pub struct BuildingPictures<'a> {
     title: &'a str,
     rooms: Rooms,
-    /// The steps of every day that is shown, in order, with the number of the day from 1.
+    /// The steps of every shown day, with the number of the day from 1.
     days: Vec<(usize, Vec<&'a BuildingFrame>)>,
     day_count: usize,
-    /// The temperature of each zone that is neither cold nor warm while none is wanted \[°C\].
+    /// The usual wanted temperature of each zone, the middle of the colour scale while none is wanted \[°C\].
     usual_c: Vec<f64>,
     /// Least and greatest temperature outdoors and in the rooms \[°C\].
     outdoors_c: [f64; 2],
     indoors_c: [f64; 2],
-    /// Least and greatest price of electricity, and its unit; none without one.
+    /// Least and greatest price of electricity and its unit, if there is a price.
     price: Option<([f64; 2], String)>,
 }
 
 impl<'a> BuildingPictures<'a> {
-    /// The pictures of a run; none of a run without a building.
+    /// The pictures of a run; `None` without a building.
     pub fn from_run(recorded: &'a RecordedRun) -> Option<BuildingPictures<'a>> {
         let scenario = &recorded.scenario;
         let building = scenario.building.as_ref()?;
@@ -75,17 +75,17 @@ impl<'a> BuildingPictures<'a> {
         })
     }
 
-    /// The day of a picture and the hour in it.
+    /// The index of the shown day and the hour of a picture.
     fn time(&self, index: usize) -> (usize, f64) {
-        let day = (index / PICTURES_A_DAY).min(self.days.len() - 1);
-        (day, HOURS * (index - day * PICTURES_A_DAY) as f64 / PICTURES_A_DAY as f64)
+        let day = (index / PICTURES_PER_DAY).min(self.days.len() - 1);
+        (day, HOURS * (index - day * PICTURES_PER_DAY) as f64 / PICTURES_PER_DAY as f64)
     }
 
     fn draw_plan(&self, canvas: &mut Canvas, step: &BuildingFrame, share: f64) {
         let [left, top, right, bottom] = PLAN_PX;
         let outdoors = deviation_colour(step.ambient_c - middle_c(&self.usual_c));
         let ring = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        canvas.fill_rounded(&ring, 10.0, Ink::veiled(outdoors, 0.45));
+        canvas.fill_rounded(&ring, 10.0, Ink::translucent(outdoors, 0.45));
         let inside = |zone: usize| {
             let zone = &step.zones[zone];
             zone.temperature_c + share * (zone.next_c - zone.temperature_c)
@@ -112,7 +112,7 @@ impl<'a> BuildingPictures<'a> {
         let y = top + 7.0;
         canvas.text([left - 8.0, y], Align::Right, SMALL_PX, &format!("−{COLOUR_RANGE_K:.0} K"), DARK_WORDS);
         canvas.text([left + wide + 8.0, y], Align::Left, SMALL_PX, &format!("+{COLOUR_RANGE_K:.0} K"), DARK_WORDS);
-        let words = "from what is wanted; while nothing is, from its mean";
+        let words = "from the wanted temperature; while none is wanted, from its mean";
         canvas.text([left + 0.5 * wide, top + 24.0], Align::Middle, SMALL_PX, words, DARK_WORDS);
     }
 
@@ -128,7 +128,7 @@ impl<'a> BuildingPictures<'a> {
         chart.draw_cursor(canvas, hour);
     }
 
-    /// The price, which is known for the whole day, holds during a step.
+    /// Draws the price, which is known for the whole day and constant during a step.
     fn draw_price(&self, canvas: &mut Canvas, steps: &[&BuildingFrame], hour: f64) {
         let Some((range, unit)) = &self.price else { return };
         let chart = Chart { place: PRICE_PX, across: [0.0, HOURS], up: *range };
@@ -157,7 +157,7 @@ impl<'a> BuildingPictures<'a> {
         let lower = bounds.iter().rev().map(|(hour, [low, _])| [*hour, *low]);
         let ring: Vec<[f64; 2]> = upper.chain(lower).map(|point| chart.pixel(point)).collect();
         if ring.len() > 2 {
-            canvas.fill(&ring, Ink::veiled(ORANGE.rgb, 0.35));
+            canvas.fill(&ring, Ink::translucent(ORANGE.rgb, 0.35));
         }
         let mean = |step: &BuildingFrame| {
             step.zones.iter().map(|zone| zone.temperature_c).sum::<f64>() / step.zones.len().max(1) as f64
@@ -179,7 +179,7 @@ impl<'a> BuildingPictures<'a> {
 
 impl Pictures for BuildingPictures<'_> {
     fn count(&self) -> usize {
-        self.days.len() * PICTURES_A_DAY
+        self.days.len() * PICTURES_PER_DAY
     }
 
     fn size(&self) -> [u32; 2] {
@@ -221,7 +221,7 @@ fn of_building(frame: &Frame) -> Option<&BuildingFrame> {
     frame.building.as_ref()
 }
 
-/// Least and greatest of some prices, and their unit; none without any.
+/// Least and greatest price and their unit; `None` without prices.
 fn price(recorded: &RecordedRun, prices: impl Iterator<Item = f64>) -> Option<([f64; 2], String)> {
     let prices: Vec<f64> = prices.collect();
     let currency = recorded.report.building.as_ref()?.currency.as_deref()?;
@@ -250,7 +250,7 @@ mod tests {
         let name = "building/four-room-pid";
         let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
         let pictures = BuildingPictures::from_run(&recorded).expect("a building");
-        let last = pictures.count() - PICTURES_A_DAY / 2;
+        let last = pictures.count() - PICTURES_PER_DAY / 2;
         let pixels = pictures.draw(last).expect("a picture");
         let (day, hour) = pictures.time(last);
         let steps = &pictures.days[day].1;
@@ -274,9 +274,9 @@ mod tests {
         assert!(BuildingPictures::from_run(&recorded).is_none());
     }
 
-    /// In winter, too, a room has the colour of its deviation from what is wanted: not every room is as blue as can be.
+    /// The colour shows the deviation from the wanted temperature, so rooms are not all blue in winter.
     #[test]
-    fn a_room_near_what_is_wanted_is_grey_in_winter() {
+    fn a_room_near_its_wanted_temperature_is_grey_in_winter() {
         let name = "building/office-and-flat";
         let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
         let pictures = BuildingPictures::from_run(&recorded).expect("a building");

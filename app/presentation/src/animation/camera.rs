@@ -1,17 +1,17 @@
-//! The sizes of the pictures, and the views of a run at its moments.
+//! The sizes of animated pictures, and the camera view of each.
 
 use super::scene::DrivingRun;
-use super::timing::{Moment, PICTURE_S};
-use crate::camera::{self, CameraMoment, ViewFormat};
+use super::timing::{PICTURE_S, PictureTime};
+use crate::camera::{self, CameraFrame, ViewFormat};
 pub use crate::camera::{CameraView, car_m};
 
 /// Width of every picture \[px\].
 pub const WIDTH_PX: f64 = 720.0;
 /// Least and greatest length of a car \[px\].
 const CAR_PX: [f64; 2] = [38.0, 96.0];
-/// Least length of a car while somebody further away is spoken of \[px\].
+/// Least length of a car while a more distant vehicle is mentioned \[px\].
 const LEAST_CAR_PX: f64 = 22.0;
-/// The views of animations. A road that crosses or turns is seen lower where everybody drives about along x.
+/// The format of animations. Pictures are lower where all vehicles drive along x.
 const FORMAT: ViewFormat = ViewFormat {
     width_px: WIDTH_PX,
     height_px: [260.0, 420.0],
@@ -21,16 +21,16 @@ const FORMAT: ViewFormat = ViewFormat {
     step_s: PICTURE_S,
 };
 
-/// The view at every moment; all have one height.
-pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<CameraView> {
-    let moments: Vec<CameraMoment> = moments.iter().map(|moment| camera_moment(run, moment.time_s)).collect();
+/// One view per picture; all have the same height.
+pub fn views(run: &DrivingRun, moments: &[PictureTime]) -> Vec<CameraView> {
+    let moments: Vec<CameraFrame> = moments.iter().map(|moment| camera_frame(run, moment.time_s)).collect();
     camera::views(run.scenario, &moments, &FORMAT)
 }
 
-/// What the camera must know of a time.
-fn camera_moment(run: &DrivingRun, time_s: f64) -> CameraMoment {
+/// The input of the camera at a time.
+fn camera_frame(run: &DrivingRun, time_s: f64) -> CameraFrame {
     let states = run.seen(time_s, 0.0).iter().map(|seen| seen.state).collect();
-    CameraMoment { states, partners: run.partners(time_s), close_up: None }
+    CameraFrame { states, partners: run.partners(time_s), close_up: None }
 }
 
 #[cfg(test)]
@@ -41,7 +41,7 @@ mod tests {
     use crate::animation::timing::moments;
     use crate::figures::RecordedRun;
 
-    /// The whole ego is seen at every moment, no car is too small, and the camera never jumps.
+    /// The ego is entirely in view in every picture, no car is too small, and the camera never jumps.
     #[test]
     fn the_camera_keeps_the_ego_in_view() {
         for name in
@@ -62,7 +62,7 @@ mod tests {
                     assert!((0.0..=WIDTH_PX).contains(&x) && (0.0..=view.size_px[1]).contains(&y), "{name}: {x} {y}");
                 }
                 let car_px = view.px_per_m * car_m(&recorded.scenario);
-                // Cars are smaller than usual only while somebody further away is spoken of.
+                // Cars are smaller than usual only while a more distant vehicle is mentioned.
                 assert!(car_px > 0.99 * LEAST_CAR_PX && car_px < 1.01 * CAR_PX[1], "{name}: {car_px} px");
             }
             for pair in views.windows(2) {
@@ -72,14 +72,14 @@ mod tests {
         }
     }
 
-    /// In how many of a film's pictures a vehicle is wholly in view, as a share.
-    fn seen_share(name: &str, vehicle: &str) -> f64 {
+    /// The share of pictures in which a vehicle is entirely in view.
+    fn visible_share(name: &str, vehicle: &str) -> f64 {
         let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let index = recorded.scenario.index_of(vehicle).expect("there");
         let moments = moments(&recorded.report, &run.times());
         let views = views(&run, &moments);
-        let is_seen = |(view, moment): &(&CameraView, &Moment)| {
+        let is_seen = |(view, moment): &(&CameraView, &PictureTime)| {
             let corners = recorded.scenario.vehicles[index].body.corners(&run.seen(moment.time_s, 0.0)[index].state);
             let inside = |[x, y]: [f64; 2]| (0.0..WIDTH_PX).contains(&x) && (0.0..view.size_px[1]).contains(&y);
             corners.into_iter().all(|corner| inside(view.place(corner)))
@@ -87,11 +87,11 @@ mod tests {
         views.iter().zip(&moments).filter(is_seen).count() as f64 / views.len() as f64
     }
 
-    /// Whom the ego asks or plays with is in the picture with it, and in a film of a meeting most of the time.
+    /// Vehicles that the ego negotiates or plays a game with are in view most of the time.
     #[test]
-    fn the_camera_shows_with_whom_the_ego_deals() {
+    fn partners_of_the_ego_are_in_view_most_of_the_time() {
         for (name, vehicle, least) in [
-            // The film goes on until the second has crossed, when the ego is away.
+            // The animation lasts until the second vehicle has crossed, when the ego is far away.
             ("left-turn/nice", "oncoming", 0.85),
             ("roundabout/nice", "ring", 0.99),
             ("t-junction/bayesian-nice", "main", 0.99),
@@ -100,7 +100,7 @@ mod tests {
             ("overtaking/oncoming", "oncoming", 0.1),
             ("on-ramp/five", "front", 0.9),
         ] {
-            let share = seen_share(name, vehicle);
+            let share = visible_share(name, vehicle);
             assert!(share >= least, "{name}: {vehicle} in {share:.2} of the pictures");
         }
     }

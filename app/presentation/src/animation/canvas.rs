@@ -1,4 +1,4 @@
-//! A picture in the making: filled shapes, lines and words in pixels, drawn with smooth edges.
+//! A raster picture with anti-aliased shapes, lines and words.
 //!
 //! Places are pixels from the upper left corner, y downwards.
 
@@ -8,7 +8,7 @@ use super::letters::{self, Word};
 use crate::palette::Colour;
 use crate::rectangle::rounded_corners;
 
-/// Largest magnitude of a place that is drawn \[px\]: the rasteriser's numbers have 16 bits before the point.
+/// Largest magnitude of a coordinate \[px\]: the numbers of the rasteriser have 16 bits before the point.
 const MAX_PLACE_PX: f64 = 30_000.0;
 
 /// Horizontal alignment: the part of a text that lies at its place. Vertically this is always the middle.
@@ -22,7 +22,7 @@ pub enum Align {
     Right,
 }
 
-/// How the ends of a line look.
+/// The shape of the ends of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineEnd {
     /// Cut off at its last point.
@@ -47,12 +47,12 @@ impl From<Colour> for Ink {
 }
 
 impl Ink {
-    /// A colour that lets through what lies below.
-    pub fn veiled(colour: Colour, opacity: f64) -> Ink {
+    /// A translucent colour.
+    pub fn translucent(colour: Colour, opacity: f64) -> Ink {
         Ink { colour, opacity }
     }
 
-    /// About the colour that is seen where it lies over another one.
+    /// The colour that results on top of another one, rounded.
     pub fn over(self, below: Colour) -> Colour {
         let mixed =
             |part: usize| self.opacity * f64::from(self.colour[part]) + (1.0 - self.opacity) * f64::from(below[part]);
@@ -67,7 +67,7 @@ impl Ink {
     }
 }
 
-/// The picture that is drawn on.
+/// A picture to draw on.
 pub struct Canvas {
     pixels: Pixmap,
 }
@@ -90,7 +90,7 @@ impl Canvas {
         self.pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
     }
 
-    /// Copies a picture of the same width into this one, from a row on; what reaches beyond the lower edge is left out.
+    /// Copies a picture of the same width into this one, from row `top` on. Rows beyond the lower edge are left out.
     pub fn put(&mut self, other: &Canvas, top: u32) {
         let from = (4 * self.pixels.width() * top) as usize;
         let below = self.pixels.data_mut().get_mut(from..).unwrap_or_default();
@@ -225,7 +225,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_filled_has_its_colour_and_nothing_else() {
+    fn a_block_is_filled_and_the_rest_is_unchanged() {
         let mut canvas = Canvas::new([20, 10], [1, 2, 3]).expect("a size");
         canvas.block([5.0, 2.0], [15.0, 8.0], [200, 100, 50]);
         canvas.line(&[[1e9, 1e9], [2e9, 1e9]], 3.0, LineEnd::Round, [9, 9, 9]);
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_where_they_are_written() {
+    fn words_begin_at_their_place() {
         let mut canvas = Canvas::new([200, 40], [255; 3]).expect("a size");
         canvas.text([100.0, 20.0], Align::Left, 20.0, "asks", [0; 3]);
         let pixels = canvas.into_rgb();

@@ -1,34 +1,34 @@
-//! The words under a picture: who asks whom, what the other answers, and what happened last.
+//! The words below a picture: the request of the ego with its answer, or a collision, and the last event.
 
-use interplay_planners::PlannedPassing;
+use interplay_planners::{PlanEventKind, PlannedPassing};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
 use interplay_simulation::standing::Standing;
 
 use super::scene::DrivingRun;
-use crate::contact::numbers;
-use crate::passing_words::{event_text, has_met, passing_sentence};
+use crate::contact::vehicle_indices;
+use crate::passing_words::{event_text, has_passed_oncoming, passing_sentence};
 
-/// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
+/// Times that a collision and any other event stay in the caption \[s\], at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;
 const EVENT_SHOWN_S: f64 = 1.2;
-/// How long the place of a contact is marked \[s\] at 1/10 scale.
+/// Time that the place of a contact is marked \[s\], at 1/10 scale.
 const CONTACT_SHOWN_S: f64 = 0.35;
 
 /// The two lines below a picture: a negotiation or a collision, and the last event.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Caption {
-    /// First line: who asks whom with the answer, or who collided.
+    /// The request with its answer, the intended passings, or the collision.
     pub first: String,
-    /// Second line: the last event.
+    /// The last event.
     pub second: String,
-    /// Whether the first line is about a collision.
+    /// Whether the first line reports a collision.
     pub alarms: bool,
 }
 
 impl Caption {
-    /// The vehicles of whom it speaks, by their numbers.
-    pub fn names(&self, scenario: &Scenario) -> Vec<usize> {
+    /// Indices of the vehicles that the caption mentions.
+    pub fn mentioned(&self, scenario: &Scenario) -> Vec<usize> {
         let words = || [&self.first, &self.second].into_iter().flat_map(|line| line.split([' ', ',']));
         words().filter_map(|word| scenario.index_of(word)).collect()
     }
@@ -43,16 +43,16 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         run.frames.iter().copied().filter(shown).collect::<Vec<&Frame>>()
     };
     let hit = past(COLLISION_SHOWN_S).into_iter().flat_map(|frame| &frame.collisions).find(|hit| hit.time_s <= time_s);
-    // What happened to the ego last, and only without that what happened to anybody else.
+    // The last event of the ego, or if there is none, of another vehicle.
     let recent = past(EVENT_SHOWN_S);
-    let last = |is_of: &dyn Fn(bool) -> bool| recent.iter().rev().find_map(|frame| news(run, frame, is_of));
+    let last = |is_of: &dyn Fn(bool) -> bool| recent.iter().rev().find_map(|frame| reportable_event(run, frame, is_of));
     let second = last(&|is_ego| is_ego).or_else(|| last(&|is_ego| !is_ego)).unwrap_or_default();
     if let Some(hit) = hit {
         let [one, other] = &hit.between;
         return Caption { first: format!("{one} and {other} collide"), second, alarms: true };
     }
-    let first = asks(run, frame).or_else(|| intends(run, frame)).unwrap_or_default();
-    // What the first line says already is no news.
+    let first = request(run, frame).or_else(|| intention(run, frame)).unwrap_or_default();
+    // An event that the first line already contains is left out.
     let words: Vec<&str> = first.split([' ', ',']).collect();
     let is_in_first = |does: &str| does.split(' ').all(|word| words.contains(&word));
     let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && is_in_first(does));
@@ -60,17 +60,16 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     Caption { first, second, alarms: false }
 }
 
-/// The indices of the vehicles that began to touch a short while ago.
+/// The index pairs of the vehicles whose contact began recently.
 pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
     let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
     let hits = run.frames.iter().flat_map(|frame| &frame.collisions);
     let recent = hits.filter(|hit| hit.time_s <= time_s && time_s < hit.time_s + CONTACT_SHOWN_S * ratio);
-    recent.filter_map(|hit| numbers(run.scenario, &hit.between)).collect()
+    recent.filter_map(|hit| vehicle_indices(run.scenario, &hit.between)).collect()
 }
 
-/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks. What others only expect of one
-/// another is not said.
-fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
+/// The request of the ego, or else of another vehicle, with its answer. Expectations of other vehicles are left out.
+fn request(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let ego = run.scenario.ego_index();
     let mut vehicles: Vec<usize> = (0..frame.vehicles.len()).collect();
     vehicles.sort_by_key(|index| *index != ego);
@@ -83,18 +82,19 @@ fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
     Some(format!("{} {}", frame.vehicles[vehicle].name, sentence))
 }
 
-/// How the ego passes the others by its plan; if it stands by the rules of the road, why.
-fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
+/// How the ego plans to pass the other vehicles, or why it stands by the rules of the road.
+fn intention(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let index = run.scenario.ego_index();
     let ego = &frame.vehicles[index];
     let standing = Standing::of(&run.scenario.vehicles, frame);
     if let Some(reason) = standing.reason(index).filter(|_| ego.rules.are_kept && standing.stands(index)) {
         return Some(format!("{} {reason}", ego.name));
     }
-    // Those who are passed in the same way are named together.
+    // Vehicles that are passed in the same way share one verb.
     let mut passings: Vec<(String, Vec<&str>)> = Vec::new();
-    let is_open =
-        |passing: &&PlannedPassing| run.is_named(frame, &passing.of) && !has_met(run.scenario, frame, index, passing);
+    let is_open = |passing: &&PlannedPassing| {
+        run.is_named(frame, &passing.of) && !has_passed_oncoming(run.scenario, frame, index, passing)
+    };
     for passing in ego.plan.homotopy_class.iter().filter(is_open) {
         let Some(sentence) = passing_sentence(run.scenario, index, passing) else { continue };
         let verb = sentence.strip_suffix(&passing.of).unwrap_or(&sentence);
@@ -107,26 +107,32 @@ fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
     (!said.is_empty()).then(|| format!("{} {}", ego.name, said.join(", ")))
 }
 
-/// What happened in a tick to the ego or to others: warnings before notes.
-fn news(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option<String> {
+/// The event of a tick to report, of the ego or of others: warnings before notes.
+fn reportable_event(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option<String> {
     let ego = run.scenario.ego().map(|ego| ego.name.as_str());
     let of_level = |level: Level| {
-        // "nobody left to ask" is no news about anybody, and whom the ego asks is in the first line.
+        // The end of requests is not reported, and the request of the ego is in the first line.
         let is_news = |event: &&Event| {
             let is_wanted = event.level == level && is_of(Some(event.vehicle.as_str()) == ego);
-            let is_known = ["nobody ", "asks "].iter().any(|begin| event.text.starts_with(begin));
-            is_wanted && !is_known && run.is_named(frame, &event.vehicle)
+            is_wanted && !is_change_of_partner(frame, event) && run.is_named(frame, &event.vehicle)
         };
         let said = |event: &Event| {
             event_text(run.scenario, frame, event).map(|text| format!("{} {}", event.vehicle, plain(&text)))
         };
         frame.events.iter().filter(is_news).find_map(said)
     };
-    // Collisions have the first line.
+    // Collisions are in the first line.
     of_level(Level::Warning).or_else(|| of_level(Level::Note))
 }
 
-/// Words without what stands in brackets: there planners give reasons in the terms of their optimisers.
+/// Whether an event is that a planner asks another vehicle, or none any more.
+fn is_change_of_partner(frame: &Frame, event: &Event) -> bool {
+    let vehicle = frame.vehicles.iter().find(|vehicle| vehicle.name == event.vehicle);
+    let mut planned = vehicle.into_iter().flat_map(|vehicle| &vehicle.plan.events);
+    planned.any(|planned| planned.text == event.text && matches!(planned.kind, PlanEventKind::Partner(_)))
+}
+
+/// Removes the text in brackets, where planners give reasons in the terms of their optimisers.
 fn plain(words: &str) -> String {
     match (words.find(" ("), words.rfind(')')) {
         (Some(from), Some(to)) if from < to => format!("{}{}", &words[..from], &words[to + 1..]),
@@ -148,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_negotiator_asks_and_is_answered() {
+    fn the_caption_has_the_request_and_its_answer() {
         let captions = captions("intersection/nice");
         assert!(
             captions
@@ -160,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_collision_is_said() {
+    fn the_caption_reports_a_collision() {
         let captions = captions("crash/side-impact");
         let alarms = captions.iter().filter(|caption| caption.alarms).count();
         assert!(alarms > 5 && alarms < captions.len());
@@ -168,9 +174,9 @@ mod tests {
         assert!(said.first.contains("ego") && said.first.contains("crossing"), "{}", said.first);
     }
 
-    /// Captions speak plain English: no residuals, and no sides where roads turn.
+    /// Captions contain no terms of optimisers, and no sides where routes turn.
     #[test]
-    fn captions_are_for_people() {
+    fn captions_contain_no_jargon() {
         let words = |name: &str| captions(name).into_iter().flat_map(|caption| [caption.first, caption.second]);
         for name in ["ramp-merge/front-tough", "narrow-passage/two-negotiators", "left-turn/nice"] {
             assert!(words(name).all(|words| !words.contains("residual") && !words.contains("iterations")), "{name}");

@@ -1,16 +1,16 @@
-//! The colour of every vehicle at every tick: no two in sight have the same.
+//! The colour of every vehicle at every tick: vehicles near the ego have different colours.
 
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::Frame;
 
-use crate::nearest::nearest;
+use crate::crowd::nearest_vehicles;
 use crate::palette::{Colour, OTHERS, UNNAMED, vehicle_colours};
 
-/// Whoever has a colour keeps it while no more than so many others without one are nearer to the ego: colours do not flicker.
+/// A vehicle keeps its colour while it is among this many nearest to the ego, so that colours do not flicker.
 const KEPT_AMONG: usize = OTHERS.len() + 3;
 
-/// One colour a vehicle, for each tick. Of more vehicles than there are colours, those nearest to the ego have one, and all
-/// others are [`UNNAMED`].
+/// The colour of each vehicle at each tick. With more vehicles than colours, those nearest to the ego have one, and all others are
+/// [`UNNAMED`].
 pub fn colours(scenario: &Scenario, frames: &[&Frame]) -> Vec<Vec<Colour>> {
     let usual: Vec<Colour> = vehicle_colours(scenario).into_iter().map(|colour| colour.rgb).collect();
     let ego = scenario.ego_index();
@@ -20,7 +20,7 @@ pub fn colours(scenario: &Scenario, frames: &[&Frame]) -> Vec<Vec<Colour>> {
     }
     let mut holders: [Option<usize>; OTHERS.len()] = [None; OTHERS.len()];
     let at = |frame: &&Frame| {
-        let near = nearest(scenario, frame);
+        let near = nearest_vehicles(scenario, frame);
         for holder in &mut holders {
             *holder = holder.filter(|vehicle| near.iter().take(KEPT_AMONG).any(|other| other == vehicle));
         }
@@ -47,9 +47,9 @@ mod tests {
     use super::*;
     use crate::figures::RecordedRun;
 
-    /// Of twelve cars on a road nobody but the ego and five others has a colour, and no colour is there twice.
+    /// Of twelve cars, the ego and the five nearest ones have colours, all different.
     #[test]
-    fn of_many_vehicles_the_nearest_have_colours() {
+    fn in_a_crowd_the_nearest_vehicles_have_colours() {
         let vehicle = |number: u32| {
             let name = if number == 6 { "ego".to_owned() } else { format!("car-{number}") };
             let along_m = 15.0 * f64::from(number);

@@ -1,18 +1,17 @@
-//! Pictures of vehicles: the road with everybody on it, and a bar of words below.
+//! Pictures of vehicles: the road with all vehicles, and a bar of words below.
 
 use interplay_planners::{Body, State};
 
 use super::camera::{CameraView, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{Caption, caption, contacts};
-use super::edge;
 use super::letters::{cut, width_of};
+use super::overlay::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_edge_mark, draw_title};
 use super::pictures::{Pictures, Rgb};
 use super::ribbon;
 use super::road;
 use super::scene::{DrivingRun, SeenVehicle};
-use super::timing::{Moment, PICTURE_S, moments};
-use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
+use super::timing::{PICTURE_S, PictureTime, moments};
 use super::vehicle;
 use crate::contact::{contact_place, star};
 use crate::edge_mark::edge_marks;
@@ -23,32 +22,32 @@ use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
-/// A plan that leads less far from the vehicle's middle than this many of its lengths, which is one length ahead of its front, is
-/// not drawn: whoever stands or creeps has a plan that is a knot.
+/// A plan that ends within this distance of the vehicle, in lengths of the vehicle, is not drawn: that of a standing or creeping
+/// vehicle is a knot.
 const MIN_RIBBON_RATIO: f64 = 1.5;
 /// Height of a line of words below the view \[px\].
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
 const LABEL_PX: f64 = 14.0;
-/// Rows of the legend of many vehicles, which has those with a colour.
-const ROWS_OF_MANY: usize = 3;
-/// Width of the line of what a vehicle may do instead \[px\].
+/// Rows of the legend of a crowd, which lists the coloured vehicles.
+const CROWD_LEGEND_ROWS: usize = 3;
+/// Width of the line of an alternative continuation of a plan \[px\].
 const BRANCH_PX: f64 = 2.5;
 
 /// Pictures of a run with vehicles.
 pub struct DrivingPictures<'a> {
     run: DrivingRun<'a>,
-    moments: Vec<Moment>,
+    moments: Vec<PictureTime>,
     views: Vec<CameraView>,
     road: RoadShapes,
-    /// Rows of the legend of all; of many vehicles, of none.
+    /// Rows of the legend; empty for a crowd, whose legend changes from picture to picture.
     legend: Vec<LegendRow>,
-    /// Words that explain the marks on the road.
+    /// Explanation of the marks on the road.
     key: String,
 }
 
 impl<'a> DrivingPictures<'a> {
-    /// The pictures of a run; none of a run without vehicles.
+    /// The pictures of a run; `None` without vehicles.
     pub fn from_run(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
         let run = DrivingRun::from_run(recorded)?;
         let moments = moments(&recorded.report, &run.times());
@@ -64,7 +63,7 @@ impl<'a> DrivingPictures<'a> {
     }
 
     fn bar_px(&self) -> f64 {
-        let rows = if self.legend.is_empty() { ROWS_OF_MANY } else { self.legend.len() };
+        let rows = if self.legend.is_empty() { CROWD_LEGEND_ROWS } else { self.legend.len() };
         LINE_PX * (2.0 + rows as f64) + 14.0
     }
 
@@ -74,7 +73,7 @@ impl<'a> DrivingPictures<'a> {
         view: &CameraView,
         seen: &[SeenVehicle],
         time_s: f64,
-        spoken_of: &[usize],
+        mentioned: &[usize],
     ) {
         road::draw(&self.road, canvas, view);
         road::draw_lights(&self.road, canvas, view, time_s);
@@ -89,7 +88,7 @@ impl<'a> DrivingPictures<'a> {
         for seen in seen.iter().filter(|seen| !seen.is_unnamed()) {
             for branch in &seen.branches {
                 let line: Vec<[f64; 2]> = branch.iter().map(|point| view.place(*point)).collect();
-                canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::veiled(seen.colour, 1.0));
+                canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::translucent(seen.colour, 1.0));
             }
             let dots = seen.proposals.iter().flat_map(|proposal| {
                 let places: Vec<[f64; 2]> = proposal.iter().map(|point| view.place(*point)).collect();
@@ -104,11 +103,11 @@ impl<'a> DrivingPictures<'a> {
         vehicles().for_each(|(vehicle, seen)| vehicle::draw_shadow(canvas, view, vehicle, seen));
         vehicles().for_each(|(vehicle, seen)| vehicle::draw(canvas, view, vehicle, seen));
         self.draw_contacts(canvas, view, seen, time_s);
-        let taken = self.draw_edge_marks(canvas, view, seen, spoken_of);
-        self.draw_names(canvas, view, (seen, spoken_of), taken);
+        let taken = self.draw_edge_marks(canvas, view, seen, mentioned);
+        self.draw_names(canvas, view, (seen, mentioned), taken);
     }
 
-    /// A star where two vehicles touch, for a while after they began to.
+    /// Draws a star where two vehicles touch, for a while after the contact began.
     fn draw_contacts(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
         let car_px = car_m(self.run.scenario) * view.px_per_m;
         for between in contacts(&self.run, time_s) {
@@ -121,18 +120,18 @@ impl<'a> DrivingPictures<'a> {
         }
     }
 
-    /// Marks at the edge for those who are spoken of and out of view. Returns the rectangles of their words and of all vehicles.
+    /// Draws marks at the edge for mentioned vehicles out of view. Returns the rectangles of all vehicles and then of the words.
     fn draw_edge_marks(
         &self,
         canvas: &mut Canvas,
         view: &CameraView,
         seen: &[SeenVehicle],
-        spoken_of: &[usize],
+        mentioned: &[usize],
     ) -> Vec<Rectangle> {
         let states: Vec<State> = seen.iter().map(|seen| seen.state).collect();
         let mut taken: Vec<Rectangle> = (0..seen.len()).map(|index| self.bounds_px(view, seen, index)).collect();
-        for mark in edge_marks(self.run.scenario, view, &states, spoken_of) {
-            let words = edge::draw(canvas, view, &mark, seen[mark.vehicle].colour, &taken);
+        for mark in edge_marks(self.run.scenario, view, &states, mentioned) {
+            let words = draw_edge_mark(canvas, view, &mark, seen[mark.vehicle].colour, &taken);
             taken.push(words);
         }
         taken
@@ -144,17 +143,17 @@ impl<'a> DrivingPictures<'a> {
         rectangle_around(corners.map(|corner| view.place(corner)))
     }
 
-    /// Names beside the vehicles, each where it covers neither a vehicle nor another name, nor other `taken` rectangles, of which the
-    /// first are those of the vehicles. Of many vehicles, those with a colour have a name, and those who are spoken of.
+    /// Draws names beside the vehicles, clear of the rectangles in `taken`, the first of which are those of the vehicles. In a crowd
+    /// only coloured and mentioned vehicles have names.
     fn draw_names(
         &self,
         canvas: &mut Canvas,
         view: &CameraView,
-        (seen, spoken_of): (&[SeenVehicle], &[usize]),
+        (seen, mentioned): (&[SeenVehicle], &[usize]),
         mut taken: Vec<Rectangle>,
     ) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
-            let is_unnamed = seen[index].is_unnamed() && !spoken_of.contains(&index);
+            let is_unnamed = seen[index].is_unnamed() && !mentioned.contains(&index);
             if vehicle.obstacle.is_some() || seen[index].is_absent || is_unnamed {
                 continue;
             }
@@ -178,12 +177,12 @@ impl<'a> DrivingPictures<'a> {
             let place = label(*middle);
             taken.push(place);
             let [l, t, r, b] = place;
-            canvas.fill_rounded(&[[l, t], [r, t], [r, b], [l, b]], 5.0, Ink::veiled(BAR, 0.82));
+            canvas.fill_rounded(&[[l, t], [r, t], [r, b], [l, b]], 5.0, Ink::translucent(BAR, 0.82));
             canvas.text(*middle, Align::Middle, LABEL_PX, &vehicle.name, WORDS);
         }
     }
 
-    fn draw_title(&self, canvas: &mut Canvas, moment: &Moment) {
+    fn draw_title(&self, canvas: &mut Canvas, moment: &PictureTime) {
         let clock = format!("{:.1} s", moment.time_s);
         let speed = match moment.rate {
             1.0 => String::new(),
@@ -197,14 +196,14 @@ impl<'a> DrivingPictures<'a> {
         canvas.text([clock_left, 0.5 * TITLE_PX], Align::Right, LABEL_PX, &speed, ink);
     }
 
-    /// The legend of those who have a colour now.
-    fn legend_of_many(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
-        // In the order of the colours, so that nobody moves while others come and go.
+    /// The legend of the vehicles of a crowd that have a colour now.
+    fn crowd_legend(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
+        // In the order of the colours, so that entries keep their places while others change.
         let place = |index: &usize| OTHERS.iter().position(|colour| colour.rgb == seen[*index].colour);
         let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_unnamed()).collect();
         listed.sort_by_key(place);
         let mut rows = legend(&self.run, &listed);
-        rows.truncate(ROWS_OF_MANY);
+        rows.truncate(CROWD_LEGEND_ROWS);
         rows
     }
 
@@ -218,7 +217,7 @@ impl<'a> DrivingPictures<'a> {
         let longest = longest - width_of(&self.key, LABEL_PX) - 2.0 * MARGIN_PX;
         canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
         canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, &self.key, QUIET_WORDS);
-        let near = if self.legend.is_empty() { self.legend_of_many(seen) } else { Vec::new() };
+        let near = if self.legend.is_empty() { self.crowd_legend(seen) } else { Vec::new() };
         for (row, entries) in self.legend.iter().chain(&near).enumerate() {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {
@@ -249,12 +248,16 @@ impl Pictures for DrivingPictures<'_> {
         let seen = self.run.seen(moment.time_s, index as f64 * PICTURE_S);
         let mut ground = Canvas::new([WIDTH_PX as u32, view.size_px[1] as u32], GRASS)?;
         let words = caption(&self.run, moment.time_s);
-        let mut spoken_of = self.run.partners(moment.time_s);
-        spoken_of.retain(|index| !seen[*index].is_unnamed());
-        spoken_of.extend(
-            words.names(self.run.scenario).into_iter().filter(|index| !spoken_of.contains(index)).collect::<Vec<_>>(),
+        let mut mentioned = self.run.partners(moment.time_s);
+        mentioned.retain(|index| !seen[*index].is_unnamed());
+        mentioned.extend(
+            words
+                .mentioned(self.run.scenario)
+                .into_iter()
+                .filter(|index| !mentioned.contains(index))
+                .collect::<Vec<_>>(),
         );
-        self.draw_view(&mut ground, view, &seen, moment.time_s, &spoken_of);
+        self.draw_view(&mut ground, view, &seen, moment.time_s, &mentioned);
         let mut canvas = Canvas::new(self.size(), BAR)?;
         canvas.put(&ground, TITLE_PX as u32);
         self.draw_title(&mut canvas, moment);
@@ -263,7 +266,7 @@ impl Pictures for DrivingPictures<'_> {
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
-        // What is small or seldom seen would otherwise be mixed with its neighbours.
+        // Small or rare areas would otherwise be merged with similar colours.
         let plan = |colour: &Colour| ribbon::ink(*colour).over(ASPHALT);
         let rare = [BRAKE_LIGHT, INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
         let colours = self.run.used_colours();
@@ -271,16 +274,16 @@ impl Pictures for DrivingPictures<'_> {
     }
 }
 
-/// What the marks on the road are, as far as a film has them.
-fn key(run: &DrivingRun, moments: &[Moment]) -> String {
+/// The explanation of the marks that occur in an animation.
+fn key(run: &DrivingRun, moments: &[PictureTime]) -> String {
     let seen: Vec<SeenVehicle> = moments.iter().flat_map(|moment| run.seen(moment.time_s, 0.0)).collect();
     let is_ribbon = |(index, seen): (usize, &SeenVehicle)| {
         is_ribbon(&seen.plan, &run.scenario.vehicles[index % run.scenario.vehicles.len()].body)
     };
     [
         (seen.iter().enumerate().any(is_ribbon), "band: plan"),
-        (seen.iter().any(|seen| !seen.branches.is_empty()), "lines: what it may do instead"),
-        (seen.iter().any(|seen| !seen.proposals.is_empty()), "dots: what it asks for or expects of another"),
+        (seen.iter().any(|seen| !seen.branches.is_empty()), "lines: alternative continuations"),
+        (seen.iter().any(|seen| !seen.proposals.is_empty()), "dots: motion it requests or expects of another"),
     ]
     .into_iter()
     .filter(|(is_drawn, _)| *is_drawn)
@@ -289,17 +292,17 @@ fn key(run: &DrivingRun, moments: &[Moment]) -> String {
     .join("   ")
 }
 
-/// Whether a plan leads far enough to be drawn: that of a vehicle that stands is a knot.
+/// Whether a plan is long enough to be drawn.
 fn is_ribbon(plan: &[[f64; 2]], body: &Body) -> bool {
     let Some([x, y]) = plan.first() else { return false };
     let least_m = MIN_RIBBON_RATIO * (body.front_m + body.rear_m);
     plan.iter().any(|point| libm::hypot(point[0] - x, point[1] - y) > least_m)
 }
 
-/// A row of the legend: the index of each vehicle, its words, and where they begin.
+/// A row of the legend: index, text and left end \[px\] of each entry.
 type LegendRow = Vec<(usize, String, f64)>;
 
-/// Rows of names and drivers of some vehicles that fit side by side.
+/// The rows of a legend with names and drivers of some vehicles.
 fn legend(run: &DrivingRun, listed: &[usize]) -> Vec<LegendRow> {
     let mut rows: Vec<LegendRow> = vec![Vec::new()];
     let mut left = MARGIN_PX;
@@ -319,7 +322,7 @@ fn legend(run: &DrivingRun, listed: &[usize]) -> Vec<LegendRow> {
     rows
 }
 
-/// Points of a line at equal distances.
+/// Points at equal distances along a line.
 fn spaced(points: &[[f64; 2]], distance: f64) -> Vec<[f64; 2]> {
     let (mut found, mut left) = (Vec::new(), 0.0);
     for pair in points.windows(2) {
@@ -336,7 +339,7 @@ fn spaced(points: &[[f64; 2]], distance: f64) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 impl DrivingPictures<'_> {
-    /// Where the middles of the vehicles are in a picture \[px\], with their colours.
+    /// The centres of the vehicles in a picture \[px\], with their colours.
     pub fn roofs(&self, index: usize) -> Vec<([f64; 2], Colour)> {
         let seen = self.run.seen(self.moments[index].time_s, 0.0);
         let place = |(vehicle, seen): (&interplay_scenarios::Vehicle, &SeenVehicle)| {
@@ -359,21 +362,21 @@ mod tests {
 
     use super::*;
 
-    /// What a film does not draw is not explained: a game has no proposals, and a negotiator's film has dots.
+    /// Only marks that are drawn are explained: a game has no proposals, a negotiation has dots.
     #[test]
-    fn the_legend_has_what_is_drawn() {
+    fn the_key_explains_the_marks_that_are_drawn() {
         let key = |name: &str| {
             let recorded =
                 RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
             DrivingPictures::from_run(&recorded).expect("vehicles").key
         };
         assert_eq!(key("roundabout/nice"), "band: plan");
-        assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for or expects of another");
-        assert_eq!(key("ramp-merge/contingency"), "band: plan   lines: what it may do instead");
+        assert_eq!(key("intersection/nice"), "band: plan   dots: motion it requests or expects of another");
+        assert_eq!(key("ramp-merge/contingency"), "band: plan   lines: alternative continuations");
     }
 
     #[test]
-    fn whoever_stands_has_no_ribbon() {
+    fn the_plan_of_a_standing_vehicle_is_not_drawn() {
         let body = Body::default();
         let length_m = body.front_m + body.rear_m;
         let knot: Vec<[f64; 2]> = [0.0, 0.4, 0.8].map(|share| [share * length_m, 0.2 * share * length_m]).to_vec();

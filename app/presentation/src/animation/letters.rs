@@ -1,11 +1,11 @@
-//! Words as outlines, with the font of all pictures.
+//! Words as outlines in the font of all pictures.
 
 use std::sync::LazyLock;
 
 use ab_glyph::{Font, FontRef, OutlineCurve, PxScale, ScaleFont};
 use tiny_skia::{Path, PathBuilder};
 
-use crate::font::FONT_BYTES;
+use crate::plot::FONT_BYTES;
 
 /// How far the base line lies below the middle of a line of text, by its height.
 pub const BASELINE_RATIO: f64 = 0.31;
@@ -26,7 +26,7 @@ impl<'a> Word<'a> {
         Word { words, size, width: width_of(words, size) }
     }
 
-    /// Their outlines, beginning at a place on the base line; none of words without ink.
+    /// The outlines of the words from a place on the base line; `None` if they are empty or blank.
     pub fn path(&self, [left, base]: [f64; 2]) -> Option<Path> {
         let font = FONT.as_ref()?;
         let scale = PxScale::from(self.size as f32);
@@ -53,7 +53,7 @@ pub fn width_of(words: &str, size: f64) -> f64 {
     words.chars().map(|letter| f64::from(scaled.h_advance(font.glyph_id(letter)))).sum()
 }
 
-/// Words cut off, with an ellipsis, where they would be wider than a length \[px\].
+/// Words cut off with an ellipsis so that they are not wider than `longest` \[px\].
 pub fn cut(words: &str, size: f64, longest: f64) -> String {
     if width_of(words, size) <= longest {
         return words.to_owned();

@@ -1,13 +1,12 @@
-//! Moving pictures of runs: what happened, seen from above, as a file that every browser shows.
+//! Animations of runs, seen from above, as files that every browser shows.
 //!
 //! ```text
-//! recorded run -> moments, views, scenes -> pictures -> palette and changes -> GIF, WebP, PNG, MP4
+//! recorded run -> picture times, views, scenes -> pictures -> palette and changes -> GIF, WebP, PNG, MP4
 //! ```
 //!
-//! A run with vehicles is a top view that follows the interaction; a building is its floor plan over the
-//! day; a run with both shows one after the other.
-//! Pictures are functions of the recorded run and their number, so they are drawn side by side, and the same run gives the
-//! same bytes. Only this folder names `tiny-skia`, `ab_glyph`, `gif` and `image-webp`.
+//! A run with vehicles is a top view that follows the interaction, a building is its floor plan over the day, and a run with
+//! both shows one after the other. A picture is a function of the recorded run and its index, so pictures are drawn in parallel,
+//! and the same run gives the same bytes. Only this folder names `tiny-skia`, `ab_glyph`, `gif` and `image-webp`.
 
 mod building;
 mod camera;
@@ -16,38 +15,33 @@ mod caption;
 mod chart;
 mod colours;
 mod driving;
-mod edge;
 mod encode;
-mod error;
-mod format;
+mod file;
 mod letters;
+mod overlay;
 mod pictures;
 mod ribbon;
 mod road;
 mod rooms;
 mod scene;
-mod sequence;
 #[cfg(test)]
 mod tests;
 mod timing;
-mod title;
 mod vehicle;
 
-pub use error::AnimationError;
-pub use format::{AnimationFile, AnimationFormat, AnimationFormatError};
+pub use file::{AnimationError, AnimationFile, AnimationFormat, AnimationFormatError};
 
 use std::io;
 
 use building::BuildingPictures;
 use driving::DrivingPictures;
 use encode::Film;
-use pictures::Pictures;
-use sequence::PictureSequence;
+use pictures::{PictureSequence, Pictures};
 
 use crate::figures::RecordedRun;
 
 impl AnimationFile {
-    /// Checks that the file can be written, and leaves no trace of that.
+    /// Checks that the file can be written, without leaving a file behind.
     ///
     /// # Errors
     /// [`AnimationError::Unwritable`].
@@ -71,10 +65,10 @@ impl AnimationFile {
     }
 }
 
-/// A run as the bytes of a file.
+/// An animated run as the bytes of a file.
 ///
 /// # Errors
-/// [`AnimationError::Nothing`] of a run with neither vehicles nor rooms, and what goes wrong in the encoder.
+/// [`AnimationError::Nothing`] for a run with neither vehicles nor rooms, and errors of the encoder.
 pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
     match (DrivingPictures::from_run(recorded), BuildingPictures::from_run(recorded)) {
         (Some(road), Some(rooms)) => encode(&PictureSequence::new(&road, &rooms), format),

@@ -1,19 +1,18 @@
-//! The band of a plan: a veil of the vehicle's colour between two lines of it.
+//! The band of a plan: a translucent area between two lines in the colour of the vehicle.
 //!
-//! The veil alone is too weak to tell the colours of bands apart on asphalt, for people with full colour vision too. The
-//! lines have the solid colours, which are far enough apart (`palette.rs`).
+//! On asphalt the translucent colours alone are not distinguishable. The solid colours of the lines are (`palette.rs`).
 
 use super::canvas::{Canvas, Ink, LineEnd};
 use crate::palette::Colour;
 
-/// Opacity of the veil.
+/// Opacity of the area.
 const OPACITY: f64 = 0.42;
 /// Width of the lines \[px\].
 const LINE_PX: f64 = 2.0;
 
-/// The ink of the veil.
+/// The ink of the area.
 pub fn ink(colour: Colour) -> Ink {
-    Ink::veiled(colour, OPACITY)
+    Ink::translucent(colour, OPACITY)
 }
 
 /// Draws a band of a width along a line \[px\].
@@ -41,7 +40,7 @@ mod tests {
     use super::*;
     use crate::palette::{ASPHALT, BLUE};
 
-    /// Both edges of a band have the solid colour of its vehicle, and its middle lets the road through.
+    /// Both edges of a band have the solid colour of its vehicle, and its middle is translucent.
     #[test]
     fn a_band_has_edges_in_its_colour() {
         let mut canvas = Canvas::new([100, 60], ASPHALT).expect("a size");

@@ -3,7 +3,7 @@
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
 use crate::curved_road::WorldLine;
-use crate::palette::{ARROW, ASPHALT, KEPT_LANE, KERB, PAINT, PATH, TYRE, VERGE};
+use crate::palette::{ARROW, ASPHALT, KERB, PAINT, PATH, RESERVED_LANE, TYRE, VERGE};
 use crate::road_shapes::RoadShapes;
 use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
@@ -20,7 +20,6 @@ pub fn draw_lights(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView, 
     }
 }
 
-/// Draws a road.
 pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
     let lane_px = shapes.lane_m * view.px_per_m;
     let place = |line: &WorldLine| line.iter().map(|point| view.place(*point)).collect::<Vec<_>>();
@@ -33,7 +32,7 @@ pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
     }
     // Closes the hairlines between lanes that touch, and the small holes between lanes of a junction.
     surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * SHOULDER_LANES * lane_px, ASPHALT));
-    let areas = [(&shapes.kept_lanes, KEPT_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)];
+    let areas = [(&shapes.reserved_lanes, RESERVED_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)];
     for (rings, colour) in areas {
         rings.iter().for_each(|ring| canvas.fill(&place(ring), colour));
     }

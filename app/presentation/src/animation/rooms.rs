@@ -1,4 +1,4 @@
-//! Where the rooms of a floor plan are, floors beside one another, and how a room is drawn.
+//! The layout of the rooms of a floor plan, with floors beside one another, and the drawing of a room.
 
 use interplay_scenarios::FloorPlan;
 
@@ -23,7 +23,7 @@ const ABOVE_FLOOR_PX: f64 = 8.0;
 pub struct Rooms {
     plan: FloorPlan,
     names: Vec<String>,
-    /// How many floors lie side by side.
+    /// Number of floors side by side.
     across: usize,
     /// Upper left corner of the first room, and the side of every room \[px\].
     corner: [f64; 2],
@@ -76,7 +76,7 @@ impl Rooms {
         }
     }
 
-    /// Draws a room with its name and temperature, as far as there is space; below them what heats or cools it \[kW\].
+    /// Draws a room with its name, temperature and heat \[kW\], as far as there is space.
     pub fn draw(&self, canvas: &mut Canvas, room: usize, colour: Colour, temperature_c: f64, heat_kw: f64) {
         let [left, top, right, bottom] = self.place(room);
         let ring = [[left, top], [right, top], [right, bottom], [left, bottom]];

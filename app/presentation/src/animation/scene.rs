@@ -1,4 +1,4 @@
-//! What is seen of the vehicles at any moment of a run: between two ticks, states are interpolated.
+//! The visible state of the vehicles at any time of a run, interpolated between ticks.
 
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
@@ -6,22 +6,22 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
 use super::colours::colours;
 use super::timing::RunTimes;
-use crate::answer::Requests;
 use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
 use crate::palette::{Colour, UNNAMED, VERMILLION};
-use crate::signals::{Turn, is_braking, turn, wrapped};
+use crate::requests::Requests;
+use crate::signals::{IndicatorSide, indicator_side, is_braking, wrapped};
 
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;
 
-/// Who is further away than this has nothing to do with the ego any more, in lengths of a car.
+/// Vehicles beyond this distance no longer interact with the ego, in lengths of a car.
 const NEAR_CARS: f64 = 30.0;
 
-/// A vehicle at a moment.
+/// The visible state of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
-    /// Its colour at the moment.
+    /// Present colour.
     pub colour: Colour,
     /// Whether it is not on the road.
     pub is_absent: bool,
@@ -31,9 +31,9 @@ pub struct SeenVehicle {
     pub steering_rad: f64,
     /// Whether its brake lights are on.
     pub brakes: bool,
-    /// Which indicator is on; it may be dark at the moment.
-    pub turn: Option<Turn>,
-    /// Whether the lit indicator shines at the moment.
+    /// The side of the active indicator, which may be dark while it blinks.
+    pub turn: Option<IndicatorSide>,
+    /// Whether an active indicator is lit.
     pub blinks: bool,
     /// The planned positions from now on \[m\].
     pub plan: Vec<[f64; 2]>,
@@ -47,35 +47,34 @@ pub struct SeenVehicle {
 
 /// All ticks of a run with vehicles.
 pub struct DrivingRun<'a> {
-    /// The scenario of the run.
     pub scenario: &'a Scenario,
     /// One colour a vehicle, for each tick.
     colours: Vec<Vec<Colour>>,
     /// The ticks with vehicles.
     pub frames: Vec<&'a Frame>,
-    /// What was asked until each tick.
+    /// The open requests at each tick.
     requests: Vec<Requests>,
-    /// Where every vehicle ended, and when \[s\].
+    /// The end of the run \[s\], and the final state of every vehicle.
     end: (f64, Vec<State>),
-    /// Until when it is to be shown, if that is stated \[s\].
+    /// The stated end of the animation, if there is one \[s\].
     until_s: Option<f64>,
 }
 
 impl SeenVehicle {
-    /// Whether it is one of many vehicles that are too far from the ego to be named.
+    /// Whether it is a vehicle of a crowd that is too far from the ego to be named.
     pub fn is_unnamed(&self) -> bool {
         self.colour == UNNAMED
     }
 }
 
 impl<'a> DrivingRun<'a> {
-    /// The vehicles that somebody drives, by index.
+    /// Indices of the vehicles that have a driver.
     pub fn driven(&self) -> impl Iterator<Item = usize> + '_ {
         let vehicles = self.scenario.vehicles.iter().enumerate();
         vehicles.filter(|(_, vehicle)| vehicle.obstacle.is_none()).map(|(index, _)| index)
     }
 
-    /// The vehicles of a run; none of a run without them.
+    /// The vehicles of a run; `None` without vehicles.
     pub fn from_run(recorded: &'a RecordedRun) -> Option<DrivingRun<'a>> {
         let frames: Vec<&Frame> = recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty()).collect();
         let last = frames.last()?;
@@ -84,14 +83,14 @@ impl<'a> DrivingRun<'a> {
         let end = recorded.report.vehicles.iter().map(|vehicle| vehicle.last).collect();
         let end = (last.time_s + scenario.step_s, end);
         let asked = |requests: &mut Requests, frame: &&Frame| {
-            requests.tick(scenario, frame);
+            requests.observe(scenario, frame);
             Some(requests.clone())
         };
         let requests = frames.iter().scan(Requests::default(), asked).collect();
         Some(DrivingRun { scenario, colours, frames, requests, end, until_s: recorded.shown_until_s })
     }
 
-    /// Whether a vehicle is named in the picture of a tick: of many vehicles, only those near the ego are.
+    /// Whether a vehicle is named at a tick. In a crowd, only vehicles near the ego are.
     pub fn is_named(&self, frame: &Frame, vehicle: &str) -> bool {
         let index = self.scenario.index_of(vehicle);
         index.is_none_or(|index| self.colours[self.tick(frame.time_s)][index] != UNNAMED)
@@ -105,7 +104,7 @@ impl<'a> DrivingRun<'a> {
         used
     }
 
-    /// What bounds the time that is shown.
+    /// The times that limit the animation.
     pub fn times(&self) -> RunTimes {
         let time_ratio = self.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
         RunTimes {
@@ -127,8 +126,8 @@ impl<'a> DrivingRun<'a> {
         self.frames[self.tick(time_s)]
     }
 
-    /// When the ego has passed everybody with whom it dealt: no order is open, and none of those who are near comes nearer.
-    /// None if it deals with nobody, or to the end \[s\].
+    /// The time at which the interactions of the ego end \[s\]: no passing order is open, and no former partner nearby comes nearer.
+    /// `None` if the ego has no partners, or interacts until the end.
     pub fn settled_s(&self) -> Option<f64> {
         let ego = self.scenario.ego_index();
         let near_m = NEAR_CARS * car_m(self.scenario);
@@ -153,7 +152,7 @@ impl<'a> DrivingRun<'a> {
         last.filter(|tick| tick + 1 < self.frames.len()).map(|tick| self.frames[tick].time_s)
     }
 
-    /// The requests of vehicles until a tick.
+    /// The open requests at a tick.
     pub fn requests(&self, frame: &Frame) -> &Requests {
         &self.requests[self.tick(frame.time_s)]
     }
@@ -163,12 +162,12 @@ impl<'a> DrivingRun<'a> {
         partners(self.scenario, &self.frame(time_s).vehicles[self.scenario.ego_index()])
     }
 
-    /// The index of that tick.
+    /// The index of the last tick that began at a time or before it.
     fn tick(&self, time_s: f64) -> usize {
         self.frames.partition_point(|frame| frame.time_s <= time_s + 1e-9).saturating_sub(1)
     }
 
-    /// Every vehicle at a time, in the scenario's order; `shown_s` is the time in the picture, by which indicators blink.
+    /// Every vehicle at a time, in the scenario's order. Indicators blink by `shown_s`, the time within the animation.
     pub fn seen(&self, time_s: f64, shown_s: f64) -> Vec<SeenVehicle> {
         let tick = self.tick(time_s);
         let frame = self.frames[tick];
@@ -177,7 +176,7 @@ impl<'a> DrivingRun<'a> {
         let blinks = ((shown_s / BLINK_S) as usize).is_multiple_of(2);
         let seen = |(index, vehicle): (usize, &VehicleFrame)| {
             let state = self.state(index, tick, share);
-            let turn = turn(self.scenario, &self.scenario.vehicles[index], vehicle);
+            let turn = indicator_side(self.scenario, &self.scenario.vehicles[index], vehicle);
             let failed = vehicle.origin != Origin::Planned;
             let colour = self.colours[tick][index];
             SeenVehicle {
@@ -188,11 +187,11 @@ impl<'a> DrivingRun<'a> {
                 brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
                 turn,
                 blinks,
-                plan: rest(&vehicle.plan.trajectory.states, &state),
+                plan: positions_ahead(&vehicle.plan.trajectory.states, &state),
                 plan_colour: if failed { VERMILLION.rgb } else { colour },
                 branches: {
                     let branches = vehicle.plan.branches.iter();
-                    branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()
+                    branches.map(|branch| positions_ahead(&branch.trajectory.states, &state)).collect()
                 },
                 proposals: {
                     let proposals = self.requests[tick].proposals(frame, index);
@@ -201,7 +200,7 @@ impl<'a> DrivingRun<'a> {
             }
         };
         let mut seen: Vec<SeenVehicle> = frame.vehicles.iter().enumerate().map(seen).collect();
-        // Whoever is not there draws no camera: it is taken to be where the ego is.
+        // The camera must not follow an absent vehicle, so it gets the position of the ego.
         let ego = seen[self.scenario.ego_index()].state;
         seen.iter_mut().filter(|seen| seen.is_absent).for_each(|seen| seen.state = ego);
         seen
@@ -235,8 +234,8 @@ fn spline([a, b, c, d]: [f64; 4], t: f64) -> f64 {
         + (cubed - squared) * end_slope
 }
 
-/// The positions of a plan ahead of a state, which is the first of them.
-fn rest(states: &[State], now: &State) -> Vec<[f64; 2]> {
+/// The positions of a plan ahead of the present state, which is the first of them.
+fn positions_ahead(states: &[State], now: &State) -> Vec<[f64; 2]> {
     let later = states.iter().skip(1).map(State::position);
     let mut points = vec![now.position()];
     let (sin, cos) = libm::sincos(now.heading_rad);
@@ -292,23 +291,23 @@ mod tests {
         assert!(lit > 10 && dark > 10, "{lit} {dark}");
     }
 
-    /// On the ring nobody indicates before the exit, there to the right; a left turn at a crossing is indicated to the left, as
-    /// is the way from the ramp to the road; whoever overtakes indicates to the left, and later to the right.
+    /// On a ring the ego indicates right at the exit only. It indicates left for a left turn and from a ramp, and left and then right
+    /// to overtake.
     #[test]
-    fn turns_are_indicated_where_there_is_a_choice() {
+    fn turns_and_lane_changes_are_indicated() {
         let turns = |name: &str| {
             let recorded = recorded(name);
             let run = DrivingRun::from_run(&recorded).expect("vehicles");
             let ego = recorded.scenario.ego_index();
-            let mut turns: Vec<Turn> =
+            let mut turns: Vec<IndicatorSide> =
                 run.frames.iter().filter_map(|frame| run.seen(frame.time_s, 0.0)[ego].turn).collect();
             turns.dedup();
             turns
         };
-        assert_eq!(turns("roundabout/nice"), [Turn::Right]);
-        assert_eq!(turns("left-turn/nice"), [Turn::Left]);
-        assert_eq!(turns("on-ramp/five"), [Turn::Left]);
-        assert_eq!(turns("overtaking/oncoming"), [Turn::Left, Turn::Right]);
+        assert_eq!(turns("roundabout/nice"), [IndicatorSide::Right]);
+        assert_eq!(turns("left-turn/nice"), [IndicatorSide::Left]);
+        assert_eq!(turns("on-ramp/five"), [IndicatorSide::Left]);
+        assert_eq!(turns("overtaking/oncoming"), [IndicatorSide::Left, IndicatorSide::Right]);
     }
 
     /// The ego of this scenario changes to the lane on its left, and indicates before it is there.
@@ -319,7 +318,7 @@ mod tests {
         let ego = recorded.scenario.ego_index();
         let first = run.seen(0.0, 0.0)[ego].state.y_m;
         let last = recorded.report.vehicles[ego].last.y_m;
-        let to = if last > first { Turn::Left } else { Turn::Right };
+        let to = if last > first { IndicatorSide::Left } else { IndicatorSide::Right };
         let middle = 0.5 * (first + last);
         let crossing =
             run.frames.iter().position(|frame| (frame.vehicles[ego].state.y_m - middle) * (last - middle) > 0.0);

@@ -1,4 +1,4 @@
-//! What is in the files, seen by decoders.
+//! The content of encoded files, checked by decoders.
 
 use std::io::Cursor;
 
@@ -103,7 +103,7 @@ fn the_same_run_gives_the_same_bytes() {
     }
 }
 
-/// The picture in which most changes: the camera follows around a ring.
+/// The scenario with the most changes from picture to picture: the camera follows around a ring.
 #[test]
 fn twelve_seconds_are_at_most_three_megabytes() {
     let name = "roundabout/nice";
@@ -116,7 +116,7 @@ fn twelve_seconds_are_at_most_three_megabytes() {
 
 /// The roof of a vehicle has its colour at its place, in every picture where it is not covered.
 #[test]
-fn a_vehicle_is_where_it_drives() {
+fn vehicles_are_drawn_at_their_positions() {
     let recorded = recorded("lane-change/front-nice");
     let pictures = DrivingPictures::from_run(&recorded).expect("vehicles");
     for index in 0..pictures.count() {

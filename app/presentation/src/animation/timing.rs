@@ -1,52 +1,52 @@
-//! Which moments of a run are shown, and how fast time passes.
+//! The times of a run that pictures show, and the rate of time.
 
 use interplay_simulation::report::Report;
 
 /// Time from one picture to the next \[s\]; GIF counts in hundredths of a second.
 pub const PICTURE_S: f64 = 0.1;
-/// How long the last picture stays \[s\].
+/// Duration of the last picture \[s\].
 pub const LAST_PICTURE_S: f64 = 1.6;
-/// How long a run is shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
+/// Time shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
 const AFTER_GOALS_S: f64 = 0.8;
-/// How long it is shown after the ego has reached its goal \[s\], at 1/10 scale: the camera follows it away from the others.
+/// Time shown after the ego has reached its goal \[s\], at 1/10 scale: the camera then leaves the other vehicles.
 const AFTER_EGO_S: f64 = 1.2;
-/// How long it is shown after the last collision \[s\], at 1/10 scale.
+/// Time shown after the last collision \[s\], at 1/10 scale.
 const AFTER_COLLISION_S: f64 = 2.5;
-/// How long it is shown after the last order is settled \[s\]: from then on nobody has anything to do with the ego.
+/// Time shown after the interactions of the ego have ended \[s\].
 const AFTER_ORDERS_S: f64 = 2.0;
-/// The longest that a run is shown before it is sped up \[s\].
+/// Longest animation at the rate of the run \[s\]; longer ones are sped up.
 const LONGEST_S: f64 = 8.5;
-/// How fast time passes around a contact.
+/// Rate of time around a contact.
 const SLOW_RATE: f64 = 0.25;
-/// Before and after a contact, for how long time is slow \[s\], at 1/10 scale.
+/// Durations of slow motion before and after a contact \[s\], at 1/10 scale.
 const SLOW_S: [f64; 2] = [0.35, 0.45];
 
-/// A moment that is shown.
+/// The time that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct PictureTime {
     /// Simulated time \[s\].
     pub time_s: f64,
-    /// How fast time passes: 1 is as fast as in the run.
+    /// Rate of time; 1 is that of the run.
     pub rate: f64,
 }
 
-/// What bounds the time that is shown.
+/// The times that limit the animation of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunTimes {
     /// Index of the ego.
     pub ego: usize,
     /// When the run ends \[s\].
     pub end_s: f64,
-    /// When the ego has passed everybody with whom it dealt \[s\]; none if it deals with nobody, or to the end.
+    /// Time at which the interactions of the ego end \[s\], if there are any that end.
     pub settled_s: Option<f64>,
-    /// Until when the run is to be shown, whatever happens \[s\].
+    /// The stated end of the animation \[s\].
     pub until_s: Option<f64>,
-    /// What times at 1/10 scale are multiplied with.
+    /// Factor of times at 1/10 scale.
     pub time_ratio: f64,
 }
 
-/// The moments of a run.
-pub fn moments(report: &Report, times: &RunTimes) -> Vec<Moment> {
+/// The times of all pictures of a run.
+pub fn moments(report: &Report, times: &RunTimes) -> Vec<PictureTime> {
     let (end_s, time_ratio) = (last_s(report, times), times.time_ratio);
     let usual_rate = usual_rate(end_s);
     let is_slow = |time_s: f64| {
@@ -57,14 +57,14 @@ pub fn moments(report: &Report, times: &RunTimes) -> Vec<Moment> {
     let mut time_s = 0.0;
     while time_s < end_s {
         let rate = if is_slow(time_s) { SLOW_RATE } else { usual_rate };
-        moments.push(Moment { time_s, rate });
+        moments.push(PictureTime { time_s, rate });
         time_s += rate * PICTURE_S;
     }
-    moments.push(Moment { time_s: end_s, rate: usual_rate });
+    moments.push(PictureTime { time_s: end_s, rate: usual_rate });
     moments
 }
 
-/// The least of 1, 1.5, 2, 3, 4, 6, 8 and so on with which a time is not shown for too long.
+/// The least rate of 1, 1.5, 2, 3, 4, 6, 8, … with which the animation is at most [`LONGEST_S`] long.
 fn usual_rate(end_s: f64) -> f64 {
     let mut rate = 1.0;
     while end_s / rate > LONGEST_S {
@@ -76,7 +76,7 @@ fn usual_rate(end_s: f64) -> f64 {
     rate
 }
 
-/// When a picture of a run ends: a while after everything has happened, or with the run.
+/// The end of the animation: a while after the last goal, interaction or collision, or the end of the run.
 fn last_s(report: &Report, times: &RunTimes) -> f64 {
     let RunTimes { ego, end_s, settled_s, until_s, time_ratio } = *times;
     if let Some(until_s) = until_s {
@@ -89,12 +89,12 @@ fn last_s(report: &Report, times: &RunTimes) -> f64 {
     let ego_s = report.vehicles.get(ego).and_then(|ego| ego.completed_s).map(|at| at + AFTER_EGO_S * time_ratio);
     let reached = match (all_s, ego_s) {
         (Some(all_s), Some(ego_s)) => Some(all_s.min(ego_s)),
-        // An ego without a task has its own business, whoever else has arrived.
+        // The goals of others do not end the animation of an ego without a task.
         (all_s, ego_s) => ego_s.or(all_s.filter(|_| report.vehicles.get(ego).is_none_or(|ego| ego.has_task))),
     };
     let settled = settled_s.map(|at| at + AFTER_ORDERS_S);
     let reached = reached.into_iter().chain(settled).reduce(f64::min);
-    // Not before who yields to whom is settled, where that is expected.
+    // If the scenario expects a vehicle to yield, not before that is decided.
     let yields = report.expectations.iter().any(|expectation| expectation.what.starts_with("yields"));
     let crossed = report.right_of_way.iter().filter_map(|passage| passage.second_s).filter(|_| yields);
     let crossed = crossed.map(|at| at + AFTER_GOALS_S * time_ratio);
@@ -135,14 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn a_run_ends_after_its_goals_and_long_ones_are_faster() {
+    fn the_animation_ends_after_the_goals_and_long_runs_are_faster() {
         let report = report("intersection/nice");
-        let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
+        let last = |moments: Vec<PictureTime>| moments.last().expect("some").time_s;
         let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
         let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
         assert!((last(moments(&report, &times(7.0, None))) - expected_s).abs() < 1e-9);
         let until = RunTimes { until_s: Some(1.0), ..times(7.0, None) };
-        assert_eq!(last(moments(&report, &until)), 1.0, "as it was asked for");
+        assert_eq!(last(moments(&report, &until)), 1.0, "the stated end");
         let unfinished = Report { vehicles: Vec::new(), ..report };
         assert_eq!(last(moments(&unfinished, &times(7.0, None))), 7.0);
         assert_eq!(last(moments(&unfinished, &times(7.0, Some(1.5)))), 1.5 + AFTER_ORDERS_S);

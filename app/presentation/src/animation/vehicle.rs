@@ -6,19 +6,19 @@ use interplay_scenarios::{Outline, Vehicle};
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::SeenVehicle;
-use crate::body_shape::{
+use crate::body::BodyStyle;
+use crate::body::{
     BodyArea, BodyPart, RIDER, Wheels, body_parts, indicators, lamp_across, light_depth, place_on, rear_lamp, rectangle,
 };
-use crate::body_style::BodyStyle;
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
-use crate::signals::Turn;
+use crate::signals::IndicatorSide;
 
-/// Somebody on foot is drawn at least this wide \[px\].
+/// Least width of a pedestrian \[px\].
 const LEAST_WALKER_PX: f64 = 7.0;
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
 
-/// A vehicle on its way to the canvas: from its own frame to pixels.
+/// The map from the frame of a vehicle to pixels.
 struct Placed<'a> {
     body: &'a Body,
     state: &'a State,
@@ -46,7 +46,7 @@ impl Placed<'_> {
     }
 }
 
-/// Draws the shadow, which lies below all vehicles.
+/// Draws the shadow of a vehicle; all shadows lie below all vehicles.
 pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let off = placed.px(0.16 * vehicle.body.width_m.min(0.2 * vehicle.body.scale));
@@ -56,10 +56,9 @@ pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, se
     }
     let thin = if style == BodyStyle::Bicycle { 0.4 } else { 1.0 };
     let ring = placed.rectangle([-1.0, 1.0, -thin, thin]).map(|[x, y]| [x + off, y + off]);
-    canvas.fill_rounded(&ring, placed.px(0.3 * vehicle.body.width_m), Ink::veiled(SHADOW, 0.35));
+    canvas.fill_rounded(&ring, placed.px(0.3 * vehicle.body.width_m), Ink::translucent(SHADOW, 0.35));
 }
 
-/// Draws a vehicle.
 pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
     let colour = seen.colour;
     if seen.is_absent {
@@ -122,11 +121,11 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
         let colour = if seen.brakes { BRAKE_LIGHT } else { TAIL_LIGHT };
         let tail = placed.rectangle(rear_lamp(placed.body, side, seen.brakes));
         canvas.fill_rounded(&tail, 0.06 * placed.px(placed.body.width_m), colour);
-        let lit = seen.blinks && seen.turn == Some(if side > 0.0 { Turn::Left } else { Turn::Right });
+        let lit = seen.blinks && seen.turn == Some(if side > 0.0 { IndicatorSide::Left } else { IndicatorSide::Right });
         if lit {
             for place in indicators(placed.body, side) {
                 let at = placed.shared(place);
-                canvas.disc(at, placed.px(0.3 * placed.body.width_m), Ink::veiled(INDICATOR, 0.45));
+                canvas.disc(at, placed.px(0.3 * placed.body.width_m), Ink::translucent(INDICATOR, 0.45));
                 canvas.disc(at, placed.px(0.19 * placed.body.width_m), TYRE);
                 canvas.disc(at, placed.px(0.15 * placed.body.width_m), INDICATOR);
             }
@@ -134,7 +133,7 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
     }
 }
 
-/// Somebody on foot: shoulders and a head, and never too small to be seen.
+/// Draws shoulders and head of a pedestrian, at least [`LEAST_WALKER_PX`] wide.
 fn draw_walker(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
     let middle = placed.shared([0.0, 0.0]);
     let width = placed.px(placed.body.width_m).max(LEAST_WALKER_PX);
@@ -147,7 +146,7 @@ fn draw_walker(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
     canvas.disc(middle, 0.2 * width, darker(colour));
 }
 
-/// What has an outline and no parts.
+/// Draws an obstacle as its outline.
 fn draw_outline(canvas: &mut Canvas, placed: &Placed, vehicle: &Vehicle, colour: Colour) {
     let corners = vehicle.outline().map(Outline::corners_m).unwrap_or_default();
     let ring: Vec<[f64; 2]> = corners.into_iter().map(|corner| placed.place(corner)).collect();
@@ -183,9 +182,9 @@ fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour
     }
 }
 
-/// What a lit brake light throws on the road.
+/// The glow of a lit brake light on the road.
 pub fn brake_glow() -> Ink {
-    Ink::veiled(BRAKE_LIGHT, 0.3)
+    Ink::translucent(BRAKE_LIGHT, 0.3)
 }
 
 #[cfg(test)]
@@ -227,7 +226,7 @@ mod tests {
         assert_eq!(count(&dark, BRAKE_LIGHT), 0);
         assert_eq!(count(&dark, INDICATOR), 0);
         assert!(count(&SeenVehicle { brakes: true, ..standing() }, BRAKE_LIGHT) > 10);
-        let left = SeenVehicle { turn: Some(Turn::Left), ..standing() };
+        let left = SeenVehicle { turn: Some(IndicatorSide::Left), ..standing() };
         assert!(count(&left, INDICATOR) > 10);
         assert_eq!(count(&SeenVehicle { blinks: false, ..left }, INDICATOR), 0);
         assert!(count(&dark, [10, 200, 30]) > 1000 && count(&dark, GLASS) > 100);

@@ -10,9 +10,9 @@ use crate::palette::GREEN;
 use crate::plot::style::{self, BLUE, Dash, LIMIT, LineStyle, ORANGE, WANTED};
 use crate::plot::{Curve, Panel, Panels};
 
-/// The most zones that are drawn one by one.
+/// Most zones that are drawn individually.
 pub const MAX_DRAWN_ZONES: usize = 4;
-/// The most days that are drawn one by one.
+/// Most days that are drawn individually.
 const MAX_DRAWN_DAYS: usize = 5;
 
 /// The steps of a building.
@@ -29,7 +29,7 @@ fn network(recorded: &RecordedRun) -> Option<Network> {
     recorded.scenario.building.as_ref().and_then(|building| building.network().ok())
 }
 
-/// The days that are drawn one by one: all, or the first of them and the last.
+/// The days that are drawn individually: all, or the first ones and the last.
 fn days(recorded: &RecordedRun) -> Vec<usize> {
     let count = steps(recorded).last().map_or(0, |step| step.day + 1);
     let first = (0..count).take(if count > MAX_DRAWN_DAYS { MAX_DRAWN_DAYS - 1 } else { count });
@@ -57,7 +57,7 @@ fn temperature_of(recorded: &RecordedRun, day: usize, zone: usize) -> Vec<[f64; 
     points
 }
 
-/// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
+/// Temperatures of some zones over the day, one curve per day, with the wanted temperature and the comfort band.
 pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     let panel = |&zone: &usize| {
         let mut curves: Vec<Curve> = days(recorded)
@@ -72,10 +72,10 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
         {
             let beside_k = |now: &ZoneFrame| if side == 0.0 { Some(0.0) } else { Some(side * now.band_k?) };
             let place = |now: &ZoneFrame| Some(now.reference_c? + beside_k(now)?);
-            let wanted = |now: &ZoneFrame| place(now).unwrap_or(f64::NAN);
-            let points = stepped(day_of(recorded, 0, zone, wanted), occupied.clone(), step_h(recorded));
+            let value = |now: &ZoneFrame| place(now).unwrap_or(f64::NAN);
+            let points = stepped(day_of(recorded, 0, zone, value), occupied.clone(), step_h(recorded));
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(format!("{name}{}", on_which_days(recorded)), style, points));
+                curves.push(Curve::new(format!("{name}{}", day_suffix(recorded)), style, points));
             }
         }
         Panel { name: format!("{}: temperature [°C]", name(recorded, zone)), curves, ..Panel::default() }
@@ -83,13 +83,13 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
     over_day(title, zones.iter().map(panel).collect())
 }
 
-/// What is added to names of what is wanted, if it is not wanted on every day.
-fn on_which_days(recorded: &RecordedRun) -> &'static str {
+/// Suffix of names in the legend, if the wanted temperatures differ from day to day.
+fn day_suffix(recorded: &RecordedRun) -> &'static str {
     let differ = recorded.scenario.timetable().is_ok_and(|timetable| timetable.days_differ());
     if differ { " on day 1" } else { "" }
 }
 
-/// Heat from the equipment of some zones over the day, one curve a day, against its limits.
+/// Heat from the equipment of some zones over the day, one curve per day, with its limits.
 pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     let network = network(recorded);
     let limits = network.as_ref().map(Network::limits);
@@ -109,8 +109,8 @@ pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     over_day(title, zones.iter().map(panel).collect())
 }
 
-/// What is wanted at the hours of `points`, as steps that lie where people come and go; `occupied` says of each point whether
-/// they are there. Midnight belongs to both days.
+/// The wanted temperature as steps at the times at which occupancy begins and ends; `occupied` tells the occupancy of each point.
+/// Midnight belongs to both days.
 fn stepped(mut points: Vec<[f64; 2]>, mut occupied: Vec<bool>, step_h: f64) -> Vec<[f64; 2]> {
     if let (Some([_, value]), Some([hour, _]), Some(is)) = (points.first(), points.last(), occupied.first()) {
         points.push([hour + step_h, *value]);
@@ -125,7 +125,7 @@ fn stepped(mut points: Vec<[f64; 2]>, mut occupied: Vec<bool>, step_h: f64) -> V
         .collect()
 }
 
-/// Plots over a day; all of them reach over the same values, so that rooms can be compared.
+/// Plots over a day, with the same vertical axis so that rooms can be compared.
 fn over_day(title: &str, mut panels: Vec<Panel>) -> Panels {
     let curves = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points).map(|point| point[1]);
     let limits = panels.iter().flat_map(|panel| &panel.limits).map(|(limit, _)| *limit);
@@ -142,7 +142,7 @@ fn name(recorded: &RecordedRun, zone: usize) -> String {
     named.unwrap_or_else(|| format!("zone {}", zone + 1))
 }
 
-/// The cost of each day, of one run or of several.
+/// The cost of each day, of one or several runs.
 pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
     let curve = |(recorded, style): (&&RecordedRun, LineStyle)| {
         let days = recorded.report.building.iter().flat_map(|building| &building.iterations);
@@ -174,7 +174,7 @@ pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
     Panels { title: title.to_owned(), across: "day (iteration)".to_owned(), columns: 1, every, panels: vec![panel] }
 }
 
-/// Outdoor temperature and its forecast, and the price of electricity where there is one, day after day.
+/// Outdoor temperature and its forecast, and the price of electricity if there is one, over all days.
 pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     let step_h = step_h(recorded);
     let per_day = (24.0 / step_h).round();
@@ -203,8 +203,8 @@ pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     Panels { title: title.to_owned(), across: "time [days]".to_owned(), columns: 1, every: Some(1.0), panels }
 }
 
-/// The net effect of weather and people on each zone as a temperature: that of the air outside which would do the same,
-/// T₀ + w R₀, as predicted and as it turned out, on the first day.
+/// The net effect of weather and people on each zone on the first day, predicted and real, as the equivalent outdoor temperature
+/// T₀ + w R₀.
 pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     let per_kw: Vec<f64> = network(recorded).map_or(Vec::new(), |network| network.ambient_kw_per_k().to_vec());
     let scheduled_kw = scheduled_kw(recorded);
@@ -232,14 +232,14 @@ pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pane
     over_day(title, zones.iter().map(panel).collect())
 }
 
-/// Heat of people as scheduled, which is what the controllers expect \[kW\], stacked.
+/// Scheduled heat of people, which the controllers expect \[kW\], stacked.
 fn scheduled_kw(recorded: &RecordedRun) -> Vec<f64> {
     let Some(building) = &recorded.scenario.building else { return Vec::new() };
     let zones = network(recorded).map_or(0, |network| network.zone_count());
     people(&recorded.scenario, zones).scheduled_kw(0, building.step_s, building.steps_per_day())
 }
 
-/// The cost of the common plan, round by round of an exchange of messages, for each day that had one.
+/// The cost of the common plan over the rounds of an exchange of messages, for each day with an exchange.
 pub fn rounds(title: &str, recorded: &RecordedRun) -> Panels {
     let exchanges = steps(recorded).filter_map(|step| Some((step.day, step.design.as_ref()?.exchange.as_ref()?)));
     let exchanges: Vec<(usize, &Exchange)> = exchanges.filter(|(_, exchange)| exchange.costs.len() > 1).collect();

@@ -5,25 +5,25 @@ use interplay_scenarios::{Branch, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
-use crate::body_style::BodyStyle;
-use crate::extent::extent;
+use crate::body::BodyStyle;
 use crate::palette::OBSTACLE;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels};
+use crate::rectangle::extent;
 use crate::road_shapes::RoadShapes;
 
-/// How many snapshots a picture of footprints has: in strips, and on one map.
+/// Number of snapshots in a picture of footprints: in strips, and the most on one map.
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
-/// The least number of them.
+/// Least number of snapshots on one map.
 const MIN_SNAPSHOTS: usize = 5;
-/// From one footprint to the next, of the vehicle that comes farthest in one plan, in lengths of its body.
+/// Least distance between footprints of the vehicle that drives farthest in one plan, in lengths of its body.
 const FOOTPRINT_DISTANCE_LENGTHS: f64 = 1.5;
-/// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
+/// Time that a picture of footprints covers after the last vehicle has reached its goal \[s\].
 const TIME_AFTER_GOALS_S: f64 = 1.5;
-/// How far the road goes on beyond all vehicles, in lengths of the longest one: as far as any picture shows.
+/// How far the road is traced beyond all vehicles, in lengths of the longest one; no picture shows more.
 const ROAD_BEYOND_LENGTHS: f64 = 40.0;
 
-/// The line style of every vehicle, in the scenario's order: the ego's is orange, and that of what nobody drives is grey.
+/// The line style of every vehicle, in the scenario's order: orange for the ego, grey for obstacles.
 pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
     let ego = scenario.ego_index();
     let mut others = style::line_styles().filter(|style| style.colour != ORANGE);
@@ -37,7 +37,7 @@ pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
         .collect()
 }
 
-/// Footprints at equal steps of time, until all have reached their goals who do; to the end if the ego does not.
+/// Footprints at equal time steps, until the last goal is reached; to the end of the run if the ego does not reach its goal.
 pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let RecordedRun { scenario, frames, .. } = recorded;
     let strip_m = strip_m(scenario);
@@ -55,8 +55,11 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
             .collect(),
     };
     let line_styles = line_styles(scenario);
-    let vehicle =
-        |vehicle: &Vehicle, colour| FootprintVehicle { label: who(vehicle), colour, style: BodyStyle::choose(vehicle) };
+    let vehicle = |vehicle: &Vehicle, colour| FootprintVehicle {
+        label: label(vehicle),
+        colour,
+        style: BodyStyle::choose(vehicle),
+    };
     let last = ticks.last().copied().unwrap_or_default();
     let driven_m = extent(frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| vehicle.state.position()));
     let lengths_m = scenario.vehicles.iter().map(|vehicle| vehicle.body.front_m + vehicle.body.rear_m);
@@ -74,7 +77,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     }
 }
 
-/// How many snapshots one plan holds, so that the footprints of the vehicle that comes farthest do not touch.
+/// The number of snapshots in one plan, such that the footprints of the vehicle that drives farthest do not touch.
 fn count_in_one_plan(recorded: &RecordedRun, end: usize) -> usize {
     let lengths = recorded.scenario.vehicles.iter().enumerate().map(|(index, vehicle)| {
         let places =
@@ -90,7 +93,7 @@ fn count_in_one_plan(recorded: &RecordedRun, end: usize) -> usize {
 
 /// The last tick that a picture of footprints shows.
 fn end_tick(recorded: &RecordedRun) -> usize {
-    // On a network the others drive far away while the last of them comes to its goal.
+    // On a network the other vehicles may drive far away before the last of them reaches its goal.
     let is_shown = |index: usize| recorded.scenario.network.is_none() || index == recorded.scenario.ego_index();
     let vehicles = recorded.report.vehicles.iter().enumerate().filter(|(index, _)| is_shown(*index));
     let completed = vehicles.filter_map(|(_, vehicle)| vehicle.completed_s);
@@ -104,28 +107,28 @@ fn time_s(recorded: &RecordedRun, tick: usize) -> f64 {
     recorded.frames.get(tick).map_or(tick as f64 * recorded.scenario.step_s, |frame| frame.time_s)
 }
 
-/// Where a vehicle is at the start of a tick; after the last one, where it ended.
+/// The state of a vehicle at the start of a tick; after the last tick, its final state.
 fn state(recorded: &RecordedRun, tick: usize, index: usize) -> State {
     let seen = recorded.frames.get(tick).and_then(|frame| frame.vehicles.get(index)).map(|vehicle| vehicle.state);
     seen.or(recorded.report.vehicles.get(index).map(|vehicle| vehicle.last)).unwrap_or_default()
 }
 
-/// Name and driver of a vehicle; what nobody drives has one name.
-fn who(vehicle: &Vehicle) -> String {
+/// The label of a vehicle, its name and driver; all obstacles share one label.
+fn label(vehicle: &Vehicle) -> String {
     match vehicle.obstacle {
         Some(_) => "obstacles".to_owned(),
         None => format!("{}: {}", vehicle.name, vehicle.driver.description()),
     }
 }
 
-/// Lateral coordinates of the edges of the one straight road that all drive on; none if roads cross or turn.
+/// Lateral coordinates of the edges of the straight road that all vehicles drive on; none if roads cross or turn.
 fn strip_m(scenario: &Scenario) -> Option<[f64; 2]> {
     let has_one_road = scenario.vehicles.iter().all(|vehicle| vehicle.road == Branch::Main);
     let corridor = scenario.road.corridor(Branch::Main).filter(|_| has_one_road)?;
     Some([corridor.right_m, corridor.left_m])
 }
 
-/// Speeds over time, with uprights where somebody reaches its goal.
+/// Speeds over time, with vertical lines at the times at which vehicles reach their goals.
 pub fn speeds(title: &str, recorded: &RecordedRun) -> Panels {
     let panel = Panel { reaches: vec![0.0], ..each_vehicle(recorded, "speed [m/s]", |state, _| state.speed_mps) };
     over_time(title, vec![panel])
@@ -148,7 +151,7 @@ pub fn motion(title: &str, recorded: &RecordedRun) -> Panels {
     over_time(title, panels)
 }
 
-/// The ticks of vehicles.
+/// The frames that have vehicles.
 fn vehicle_frames(recorded: &RecordedRun) -> impl Iterator<Item = &Frame> {
     recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty())
 }
@@ -157,7 +160,7 @@ fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
     Panels { title: title.to_owned(), across: "time [s]".to_owned(), columns: 1, every: None, panels }
 }
 
-/// A curve for each vehicle that somebody drives, of its state and its acceleration.
+/// A curve of a quantity for each vehicle with a driver.
 fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f64) -> Panel {
     let mut panel = Panel { name: name.to_owned(), ..Panel::default() };
     let vehicles = recorded.scenario.vehicles.iter().zip(line_styles(&recorded.scenario));
@@ -170,14 +173,14 @@ fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f6
         panel.curves.push(Curve::new(&vehicle.name, style, points.collect()));
         if let Some(completed_s) = seen.completed_s {
             let upright = LineStyle::new(style.colour, Dash::Short);
-            panel.snapshots.push((completed_s, upright, format!("{} reaches its goal", vehicle.name)));
+            panel.events.push((completed_s, upright, format!("{} reaches its goal", vehicle.name)));
         }
     }
     panel
 }
 
 /// The diagnostics of a vehicle's planner over time; `None` if the planner has no plots, or reported no values for them.
-pub fn reasons(title: &str, recorded: &RecordedRun, index: usize) -> Option<Panels> {
+pub fn planner_diagnostics(title: &str, recorded: &RecordedRun, index: usize) -> Option<Panels> {
     let mut panels = Vec::new();
     for plot in recorded.scenario.vehicles[index].driver.explanation().plots {
         let mut curves = Vec::new();
@@ -192,16 +195,16 @@ pub fn reasons(title: &str, recorded: &RecordedRun, index: usize) -> Option<Pane
             panels.push(Panel { name: plot.title_with_unit(), curves, ..Panel::default() });
         }
     }
-    let refused = refusals(recorded, index);
+    let refused = failure_times_s(recorded, index);
     if let Some(first) = panels.first_mut() {
         let upright = LineStyle::new(GREY, Dash::Short);
-        first.snapshots = refused.into_iter().map(|time_s| (time_s, upright, "no plan: fallback".to_owned())).collect();
+        first.events = refused.into_iter().map(|time_s| (time_s, upright, "no plan: fallback".to_owned())).collect();
     }
     (!panels.is_empty()).then(|| over_time(title, panels))
 }
 
-/// When a planner failed \[s\].
-fn refusals(recorded: &RecordedRun, index: usize) -> Vec<f64> {
+/// The times at which a planner failed \[s\].
+fn failure_times_s(recorded: &RecordedRun, index: usize) -> Vec<f64> {
     let failed = |frame: &&Frame| frame.vehicles[index].origin != interplay_simulation::frame::Origin::Planned;
     vehicle_frames(recorded).filter(failed).map(|frame| frame.time_s).collect()
 }

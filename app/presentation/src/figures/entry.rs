@@ -1,52 +1,53 @@
-//! A figure or table of the source, and what is made of it.
+//! Figures and tables of the dissertation: their specification in `registry.toml`, and their content.
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::LazyLock;
 
+use serde::Deserialize;
+
+use super::drawings::EntryDrawing;
 use super::error::FigureError;
-use super::recorded_run::{RecordedRun, RunOutcome, RunSpec};
+use super::recorded_run::{RunOutcome, RunSpec};
 use crate::plot::{Drawing, TextTable};
 
-/// The kind of an entry in the source.
+/// Whether an entry is a figure or a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A figure of the source.
+    /// A figure of the dissertation.
     Figure,
-    /// A table of the source.
+    /// A table of the dissertation.
     Table,
 }
 
-/// A figure or table of the source.
-#[derive(Clone, Copy, Debug)]
+/// A figure or table of the dissertation.
+#[derive(Clone, Debug)]
 pub struct Entry {
     /// Whether it is a figure or a table.
     pub kind: Kind,
-    /// Number in the source, such as `6.1`.
-    pub number: &'static str,
+    /// Number in the dissertation, such as `6.1`.
+    pub number: String,
     /// What the entry shows, in a line.
-    pub title: &'static str,
-    /// What the source says about the entry.
-    pub says: &'static str,
-    /// The error of the source that concerns this entry and its effect, if there is one.
-    pub erratum: Option<&'static str>,
+    pub title: String,
+    /// What the dissertation says about the entry.
+    pub says: String,
+    /// The error of the dissertation that concerns this entry, and its effect.
+    pub erratum: Option<String>,
     /// The runs that are drawn.
-    pub runs: &'static [RunSpec],
-    /// Runs that are measured beside them, such as another planner or the equations as printed.
-    pub beside: &'static [RunSpec],
-    /// The function that draws the entry from its `runs`.
-    pub draw: Draw,
+    pub runs: Vec<RunSpec>,
+    /// Runs that are measured for comparison, such as another planner or the equations as printed.
+    pub beside: Vec<RunSpec>,
+    pub(super) drawing: EntryDrawing,
 }
-
-/// A function that draws an entry from its runs.
-pub type Draw = fn(&Entry, &[&RecordedRun]) -> Result<FigureContent, FigureError>;
 
 /// The content of an entry or of a page about a run: pictures, and tables of measures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FigureContent {
-    /// The pictures.
+    /// Pictures, in the order of the page.
     pub pictures: Vec<Drawing>,
     /// Tables of measures.
     pub tables: Vec<TextTable>,
-    /// Results in sentences, with a word in front of each.
+    /// Results in sentences, each with its heading.
     pub words: Vec<(String, String)>,
 }
 
@@ -80,17 +81,89 @@ impl fmt::Display for Entry {
 /// An entry with its content, or with the reason why it was not made.
 #[derive(Debug)]
 pub struct EntryOutcome {
-    /// The entry.
+    /// The entry that was to be made.
     pub entry: &'static Entry,
-    /// Pictures and tables, or why there are none.
+    /// Pictures and tables, or the failure.
     pub outcome: Result<FigureContent, FigureError>,
-    /// How each run went that was asked of it and could be finished.
+    /// The finished runs of the entry.
     pub runs: Vec<RunOutcome>,
 }
 
 impl EntryOutcome {
-    /// Whether every run did what its scenario expects.
+    /// Whether every run met the expectations of its scenario.
     pub fn held(&self) -> bool {
         self.runs.iter().all(|run| run.held != Some(false))
+    }
+}
+
+/// Every figure and table, by chapters, figures before tables.
+pub fn registry() -> impl Iterator<Item = &'static Entry> {
+    static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+        let file = toml::from_str(include_str!("registry.toml"));
+        RegistryFile::entries(file.expect("the registry is part of the binary, and tests read it"))
+    });
+    ENTRIES.iter()
+}
+
+/// The file `registry.toml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RegistryFile {
+    run: BTreeMap<String, RunTemplate>,
+    errata: BTreeMap<String, String>,
+    entry: Vec<EntrySpec>,
+}
+
+/// A run that entries refer to by name. Without a scenario it takes that of the entry.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RunTemplate {
+    label: String,
+    scenario: Option<String>,
+    #[serde(default)]
+    sets: Vec<String>,
+}
+
+/// An entry as it is written. Exactly one of `figure` and `table` is its number.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EntrySpec {
+    figure: Option<String>,
+    table: Option<String>,
+    title: String,
+    says: String,
+    erratum: Option<String>,
+    shared_erratum: Option<String>,
+    drawing: EntryDrawing,
+    scenario: Option<String>,
+    #[serde(default)]
+    runs: Vec<String>,
+    #[serde(default)]
+    beside: Vec<String>,
+}
+
+impl RegistryFile {
+    fn entries(self) -> Vec<Entry> {
+        let RegistryFile { run: templates, errata, entry } = self;
+        let resolved = |spec: EntrySpec| {
+            let run = |name: &String| {
+                let RunTemplate { label, scenario, sets } = &templates[name];
+                let scenario = scenario.clone().or_else(|| spec.scenario.clone()).unwrap_or_default();
+                RunSpec { label: label.clone(), scenario, sets: sets.clone() }
+            };
+            let (runs, beside) = (spec.runs.iter().map(run).collect(), spec.beside.iter().map(run).collect());
+            let kind = if spec.table.is_some() { Kind::Table } else { Kind::Figure };
+            Entry {
+                kind,
+                number: spec.table.or(spec.figure).unwrap_or_default(),
+                title: spec.title,
+                says: spec.says,
+                erratum: spec.erratum.or_else(|| spec.shared_erratum.map(|name| errata[&name].clone())),
+                runs,
+                beside,
+                drawing: spec.drawing,
+            }
+        };
+        entry.into_iter().map(resolved).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Why a figure was not made.
+//! Errors of figures.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::plot::PlotError;
 
-/// Why a figure, or a page of them, was not made.
+/// A figure, or a page of figures, was not made.
 #[derive(Debug, Error)]
 pub enum FigureError {
     /// A scenario cannot be loaded.
@@ -25,13 +25,13 @@ pub enum FigureError {
     #[error("{scenario}: {reason}")]
     Shared {
         /// Name of the scenario.
-        scenario: &'static str,
+        scenario: String,
         /// Why the run failed.
         reason: Arc<FigureError>,
     },
     /// A run that the figure needs was not made.
-    #[error("{0} was not run")]
-    NotRun(&'static str),
+    #[error("{0}: the run was not made")]
+    NotRun(String),
     /// A picture cannot be drawn or written.
     #[error(transparent)]
     Plot(#[from] PlotError),

@@ -1,25 +1,25 @@
-//! From words to figures.
+//! The search for figures by name.
 
 use interplay_common::spelling::nearest;
 use thiserror::Error;
 
 use super::{Entry, registry};
 
-/// Why words name no figure or table.
+/// The name of an unknown figure or table.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("there is no figure or table `{words}`: {help}")]
+#[error("`{words}` is not a figure or table: {help}")]
 pub struct UnknownFigure {
-    /// The words that were given.
+    /// The unknown name.
     pub words: String,
-    /// What to write instead.
+    /// A suggestion.
     pub help: String,
 }
 
-/// The entries that words stand for, without repetition, in the order of the registry; all of them without words. `6.1`,
-/// `fig-6.1` and `Fig. 6.1` are a figure, `table-6.1` is a table, and `6` is all of chapter 6.
+/// The entries with these names, in the order of the registry; without names, all entries. `6.1`, `fig-6.1` and `Fig. 6.1` name
+/// a figure, `table-6.1` a table, and `6` all of chapter 6.
 ///
 /// # Errors
-/// [`UnknownFigure`], for the first words that nothing is called.
+/// [`UnknownFigure`] for the first unknown name.
 pub fn find(words: &[String]) -> Result<Vec<&'static Entry>, UnknownFigure> {
     if words.is_empty() {
         return Ok(registry().collect());
@@ -48,11 +48,11 @@ fn id_of(words: &str) -> String {
 
 fn unknown(words: &str, id: &str) -> UnknownFigure {
     let ids: Vec<String> = registry().map(Entry::id).collect();
-    // Without a number there is nothing to be near to.
+    // Without a number there is no similar name.
     let near = nearest(id, ids.iter().map(String::as_str)).filter(|_| !id.ends_with('-'));
     let help = match near {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`interplay reproduce --list` has them all".to_owned(),
+        None => "`interplay reproduce --list` lists all".to_owned(),
     };
     UnknownFigure { words: words.to_owned(), help }
 }
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn figures_are_found_by_what_people_call_them() {
+    fn figures_are_found_by_several_spellings() {
         for words in ["6.1", "fig-6.1", "Fig. 6.1", "figure 6.1"] {
             assert_eq!(ids(&[words]), ["fig-6.1"], "{words}");
         }
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_is_answered_with_what_was_meant() {
+    fn an_unknown_name_gets_a_suggestion() {
         let help = |words: &str| find(&[words.to_owned()]).expect_err("no such figure").help;
         assert_eq!(help("6.11"), "did you mean `fig-6.1`?");
         assert!(help("tabel-2.1x").contains("table-2.1"), "{}", help("tabel-2.1x"));

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
 
-/// The measures of several runs, side by side, for comparison with the source.
+/// The measures of several runs, side by side, for comparison with the dissertation.
 pub fn side_by_side(recorded_runs: &[&RecordedRun]) -> Vec<TextTable> {
     let mut tables = Vec::new();
     let drives: Vec<&&RecordedRun> =
@@ -46,7 +46,7 @@ fn driving(recorded_runs: &[&&RecordedRun]) -> TextTable {
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         [
             label(recorded),
-            if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
+            if completed.is_empty() { "none".to_owned() } else { completed.join(", ") },
             report.order_of_driven().join(", "),
             ego.map_or_else(String::new, |ego| {
                 ego.speed_range_mps().map(|speed_mps| format!("{speed_mps:.2}")).join(" to ")
@@ -176,7 +176,7 @@ fn in_words(value: &Value) -> String {
     }
 }
 
-/// Every counterfactual of a run: what it claims, and what came of it.
+/// The counterfactuals of a run with their outcomes.
 pub fn counterfactuals(report: &Report) -> TextTable {
     let row = |one: &CounterfactualReport| {
         let run = &one.run;
@@ -191,7 +191,7 @@ pub fn counterfactuals(report: &Report) -> TextTable {
             if one.passed { "held".to_owned() } else { format!("FAILED: {}", failed.join("; ")) },
         ]
     };
-    let header = ["with something changed", "order at the end", "reaches its goal [s]", "smallest gap [m]", ""];
+    let header = ["counterfactual", "order at the end", "reaches its goal [s]", "smallest gap [m]", ""];
     TextTable::new("Counterfactuals", header, report.counterfactuals.iter().map(row).collect())
 }
 
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_of_expectations_are_words() {
+    fn values_of_expectations_are_written_in_words() {
         let gap = json!({ "m": 4.529, "between": ["ego", "ring"], "time_s": 5.06 });
         let said = in_words(&gap);
         assert!(["4.529 m", "between ego, ring", "time 5.06 s"].iter().all(|part| said.contains(part)), "{said}");

@@ -1,20 +1,13 @@
-//! Every figure and table of the source, and how each is made again.
+//! Every figure and table of the dissertation, reproduced.
 //!
-//! The registry is data, a file a chapter: an [`Entry`] names a figure, says what the source shows, which runs make it
-//! ([`RunSpec`]s of authored scenarios), which drawing, and where an erratum changes the result. [`make`] runs what is needed,
-//! each of them once, and draws; a figure that fails does not stop the others.
+//! The registry (`registry.toml`) is data: an [`Entry`] names a figure, what the dissertation shows, which runs make it, how it
+//! is drawn, and which error of the dissertation changes the result. [`make`] makes each run once and draws; a figure that
+//! fails does not stop the others.
 //!
 //! ```text
 //! entries -> runs with all their frames -> drawings and tables -> files and page
 //! ```
 
-mod chapter2;
-mod chapter3;
-mod chapter4;
-mod chapter5;
-mod chapter6;
-mod chapter7;
-mod chapter8;
 mod climate;
 mod drawings;
 mod driving;
@@ -23,10 +16,8 @@ mod error;
 mod lookup;
 mod measures;
 mod recorded_run;
-mod save;
 mod section;
 mod sentences;
-mod show;
 mod space_time;
 #[cfg(test)]
 mod tests;
@@ -38,39 +29,26 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-pub use entry::{Draw, Entry, EntryOutcome, FigureContent, Kind};
+use crate::plot::{Drawing, PlotError};
+pub use entry::{Entry, EntryOutcome, Kind, registry};
 pub use error::FigureError;
 pub use lookup::{UnknownFigure, find};
-pub use recorded_run::{FrameLog, RecordedRun, RunOutcome, RunSpec};
-use save::save;
+pub use recorded_run::{FrameLog, RecordedRun};
+use recorded_run::{RunOutcome, RunSpec};
 pub use section::{run_page, section};
 
-/// Every figure and table, by chapters, figures before tables.
-pub fn registry() -> impl Iterator<Item = &'static Entry> {
-    let chapters = [
-        chapter2::ENTRIES,
-        chapter3::ENTRIES,
-        chapter4::ENTRIES,
-        chapter5::ENTRIES,
-        chapter6::ENTRIES,
-        chapter7::ENTRIES,
-        chapter8::ENTRIES,
-    ];
-    chapters.into_iter().flatten()
-}
-
-/// How many steps [`make`] takes for these entries: runs, and drawings.
+/// The number of steps of [`make`] for these entries: runs and drawings.
 pub fn steps(entries: &[&'static Entry]) -> usize {
     runs(entries).len() + entries.len()
 }
 
 /// Makes the entries in parallel and writes their pictures into a folder; `advance` is called after every step.
-/// They come in the order in which they were asked for.
+/// The outcomes are in the order of `entries`.
 pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Sync)) -> Vec<EntryOutcome> {
     let run = |spec: &RunSpec| {
         let recorded = spec.record().map_err(Arc::new);
         advance();
-        (*spec, recorded)
+        (spec.clone(), recorded)
     };
     let recorded_runs: RecordedRuns = runs(entries).par_iter().with_max_len(1).map(run).collect();
     let draw = |entry: &&'static Entry| {
@@ -81,13 +59,13 @@ pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Syn
     entries.par_iter().with_max_len(1).map(draw).collect()
 }
 
-/// The runs of several figures, or why there is none.
+/// The runs of several figures, or their failures.
 type RecordedRuns = BTreeMap<RunSpec, Result<RecordedRun, Arc<FigureError>>>;
 
-/// What has to be run, each once.
+/// The runs that the entries need, without repetition.
 fn runs(entries: &[&'static Entry]) -> Vec<RunSpec> {
     let mut runs: Vec<RunSpec> =
-        entries.iter().flat_map(|entry| entry.runs.iter().chain(entry.beside)).copied().collect();
+        entries.iter().flat_map(|entry| entry.runs.iter().chain(&entry.beside)).cloned().collect();
     runs.sort();
     runs.dedup();
     runs
@@ -95,14 +73,16 @@ fn runs(entries: &[&'static Entry]) -> Vec<RunSpec> {
 
 fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) -> EntryOutcome {
     let of = |runs: &[RunSpec]| -> Vec<Result<&RecordedRun, FigureError>> {
-        let taken = |spec: &RunSpec| match recorded_runs.get(spec) {
+        let find = |spec: &RunSpec| match recorded_runs.get(spec) {
             Some(Ok(recorded)) => Ok(recorded),
-            Some(Err(reason)) => Err(FigureError::Shared { scenario: spec.scenario, reason: Arc::clone(reason) }),
-            None => Err(FigureError::NotRun(spec.scenario)),
+            Some(Err(reason)) => {
+                Err(FigureError::Shared { scenario: spec.scenario.clone(), reason: Arc::clone(reason) })
+            }
+            None => Err(FigureError::NotRun(spec.scenario.clone())),
         };
-        runs.iter().map(taken).collect()
+        runs.iter().map(find).collect()
     };
-    let (drawn, beside) = (of(entry.runs), of(entry.beside));
+    let (drawn, beside) = (of(&entry.runs), of(&entry.beside));
     let ran: Vec<RunOutcome> = drawn
         .iter()
         .chain(&beside)
@@ -110,7 +90,7 @@ fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) 
         .map(|recorded| recorded.ran())
         .collect();
     let outcome = drawn.into_iter().collect::<Result<Vec<&RecordedRun>, FigureError>>().and_then(|drawn| {
-        let mut content = (entry.draw)(entry, &drawn)?;
+        let mut content = entry.draw(&drawn)?;
         let beside: Vec<&RecordedRun> = beside.into_iter().flatten().collect();
         if entry.kind == Kind::Figure {
             content.words.extend(outcomes(&drawn, &beside));
@@ -123,12 +103,21 @@ fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) 
     EntryOutcome { entry, outcome, runs: ran }
 }
 
-/// What came of the run that is drawn, and what each of the others changes.
+/// The outcome of the first drawn run in words, and how each of the others differs from it.
 fn outcomes(drawn: &[&RecordedRun], beside: &[&RecordedRun]) -> Vec<(String, String)> {
     let Some((first, others)) = drawn.split_first() else { return Vec::new() };
     let changes = others.iter().chain(beside).filter_map(|other| sentences::difference(first, other));
     let changes: Vec<String> = changes.collect();
-    let mut words = vec![("Here".to_owned(), sentences::outcome(first))];
-    words.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
+    let mut words = vec![("Reproduced".to_owned(), sentences::outcome(first))];
+    words.extend((!changes.is_empty()).then(|| ("For comparison".to_owned(), changes.join(" "))));
     words
+}
+
+/// Writes pictures as `name.svg` and `name.png`; from the second on with a number.
+fn save(pictures: &[Drawing], folder: &Path, name: &str) -> Result<(), PlotError> {
+    for (index, picture) in pictures.iter().enumerate() {
+        let name = if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) };
+        picture.save(folder, &name)?;
+    }
+    Ok(())
 }

@@ -11,14 +11,14 @@ use interplay_simulation::watch::{WatchError, Watcher};
 use super::error::FigureError;
 
 /// A run that a figure needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunSpec {
     /// Label that distinguishes this run from the others of its figure.
-    pub label: &'static str,
+    pub label: String,
     /// Name of the authored scenario.
-    pub scenario: &'static str,
+    pub scenario: String,
     /// Changes of the scenario, in the form of `--set`.
-    pub sets: &'static [&'static str],
+    pub sets: Vec<String>,
 }
 
 /// The command of a run and whether its expectations held.
@@ -43,45 +43,46 @@ pub struct RecordedRun {
     pub frames: Vec<Frame>,
     /// The report of the run.
     pub report: Report,
-    /// Until when a moving picture shows it \[s\]; by default until everything has happened.
+    /// End of the animation of the run \[s\]; by default it ends when nothing more happens.
     pub shown_until_s: Option<f64>,
 }
 
 impl RunSpec {
+    /// A run of an authored scenario with changes.
+    #[cfg(test)]
+    pub(crate) fn new(label: &str, scenario: &str, sets: &[&str]) -> RunSpec {
+        let sets = sets.iter().map(|set| (*set).to_owned()).collect();
+        RunSpec { label: label.to_owned(), scenario: scenario.to_owned(), sets }
+    }
+
     /// Runs the scenario and keeps all frames.
     ///
     /// # Errors
     /// [`FigureError`], if the scenario cannot be loaded or its run cannot be finished.
     pub fn record(&self) -> Result<RecordedRun, FigureError> {
-        let changes: Vec<Override> = self.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
-        let scenario = load(self.scenario, &changes)?;
-        let sets = self.sets.iter().flat_map(|set| ["--set", set]);
-        let command = ["interplay", "run", self.scenario].into_iter().chain(sets).map(str::to_owned).collect();
-        Ok(RecordedRun::record(self.scenario, scenario, command, self.label)?)
+        let changes: Vec<Override> = self.sets.iter().map(|set| Override::Set(set.clone())).collect();
+        let scenario = load(&self.scenario, &changes)?;
+        let sets = self.sets.iter().flat_map(|set| ["--set", set.as_str()]);
+        let command = ["interplay", "run", self.scenario.as_str()].into_iter().chain(sets).map(str::to_owned).collect();
+        Ok(RecordedRun::record(&self.scenario, scenario, command, &self.label)?)
     }
 }
 
 impl RecordedRun {
-    /// A run that is only to be drawn: without label and command.
+    /// A run without label and command, which is only drawn.
     pub fn to_draw(scenario: Scenario, frames: Vec<Frame>, report: Report) -> RecordedRun {
         RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report, shown_until_s: None }
     }
 
-    /// Runs a scenario, called `name` in the report, and keeps what is seen.
+    /// Runs a scenario, called `name` in the report, and keeps all frames.
     ///
     /// # Errors
     /// [`RunError`].
     pub fn record(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
         let frame_log = FrameLog::default();
         let report = run(name, &scenario, vec![Box::new(frame_log.clone())])?;
-        Ok(RecordedRun {
-            label: label.to_owned(),
-            command,
-            scenario,
-            frames: frame_log.frames(),
-            report,
-            shown_until_s: None,
-        })
+        let recorded = RecordedRun::to_draw(scenario, frame_log.frames(), report);
+        Ok(RecordedRun { label: label.to_owned(), command, ..recorded })
     }
 }
 
@@ -98,12 +99,12 @@ impl RecordedRun {
     }
 }
 
-/// A watcher that keeps what it is shown; its clones share what they keep.
+/// A watcher that keeps all frames; its clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct FrameLog(Arc<Mutex<Vec<Frame>>>);
 
 impl FrameLog {
-    /// The frames so far, which the log then has no longer.
+    /// Takes the frames so far out of the log.
     pub fn frames(&self) -> Vec<Frame> {
         std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }

@@ -1,28 +1,30 @@
-//! From what was made to parts of a page.
+//! Sections of pages, from made figures and from runs.
 
 use std::path::{Path, PathBuf};
 
 use super::entry::{EntryOutcome, FigureContent};
 use super::error::FigureError;
 use super::recorded_run::{RecordedRun, RunOutcome};
-use super::save::save;
-use super::show::show;
+use super::save;
+use super::space_time::space_time;
+use super::{climate, driving, measures};
 use crate::page::{Page, Section, SectionStatus};
+use crate::plot::TextTable;
 use crate::report::summary;
 use crate::shell;
 
-/// The part of the page that shows a figure.
+/// The section of a page that shows a figure.
 pub fn section(made: &EntryOutcome) -> Section {
     let entry = made.entry;
     let mut section = Section {
         id: entry.id(),
         heading: format!("{entry}: {}", entry.title),
         verdict: verdict(&made.runs),
-        words: vec![("The source".to_owned(), entry.says.to_owned())],
+        words: vec![("The dissertation".to_owned(), entry.says.clone())],
         ..Section::default()
     };
-    if let Some(erratum) = entry.erratum {
-        section.words.push(("What the source has wrong, and what that changes".to_owned(), erratum.to_owned()));
+    if let Some(erratum) = &entry.erratum {
+        section.words.push(("Error of the dissertation and its effect".to_owned(), erratum.clone()));
     }
     let commands = made.runs.iter().map(|run| shell::line(run.command.iter().map(String::as_str)));
     let again = format!("interplay reproduce {}", entry.id());
@@ -34,13 +36,13 @@ pub fn section(made: &EntryOutcome) -> Section {
     section
 }
 
-/// Draws all there is to see of a run and puts it on a page, `index.html` in a folder, beside the pictures as files.
-/// `files` are already there, each with what it is. Says where the page is.
+/// Draws a run and writes the pictures and a page that shows them, `index.html`, into a folder. `files` are already there, each
+/// with its description. Returns the path of the page.
 ///
 /// # Errors
 /// [`FigureError`], if a picture cannot be drawn or the disk refuses a file.
 pub fn run_page(recorded: &RecordedRun, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, FigureError> {
-    let content = show(recorded);
+    let content = run_content(recorded);
     save(&content.pictures, folder, "picture")?;
     let page = Page {
         title: recorded.scenario.title.clone(),
@@ -54,7 +56,7 @@ pub fn run_page(recorded: &RecordedRun, folder: &Path, files: Vec<(String, Strin
     }
 }
 
-/// The part of the page that shows a run of its own; `files` lie beside the page.
+/// The section of a page that shows a run; `files` are in the folder of the page.
 fn run_section(recorded: &RecordedRun, content: &FigureContent, files: Vec<(String, String)>) -> Section {
     let is_judged = !recorded.report.expectations.is_empty() || !recorded.report.counterfactuals.is_empty();
     let held = is_judged.then_some(recorded.report.passed);
@@ -69,7 +71,7 @@ fn run_section(recorded: &RecordedRun, content: &FigureContent, files: Vec<(Stri
         ..Section::default()
     };
     if let Some(figure) = &recorded.scenario.figure {
-        section.words.push(("In the source".to_owned(), format!("Fig. {figure}")));
+        section.words.push(("In the dissertation".to_owned(), format!("Fig. {figure}")));
     }
     fill(&mut section, content);
     section.commands.push(format!("\n{}", summary(&recorded.scenario.title, &recorded.report).trim_end()));
@@ -94,4 +96,55 @@ fn fill(section: &mut Section, content: &FigureContent) {
     }
     section.tables.extend(content.tables.iter().cloned());
     section.words.extend(content.words.iter().cloned());
+}
+
+/// Most vehicles whose planner diagnostics are all drawn; of more vehicles, only those of the ego are.
+const MAX_EXPLAINED_VEHICLES: usize = 16;
+
+/// Pictures and tables of a run: footprints, speeds, gaps and planner diagnostics of vehicles; temperatures, inputs, costs and
+/// weather of a building; measures and expectations.
+fn run_content(recorded: &RecordedRun) -> FigureContent {
+    let mut content = FigureContent::default();
+    if !recorded.scenario.vehicles.is_empty() {
+        // A crowd has too many vehicles for individual footprints and speeds.
+        if !recorded.scenario.is_crowd() {
+            content.pictures.push(driving::footprints("Footprints at equal steps of time", recorded).drawing());
+            content.pictures.push(driving::motion("Speeds, gap and accelerations", recorded).drawing());
+        }
+        content
+            .pictures
+            .extend(space_time("Positions of all vehicles over time", recorded).map(|panels| panels.drawing()));
+        let (ego, vehicles) = (recorded.scenario.ego_index(), &recorded.scenario.vehicles);
+        let explained = vehicles.iter().enumerate();
+        for (index, vehicle) in explained.filter(|(index, _)| vehicles.len() <= MAX_EXPLAINED_VEHICLES || *index == ego)
+        {
+            let title =
+                format!("What the planner of {} ({}) believes and intends", vehicle.name, vehicle.driver.kind());
+            content
+                .pictures
+                .extend(driving::planner_diagnostics(&title, recorded, index).map(|panels| panels.drawing()));
+        }
+    }
+    if recorded.report.building.is_some() {
+        let zones = climate::first_zones(recorded);
+        content.pictures.push(climate::temperatures("Temperatures, day by day", recorded, &zones).drawing());
+        content.pictures.push(climate::inputs("Heat from the equipment, day by day", recorded, &zones).drawing());
+        content.pictures.push(climate::costs("Cost of each day", &[recorded]).drawing());
+        content.pictures.push(climate::weather(weather_title(recorded), recorded).drawing());
+    }
+    // One row per measure: a row of all measures would be wider than a page.
+    content.tables = measures::side_by_side(&[recorded]).into_iter().map(TextTable::transposed).collect();
+    content.tables.extend(recorded.report.building.as_ref().map(measures::zones));
+    if !recorded.report.expectations.is_empty() {
+        content.tables.push(measures::expected(&recorded.report));
+    }
+    if !recorded.report.counterfactuals.is_empty() {
+        content.tables.push(measures::counterfactuals(&recorded.report));
+    }
+    content
+}
+
+fn weather_title(recorded: &RecordedRun) -> &'static str {
+    let has_price = recorded.report.building.as_ref().is_some_and(|building| building.currency.is_some());
+    if has_price { "Weather and price of electricity" } else { "Weather" }
 }

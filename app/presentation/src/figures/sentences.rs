@@ -1,11 +1,11 @@
-//! The outcome of runs, in a sentence.
+//! The outcome of runs in sentences.
 
 use super::recorded_run::RecordedRun;
 
-/// In place of the time at which a goal is reached: it is not reached, or was reached from the start.
+/// Stands for the time of a goal that is not reached, or that is reached from the start.
 const GOAL_NOT_REACHED: &str = "never";
 
-/// The outcome of a run.
+/// The outcome of a run in words: what the scenario shows, and the compared facts.
 pub fn outcome(recorded: &RecordedRun) -> String {
     let mut sentences = vec![recorded.scenario.shows.trim_end_matches('.').to_owned()];
     let known = facts(recorded).into_iter().filter(|(_, value)| value != GOAL_NOT_REACHED);
@@ -17,7 +17,7 @@ pub fn outcome(recorded: &RecordedRun) -> String {
     text
 }
 
-/// The facts of another run that differ from those of this one.
+/// The facts of `beside` that differ from those of `recorded`, in words; `None` if `beside` has no label.
 pub fn difference(recorded: &RecordedRun, beside: &RecordedRun) -> Option<String> {
     let changed: Vec<String> = facts(recorded)
         .into_iter()
@@ -68,9 +68,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_differ_by_the_facts_that_are_compared() {
+    fn the_difference_of_two_runs_lists_the_facts_that_differ() {
         let recorded =
-            |label, sets| RunSpec { label, scenario: "lane-change/front-nice", sets }.record().expect("a run");
+            |label: &str, sets: &[&str]| RunSpec::new(label, "lane-change/front-nice", sets).record().expect("a run");
         let (nice, other) =
             (recorded("", &[]), recorded("conservative", &["vehicle.ego.driver.kind=\"conservative\""]));
         let words = outcome(&nice);
@@ -78,7 +78,7 @@ mod tests {
         let words = difference(&nice, &other).expect("it has a label");
         assert!(words.starts_with("Conservative: ego reaches its goal at "), "{words}");
         assert!(words.contains("order at the end front, ego, rear instead of ego, front, rear"), "{words}");
-        assert_eq!(difference(&other, &nice), None, "nothing to call it");
+        assert_eq!(difference(&other, &nice), None, "the other run has no label");
         assert!(difference(&other, &other).expect("a label").contains("nothing that is measured changes"));
     }
 }

@@ -1,4 +1,4 @@
-//! Where everybody is on a road over time: the picture in which queues and waves are seen.
+//! Space-time diagrams: positions of all vehicles along a road over time, which show queues and waves.
 
 use interplay_planners::{Route, State};
 use interplay_scenarios::Scenario;
@@ -8,9 +8,9 @@ use crate::palette::{BLUE, GREEN, ORANGE, VERMILLION};
 use crate::plot::style::{Dash, LineStyle};
 use crate::plot::{Curve, Panel, Panels};
 
-/// A run with fewer vehicles is no traffic.
-const LEAST_VEHICLES: usize = 8;
-/// Speeds as shares of the highest in the run, from below, each with its line.
+/// Least number of vehicles for which the diagram is drawn.
+const MIN_VEHICLES: usize = 8;
+/// Upper ends of the speed classes, as shares of the highest speed in the run, each with its line style.
 const CLASSES: [(f64, LineStyle); 4] = [
     (0.1, LineStyle { width: 3, colour: VERMILLION.rgb, dash: Dash::Solid }),
     (0.4, LineStyle { width: 2, colour: ORANGE.rgb, dash: Dash::Solid }),
@@ -18,18 +18,18 @@ const CLASSES: [(f64, LineStyle); 4] = [
     (f64::INFINITY, LineStyle { width: 1, colour: BLUE.rgb, dash: Dash::Solid }),
 ];
 
-/// Positions along the road over time, coloured by speed: a plot for each of some parallel lanes, and on a network one along the longest
-/// route. None of a run with few vehicles.
+/// Positions along the road over time, coloured by speed: one plot per parallel lane, or on a network one plot along the longest
+/// route. `None` for a run with few vehicles.
 pub(super) fn space_time(title: &str, recorded: &RecordedRun) -> Option<Panels> {
     let scenario = &recorded.scenario;
-    if scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).count() < LEAST_VEHICLES {
+    if scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).count() < MIN_VEHICLES {
         return None;
     }
     let longest = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
     let axis = longest.max_by(|one, other| one.route.end_m().total_cmp(&other.route.end_m()))?;
     let vehicles = || recorded.frames.iter().flat_map(|frame| &frame.vehicles);
     let fastest_mps = vehicles().map(|vehicle| vehicle.state.speed_mps).fold(0.0, f64::max);
-    let places = places(scenario, &axis.route);
+    let places = lane_strips(scenario, &axis.route);
     let panels = places.iter().map(|place| Panel {
         name: place.name.clone(),
         curves: curves(recorded, &axis.route, place, fastest_mps),
@@ -44,32 +44,35 @@ pub(super) fn space_time(title: &str, recorded: &RecordedRun) -> Option<Panels> 
     })
 }
 
-/// A strip beside a route.
-struct Place {
+/// A strip of road along a route, as wide as a lane.
+struct LaneStrip {
     name: String,
     across_m: [f64; 2],
 }
 
 /// The lanes of the road, or the lane of the route.
-fn places(scenario: &Scenario, route: &Route) -> Vec<Place> {
+fn lane_strips(scenario: &Scenario, route: &Route) -> Vec<LaneStrip> {
     match scenario.road.parallel_lanes() {
         Some(lanes) => (0..lanes.count)
             .rev()
             .map(|lane| {
                 let middle_m = scenario.road.lane_centre_m(Default::default(), lane).unwrap_or_default();
                 let half_m = 0.5 * scenario.road.lane_width_m();
-                Place { name: format!("lane {lane}: position [m]"), across_m: [middle_m - half_m, middle_m + half_m] }
+                LaneStrip {
+                    name: format!("lane {lane}: position [m]"),
+                    across_m: [middle_m - half_m, middle_m + half_m],
+                }
             })
             .collect(),
         None => {
             let half_m = route.half_width.value(0.5 * route.end_m().min(1e6));
-            vec![Place { name: "position along the way [m]".to_owned(), across_m: [-half_m, half_m] }]
+            vec![LaneStrip { name: "position along the way [m]".to_owned(), across_m: [-half_m, half_m] }]
         }
     }
 }
 
-/// A line for each class of speeds: all vehicles one after another, broken where a vehicle is of another class or not there.
-fn curves(recorded: &RecordedRun, route: &Route, place: &Place, fastest_mps: f64) -> Vec<Curve> {
+/// One curve per speed class. It joins the pieces of all vehicles, with breaks where a vehicle is in another class or absent.
+fn curves(recorded: &RecordedRun, route: &Route, place: &LaneStrip, fastest_mps: f64) -> Vec<Curve> {
     let class = |state: &State| {
         let share = state.speed_mps / fastest_mps.max(f64::MIN_POSITIVE);
         CLASSES.iter().position(|(most, _)| share < *most).unwrap_or(CLASSES.len() - 1)
@@ -86,7 +89,7 @@ fn curves(recorded: &RecordedRun, route: &Route, place: &Place, fastest_mps: f64
             let now = is_there.then(|| (class(&vehicle.state), [frame.time_s, at.along_m]));
             if let Some((class, point)) = now {
                 match last {
-                    // A piece begins where the one before ends.
+                    // A piece begins where the previous one ends.
                     Some((before, from)) if before != class => lines[class].extend([[f64::NAN; 2], from]),
                     None => lines[class].push([f64::NAN; 2]),
                     Some(_) => {}
@@ -112,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_queue_is_seen_and_few_vehicles_are_no_traffic() {
+    fn a_diagram_is_drawn_per_lane_and_only_for_many_vehicles() {
         let text = |flow: &str| {
             format!(
                 "title = 'queue'\nshows = 'cars behind a slow one'\nscale = 'full'\nduration_s = 20.0\nstep_s = 0.2\n\

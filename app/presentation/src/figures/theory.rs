@@ -1,4 +1,4 @@
-//! Pictures and tables that need no run: parameters, payoffs, how people weigh probabilities, and the classroom.
+//! Pictures and tables that need no run: parameters, payoffs, probability weighting, and the identified classroom.
 
 use interplay_building::comfort::Setpoints;
 use interplay_building::discretise::Model;
@@ -18,7 +18,7 @@ use super::error::FigureError;
 use crate::plot::style::{BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, Panel, Panels, TextTable};
 
-/// Days that the classroom is trained on.
+/// Number of days of training data of the classroom.
 const TRAIN_DAYS: f64 = 9.0;
 
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
@@ -37,7 +37,7 @@ pub fn identification(title: &str, test: bool) -> Result<FigureContent, FigureEr
     Ok(FigureContent { pictures: vec![fit(title, &found, test).drawing()], tables, ..FigureContent::default() })
 }
 
-/// Every so many predictions are drawn: one an hour.
+/// Rows from one drawn prediction to the next: one hour.
 const PREDICTION_EVERY_ROWS: usize = 4;
 
 fn fit(title: &str, found: &Identification, test: bool) -> Panels {
@@ -53,7 +53,7 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
-        // Dots by the hour leave the measurements between them to be seen.
+        // Dots once an hour leave the measurements between them visible.
         curves: vec![measured(), predicted.dotted(PREDICTION_EVERY_ROWS)],
         ..Panel::default()
     };
@@ -82,7 +82,7 @@ fn fit_errors(errors: &ErrorReport) -> TextTable {
     let words = |forecast: &ResidualForecast| match forecast {
         ResidualForecast::None => "network alone",
         ResidualForecast::Constant => "with a constant",
-        ResidualForecast::Arma => "with a constant and ARMA, as the source",
+        ResidualForecast::Arma => "with a constant and ARMA, as in the dissertation",
         ResidualForecast::Profile => "with a daily profile",
         ResidualForecast::ProfileArma => "with a daily profile and ARMA",
     };
@@ -104,11 +104,11 @@ fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> TextTable {
         let by_source = other.physical.iter().find(|other| other.name == *name).and_then(|other| other.value);
         [name.clone(), truth(name), number(*value), number(*standard_error), number(by_source), unit.clone()]
     });
-    let header = ["parameter", "simulated with", "estimate", "standard error", "by the source's method", "unit"];
+    let header = ["parameter", "simulated with", "estimate", "standard error", "by the dissertation's method", "unit"];
     TextTable::new("Measured: parameters", header, rows.collect())
 }
 
-/// Table 2.1 in the unit that makes sense of it, and what each reading of the printed unit leads to.
+/// Table 2.1 in a consistent unit, and the eigenvalues that follow from each reading of the printed unit.
 pub fn thermal_parameters(title: &str) -> Result<FigureContent, FigureError> {
     let network = Network::testbed();
     let found = Model::euler(&network, 1800.0)?;
@@ -179,13 +179,13 @@ pub fn dimensions(title: &str) -> FigureContent {
     FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() }
 }
 
-/// An angle as a fraction of π, where it is one that people write so.
+/// An angle as π divided by a whole number, where it is one; otherwise in decimals.
 fn angle(angle_rad: f64) -> String {
     let shares = std::f64::consts::PI / angle_rad;
     if (shares - shares.round()).abs() < 1e-9 { format!("π/{}", shares.round()) } else { format!("{angle_rad:.3}") }
 }
 
-/// How plans are optimised (Table 6.2).
+/// Settings of the optimisation of plans (Table 6.2).
 pub fn configuration(title: &str) -> Result<FigureContent, FigureError> {
     let scenario = load("lane-change/front-nice", &[])?;
     let (limits, ellipse) = (Limits::default(), SafetyEllipse::default());
@@ -210,7 +210,7 @@ pub fn configuration(title: &str) -> Result<FigureContent, FigureError> {
     Ok(FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() })
 }
 
-/// How people weigh cumulated probabilities (Fig. 8.1).
+/// Weighting of cumulative probabilities by prospect theory (Fig. 8.1).
 pub fn weights(title: &str) -> FigureContent {
     let ProspectTheory { gamma, eta, .. } = ProspectTheory::default();
     let curve = |name: String, style: LineStyle, weigh: &dyn Fn(f64) -> f64| {
@@ -254,7 +254,7 @@ pub fn payoffs(title: &str) -> FigureContent {
     let row = |words: [&str; 3]| words.map(str::to_owned);
     let rows = vec![row(["SV yields", "(−2x_s, −2x_e)", "(−x_s, x_e)"]), row(["SV passes", "(x_s, −x_e)", "(−M, −M)"])];
     let table = TextTable::new(title, ["payoffs (SV, EV)", "EV yields", "EV passes"], rows);
-    // The source's stakes are ratios of probabilities between 0.05 and 0.95.
+    // The dissertation's stakes are ratios of probabilities between 0.05 and 0.95.
     let stakes = |[of, over]: [f64; 2]| Stakes { turn: of / over, accident: 2.0 };
     let rows = [[0.5, 0.5], [0.05, 0.95], [0.95, 0.05]].map(|pair| {
         let [[both, alone], [first, accident]] = stakes(pair).payoffs();

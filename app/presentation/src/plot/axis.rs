@@ -62,7 +62,7 @@ impl Axis {
     }
 }
 
-/// Numbers with a smaller step between them are written with a power of ten: in full they do not fit beside an axis.
+/// Numbers with smaller steps are written with a power of ten, since they would not fit beside an axis.
 const SHORTEST_WRITTEN_STEP: f64 = 1e-6;
 
 /// The smallest of 1, 2, 2.5 and 5 times a power of ten that is at least `least`.
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_and_the_middle_lie_where_they_should() {
+    fn linear_and_logarithmic_axes_map_values_to_pixels() {
         let axis = Axis::new(10.0..1000.0, [500.0, 100.0]);
         assert_eq!((axis.pixel(10.0), axis.pixel(505.0), axis.pixel(2000.0)), (500.0, 300.0, 100.0));
         let log = axis.logarithmic();

@@ -1,7 +1,8 @@
 //! Bars with intervals, one below the other, in groups.
 
 use super::axis::Axis;
-use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side, width_of};
+use super::backend::width_of;
+use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::style::{BLACK, Dash, LineStyle, PALE, line_styles};
 
 /// Height of a bar \[px\].
@@ -28,7 +29,7 @@ pub struct IntervalBars {
     pub title: String,
     /// Quantity of the axis, with its unit.
     pub axis: String,
-    /// The end of the axis, where it is known beforehand, such as 1 of shares.
+    /// The end of the axis, if it is fixed, such as 1 for shares.
     pub end: Option<f64>,
     /// The groups, each with its heading.
     pub groups: Vec<(String, Vec<IntervalBar>)>,
@@ -37,9 +38,8 @@ pub struct IntervalBars {
 /// A bar with its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntervalBar {
-    /// Name of the bar.
     pub name: String,
-    /// Length of the bar; `None` where there is nothing to show.
+    /// Length of the bar; `None` without data.
     pub value: Option<f64>,
     /// Lower and upper bound of the interval.
     pub interval: Option<[f64; 2]>,
@@ -90,7 +90,7 @@ impl IntervalBars {
         drawing
     }
 
-    /// The names of all bars, each once; a name has one colour in all groups.
+    /// The names of all bars without repetition; a name has the same colour in all groups.
     fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for bar in self.groups.iter().flat_map(|(_, bars)| bars) {
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_word_can_be_read_and_longer_bars_are_for_larger_values() {
+    fn every_word_is_legible_and_names_are_listed_once() {
         let bar = |name: &str, value: f64| IntervalBar {
             name: name.to_owned(),
             value: Some(value),
@@ -129,7 +129,7 @@ mod tests {
             title: "Success".to_owned(),
             axis: "share of runs".to_owned(),
             end: Some(1.0),
-            groups: vec![group("nice"), group("tough"), ("nobody".to_owned(), vec![IntervalBar::default()])],
+            groups: vec![group("nice"), group("tough"), ("empty".to_owned(), vec![IntervalBar::default()])],
         };
         let drawing = bars.draw();
         assert_eq!(drawing.illegible(), Vec::<String>::new());

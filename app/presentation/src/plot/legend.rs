@@ -1,6 +1,7 @@
-//! Legends, which are drawn above the plots so that they cover nothing.
+//! Legends, which are drawn above the plots so that they cover no curves.
 
-use super::drawing::{Drawing, MEDIUM_TEXT_PX, Side, width_of};
+use super::backend::width_of;
+use super::drawing::{Drawing, MEDIUM_TEXT_PX, Side};
 use super::style::{Colour, LineStyle};
 
 /// The sample of an entry of a legend.
@@ -21,14 +22,14 @@ const GAP_PX: f64 = 10.0;
 /// Space between two entries in a row.
 const ENTRY_SPACING_PX: f64 = 34.0;
 
-/// The names of what a picture shows.
+/// The legend of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Legend {
     entries: Vec<(Sample, String)>,
 }
 
 impl Legend {
-    /// Adds a name unless it is there already, or empty.
+    /// Adds an entry unless its name is empty or already there.
     pub fn add(&mut self, sample: Sample, name: &str) {
         if !name.is_empty() && self.entries.iter().all(|(_, known)| known != name) {
             self.entries.push((sample, name.to_owned()));

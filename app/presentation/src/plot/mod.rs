@@ -1,23 +1,24 @@
-//! Figures as SVG and PNG, with a font inside the binary. Only this module names Plotters.
+//! Pictures as SVG and PNG, with a font inside the binary.
 //!
-//! One function draws both, so they show the same. Most figures are a [`Drawing`], the result of a pure function:
-//! [`Panels`] of curves, a [`FootprintPlot`] of footprints, or a [`TextTable`] of words.
+//! A picture is a `Drawing`, the result of a pure function: `Panels` of curves, a `FootprintPlot`, `IntervalBars`, or a
+//! `TextTable`.
 
 mod axis;
+mod backend;
 mod bars;
 mod drawing;
-mod figure;
 mod footprints;
 mod identification;
 mod legend;
 mod panels;
-pub mod style;
+pub(crate) mod style;
 mod table;
 
-pub use bars::{IntervalBar, IntervalBars};
-pub use drawing::Drawing;
-pub use figure::PlotError;
-pub use footprints::{FootprintPlot, FootprintSnapshot, FootprintVehicle};
+pub use backend::PlotError;
+pub(crate) use backend::{FONT_BYTES, png_of};
+pub(crate) use bars::{IntervalBar, IntervalBars};
+pub(crate) use drawing::Drawing;
+pub(crate) use footprints::{FootprintPlot, FootprintSnapshot, FootprintVehicle};
 pub use identification::identification;
-pub use panels::{Curve, Marks, Panel, Panels};
-pub use table::TextTable;
+pub(crate) use panels::{Curve, Panel, Panels};
+pub(crate) use table::TextTable;

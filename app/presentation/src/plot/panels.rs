@@ -3,24 +3,15 @@
 use std::ops::Range;
 
 use super::axis::{Axis, range};
-use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
+use super::drawing::{
+    Drawing, LARGE_TEXT_PX, LEFT_MARGIN_PX, MARGIN_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side, TICK_LABEL_HEIGHT_PX,
+    TITLE_HEIGHT_PX, WIDTH_PX, X_LABEL_HEIGHT_PX,
+};
 use super::legend::{Legend, Sample};
-use super::style::{Dash, GREY, LIMIT, LineStyle, PALE, SURFACE};
+use super::style::{Dash, GREY, LIMIT, LineStyle, PALE};
 
-/// Width of the picture.
-const WIDTH_PX: f64 = 1400.0;
-/// Space at the left of each plot, for the tick labels of its y axis.
-const LEFT_MARGIN_PX: f64 = 92.0;
-/// Space at the right of each plot.
-const RIGHT_MARGIN_PX: f64 = 30.0;
-/// Height of the line with the title.
-const TITLE_HEIGHT_PX: f64 = 48.0;
 /// Height of the line with the name of a plot, above it.
 const PANEL_NAME_HEIGHT_PX: f64 = 40.0;
-/// Height of the tick labels of the x axis.
-const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
-/// Height of the line with the name of the x axis.
-const X_LABEL_HEIGHT_PX: f64 = 38.0;
 
 /// Plots in rows and columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,14 +33,11 @@ pub struct Panels {
 pub struct Panel {
     /// The name of the y axis with its unit.
     pub name: String,
-    /// The curves.
     pub curves: Vec<Curve>,
     /// Limits, drawn as horizontal lines, each with its name.
     pub limits: Vec<(f64, String)>,
-    /// Intervals of the x axis that are shaded, such as working hours, and their name.
-    pub shaded: (Vec<[f64; 2]>, String),
     /// Vertical lines at events, each with its x value, style and name.
-    pub snapshots: Vec<(f64, LineStyle, String)>,
+    pub events: Vec<(f64, LineStyle, String)>,
     /// Values that the y axis includes even if no curve reaches them.
     pub reaches: Vec<f64>,
     /// Whether the y axis is logarithmic.
@@ -76,7 +64,7 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
     /// Style of the line.
     pub style: LineStyle,
-    /// Whether each point is marked, and how its points are joined.
+    /// The marks of the points.
     pub marks: Marks,
 }
 
@@ -91,7 +79,7 @@ impl Curve {
         Curve { marks: Marks::OnLine, ..self }
     }
 
-    /// This curve with every `nth` point as a small dot and no line, so that what lies below is seen.
+    /// This curve with every `nth` point as a small dot and without a line, so that curves below stay visible.
     pub fn dotted(self, nth: usize) -> Curve {
         let points = self.points.iter().copied().step_by(nth.max(1)).collect();
         Curve { marks: Marks::Alone, points, ..self }
@@ -103,7 +91,7 @@ impl Curve {
     }
 }
 
-/// Where one plot lies.
+/// The place and the axes of a plot.
 struct Frame {
     x: Axis,
     y: Axis,
@@ -138,20 +126,20 @@ impl Panels {
         let names: Vec<f64> = match common {
             Some(_) => vec![PANEL_NAME_HEIGHT_PX; rows],
             None => {
-                let highest = |row: &[Panel]| highest_legend(row, cell - LEFT_MARGIN_PX - RIGHT_MARGIN_PX);
+                let highest = |row: &[Panel]| highest_legend(row, cell - LEFT_MARGIN_PX - MARGIN_PX);
                 self.panels.chunks(columns).map(|row| PANEL_NAME_HEIGHT_PX + highest(row)).collect()
             }
         };
-        let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * RIGHT_MARGIN_PX) + 6.0;
+        let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * MARGIN_PX) + 6.0;
         let row_height = |names: &f64| names + plot_height + TICK_LABEL_HEIGHT_PX;
         let height = head + names.iter().map(row_height).sum::<f64>();
         let mut drawing = Drawing::new(WIDTH_PX, height + X_LABEL_HEIGHT_PX + 8.0);
-        drawing.text([RIGHT_MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
-        legend.draw(&mut drawing, [RIGHT_MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * RIGHT_MARGIN_PX);
+        drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
+        legend.draw(&mut drawing, [MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * MARGIN_PX);
         let values = self.values_across();
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = (index / columns, index % columns);
-            let (left, right) = (column as f64 * cell + LEFT_MARGIN_PX, (column + 1) as f64 * cell - RIGHT_MARGIN_PX);
+            let (left, right) = (column as f64 * cell + LEFT_MARGIN_PX, (column + 1) as f64 * cell - MARGIN_PX);
             let names_top = head + names[..row].iter().map(row_height).sum::<f64>();
             let top = names_top + names[row];
             let bottom = top + plot_height;
@@ -207,10 +195,9 @@ impl Panel {
         for (_, name) in &self.limits {
             legend.add(Sample::Line(LIMIT), name);
         }
-        for (_, style, name) in &self.snapshots {
+        for (_, style, name) in &self.events {
             legend.add(Sample::Line(style.thin()), name);
         }
-        legend.add(Sample::Patch(SURFACE), &self.shaded.1);
         legend
     }
 
@@ -227,11 +214,8 @@ impl Panel {
 
     fn draw(&self, drawing: &mut Drawing, frame: &Frame) {
         let Frame { x, y, left, right, top, bottom } = frame;
-        for [from, to] in &self.shaded.0 {
-            drawing.block([x.pixel(*from), *top], [x.pixel(*to), *bottom], SURFACE);
-        }
         self.draw_axes(drawing, frame);
-        for (at, style, _) in &self.snapshots {
+        for (at, style, _) in &self.events {
             drawing.line(vec![[x.pixel(*at), *top], [x.pixel(*at), *bottom]], style.thin());
         }
         for (limit, _) in &self.limits {

@@ -6,15 +6,15 @@ pub use crate::palette::Colour;
 
 /// Colour of text and axes.
 pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
-/// Colour of less important things: forecasts, the past, the shoulder of the road.
+/// Colour of less important curves and marks.
 pub const GREY: Colour = [0x80, 0x80, 0x80];
 /// Colour of grid lines.
 pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
-/// Colour of the surface of the road, and of working hours behind curves.
+/// Colour of the header of tables.
 pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
 /// Colour of the background.
 pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
-/// Colour of limits, and of the path of the ego as the source draws it.
+/// Colour of limits, and of the path of the ego as in the dissertation.
 pub const VERMILLION: Colour = palette::VERMILLION.rgb;
 /// Colour of the ego.
 pub const ORANGE: Colour = palette::ORANGE.rgb;
@@ -50,7 +50,6 @@ impl Dash {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineStyle {
-    /// Colour of the line.
     pub colour: Colour,
     /// Dash pattern of the line.
     pub dash: Dash,
@@ -67,11 +66,6 @@ impl LineStyle {
     /// The same style with a thin line.
     pub const fn thin(self) -> LineStyle {
         LineStyle { width: 2, ..self }
-    }
-
-    /// The same style with another dash pattern.
-    pub const fn dashed(self, dash: Dash) -> LineStyle {
-        LineStyle { dash, ..self }
     }
 }
 

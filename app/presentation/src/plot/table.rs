@@ -1,13 +1,13 @@
 //! Tables as pictures.
 
-use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, Side, width_of};
+use super::backend::width_of;
+use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, Side};
 use super::style::{Dash, GREY, LineStyle, SURFACE};
 
 /// Space at the sides of the picture.
 const MARGIN_PX: f64 = 30.0;
 /// Height of the line with the title.
 const TITLE_HEIGHT_PX: f64 = 56.0;
-/// Height of a row.
 const ROW_HEIGHT_PX: f64 = 42.0;
 /// Space between two columns.
 const COLUMN_SPACING_PX: f64 = 44.0;
@@ -15,11 +15,9 @@ const COLUMN_SPACING_PX: f64 = 44.0;
 /// A table of words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextTable {
-    /// The title.
     pub title: String,
     /// The names of the columns.
     pub header: Vec<String>,
-    /// The rows.
     pub rows: Vec<Vec<String>>,
 }
 

@@ -1,9 +1,11 @@
 //! A layout of the viewer as a tree of panels, written into a Rerun blueprint.
 //!
-//! The viewer reads a blueprint as a recording of its own, in which every container and view is an entity named by a
+//! The viewer reads a blueprint as a separate recording, in which every container and view is an entity named by a
 //! UUID. The builder in the SDK cannot set bounds or axes of the views used here, so the tree is written directly;
 //! and it counts the UUIDs, so that the same layout is the same blueprint.
 
+use super::Logged;
+use super::SIM_TIME;
 use super::re_sdk_types::blueprint::archetypes::{
     ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
 };
@@ -11,19 +13,18 @@ use super::re_sdk_types::blueprint::components::{
     ActiveTab, ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
 };
 use super::re_sdk_types::datatypes::Uuid;
-use super::timelines::SIM_TIME;
 use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::log::LogMsg;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 use xxhash_rust::xxh3::xxh3_128;
 
-/// A part of the window.
+/// A node of the tree of panels.
 pub enum LayoutNode {
     /// Side by side, with shares of the width.
     Row(Vec<(f32, LayoutNode)>),
     /// One below the other, with shares of the height.
     Column(Vec<(f32, LayoutNode)>),
-    /// One behind the other, the first in front, with words on the tabs; those of a view are its title.
+    /// Tabs with their titles, the first one active. A view on a tab shows its own title.
     Tabs(Vec<(&'static str, LayoutNode)>),
     /// A single view.
     View(View),
@@ -51,47 +52,44 @@ impl View {
         &self.title
     }
 
-    /// The same view without that entity.
+    /// The view without an entity.
     pub fn without(mut self, entity: &str) -> View {
         self.contents.push(format!("- {entity}"));
         self
     }
 
-    /// The same view, in the coordinates of that entity.
+    /// The view in the coordinates of an entity.
     pub fn from(mut self, origin: &str) -> View {
         self.origin = origin.to_owned();
         self
     }
 
-    /// The same view with a property, which is known by the name of its archetype.
+    /// The view with a property, by the name of its archetype.
     pub fn with(mut self, property: &str, value: impl AsComponents + 'static) -> View {
         self.properties.push((property.to_owned(), Box::new(value)));
         self
     }
 
-    /// The same view with a rule for one of its entities.
-    pub fn with_rule(self, entity: &str, rule: impl AsComponents + 'static) -> View {
+    /// The view with an override for one of its entities.
+    pub fn with_override(self, entity: &str, rule: impl AsComponents + 'static) -> View {
         self.with(&format!("ViewContents/overrides/{entity}/visualizers"), rule)
     }
 }
 
 /// Sends the layout to the viewer or the file behind `stream`, with its clock in the state `play`. The
 /// viewer plays at `speed` times real time.
-///
-/// # Errors
-/// If Rerun refuses a component.
 pub fn send(
     stream: &RecordingStream,
     application: &'static str,
     root: &LayoutNode,
     (play, speed): (PlayState, f64),
-) -> RecordingStreamResult<()> {
+) -> Logged {
     let (blueprint, messages) =
         RecordingStreamBuilder::new(application).recording_id("layout").blueprint().enabled(true).memory()?;
     blueprint.set_time_sequence("blueprint", 0);
     blueprint.set_log_time_enabled(false);
     blueprint.set_log_tick_enabled(false);
-    let mut writer = Writer { stream: &blueprint, names: 0 };
+    let mut writer = Writer { stream: &blueprint, count: 0 };
     let (root, _) = writer.panel(root, "")?;
     blueprint.log(
         "viewport",
@@ -125,22 +123,22 @@ pub fn send(
 
 struct Writer<'a> {
     stream: &'a RecordingStream,
-    names: usize,
+    count: usize,
 }
 
 impl Writer<'_> {
-    /// Writes a panel and everything in it; returns its name and its path. On a tab it is called by its title.
+    /// Writes a panel and its contents; `title` is that of its tab. Returns its UUID and its path.
     fn panel(&mut self, panel: &LayoutNode, title: &str) -> RecordingStreamResult<(Uuid, String)> {
-        self.names += 1;
+        self.count += 1;
         let (sort, class) = match panel {
             LayoutNode::View(view) => ("view", view.class),
             LayoutNode::Row(_) => ("container", "row"),
             LayoutNode::Column(_) => ("container", "column"),
             LayoutNode::Tabs(_) => ("container", "tabs"),
         };
-        // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
-        // name must never stand for a view of another class.
-        let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.names).as_bytes()).to_be_bytes() };
+        // The viewer keeps state by the UUID of a view, across the layouts of recordings. A UUID must therefore never be that of a
+        // view of another class.
+        let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.count).as_bytes()).to_be_bytes() };
         let path = format!("{sort}/{name}");
         match panel {
             LayoutNode::View(view) => self.view(&path, view)?,
@@ -173,7 +171,7 @@ impl Writer<'_> {
         parts.iter().map(|(_, part)| Ok(IncludedContent(self.panel(part, "")?.1.into()))).collect()
     }
 
-    fn view(&self, path: &str, view: &View) -> RecordingStreamResult<()> {
+    fn view(&self, path: &str, view: &View) -> Logged {
         let contents = ViewContents::new(view.contents.iter().map(String::as_str));
         self.stream.log(format!("{path}/ViewContents"), &contents)?;
         let header = ViewBlueprint::new(view.class);
@@ -186,7 +184,7 @@ impl Writer<'_> {
     }
 }
 
-/// A container with words on its tab.
+/// A container with the title of its tab.
 fn titled(container: ContainerBlueprint, title: &str) -> ContainerBlueprint {
     if title.is_empty() { container } else { container.with_display_name(title) }
 }

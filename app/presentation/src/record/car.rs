@@ -4,8 +4,8 @@ use interplay_planners::Body;
 use interplay_scenarios::{Outline, Vehicle};
 
 use super::mesh::Mesh;
-use crate::body_shape::{BodyArea, RIDER, Wheels, light_depth, place_on, rectangle};
-use crate::body_style::BodyStyle;
+use crate::body::BodyStyle;
+use crate::body::{BodyArea, RIDER, Wheels, light_depth, place_on, rectangle};
 use crate::palette::{Colour, GLASS, HEADLIGHT, TAIL_LIGHT, TYRE, darker};
 use crate::rectangle::rounded_corners;
 
@@ -17,7 +17,7 @@ const VAN_WIDTHS: f64 = 1.0;
 const CAB_WIDTHS: f64 = 1.15;
 const BOX_WIDTHS: f64 = 1.35;
 
-/// Shoulders and head of somebody on foot.
+/// Heights of the shoulders and the head of a pedestrian, in widths of the body.
 const SHOULDER_WIDTHS: f64 = 2.4;
 const WALKER_WIDTHS: f64 = 2.9;
 /// Height of obstacles of real roads \[m\].
@@ -80,7 +80,7 @@ pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
     mesh
 }
 
-/// Where the brake lights of a vehicle are: ahead, left, up \[m\].
+/// Positions of the brake lights: ahead, left, up \[m\].
 pub fn brake_lights(body: &Body) -> [[f64; 3]; 2] {
     let placed = Placed(body);
     [-0.68, 0.68].map(|across| {
@@ -89,7 +89,7 @@ pub fn brake_lights(body: &Body) -> [[f64; 3]; 2] {
     })
 }
 
-/// Where the indicators of the left side of a vehicle are, or of the right one \[m\].
+/// Positions of the indicators of the left or the right side \[m\].
 pub fn indicators(body: &Body, is_left: bool) -> [[f64; 3]; 2] {
     let placed = Placed(body);
     let across = if is_left { 0.88 } else { -0.88 };
@@ -112,7 +112,7 @@ pub fn height_m(vehicle: &Vehicle) -> f64 {
     widths * vehicle.body.width_m
 }
 
-/// Places by shares of a body.
+/// Positions by shares of a body.
 struct Placed<'a>(&'a Body);
 
 impl Placed<'_> {
@@ -128,7 +128,7 @@ impl Placed<'_> {
         self.ring(&rectangle(share))
     }
 
-    /// A rectangle without its corners; `cut` is in widths of the body.
+    /// A rectangle with corners cut off; `cut` is in widths of the body.
     fn rounded(&self, share: BodyArea, cut: f64) -> Vec<[f64; 2]> {
         let corners = self.rectangle(share);
         rounded_corners(&corners, cut * self.0.width_m).flat_map(|[start, _, end]| [start, end]).collect()

@@ -1,4 +1,4 @@
-//! Why a recording failed.
+//! Errors of recordings.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rerun::RecordingStreamError;
 use thiserror::Error;
 
-/// Why there is no recording. Nothing half-written is left behind.
+/// A recording failed. No incomplete file is left behind.
 #[derive(Debug, Error)]
 pub enum RecordError {
     /// The file cannot be written.
@@ -17,7 +17,7 @@ pub enum RecordError {
         /// The system's reason.
         reason: io::Error,
     },
-    /// No viewer listens.
+    /// No viewer listens at the address.
     #[error(
         "no Rerun viewer listens on {address} ({reason}); start one first (`rerun`), or record into a file instead of --connect"
     )]
@@ -27,7 +27,7 @@ pub enum RecordError {
         /// The system's reason.
         reason: io::Error,
     },
-    /// The address that Rerun names itself is none.
+    /// Rerun cannot parse its own default address.
     #[error(transparent)]
     Address(#[from] ViewerAddressError),
     /// Rerun refused data or lost the viewer.

@@ -1,6 +1,4 @@
-//! Where the labels of vehicles stand: beside them, where they cover neither a vehicle nor another label.
-//!
-//! Places are pixels of the view, y downwards.
+//! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Places are pixels, y downwards.
 
 use crate::rectangle::{Rectangle, overlap};
 
@@ -11,10 +9,10 @@ const HEIGHT_PX: f64 = 25.0;
 /// Distance between a vehicle and its label \[px\].
 const DISTANCE_PX: f64 = 4.0;
 
-/// The label of each vehicle as a rectangle; none where there is no space or no word, or the vehicle is out of view.
+/// Places the label of each vehicle. A label is `None` without space or words, or if the vehicle is out of view.
 ///
-/// `vehicles` are rectangles around the bodies, `sides` where each label stood last: it stays there as long as it can.
-pub fn placed(
+/// `vehicles` are rectangles around the bodies, `sides` the candidates that were chosen last and are preferred.
+pub fn place_labels(
     vehicles: &[Rectangle],
     words: &[String],
     size_px: [f64; 2],
@@ -43,8 +41,13 @@ pub fn placed(
     labels
 }
 
-/// The label of a vehicle out of view, at a place on the edge or as near to it as there is space along the edge.
-pub fn at_edge([x, y]: [f64; 2], words: &str, [width, height]: [f64; 2], taken: &[Rectangle]) -> Option<Rectangle> {
+/// Places the label of a vehicle out of view at a place on the edge, or as near as there is space along the edge.
+pub fn place_edge_label(
+    [x, y]: [f64; 2],
+    words: &str,
+    [width, height]: [f64; 2],
+    taken: &[Rectangle],
+) -> Option<Rectangle> {
     let half = [0.5 * width_px(words), 0.5 * HEIGHT_PX];
     let beside_edge = x < half[0] || x > width - half[0];
     let [step_x, step_y] = if beside_edge { [0.0, HEIGHT_PX] } else { [2.0 * half[0], 0.0] };
@@ -61,7 +64,7 @@ fn width_px(words: &str) -> f64 {
     LETTER_PX * words.chars().count() as f64 + EDGES_PX
 }
 
-/// Places around a vehicle, the best first: above, below, to the right, to the left, and at its corners.
+/// Candidate places, the best first: above, below, to the right, to the left, and at the corners.
 fn candidates([left, top, right, bottom]: Rectangle, width_px: f64) -> [Rectangle; 8] {
     let (x, y) = (0.5 * (left + right), 0.5 * (top + bottom));
     let beside = 0.5 * width_px + DISTANCE_PX;
@@ -80,7 +83,7 @@ mod tests {
         let vehicles = [[100.0, 100.0, 160.0, 130.0], [110.0, 135.0, 170.0, 165.0], [165.0, 100.0, 225.0, 130.0]];
         let words = ["ego 1.00 m/s", "front 1.00 m/s", "rear 1.00 m/s"].map(str::to_owned);
         let mut sides = [0; 3];
-        let labels = placed(&vehicles, &words, [800.0, 300.0], &mut sides);
+        let labels = place_labels(&vehicles, &words, [800.0, 300.0], &mut sides);
         let labels: Vec<Rectangle> = labels.into_iter().map(|label| label.expect("there is space")).collect();
         for (index, label) in labels.iter().enumerate() {
             assert!(vehicles.iter().all(|vehicle| !overlap(*label, *vehicle)), "{label:?}");
@@ -89,20 +92,21 @@ mod tests {
     }
 
     #[test]
-    fn a_label_stays_on_its_side_and_nobody_out_of_view_has_one() {
+    fn a_label_stays_on_its_side_and_vehicles_out_of_view_have_none() {
         let words = ["ego".to_owned()];
         let mut sides = [1];
-        let label = placed(&[[100.0, 100.0, 160.0, 130.0]], &words, [800.0, 300.0], &mut sides)[0].expect("space");
+        let label =
+            place_labels(&[[100.0, 100.0, 160.0, 130.0]], &words, [800.0, 300.0], &mut sides)[0].expect("space");
         assert!(label[1] > 130.0 && sides == [1], "below, as before");
-        assert_eq!(placed(&[[-90.0, 100.0, -30.0, 130.0]], &words, [800.0, 300.0], &mut sides), [None]);
+        assert_eq!(place_labels(&[[-90.0, 100.0, -30.0, 130.0]], &words, [800.0, 300.0], &mut sides), [None]);
     }
     #[test]
-    fn a_label_at_the_edge_keeps_off_what_is_there() {
+    fn a_label_at_the_edge_avoids_other_rectangles() {
         let size_px = [800.0, 300.0];
-        let alone = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[]).expect("space");
+        let alone = place_edge_label([788.0, 150.0], "oncoming, 84 m", size_px, &[]).expect("space");
         assert!(alone[2] <= 800.0 && alone[1] < 150.0 && alone[3] > 150.0, "{alone:?}");
-        let beside = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[alone]).expect("space");
+        let beside = place_edge_label([788.0, 150.0], "oncoming, 84 m", size_px, &[alone]).expect("space");
         assert!(!overlap(alone, beside), "{beside:?}");
-        assert_eq!(at_edge([788.0, 150.0], "oncoming", size_px, &[[0.0, 0.0, 800.0, 300.0]]), None);
+        assert_eq!(place_edge_label([788.0, 150.0], "oncoming", size_px, &[[0.0, 0.0, 800.0, 300.0]]), None);
     }
 }

@@ -1,7 +1,7 @@
-//! Which panels a recording opens with: only those that have something to show.
+//! The layout of a recording with vehicles, without empty panels.
 //!
-//! The first tab shows the interaction, from above and from the side, with the speeds and the words; behind it are the
-//! numbers of the planners.
+//! The first tab shows the interaction from above and from the side, with speeds and texts; the second tab has the numbers of
+//! the planners.
 
 use super::re_sdk_types::blueprint::archetypes::{
     Background, EyeControls3D, LineGrid3D, VisibleTimeRanges, VisualBounds2D,
@@ -14,11 +14,10 @@ use interplay_scenarios::{Branch, Scenario};
 use super::blueprint::{LayoutNode, View};
 use super::cameras::{self, Cameras};
 use super::palette::opaque;
-use super::panels::{about, events, reasons, status};
+use super::panels::{TimePlot, about, events, ranged, reasons, status};
 use super::planner_panels;
 use super::plots::{self, Plots};
-use super::time_plot::{TimePlot, ranged};
-use super::timelines::{SIM_TIME, TICK};
+use super::{SIM_TIME, TICK};
 use crate::camera::car_m;
 use crate::palette::GRASS;
 
@@ -27,20 +26,20 @@ const FIRST_WIDTH: f64 = 300.0;
 const THIRD_WIDTH: f64 = 390.0;
 /// Gaps are drawn up to this, in lengths of a car.
 const SHOWN_GAP_CARS: f64 = 5.0;
-/// The colour behind the scene, where the ground ends.
+/// The background colour, beyond the ground.
 const SKY: [u8; 3] = [0xC9, 0xDC, 0xEA];
-/// A picture of the whole road that is lower than this share of its width is a strip below the picture from above.
+/// A view of the whole road that is lower than this share of its width is a strip below the view from above.
 const STRIP_RATIO: f64 = 0.2;
 
-/// The tabs for a scenario of which `plots` were recorded.
+/// The tabs for a scenario with its recorded plots.
 pub fn tabs(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> Vec<(&'static str, LayoutNode)> {
     vec![
         ("The interaction", interaction(scenario, plots, cameras)),
-        ("Numbers of the planners", LayoutNode::Column(rows(numbers(scenario, plots), 3))),
+        ("Numbers of the planners", LayoutNode::Column(rows(number_panels(scenario, plots), 3))),
     ]
 }
 
-/// Whether the whole road is seen as a strip, by the least and greatest coordinates of the vehicles.
+/// Whether the view of the whole road is a strip, by the least and greatest coordinates of the vehicles.
 pub fn has_strip(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> bool {
     let is_long = (high[1] - low[1]) + 4.0 * scenario.road.lane_width_m() < STRIP_RATIO * (high[0] - low[0]);
     is_long && scenario.network.is_none() && scenario.road.conflict_zone_m(Branch::Main).is_none()
@@ -58,7 +57,7 @@ fn interaction(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> LayoutN
         let beside = LayoutNode::Tabs(vec![("", side), ("", LayoutNode::View(whole))]);
         LayoutNode::Row(vec![(1.72, LayoutNode::View(from_above)), (1.0, beside)])
     };
-    // A legend of many names is high.
+    // A long legend needs height.
     let speeds_share = 1.15 + 0.7 * scenario.vehicles.len().saturating_sub(3) as f32;
     let gap = (1.0, gap(scenario, plots));
     let mut words = vec![(1.0, LayoutNode::Column(vec![(speeds_share, speeds(scenario, plots)), gap]))];
@@ -73,7 +72,7 @@ fn interaction(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> LayoutN
     LayoutNode::Column(vec![(1.4, views), (1.0, LayoutNode::Row(words))])
 }
 
-/// Panels in rows of at most `longest`, all about equally long.
+/// Panels in rows of about equal length, at most `longest` each.
 pub fn rows(panels: Vec<LayoutNode>, longest: usize) -> Vec<(f32, LayoutNode)> {
     let count = panels.len().div_ceil(longest).max(1);
     let length = panels.len().div_ceil(count).max(1);
@@ -102,19 +101,19 @@ fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
 fn gap(scenario: &Scenario, plots: &Plots) -> LayoutNode {
     let contents = if plots.has(plots::GAP) { vec![format!("/{}", plots::GAP)] } else { Vec::new() };
     let Some([least_m, greatest_m]) = plots.gaps_m() else {
-        return TimePlot::new(scenario.duration_s, "Gap [m]", contents).alone();
+        return TimePlot::new(scenario.duration_s, "Gap [m]", contents).without_legend();
     };
-    // How far away somebody is who is far away would flatten the curve where it matters.
+    // Large gaps would flatten the curve where it matters.
     let most_m = (SHOWN_GAP_CARS * car_m(scenario)).max(2.0 * least_m).min(greatest_m);
     let title = format!("Gap of the ego, least {least_m:.2} m");
-    TimePlot::new(scenario.duration_s, &title, contents).around([least_m, most_m]).alone()
+    TimePlot::new(scenario.duration_s, &title, contents).around([least_m, most_m]).without_legend()
 }
 
-/// What goes on in the planners, what they apply, and how long they take.
-fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
+/// Panels of planner diagnostics, inputs and planning times.
+fn number_panels(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
     let mut panels = Vec::new();
     for panel in planner_panels::panels(scenario) {
-        let series = plots.among(panel.kind, panel.content.quantities);
+        let series = plots.paths_of(panel.kind, panel.content.quantities);
         if !series.is_empty() {
             let letters = plots.longest_label(&series);
             let mut plot = TimePlot::new(scenario.duration_s, panel.content.title, series);
@@ -138,7 +137,7 @@ fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
     panels
 }
 
-/// What a camera sees from above.
+/// The view of a camera from above.
 fn from_above(title: &str, camera: &str, [width, height]: [f64; 2]) -> View {
     let bounds = Range2D { x_range: [0.0, width].into(), y_range: [0.0, height].into() };
     let bounds = blueprint::components::VisualBounds2D(bounds);
@@ -148,12 +147,12 @@ fn from_above(title: &str, camera: &str, [width, height]: [f64; 2]) -> View {
         .with("Background", Background::new(BackgroundKind::SolidColor).with_color(opaque(GRASS)))
 }
 
-/// The whole road, without the labels of the other picture.
+/// The view of the whole road, without the labels of the other view.
 fn from_above_whole(size_px: [f64; 2]) -> View {
     from_above("The whole road", cameras::WHOLE, size_px).without(&format!("/{}/**", cameras::TOP))
 }
 
-/// The same in three dimensions; it can be turned with the mouse.
+/// The three-dimensional view, which can be turned with the mouse.
 fn from_the_side() -> View {
     let contents = ["/world/**", "- /world/camera/**"].map(str::to_owned).into_iter();
     let eye = format!("/{}", cameras::SIDE);
@@ -163,7 +162,7 @@ fn from_the_side() -> View {
         .with("Background", Background::new(BackgroundKind::SolidColor).with_color(opaque(SKY)))
 }
 
-/// A view from far above: bodies, plans and paths only.
+/// The view with bodies, plans and paths only.
 fn without_details(scenario: &Scenario, view: View) -> View {
     scenario.vehicles.iter().fold(view, |view, vehicle| {
         let parts = ["prediction", "proposal", "safety"];
@@ -171,7 +170,7 @@ fn without_details(scenario: &Scenario, view: View) -> View {
     })
 }
 
-/// Shows of each path all pieces up to the time cursor.
+/// The view with all pieces of each path up to the time cursor.
 fn traced(scenario: &Scenario, view: View) -> View {
     let so_far = || {
         let range =
@@ -182,5 +181,5 @@ fn traced(scenario: &Scenario, view: View) -> View {
     scenario
         .vehicles
         .iter()
-        .fold(view, |view, vehicle| view.with_rule(&format!("world/vehicle/{}/trace", vehicle.name), so_far()))
+        .fold(view, |view, vehicle| view.with_override(&format!("world/vehicle/{}/trace", vehicle.name), so_far()))
 }

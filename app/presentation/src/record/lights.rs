@@ -1,11 +1,11 @@
 //! Traffic lights in a recording, logged where they change.
 
 use interplay_scenarios::Scenario;
-use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::opaque;
 use super::re_sdk_types::archetypes::LineStrips3D;
 use super::re_sdk_types::components::Radius;
+use super::{Logged, RecordedTick};
 use crate::light_shapes::LightShape;
 use crate::palette::Colour;
 
@@ -17,7 +17,7 @@ const RADIUS_LANES: f64 = 0.06;
 pub struct LightLayer {
     lights: Vec<LightShape>,
     lane_m: f64,
-    /// What each showed last.
+    /// The colour that each light was logged with.
     shown: Vec<Option<Colour>>,
 }
 
@@ -28,19 +28,16 @@ impl LightLayer {
         LightLayer { shown: vec![None; lights.len()], lane_m: scenario.road.lane_width_m(), lights }
     }
 
-    /// Logs the lights that show something new at a time \[s\].
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn tick(&mut self, stream: &RecordingStream, time_s: f64) -> RecordingStreamResult<()> {
+    /// Logs the lights whose colour has changed.
+    pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
         for (light, shown) in self.lights.iter().zip(&mut self.shown) {
-            let colour = light.colour_at(time_s);
+            let colour = light.colour_at(tick.frame.time_s);
             if shown.replace(colour) != Some(colour) {
                 let height = (HEIGHT_LANES * self.lane_m) as f32;
                 let bar = light.bar.map(|[x, y]| [x as f32, y as f32, height]);
                 let radius = Radius::new_scene_units((RADIUS_LANES * self.lane_m) as f32);
                 let strip = LineStrips3D::new([bar]).with_colors([opaque(colour)]).with_radii([radius]);
-                stream.log(format!("world/light/{}", light.lane), &strip)?;
+                tick.stream.log(format!("world/light/{}", light.lane), &strip)?;
             }
         }
         Ok(())

@@ -9,7 +9,7 @@ use rerun::external::re_uri::ProxyUri;
 
 use super::error::{RecordError, ViewerAddressError};
 
-/// The time that a viewer has to accept the connection.
+/// Timeout for the connection to a viewer.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// The address of a Rerun viewer, such as `rerun+http://127.0.0.1:9876/proxy`, the default address of a
@@ -21,13 +21,13 @@ impl Viewer {
     /// A viewer on this machine that was started as `rerun`.
     ///
     /// # Errors
-    /// Never, as long as Rerun can read the address that it names itself.
+    /// Only if Rerun cannot parse its own default address.
     pub fn here() -> Result<Viewer, ViewerAddressError> {
         rerun::DEFAULT_CONNECT_URL.parse()
     }
 
-    /// Sees whether anybody listens.
-    pub(super) fn find(&self) -> Result<(), RecordError> {
+    /// Checks that a viewer listens at the address.
+    pub(super) fn check_reachable(&self) -> Result<(), RecordError> {
         let origin = &self.0.origin;
         let address = (origin.host.to_string().trim_matches(['[', ']']).to_owned(), origin.port);
         let reached = address.to_socket_addrs().and_then(|mut found| {
@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_address_is_read_and_written_and_nothing_else_is_one() {
+    fn viewer_addresses_round_trip_and_other_texts_are_refused() {
         let here = Viewer::here().expect("Rerun's own");
         assert_eq!(here.to_string(), "rerun+http://127.0.0.1:9876/proxy");
         assert_eq!(here.to_string().parse(), Ok(here));
@@ -72,13 +72,13 @@ mod tests {
     }
 
     #[test]
-    fn where_nobody_listens_there_is_no_viewer() {
+    fn a_closed_viewer_is_an_error_that_names_its_address() {
         let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
         let port = listener.local_addr().expect("bound").port();
         let viewer: Viewer = format!("rerun+http://127.0.0.1:{port}/proxy").parse().expect("an address");
-        viewer.find().expect("somebody listens");
+        viewer.check_reachable().expect("the viewer listens");
         drop(listener);
-        let error = viewer.find().expect_err("nobody listens any more").to_string();
+        let error = viewer.check_reachable().expect_err("the viewer is closed").to_string();
         assert!(error.contains(&format!("127.0.0.1:{port}")) && error.contains("--connect"), "{error}");
     }
 }

@@ -1,13 +1,13 @@
 //! Surfaces as triangles.
 //!
-//! The viewer shows triangles without normals in their own colour. So light and shade are part of the colours here, and what
-//! is seen from above has exactly the colours of the palette.
+//! The viewer shows triangles without normals in their own colour. Light and shade are therefore part of the colours here, and
+//! surfaces seen from above have exactly the colours of the palette.
 
 use super::re_sdk_types::archetypes::Mesh3D;
 use super::re_sdk_types::components::Color;
 use crate::palette::Colour;
 
-/// Brightness of a vertical surface that faces away from the light and towards it, as shares of that of a level one.
+/// Brightness of vertical surfaces facing away from the light and towards it, relative to a horizontal surface.
 const SIDE_BRIGHTNESS: [f64; 2] = [0.55, 0.85];
 /// Horizontal direction from which the light comes.
 const LIGHT: [f64; 2] = [0.6, -0.8];
@@ -21,7 +21,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Adds the inside of a closed line at a height.
+    /// Adds a horizontal polygon at a height.
     pub fn add_polygon(&mut self, ring: &[[f64; 2]], height_m: f64, colour: Colour) {
         let first = self.positions.len() as u32;
         for [x, y] in ring {
@@ -30,8 +30,7 @@ impl Mesh {
         self.triangles.extend(triangulated(ring).into_iter().map(|corners| corners.map(|index| first + index as u32)));
     }
 
-    /// Adds a solid between a closed line at one height and another one, with as many points, at a greater height; `colours`
-    /// are those of its sides and of its top.
+    /// Adds a solid between a lower and an upper polygon with equally many points, with the colours of its sides and of its top.
     pub fn add_solid(&mut self, [low, high]: [&[[f64; 2]]; 2], heights_m: [f64; 2], [sides, top]: [Colour; 2]) {
         for index in 0..low.len() {
             let next = (index + 1) % low.len();
@@ -55,7 +54,7 @@ impl Mesh {
         self.add_solid([ring, ring], heights_m, [colour; 2]);
     }
 
-    /// The mesh as a component of the viewer.
+    /// The mesh as an archetype of Rerun.
     pub fn to_component(&self) -> Mesh3D {
         Mesh3D::new(self.positions.iter().copied())
             .with_vertex_colors(self.colours.iter().copied())
@@ -68,16 +67,16 @@ impl Mesh {
     }
 }
 
-/// The colour of a vertical surface; `facing` is −1 if it faces away from the light and 1 if it faces the light.
+/// The colour of a vertical surface; `facing` is −1 away from the light and 1 towards it.
 fn shaded(colour: Colour, facing: f64) -> Colour {
     let [dark, bright] = SIDE_BRIGHTNESS;
     let share = dark + 0.5 * (facing + 1.0) * (bright - dark);
     colour.map(|part| (share * f64::from(part)) as u8)
 }
 
-/// The inside of a closed line without crossings as triangles between its points, by cutting off ears.
+/// Triangulates a simple polygon by ear clipping.
 ///
-/// Corners at which the line lies on itself are left out.
+/// Corners at which the outline overlaps itself are left out.
 pub fn triangulated(ring: &[[f64; 2]]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..ring.len()).collect();
     if area(ring) < 0.0 {
@@ -87,7 +86,7 @@ pub fn triangulated(ring: &[[f64; 2]]) -> Vec<[usize; 3]> {
     while left.len() > 2 {
         let corners = |at: usize| [at + left.len() - 1, at, at + 1].map(|place| left[place % left.len()]);
         let ear = (0..left.len()).find(|at| is_ear(ring, &left, corners(*at)));
-        // A line that touches itself may have no ear; the most convex corner goes on.
+        // An outline that touches itself may have no ear; then the most convex corner is cut off.
         let widest = || (0..left.len()).max_by(|a, b| turn(ring, corners(*a)).total_cmp(&turn(ring, corners(*b))));
         let Some(at) = ear.or_else(widest) else { break };
         if turn(ring, corners(at)) > 0.0 {
@@ -135,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn triangles_fill_a_polygon_with_dents_once() {
+    fn triangles_cover_a_concave_polygon_once() {
         let arrow = [[0.0, 0.0], [2.0, -1.0], [1.0, 0.0], [2.0, 1.0]];
         assert_eq!(triangulated(&arrow).len(), 2);
         assert!((covered(&arrow) - 1.0).abs() < 1e-12);
@@ -144,9 +143,9 @@ mod tests {
         assert!(triangulated(&[[0.0, 0.0], [1.0, 0.0]]).is_empty());
     }
 
-    /// The triangles of every road cover as much as its outlines enclose, so its surface ends at its edges.
+    /// The triangles of every road have the area that its outlines enclose.
     #[test]
-    fn the_surface_of_a_road_ends_at_its_edges() {
+    fn the_surface_of_a_road_has_the_area_within_its_edges() {
         for name in
             ["ramp-merge/nice", "on-ramp/five", "roundabout/nice", "curve/lane-drop", "intersection/slanted-nice"]
         {

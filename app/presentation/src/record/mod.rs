@@ -1,37 +1,34 @@
 //! Recordings of runs, with a layout for the viewer. Only this module names Rerun.
 //!
-//! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]), and no clock of the wall, so
-//! that two recordings of one run can be compared. Entities have names, never numbers:
+//! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]). It contains no wall-clock times, so that
+//! recordings of one run can be compared. Entities have names, never numbers:
 //!
 //! ```text
 //! world/{ground,road/{surface,edges,markings}}        static
-//! world/vehicle/<name>/{body,trace}                   where it is and was; `body/…` are its solids and lights
-//! world/vehicle/<name>/{plan,branches,prediction,proposal}     what it will do or may do instead, is expected to do, asks of another
-//! world/vehicle/<name>/safety                         where the ego keeps out
+//! world/vehicle/<name>/{body,trace}                   pose and past path; `body/…` are its solids and lights
+//! world/vehicle/<name>/{plan,branches,prediction,proposal}     plan, its alternatives, predicted motion, requested motion
+//! world/vehicle/<name>/safety                         the safety ellipse that the ego's centre keeps out of
 //! world/camera/…                                      see `cameras.rs`
 //! plots/{speed,acceleration,steering,planner-ms}/<name>
 //! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
-//! plots/reasons                                       why optimisers found nothing
-//! status, log, about                                  what each driver does; events; what the recording shows
+//! plots/reasons                                       why optimisers failed
+//! status, log, about                                  actions of drivers; events; description of the recording
 //! building/…                                          see `building/mod.rs`
 //! ```
 
 mod about;
-mod again;
 mod blueprint;
 mod building;
 mod cameras;
 mod car;
-mod crowd;
 mod error;
 mod labels;
 mod layout;
 mod lights;
 mod live;
-mod markdown;
 mod mesh;
-mod open;
+mod open_recording;
 mod palette;
 mod panels;
 mod planner_panels;
@@ -40,8 +37,6 @@ mod road;
 mod status;
 #[cfg(test)]
 mod tests;
-mod time_plot;
-mod timelines;
 mod vehicles;
 
 use std::path::PathBuf;
@@ -54,54 +49,71 @@ use cameras::Cameras;
 use interplay_scenarios::Scenario;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
-use rerun::{RecordingStream, RecordingStreamBuilder};
+use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
-pub use again::record_again;
-pub use error::{RecordError, ViewerAddressError};
+pub use error::RecordError;
 use lights::LightLayer;
 pub use live::Viewer;
-pub use open::OpenRecording;
+pub use open_recording::{OpenRecording, record_sweep_run};
 use palette::NamedColour;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 use status::StatusLines;
-pub use timelines::{SIM_TIME, TICK};
 use vehicles::VehicleLayer;
 
-use crate::answer::Requests;
+use crate::crowd;
 use crate::network_lines::expected_bounds_m;
+use crate::requests::Requests;
 
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::CounterfactualReport;
 use interplay_simulation::watch::{WatchError, Watcher};
 
+/// Name of the timeline of simulated time.
+const SIM_TIME: &str = "sim_time";
+/// Name of the timeline of ticks.
+const TICK: &str = "tick";
 /// The first bytes of every recording in a file.
 pub const MAGIC: [u8; 3] = *b"RRF";
 
-/// The version of the viewer that is sure to show what is recorded here.
+/// The version of the Rerun viewer that matches the recordings.
 pub fn viewer_version() -> String {
     rerun::build_info().version.to_string()
 }
 
-/// What the viewer calls the sort of recording; it keeps one layout for each.
+/// The application id of the recordings, for which the viewer keeps one layout.
 const APPLICATION_ID: &str = "interplay";
-/// How much faster than real time a building without vehicles is played: three hours a second.
+/// Playback speed of a building without vehicles, as a multiple of real time: three hours per second.
 const BUILDING_PLAYBACK_SPEED: f64 = 3.0 * 3600.0;
-/// The time that a viewer has to receive the rest of a recording.
+/// Timeout for sending the rest of a recording to a viewer.
 const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
-/// Time after which a small piece of a recording is written into a file. It exceeds any run, so that only size counts.
+/// Time after which an incomplete chunk is written to a file. It exceeds any run, so that only the size of chunks counts.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(24 * 3600);
 
-/// Where a recording goes.
+/// The destination of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Sink {
-    /// Into a file, usually `*.rrd`, which appears when the recording is finished.
+    /// A file, usually `*.rrd`, which is written when the recording is finished.
     File(PathBuf),
-    /// To a viewer that is running.
+    /// A running viewer.
     Live(Viewer),
 }
 
-/// A recording in the making. Dropped unfinished, it leaves no file.
+/// The result of logging to Rerun.
+type Logged = RecordingStreamResult<()>;
+
+/// A tick to log.
+struct RecordedTick<'a> {
+    stream: &'a RecordingStream,
+    scenario: &'a Scenario,
+    vehicle_colours: &'a [NamedColour],
+    frame: &'a Frame,
+    requests: &'a Requests,
+    /// For each vehicle whether its plans, numbers and words are logged.
+    described: &'a [bool],
+}
+
+/// Records a run. Dropped unfinished, it leaves no file.
 pub struct Recorder {
     stream: RecordingStream,
     output: Output,
@@ -114,19 +126,19 @@ pub struct Recorder {
     requests: Requests,
     plots: Plots,
     building_layer: Option<BuildingLayer>,
-    /// What a reader types to get the run again.
+    /// The command that repeats the run.
     command: Option<String>,
 }
 
 enum Output {
-    /// Everything in memory, and where it goes in the end.
+    /// The content in memory, and the path of its file.
     File { path: PathBuf, content: MemorySinkStorage },
-    /// To a viewer; with how many series the layout was last sent.
+    /// A viewer, and the number of series with which the layout was last sent.
     Live { series: usize },
 }
 
 impl Recorder {
-    /// Begins a recording of `scenario`, known as `name`, with all that never changes.
+    /// Begins a recording of `scenario`, called `name`, and logs its static content.
     ///
     /// # Errors
     /// [`RecordError::Unwritable`] or [`RecordError::NoViewer`], before anything is simulated.
@@ -141,7 +153,7 @@ impl Recorder {
                 (stream, Output::File { path: path.clone(), content })
             }
             Sink::Live(viewer) => {
-                viewer.find()?;
+                viewer.check_reachable()?;
                 (builder.send_properties(false).connect_grpc_opts(viewer.to_string())?, Output::Live { series: 0 })
             }
         };
@@ -178,16 +190,16 @@ impl Recorder {
         })
     }
 
-    /// Adds to the text of the recording what a reader types to get the run again.
+    /// Adds the command that repeats the run to the text of the recording.
     ///
     /// # Errors
     /// [`RecordError::Broken`] if Rerun refuses the text.
-    pub fn repeat_with(&mut self, command: &str) -> Result<(), RecordError> {
+    pub fn set_command(&mut self, command: &str) -> Result<(), RecordError> {
         self.command = Some(command.to_owned());
         self.describe(&[])
     }
 
-    /// Writes the text of the recording anew, with what became of the counterfactuals.
+    /// Logs the text of the recording with the outcomes of the counterfactuals.
     fn describe(&self, counterfactuals: &[CounterfactualReport]) -> Result<(), RecordError> {
         let command = self.command.as_deref();
         Ok(about::about(&self.stream, &self.scenario, &self.vehicle_colours, command, counterfactuals)?)
@@ -197,34 +209,41 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError::Broken`] if Rerun refuses the data.
-    pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
+    pub fn log_frame(&mut self, frame: &Frame) -> Result<(), RecordError> {
         self.stream.set_duration_secs(SIM_TIME, frame.time_s);
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
-        self.requests.tick(&self.scenario, frame);
-        let told = crowd::told(&self.scenario, frame);
-        self.vehicles.tick(&self.stream, (&self.scenario, &told), frame, &self.requests)?;
-        self.lights.tick(&self.stream, frame.time_s)?;
-        self.status.tick(&self.stream, (&self.scenario, &self.vehicle_colours, &told), frame, &self.requests)?;
-        self.plots.tick(&self.stream, (&self.scenario, &told), frame)?;
+        self.requests.observe(&self.scenario, frame);
+        let tick = RecordedTick {
+            stream: &self.stream,
+            scenario: &self.scenario,
+            vehicle_colours: &self.vehicle_colours,
+            frame,
+            requests: &self.requests,
+            described: &crowd::described(&self.scenario, frame),
+        };
+        self.vehicles.log_frame(&tick)?;
+        self.lights.log_frame(&tick)?;
+        self.status.log_frame(&tick)?;
+        self.plots.log_frame(&tick)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;
         }
-        self.cameras.note(&self.scenario, frame);
-        let count = self.plots.seen_count();
+        self.cameras.store(&self.scenario, frame);
+        let count = self.plots.series_count();
         if let Output::Live { series } = &mut self.output {
             let is_new = std::mem::replace(series, count) != count;
             self.cameras.log_last(&self.stream, &self.scenario)?;
             if is_new {
-                self.arrange()?;
+                self.send_layout()?;
             }
         }
         Ok(())
     }
 
-    /// Ends the recording: only now a file appears at its place.
+    /// Finishes the recording and writes its file.
     ///
     /// # Errors
-    /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer went away.
+    /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer is gone.
     pub fn finish(mut self) -> Result<(), RecordError> {
         self.plots.end();
         if let Some(building_layer) = &mut self.building_layer {
@@ -233,7 +252,7 @@ impl Recorder {
         if matches!(self.output, Output::File { .. }) {
             self.cameras.log_all(&self.stream, &self.scenario)?;
         }
-        self.arrange()?;
+        self.send_layout()?;
         match &self.output {
             Output::File { path, content } => {
                 let content = content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?;
@@ -245,12 +264,12 @@ impl Recorder {
         }
     }
 
-    /// Sends the layout: a tab for each clock, and for what is only looked up.
-    fn arrange(&self) -> Result<(), RecordError> {
+    /// Sends the layout of the viewer.
+    fn send_layout(&self) -> Result<(), RecordError> {
         let has_vehicles = !self.scenario.vehicles.is_empty();
         let words = match (has_vehicles, self.plots.has(plots::BUILDING_LOG)) {
             (true, true) => building::TextPanels::Events,
-            (true, false) => building::TextPanels::Elsewhere,
+            (true, false) => building::TextPanels::None,
             (false, true) => building::TextPanels::AboutAndEvents,
             (false, false) => building::TextPanels::About,
         };
@@ -273,7 +292,7 @@ impl Recorder {
 
 impl Watcher for Recorder {
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
-        Ok(Recorder::tick(self, frame)?)
+        Ok(self.log_frame(frame)?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), WatchError> {

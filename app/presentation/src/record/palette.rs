@@ -5,11 +5,11 @@ use crate::palette::{self, ASPHALT, Colour, GREEN, ORANGE, PURPLE, SKY};
 
 pub use crate::palette::{NamedColour, vehicle_colours};
 
-/// Something went wrong: a plan that is only a fallback. Vermillion, which no vehicle has.
+/// Colour of failures, such as a fallback plan: vermillion, which no vehicle has.
 pub const FAILURE: NamedColour = palette::VERMILLION;
-/// Colour of the bounds of what is wanted.
+/// Colour of the bounds of the comfort band.
 pub const MARKING: NamedColour = NamedColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
-/// Colour of what belongs to no vehicle or zone.
+/// Colour of marks that belong to no vehicle or zone.
 pub const NEUTRAL: NamedColour = NamedColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
 /// One more curve on a dark ground.
 const YELLOW: NamedColour = NamedColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow" };
@@ -17,17 +17,17 @@ const YELLOW: NamedColour = NamedColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow
 impl NamedColour {
     /// The colour, opaque.
     pub fn solid(self) -> Color {
-        self.veiled(0xFF)
+        self.translucent(0xFF)
     }
 
-    /// The colour, letting through what lies below; `opacity` 255 is opaque.
-    pub fn veiled(self, opacity: u8) -> Color {
+    /// The translucent colour; `opacity` 255 is opaque.
+    pub fn translucent(self, opacity: u8) -> Color {
         let [red, green, blue] = self.rgb;
         Color::from_unmultiplied_rgba(red, green, blue, opacity)
     }
 
     /// A lighter shade, for words on a dark ground.
-    pub fn on_labels(self) -> Color {
+    pub fn for_labels(self) -> Color {
         opaque(self.rgb.map(|part| part.saturating_add((0xFF - part) / 4 * 3)))
     }
 
@@ -43,12 +43,12 @@ pub fn opaque([red, green, blue]: Colour) -> Color {
     Color::from_rgb(red, green, blue)
 }
 
-/// Colours of zones, in their order; who comes later starts again.
+/// Colours of zones, in their order; they repeat after the last.
 pub fn zone(index: usize) -> NamedColour {
     [GREEN, ORANGE, SKY, PURPLE, YELLOW][index % 5]
 }
 
-/// Colours of a planner's numbers, by their place among those that share a panel.
+/// Colours of the quantities of a planner, by their index in their panel.
 pub fn series(index: usize) -> NamedColour {
     let palette = [GREEN, ORANGE, SKY, PURPLE, YELLOW, NEUTRAL, FAILURE];
     palette[index % palette.len()]

@@ -1,5 +1,5 @@
-//! Panels for the numbers that planners report. The planners declare what they report and what of it belongs together
-//! ([`interplay_planners::plan::diagnostic`]); here that becomes paths, panels and a text.
+//! Panels for the diagnostics of planners. The planners declare their diagnostics and how to group them
+//! ([`interplay_planners::plan::diagnostic`]); this module makes paths, panels and a text of them.
 
 use interplay_planners::perception::belief::diagnostics::PANELS as BELIEF_PANELS;
 use interplay_planners::plan::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
@@ -10,14 +10,14 @@ const RANGE_MARGIN_SHARE: f64 = 0.05;
 
 /// A panel of a recording.
 pub struct PlannerPanel {
-    /// The word for the kind of planner whose numbers it shows; `None` for all kinds.
+    /// The kind of planner that it shows; `None` for all kinds.
     pub kind: Option<&'static str>,
     /// The numbers.
     pub content: &'static DiagnosticPanel,
 }
 
 impl PlannerPanel {
-    /// The ends of the vertical axis, where the range of the numbers is known.
+    /// The ends of the vertical axis, if the range of the quantities is known.
     pub fn axis(&self) -> Option<[f64; 2]> {
         let [low, high] = self.content.bounds()?;
         let margin = RANGE_MARGIN_SHARE * (high - low);
@@ -25,8 +25,7 @@ impl PlannerPanel {
     }
 }
 
-/// The panels of the planners of a scenario, the ego's first, then those of beliefs where plans are inferred, and in the end those
-/// that all planners share.
+/// The panels of a scenario: those of its planners, the ego's first; those of beliefs, if plans are inferred; the common ones.
 pub fn panels(scenario: &Scenario) -> Vec<PlannerPanel> {
     let own = explanations(scenario).into_iter().flat_map(|(kind, explanation)| {
         explanation.panels.iter().map(move |content| PlannerPanel { kind: Some(kind), content })
@@ -36,7 +35,7 @@ pub fn panels(scenario: &Scenario) -> Vec<PlannerPanel> {
     own.chain(beliefs.iter().chain(COMMON_PANELS).map(|content| PlannerPanel { kind: None, content })).collect()
 }
 
-/// What to look for in the panels of the planners of a scenario, as Markdown.
+/// Explanations of the panels of a scenario as Markdown.
 pub fn guide(scenario: &Scenario) -> String {
     let guides = explanations(scenario).into_iter().map(|(_, explanation)| explanation.guide);
     guides.filter(|guide| !guide.is_empty()).map(|guide| format!("\n{guide}\n")).collect()
@@ -53,13 +52,13 @@ fn explanations(scenario: &Scenario) -> Vec<(&'static str, &'static Explanation)
     found
 }
 
-/// The place of a quantity among those that share its panel.
+/// The index of a quantity in its panel.
 pub fn place(explanation: &Explanation, quantity: &DiagnosticQuantity) -> Option<usize> {
     let mut panels = explanation.panels.iter().chain(BELIEF_PANELS).chain(COMMON_PANELS);
     panels.find_map(|panel| panel.quantities.iter().position(|other| other.name == quantity.name))
 }
 
-/// The part of a path that stands for a quantity: its name in letters, digits, `_` and `-`.
+/// The name of a quantity in paths: letters, digits, `_` and `-`.
 pub fn slug(quantity: &DiagnosticQuantity) -> String {
     let allowed = |character: &char| character.is_ascii_alphanumeric() || "_- ".contains(*character);
     let letters = quantity.name.chars().filter(allowed);
@@ -77,16 +76,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slug_is_plain() {
+    fn a_slug_contains_only_letters_digits_and_dashes() {
         let named = |name| slug(&DiagnosticQuantity::new(name, "", ValueSet::Real));
         assert_eq!(named("other's loyalty w_1"), "others-loyalty-w_1");
         assert_eq!(named("payoff ego: both yield"), "payoff-ego-both-yield");
     }
 
-    /// Two curves of one planner would end up at one path.
+    /// Otherwise two curves of one planner would share a path.
     #[test]
-    fn slugs_tell_the_quantities_of_a_planner_apart() {
-        // Who follows a record needs one, and reports nothing.
+    fn slugs_of_the_quantities_of_a_planner_are_different() {
+        // The driver `recorded` needs a record, and has no diagnostics.
         for kind in Registry::standard().driver_kinds().into_iter().filter(|kind| *kind != "recorded") {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");

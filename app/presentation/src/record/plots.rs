@@ -1,4 +1,4 @@
-//! Numbers over time: speeds and inputs, the planners' reasons, gaps and computing times; and the log of events.
+//! Plots of speeds, inputs, planner diagnostics, gaps and computing times; and the log of events.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,18 @@ use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
+use super::{Logged, RecordedTick};
 use crate::passing_words::event_text;
 
 /// Path of the events of all vehicles.
 pub const LOG: &str = "log";
 /// Path of the events of a building and its controller, which have another clock.
 pub const BUILDING_LOG: &str = "building/log";
-/// Path of the optimisers' reasons for finding nothing.
+/// Path of the reasons of failed optimisations.
 pub const REASONS: &str = "plots/reasons";
 /// Path of the smallest distance of the ego to another vehicle.
 pub const GAP: &str = "plots/gap";
-/// What is plotted for every vehicle on the road: the folder below `plots`, and the number.
+/// A quantity of every vehicle: its folder below `plots`, and its value.
 type Quantity = (&'static str, fn(&VehicleFrame) -> f64);
 const QUANTITIES: [Quantity; 4] = [
     ("speed", |vehicle| vehicle.state.speed_mps),
@@ -31,34 +32,31 @@ const QUANTITIES: [Quantity; 4] = [
     ("planner-ms", |vehicle| vehicle.plan_ms),
 ];
 
-/// Where the numbers of a vehicle's planner go.
+/// Paths of the diagnostics of a planner.
 struct PlannerPaths {
     /// The folder of all planners of its kind.
     folder: String,
-    /// The end of the paths: empty, or the vehicle's name where several have this kind of planner.
+    /// The end of the paths: empty, or the name of the vehicle if several have this kind of planner.
     end: String,
     explanation: &'static Explanation,
 }
 
 /// The plots of a run.
 pub struct Plots {
-    /// Where the numbers of each planner go, in the scenario's order of vehicles.
+    /// The paths of each planner, in the scenario's order of vehicles.
     planners: Vec<PlannerPaths>,
-    /// Every series so far that not every run has, with its name in legends.
+    /// The optional series so far, each with its name in legends.
     seen: BTreeMap<String, String>,
     /// Least and greatest speed so far \[m/s\].
     speeds_mps: Option<[f64; 2]>,
     /// Smallest and largest gap of the ego so far \[m\].
     gaps_m: Option<[f64; 2]>,
-    /// Whether the run is over, so that these are final.
+    /// Whether the run is finished, so that ranges are final.
     is_over: bool,
 }
 
 impl Plots {
     /// Logs the names and colours of what every vehicle has.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,
@@ -68,13 +66,8 @@ impl Plots {
         let mut planners = Vec::new();
         for (index, (vehicle, vehicle_colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
             for (quantity, _) in QUANTITIES.iter().filter(|_| vehicle.obstacle.is_none()) {
-                style(
-                    stream,
-                    &format!("plots/{quantity}/{}", vehicle.name),
-                    &vehicle.name,
-                    vehicle_colour.solid(),
-                    false,
-                )?;
+                let path = format!("plots/{quantity}/{}", vehicle.name);
+                style(stream, &path, &vehicle.name, vehicle_colour.solid(), false)?;
             }
             let alone = (0..scenario.vehicles.len()).all(|other| other == index || kind(other) != kind(index));
             let end = if alone { String::new() } else { format!("/{}", vehicle.name) };
@@ -85,28 +78,28 @@ impl Plots {
         Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, gaps_m: None, is_over: false })
     }
 
-    /// Whether there is anything at a path that not every run has.
+    /// Whether an optional series exists.
     pub fn has(&self, path: &str) -> bool {
         self.seen.contains_key(path)
     }
 
-    /// Least and greatest speed of a run that is over \[m/s\].
+    /// Least and greatest speed of a finished run \[m/s\].
     pub fn speeds_mps(&self) -> Option<[f64; 2]> {
         self.speeds_mps.filter(|_| self.is_over)
     }
 
-    /// Marks the run as over: ranges are final.
+    /// Marks the run as finished, so that ranges are final.
     pub fn end(&mut self) {
         self.is_over = true;
     }
 
-    /// Smallest and largest gap of the ego in a run that is over \[m\].
+    /// Smallest and largest gap of the ego in a finished run \[m\].
     pub fn gaps_m(&self) -> Option<[f64; 2]> {
         self.gaps_m.filter(|_| self.is_over)
     }
 
-    /// The recorded numbers of these quantities, of one kind of planner or of all.
-    pub fn among(&self, kind: Option<&str>, quantities: &[DiagnosticQuantity]) -> Vec<String> {
+    /// The paths of the recorded series of these quantities, of one kind of planner or of all.
+    pub fn paths_of(&self, kind: Option<&str>, quantities: &[DiagnosticQuantity]) -> Vec<String> {
         let slugs: Vec<String> = quantities.iter().map(slug).collect();
         let mine = |path: &&String| {
             let mut parts = path.split('/').skip(1);
@@ -117,12 +110,12 @@ impl Plots {
         self.seen.keys().filter(mine).map(|path| format!("/{path}")).collect()
     }
 
-    /// How many series there are so far that not every run has.
-    pub fn seen_count(&self) -> usize {
+    /// Number of optional series so far.
+    pub fn series_count(&self) -> usize {
         self.seen.len()
     }
 
-    /// Letters of the longest name in the legend of some series.
+    /// Number of letters of the longest name of some series.
     pub fn longest_label(&self, series: &[String]) -> usize {
         let label =
             |path: &String| self.seen.get(path.trim_start_matches('/')).map_or(0, |label| label.chars().count());
@@ -130,18 +123,11 @@ impl Plots {
     }
 
     /// Logs one tick.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn tick(
-        &mut self,
-        stream: &RecordingStream,
-        (scenario, told): (&Scenario, &[bool]),
-        frame: &Frame,
-    ) -> RecordingStreamResult<()> {
+    pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, scenario, frame, described, .. } = *tick;
         let drives = |(vehicle, stated): &(&VehicleFrame, &Vehicle)| !vehicle.is_absent && stated.obstacle.is_none();
-        let driven = frame.vehicles.iter().zip(&scenario.vehicles).zip(told);
-        for ((vehicle, _), _) in driven.filter(|(pair, is_told)| **is_told && drives(pair)) {
+        let driven = frame.vehicles.iter().zip(&scenario.vehicles).zip(described);
+        for ((vehicle, _), _) in driven.filter(|(pair, is_described)| **is_described && drives(pair)) {
             let speed_mps = vehicle.state.speed_mps;
             let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
             self.speeds_mps = Some([low.min(speed_mps), high.max(speed_mps)]);
@@ -156,14 +142,16 @@ impl Plots {
             self.gaps_m = Some([low.min(least_m), high.max(gap)]);
             stream.log(GAP, &Scalars::single(gap))?;
         }
-        self.reasons(stream, frame, told)?;
-        self.reasons_in_words(stream, frame)?;
-        self.events(stream, scenario, frame)
+        self.log_diagnostics(tick)?;
+        self.log_failures(tick)?;
+        self.log_events(tick)
     }
 
-    fn reasons(&mut self, stream: &RecordingStream, frame: &Frame, told: &[bool]) -> RecordingStreamResult<()> {
-        let all = frame.vehicles.iter().zip(&self.planners).zip(told);
-        let present = all.filter(|((vehicle, _), is_told)| **is_told && !vehicle.is_absent).map(|(pair, _)| pair);
+    fn log_diagnostics(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, frame, described, .. } = *tick;
+        let all = frame.vehicles.iter().zip(&self.planners).zip(described);
+        let present =
+            all.filter(|((vehicle, _), is_described)| **is_described && !vehicle.is_absent).map(|(pair, _)| pair);
         for (vehicle, PlannerPaths { folder, end, explanation }) in present {
             for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
                 let path = format!("{folder}/{}{end}", slug(quantity));
@@ -180,34 +168,36 @@ impl Plots {
         Ok(())
     }
 
-    fn events(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
+    fn log_events(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, scenario, frame, .. } = *tick;
         for event in &frame.events {
             let Some(text) = event_text(scenario, frame, event) else { continue };
             let path = if is_vehicle(frame, &event.vehicle) { LOG } else { BUILDING_LOG };
-            self.log_text(stream, path, event.level, &said(frame, &event.vehicle, &text))?;
+            self.log_text(stream, path, event.level, &event_line(frame, &event.vehicle, &text))?;
         }
         for vehicle in &frame.vehicles {
             let is_logged =
                 frame.events.iter().any(|event| event.vehicle == vehicle.name && event.level != Level::Note);
             let fallback = match vehicle.origin {
                 Origin::Planned | Origin::Crashed => continue,
-                Origin::Continued => "no plan: the previous one goes on",
+                Origin::Continued => "no plan: the previous one continues",
                 Origin::Braking => "no plan: full braking",
                 Origin::Evading => "no plan: evading",
             };
             if !is_logged {
-                self.log_text(stream, LOG, Level::Warning, &said(frame, &vehicle.name, fallback))?;
+                self.log_text(stream, LOG, Level::Warning, &event_line(frame, &vehicle.name, fallback))?;
             }
         }
         Ok(())
     }
 
-    /// Logs why optimisers found nothing, in their own terms: for the tab of the planners, not for everybody.
-    fn reasons_in_words(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+    /// Logs why optimisers failed, in their own terms, for the tab of the planners.
+    fn log_failures(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, frame, .. } = *tick;
         for vehicle in &frame.vehicles {
             for event in &vehicle.plan.events {
                 if let PlanEventKind::NoProposal(reason) | PlanEventKind::Fallback(reason) = &event.kind {
-                    let text = said(frame, &vehicle.name, &format!("{}: {reason}", event.text));
+                    let text = event_line(frame, &vehicle.name, &format!("{}: {reason}", event.text));
                     self.seen.insert(REASONS.to_owned(), String::new());
                     stream.log(REASONS, &TextLog::new(text).with_level(TextLogLevel::INFO))?;
                 }
@@ -216,13 +206,7 @@ impl Plots {
         Ok(())
     }
 
-    fn log_text(
-        &mut self,
-        stream: &RecordingStream,
-        path: &str,
-        level: Level,
-        text: &str,
-    ) -> RecordingStreamResult<()> {
+    fn log_text(&mut self, stream: &RecordingStream, path: &str, level: Level, text: &str) -> Logged {
         let (level, colour) = match level {
             Level::Note => (TextLogLevel::INFO, NEUTRAL),
             Level::Warning => (TextLogLevel::WARN, FAILURE),
@@ -233,26 +217,26 @@ impl Plots {
     }
 }
 
-/// What happened to a vehicle, or to the building or its controller, after its time; some texts begin with it.
-fn said(frame: &Frame, who: &str, what: &str) -> String {
-    match (is_vehicle(frame, who), what.starts_with("day ")) {
-        (true, _) => format!("{:.1} s   {who}: {what}", frame.time_s),
+/// A line of the log: time, vehicle or controller, and event. Texts of buildings that begin with their day stay unchanged.
+fn event_line(frame: &Frame, source: &str, what: &str) -> String {
+    match (is_vehicle(frame, source), what.starts_with("day ")) {
+        (true, _) => format!("{:.1} s   {source}: {what}", frame.time_s),
         (false, true) => what.to_owned(),
-        (false, false) => format!("{}   {who}: {what}", clock(frame.time_s)),
+        (false, false) => format!("{}   {source}: {what}", clock(frame.time_s)),
     }
 }
 
-fn is_vehicle(frame: &Frame, who: &str) -> bool {
-    frame.vehicles.iter().any(|vehicle| vehicle.name == who)
+fn is_vehicle(frame: &Frame, name: &str) -> bool {
+    frame.vehicles.iter().any(|vehicle| vehicle.name == name)
 }
 
-/// A time as a day from 1 and a time of the day.
+/// A time as a day, counted from 1, and a time of day.
 fn clock(time_s: f64) -> String {
     let minutes = (time_s / 60.0).round() as u64;
     format!("day {} {:02}:{:02}", minutes / (24 * 60) + 1, minutes / 60 % 24, minutes % 60)
 }
 
-fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, steps: bool) -> RecordingStreamResult<()> {
+fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, steps: bool) -> Logged {
     let how = if steps { InterpolationMode::StepAfter } else { InterpolationMode::Linear };
     let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([2.0]);
     stream.log_static(path, &line.with_interpolation_mode(how))
@@ -263,7 +247,7 @@ mod tests {
     use super::clock;
 
     #[test]
-    fn a_time_in_a_building_is_a_day_and_an_hour() {
+    fn a_time_is_written_as_day_and_time_of_day() {
         assert_eq!(clock(0.0), "day 1 00:00");
         assert_eq!(clock(27_000.0), "day 1 07:30");
         assert_eq!(clock(86_400.0 + 3600.0), "day 2 01:00");

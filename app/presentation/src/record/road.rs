@@ -1,22 +1,23 @@
-//! The road: what stands still.
+//! The road and the ground of a recording, which are static.
 
+use super::Logged;
 use super::re_sdk_types::archetypes::LineStrips3D;
 use super::re_sdk_types::components::{Color, Radius};
 use interplay_scenarios::Scenario;
-use rerun::{RecordingStream, RecordingStreamResult};
+use rerun::RecordingStream;
 
 use super::mesh::Mesh;
 use crate::curved_road::WorldLine;
-use crate::palette::{ARROW, ASPHALT, Colour, GRASS, KEPT_LANE, PAINT, PATH};
+use crate::palette::{ARROW, ASPHALT, Colour, GRASS, PAINT, PATH, RESERVED_LANE};
 use crate::road_shapes::RoadShapes;
 use crate::road_widths::STOP_LINE_LANES;
 
-/// How far below the road the ground is, and how far above it its lines are, in lane widths.
+/// Heights of the ground and of the lines above the road, in lane widths.
 const GROUND_LANES: f64 = -0.02;
 const LINES_LANES: f64 = 0.005;
 /// How far the asphalt reaches beyond the edges, in lane widths.
 const SHOULDER_LANES: f64 = 0.08;
-/// How far the road goes on beyond the vehicles, in lane widths.
+/// How far the road is drawn beyond the vehicles, in lane widths.
 const BEYOND_LANES: f64 = 40.0;
 /// Length of the pieces of a line, in lane widths, and most of them between two points.
 const PIECE_LANES: f64 = 2.0;
@@ -25,10 +26,7 @@ const MAX_PIECES: f64 = 2000.0;
 const GROUND_BEYOND_RATIO: f64 = 3.0;
 
 /// Logs the road between least and greatest coordinates of the world \[m\].
-///
-/// # Errors
-/// If Rerun refuses a component.
-pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RecordingStreamResult<()> {
+pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> Logged {
     let beyond_m = BEYOND_LANES * scenario.road.lane_width_m();
     let bounds_m = [bounds_m[0].map(|part| part - beyond_m), bounds_m[1].map(|part| part + beyond_m)];
     let shapes = RoadShapes::trace(scenario, bounds_m);
@@ -41,7 +39,8 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         add_shoulder(&mut surface, ring, &shapes);
     }
     let height_m = LINES_LANES * shapes.lane_m;
-    for (rings, colour) in [(&shapes.kept_lanes, KEPT_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)] {
+    for (rings, colour) in [(&shapes.reserved_lanes, RESERVED_LANE), (&shapes.paths, PATH), (&shapes.zebra_bars, PAINT)]
+    {
         rings.iter().for_each(|ring| surface.add_polygon(ring, 0.5 * height_m, colour));
     }
     let mut arrows = Vec::new();
@@ -68,7 +67,7 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
     Ok(())
 }
 
-/// Adds a strip along the outline of a surface, a little below it. It closes the holes between lanes of a junction.
+/// Adds a strip along the outline of a surface, slightly below it, which closes holes between the lanes of a junction.
 fn add_shoulder(mesh: &mut Mesh, ring: &[[f64; 2]], shapes: &RoadShapes) {
     let half_m = SHOULDER_LANES * shapes.lane_m;
     for index in 0..ring.len() {
@@ -79,7 +78,7 @@ fn add_shoulder(mesh: &mut Mesh, ring: &[[f64; 2]], shapes: &RoadShapes) {
     }
 }
 
-/// The rectangle along a straight line, by half of its width and how far it reaches beyond the ends \[m\].
+/// The rectangle along a segment, with half its width and its length beyond the ends \[m\].
 fn strip([from, to]: [[f64; 2]; 2], half_m: f64, beyond_m: f64) -> [[f64; 2]; 4] {
     let delta = [0, 1].map(|axis| to[axis] - from[axis]);
     let along = delta.map(|part| part / libm::hypot(delta[0], delta[1]));
@@ -89,8 +88,7 @@ fn strip([from, to]: [[f64; 2]; 2], half_m: f64, beyond_m: f64) -> [[f64; 2]; 4]
     [at(from, -beyond_m, -half_m), at(to, beyond_m, -half_m), at(to, beyond_m, half_m), at(from, -beyond_m, half_m)]
 }
 
-/// The same line with points that are not further apart than a distance \[m\]: between points far from and near to a camera
-/// the viewer draws lines of the wrong width.
+/// A line with points at most `longest_m` apart: the viewer draws long segments in perspective with a wrong width.
 fn in_pieces(line: &[[f64; 2]], longest_m: f64) -> WorldLine {
     let pieces = line.windows(2).flat_map(|pair| {
         let [from, to] = [pair[0], pair[1]];
@@ -103,7 +101,7 @@ fn in_pieces(line: &[[f64; 2]], longest_m: f64) -> WorldLine {
     pieces.chain(line.last().copied()).collect()
 }
 
-/// Lines at a height, as thick on the screen from wherever they are seen.
+/// Lines at a height, with a constant width on the screen.
 fn lines_at(lines: &[WorldLine], height_m: f64, points: f32, [red, green, blue]: Colour) -> LineStrips3D {
     let raised = |line: &WorldLine| -> Vec<[f32; 3]> {
         line.iter().map(|[x, y]| [*x as f32, *y as f32, height_m as f32]).collect()
@@ -126,8 +124,8 @@ fn around(shapes: &RoadShapes, [low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
     [[left, bottom], [right, bottom], [right, top], [left, top]]
 }
 
-/// Columns of the matrix that turns by an angle about z.
-pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
+/// Columns of the matrix that rotates by an angle about z.
+pub fn rotation(angle_rad: f64) -> [[f32; 3]; 3] {
     let (sin, cos) = (angle_rad.sin() as f32, angle_rad.cos() as f32);
     [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
 }
@@ -137,7 +135,7 @@ mod tests {
     use super::in_pieces;
 
     #[test]
-    fn pieces_are_short_and_end_where_the_line_ends() {
+    fn a_split_line_has_short_segments_and_the_same_ends() {
         let line = in_pieces(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]], 3.0);
         assert_eq!(line, [[0.0, 0.0], [2.5, 0.0], [5.0, 0.0], [7.5, 0.0], [10.0, 0.0], [10.0, 1.0]]);
     }

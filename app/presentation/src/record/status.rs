@@ -1,27 +1,25 @@
-//! What each driver on the road wants and does at the moment, a line for each.
+//! The goal and the present action of each driver on the road, in a line.
 
 use std::fmt::Write;
 
 use interplay_planners::{PassingSide, PlannedPassing};
 use interplay_scenarios::{LaneReference, Scenario, Vehicle};
-use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
-use rerun::{RecordingStream, RecordingStreamResult};
+use interplay_simulation::frame::{Origin, VehicleFrame};
 
-use super::palette::NamedColour;
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
-use crate::answer::Requests;
-use crate::passing_words::{is_said, meeting_verb};
+use super::{Logged, RecordedTick};
+use crate::passing_words::{has_words, meeting_verb};
 use crate::signals::is_braking;
 
 /// Path of the status lines.
 pub const STATUS: &str = "status";
-/// Slower than this share of its wanted speed a vehicle stands.
-const STANDS_SHARE: f64 = 0.08;
-/// A vehicle keeps its speed if its acceleration is below this \[m/s²\].
-const KEEPS_MPS2: f64 = 0.05;
+/// A vehicle below this share of its wanted speed counts as standing.
+const STANDING_SHARE: f64 = 0.08;
+/// A vehicle with less acceleration than this keeps its speed \[m/s²\].
+const KEEPS_SPEED_MPS2: f64 = 0.05;
 
-/// The lines of all drivers, which are logged when they change.
+/// Logs the lines of all drivers when they change.
 #[derive(Default)]
 pub struct StatusLines {
     last: String,
@@ -29,28 +27,20 @@ pub struct StatusLines {
 
 impl StatusLines {
     /// Logs the lines of a tick.
-    ///
-    /// # Errors
-    /// If Rerun refuses the text.
-    pub fn tick(
-        &mut self,
-        stream: &RecordingStream,
-        (scenario, vehicle_colours, told): (&Scenario, &[NamedColour], &[bool]),
-        frame: &Frame,
-        requests: &Requests,
-    ) -> RecordingStreamResult<()> {
+    pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, scenario, vehicle_colours, frame, requests, described } = *tick;
         if frame.vehicles.is_empty() {
             return Ok(());
         }
         let mut text = String::new();
         let drives = |(index, (vehicle, _)): &(usize, (&Vehicle, _))| {
-            vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent && told[*index]
+            vehicle.obstacle.is_none() && !frame.vehicles[*index].is_absent && described[*index]
         };
         for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate().filter(drives) {
-            let asks = requests.sentence(frame, index);
-            let (name, wants, does) =
-                (&vehicle.name, wants(scenario, vehicle), does(scenario, index, &frame.vehicles[index], asks));
-            let _ = writeln!(text, "**{name}** ({}) wants {wants}: {does}.\n", colour.word);
+            let request = requests.sentence(frame, index);
+            let (name, goal) = (&vehicle.name, goal(scenario, vehicle));
+            let action = action(scenario, index, &frame.vehicles[index], request);
+            let _ = writeln!(text, "**{name}** ({}) wants {goal}: {action}.\n", colour.word);
         }
         if self.last == text {
             return Ok(());
@@ -62,7 +52,7 @@ impl StatusLines {
 }
 
 /// The goal of a vehicle.
-fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
+fn goal(scenario: &Scenario, vehicle: &Vehicle) -> String {
     let target = vehicle.target(&scenario.road);
     match &vehicle.goal.lane {
         Some(LaneReference::Number(lane)) if scenario.road.parallel_lanes().is_some_and(|lanes| lanes.count > 1) => {
@@ -73,29 +63,29 @@ fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
     }
 }
 
-/// What a vehicle does, and because of whom; `asks` says for what it asks whom.
-fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<String>) -> String {
+/// The action of a vehicle, with the vehicles that it passes; `request` is its request in words.
+fn action(scenario: &Scenario, index: usize, now: &VehicleFrame, request: Option<String>) -> String {
     let vehicle = &scenario.vehicles[index];
     match now.origin {
         Origin::Planned => {}
-        Origin::Crashed => return "has collided and brakes until it stands".to_owned(),
+        Origin::Crashed => return "has collided and brakes to a stop".to_owned(),
         Origin::Continued => return "finds no new plan and continues the last one".to_owned(),
         Origin::Braking => return "finds no plan and brakes fully".to_owned(),
         Origin::Evading => return "finds no plan and evades".to_owned(),
     }
     let wanted_mps = vehicle.target(&scenario.road).speed_mps;
-    let stands = now.state.speed_mps.abs() < STANDS_SHARE * wanted_mps;
+    let stands = now.state.speed_mps.abs() < STANDING_SHARE * wanted_mps;
     let brakes = is_braking(now.input.acceleration_mps2);
-    let mut parts: Vec<String> = asks.into_iter().collect();
+    let mut parts: Vec<String> = request.into_iter().collect();
     let passings: Vec<&PlannedPassing> =
-        now.plan.homotopy_class.iter().filter(|passing| is_said(scenario, index, passing)).collect();
+        now.plan.homotopy_class.iter().filter(|passing| has_words(scenario, index, passing)).collect();
     parts.extend(grouped(&passings, |passing| {
         meeting_verb(scenario, index, passing).unwrap_or_else(|| verb(passing, stands, brakes))
     }));
     let speed = match now.input.acceleration_mps2 {
         _ if stands => "stands",
         _ if brakes => "brakes",
-        acceleration if acceleration > KEEPS_MPS2 => "speeds up",
+        acceleration if acceleration > KEEPS_SPEED_MPS2 => "speeds up",
         _ => "keeps its speed",
     };
     let waits = passings.iter().any(|passing| passing.side == PassingSide::Behind);
@@ -105,7 +95,7 @@ fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<Stri
     parts.join("; ")
 }
 
-/// What a vehicle does with respect to another one.
+/// The verb for a passing.
 fn verb(passing: &PlannedPassing, stands: bool, brakes: bool) -> &'static str {
     match passing.side {
         PassingSide::Ahead => "goes ahead of",
@@ -117,7 +107,7 @@ fn verb(passing: &PlannedPassing, stands: bool, brakes: bool) -> &'static str {
     }
 }
 
-/// Orders with the same verb as one part of a sentence.
+/// Joins passings with the same verb.
 fn grouped(passings: &[&PlannedPassing], verb: impl Fn(&PlannedPassing) -> &'static str) -> Vec<String> {
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
     for passing in passings {
@@ -134,8 +124,10 @@ fn grouped(passings: &[&PlannedPassing], verb: impl Fn(&PlannedPassing) -> &'sta
 mod tests {
     use interplay_planners::{Input, Plan, Proposal, State};
     use interplay_scenarios::load;
+    use interplay_simulation::frame::Frame;
 
     use super::*;
+    use crate::requests::Requests;
 
     fn passing(of: &str, position: PassingSide) -> PlannedPassing {
         PlannedPassing { of: of.to_owned(), side: position }
@@ -145,13 +137,13 @@ mod tests {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let state = State { speed_mps, ..State::default() };
         let input = Input { acceleration_mps2, ..Input::default() };
-        let now = VehicleFrame { state, input, plan, origin, ..Default::default() };
+        let now = VehicleFrame { state, input, plan: plan.into(), origin, ..Default::default() };
         let frame = Frame { vehicles: vec![now.clone()], ..Frame::default() };
-        does(&scenario, 0, &now, Requests::default().sentence(&frame, 0))
+        action(&scenario, 0, &now, Requests::default().sentence(&frame, 0))
     }
 
     #[test]
-    fn a_line_says_who_waits_for_whom_and_why() {
+    fn a_line_contains_the_passings_and_the_speed() {
         let behind = || Plan {
             homotopy_class: vec![passing("front", PassingSide::Behind), passing("rear", PassingSide::Behind)],
             ..Plan::default()
@@ -164,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_says_who_is_asked_and_what_it_answers() {
+    fn a_line_contains_the_request_and_its_answer() {
         let asks = |acceptance| Plan {
             proposals: vec![Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }],
             homotopy_class: vec![passing("front", PassingSide::Ahead)],
@@ -178,10 +170,10 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_names_its_lane_only_where_there_are_several() {
+    fn a_goal_names_its_lane_only_on_roads_with_several() {
         let said = |name: &str| {
             let scenario = load(name, &[]).expect("embedded");
-            wants(&scenario, &scenario.vehicles[0])
+            goal(&scenario, &scenario.vehicles[0])
         };
         assert_eq!(said("lane-change/front-nice"), "lane 1 at 1.0 m/s");
         assert_eq!(said("intersection/nice"), "1.2 m/s");

@@ -1,4 +1,4 @@
-//! What a recording holds, and when it appears.
+//! The content of recordings, and when their files are written.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ use rerun::log::LogMsg;
 
 use super::*;
 
-/// A folder of a test's own, gone after it.
+/// The folder of a test, removed when it is dropped.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -45,7 +45,7 @@ fn scenario(planner: Option<&str>) -> Scenario {
     load("lane-change/front-nice", &changes).expect("embedded")
 }
 
-/// Everybody drives on straight; the ego asks front during the first half.
+/// All vehicles drive straight ahead; the ego makes a request of front during the first half.
 fn frame(scenario: &Scenario, tick: usize) -> Frame {
     let vehicles = scenario.vehicles.iter().map(|vehicle| {
         let place = |t: usize| State { x_m: vehicle.start.x_m + 0.1 * t as f64, ..vehicle.start };
@@ -65,7 +65,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
         VehicleFrame {
             name: vehicle.name.clone(),
             state: place(tick),
-            plan,
+            plan: plan.into(),
             origin,
             prediction: ahead.into(),
             ..Default::default()
@@ -87,15 +87,15 @@ fn recorded(scenario: &Scenario, path: &Path) -> Recorder {
     let sink = Sink::File(path.to_owned());
     let mut recorder = Recorder::begin(scenario, "lane-change/front-nice", &sink).expect("writable");
     for tick in 0..10 {
-        recorder.tick(&frame(scenario, tick)).expect("recorded");
+        recorder.log_frame(&frame(scenario, tick)).expect("recorded");
     }
     recorder
 }
 
-/// How many rows each entity has, and which timelines they are on.
+/// The number of rows and the timelines of each entity.
 fn entities(recorder: &mut Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
     recorder.cameras.log_all(&recorder.stream, &recorder.scenario).expect("logged");
-    recorder.arrange().expect("arranged");
+    recorder.send_layout().expect("arranged");
     let Output::File { content, .. } = &recorder.output else { panic!("a recording in memory") };
     let mut entities: BTreeMap<String, (usize, Vec<String>)> = BTreeMap::new();
     for message in content.take() {
@@ -112,7 +112,7 @@ fn entities(recorder: &mut Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
 }
 
 #[test]
-fn a_recording_has_the_promised_entities_at_every_tick() {
+fn a_recording_has_the_documented_entities_at_every_tick() {
     let folder = Folder::new("entities");
     let mut recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
     let entities = entities(&mut recorder);
@@ -155,7 +155,7 @@ fn markings_are_drawn_only_between_lanes() {
 }
 
 #[test]
-fn there_is_no_clock_of_the_wall() {
+fn recordings_contain_no_wall_clock_times() {
     let folder = Folder::new("clock");
     let mut recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
     for (path, (_, timelines)) in entities(&mut recorder) {
@@ -167,7 +167,7 @@ fn there_is_no_clock_of_the_wall() {
 }
 
 #[test]
-fn a_panel_is_there_only_if_it_has_something_to_show() {
+fn the_layout_has_no_empty_panels() {
     let folder = Folder::new("panels");
     let views = |planner| {
         let mut recorder = recorded(&scenario(planner), &folder.0.join("run.rrd"));
@@ -186,10 +186,10 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
     assert!(!shown.iter().any(|title| title == "What happens" || title.starts_with("Gap")), "{shown:?}");
 }
 
-/// Keeps the names of the numbers that the ego's planner gives.
-struct Listener(Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
+/// Collects the names of the diagnostics of the ego's planner.
+struct DiagnosticNames(Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
 
-impl Watcher for Listener {
+impl Watcher for DiagnosticNames {
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         let mut heard = self.0.lock().map_err(|error| error.to_string())?;
         heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|diagnostic| diagnostic.quantity.name));
@@ -201,10 +201,10 @@ impl Watcher for Listener {
     }
 }
 
-/// A panel for a number that its planner does not give would be missing for ever, and nobody would know.
+/// Otherwise a panel would be missing without a notice.
 #[test]
-fn planners_give_every_number_that_a_panel_shows() {
-    // Nothing comes from outside here.
+fn planners_report_every_quantity_of_their_panels() {
+    // Drivers with input from outside are left out.
     let planning = Registry::standard()
         .driver_kinds()
         .into_iter()
@@ -213,16 +213,16 @@ fn planners_give_every_number_that_a_panel_shows() {
         let mut scenario = scenario(Some(kind));
         scenario.duration_s = 0.5;
         let heard = Arc::default();
-        let watcher = Listener(Arc::clone(&heard));
+        let watcher = DiagnosticNames(Arc::clone(&heard));
         interplay_simulation::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
-        let heard = heard.lock().expect("nobody panicked");
+        let heard = heard.lock().expect("no panic");
         let driver = &scenario.vehicles[0].driver;
         // Drivers that stand for humans do not report what holds their plans back.
         let common = if driver.goes_first() { &[] } else { COMMON_PANELS };
         let shown = driver.explanation().panels.iter().chain(common).flat_map(|panel| panel.quantities);
-        // There is a runner-up where an order had a rival only.
+        // A runner-up exists only if a passing order had an alternative.
         for quantity in shown.filter(|quantity| **quantity != RUNNER_UP_COST) {
-            assert!(heard.contains(quantity.name), "{kind} reports no `{}`: {heard:?}", quantity.name);
+            assert!(heard.contains(quantity.name), "{kind} does not report `{}`: {heard:?}", quantity.name);
         }
     }
 }
@@ -262,7 +262,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             ..BuildingFrame::default()
         };
         let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
-        recorder.tick(&frame).expect("recorded");
+        recorder.log_frame(&frame).expect("recorded");
     }
     let entities = entities(&mut recorder);
     let rows = |path: &str| entities.get(path).map_or(0, |(rows, _)| *rows);
@@ -280,11 +280,11 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
         1 + 4 + 4 + 10,
         "plan, temperatures, numbers, words, every zone"
     );
-    assert_eq!(shown(building::TextPanels::Elsewhere).len(), 1 + 4 + 3 + 10, "vehicles have the words");
+    assert_eq!(shown(building::TextPanels::None).len(), 1 + 4 + 3 + 10, "vehicles have the words");
 }
 
 #[test]
-fn a_file_appears_when_the_recording_is_finished_and_not_before() {
+fn the_file_is_written_when_the_recording_is_finished_and_not_before() {
     let folder = Folder::new("finish");
     let path = folder.0.join("deep/run.rrd");
     drop(recorded(&scenario(None), &path));
@@ -299,7 +299,7 @@ fn a_file_appears_when_the_recording_is_finished_and_not_before() {
 }
 
 #[test]
-fn a_place_that_cannot_be_written_is_refused_before_the_run() {
+fn an_unwritable_path_is_refused_before_the_run() {
     let folder = Folder::new("refused");
     let outcome = Recorder::begin(&scenario(None), "x", &Sink::File(folder.0.clone()));
     assert!(matches!(outcome, Err(RecordError::Unwritable { .. })));
@@ -320,7 +320,7 @@ fn every_vehicle_up_to_six_has_a_colour_of_its_own() {
     assert_eq!((vehicle_colours.len(), words.len(), vehicle_colours[0].word), (6, 6, "orange"));
 }
 
-/// What became of counterfactuals is known when the run is over: until then the recording stays open.
+/// The outcomes of counterfactuals are known after the run, so the recording stays open until then.
 #[test]
 fn an_open_recording_is_written_when_it_is_closed() {
     let folder = Folder::new("open");

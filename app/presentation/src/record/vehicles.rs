@@ -1,23 +1,23 @@
-//! What moves: bodies, the paths behind them and the lines ahead of them.
+//! Vehicles of a recording: bodies, past paths, plans and predictions.
 
 use std::sync::Arc;
 
 use interplay_planners::{Body, Proposal, Route, State, Trajectory};
 use interplay_scenarios::Scenario;
-use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
+use interplay_simulation::frame::{Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
-use super::crowd::labelled;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
-use super::road::turn;
-use crate::answer::Requests;
+use super::road::rotation;
+use super::{Logged, RecordedTick};
+use crate::crowd::labelled;
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
-use crate::signals::{Turn, is_braking, turn as indicated};
+use crate::signals::{IndicatorSide, indicator_side, is_braking};
 
-/// Heights of what lies on the road, in widths of a body: ellipses, paths, predictions, branches, plans and proposals.
+/// Heights of ellipses, paths, predictions, branches, plans and proposals above the road, in widths of a body.
 const ELLIPSE_WIDTHS: f64 = 0.03;
 const TRACE_WIDTHS: f64 = 0.04;
 const PREDICTION_WIDTHS: f64 = 0.05;
@@ -26,9 +26,8 @@ const PLAN_WIDTHS: f64 = 0.07;
 const PROPOSAL_WIDTHS: f64 = 0.25;
 /// Radius of a light, in widths of a body.
 const LIGHT_WIDTHS: f64 = 0.1;
-/// The frame of what is not to be seen: too small for that, and not zero, which the viewer refuses.
+/// The pose of a hidden object: too small to be visible, since the viewer refuses a scale of zero.
 const HIDDEN: [[f32; 3]; 3] = [[1e-6, 0.0, 0.0], [0.0, 1e-6, 0.0], [0.0, 0.0, 1e-6]];
-/// Points of an ellipse.
 const ELLIPSE_POINTS: u16 = 72;
 
 /// All vehicles, in the scenario's order.
@@ -37,7 +36,7 @@ pub struct VehicleLayer {
     ego: usize,
 }
 
-/// One vehicle as it is drawn.
+/// A vehicle and what was last logged of it.
 struct DrawnVehicle {
     /// `world/vehicle/<name>`.
     path: String,
@@ -45,25 +44,22 @@ struct DrawnVehicle {
     body: Body,
     route: Arc<Route>,
     last: Option<State>,
-    /// Whether it was not on the road in the last tick.
+    /// Whether it was absent at the last tick.
     is_absent: bool,
     /// Whether its plans are drawn.
     shows_intent: bool,
-    /// Whether the ellipse around it is drawn that the ego keeps out of.
+    /// Whether its safety ellipse is drawn, which the ego keeps out of.
     has_ellipse: bool,
-    asks: bool,
+    has_request: bool,
     /// Whether its last plan had branches.
     branches: bool,
-    /// What its lights showed last.
+    /// The last logged state of its lights.
     brakes: bool,
-    turns: Option<Turn>,
+    turns: Option<IndicatorSide>,
 }
 
 impl VehicleLayer {
-    /// Logs what never changes about the vehicles: shapes, colours, widths.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
+    /// Logs the static properties of the vehicles: shapes, colours, widths.
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,
@@ -81,7 +77,7 @@ impl VehicleLayer {
                 is_absent: false,
                 shows_intent: false,
                 has_ellipse: index != ego,
-                asks: false,
+                has_request: false,
                 branches: false,
                 brakes: false,
                 turns: None,
@@ -103,31 +99,23 @@ impl VehicleLayer {
     }
 
     /// Logs one tick.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn tick(
-        &mut self,
-        stream: &RecordingStream,
-        (scenario, told): (&Scenario, &[bool]),
-        frame: &Frame,
-        requests: &Requests,
-    ) -> RecordingStreamResult<()> {
+    pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
+        let RecordedTick { stream, scenario, frame, requests, described, .. } = *tick;
         let labelled = labelled(scenario, frame);
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
-            let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
+            let open: Vec<&Proposal> = requests.proposals(frame, index).collect();
             if drawn.log_absence(stream, vehicle.is_absent)? {
                 continue;
             }
             drawn.log_motion(stream, &vehicle.state)?;
-            drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
-            if !told[index] {
+            drawn.log_lights(stream, vehicle, indicator_side(scenario, &scenario.vehicles[index], vehicle))?;
+            if !described[index] {
                 drawn.hide_intent(stream)?;
                 continue;
             }
-            // Between two plans everybody follows the last one, which is there; of a crowd it is not said again.
+            // Between two plans the last one stays valid; in a crowd it is not logged again.
             if frame.plans || !drawn.shows_intent || !scenario.is_crowd() {
-                drawn.log_intent(stream, vehicle, &asks)?;
+                drawn.log_intent(stream, vehicle, &open)?;
             }
             if !labelled[index] {
                 drawn.hide_ellipse(stream)?;
@@ -152,7 +140,7 @@ impl DrawnVehicle {
         widths * self.body.width_m
     }
 
-    fn log_style(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    fn log_style(&self, stream: &RecordingStream) -> Logged {
         let style = |share: f64, points: f32| {
             LineStrips3D::update_fields()
                 .with_colors([self.vehicle_colour.on_asphalt(share)])
@@ -173,7 +161,7 @@ impl DrawnVehicle {
         Ok(())
     }
 
-    /// Hides what is not on the road; whether it is not.
+    /// Hides an absent vehicle. Returns `is_absent`.
     fn log_absence(&mut self, stream: &RecordingStream, is_absent: bool) -> RecordingStreamResult<bool> {
         if is_absent && !self.is_absent {
             self.last = None;
@@ -189,8 +177,8 @@ impl DrawnVehicle {
         Ok(is_absent)
     }
 
-    /// Takes away its plans and what belongs to them.
-    fn hide_intent(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    /// Removes plan, prediction, branches and ellipse.
+    fn hide_intent(&mut self, stream: &RecordingStream) -> Logged {
         self.hide_ellipse(stream)?;
         if std::mem::take(&mut self.shows_intent) {
             for line in ["plan", "prediction", "branches"] {
@@ -200,15 +188,15 @@ impl DrawnVehicle {
         Ok(())
     }
 
-    /// Takes away the ellipse around it.
-    fn hide_ellipse(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    /// Removes the safety ellipse.
+    fn hide_ellipse(&mut self, stream: &RecordingStream) -> Logged {
         if std::mem::take(&mut self.has_ellipse) {
             stream.log(self.at("safety"), &Transform3D::update_fields().with_mat3x3(HIDDEN))?;
         }
         Ok(())
     }
 
-    fn log_motion(&mut self, stream: &RecordingStream, state: &State) -> RecordingStreamResult<()> {
+    fn log_motion(&mut self, stream: &RecordingStream, state: &State) -> Logged {
         stream.log(self.at("body"), &pose(state))?;
         if let Some(last) = self.last.replace(*state) {
             let height_m = self.z(TRACE_WIDTHS);
@@ -217,20 +205,15 @@ impl DrawnVehicle {
         Ok(())
     }
 
-    fn log_intent(
-        &mut self,
-        stream: &RecordingStream,
-        vehicle: &VehicleFrame,
-        asks: &[&Proposal],
-    ) -> RecordingStreamResult<()> {
+    fn log_intent(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame, requests: &[&Proposal]) -> Logged {
         self.shows_intent = true;
         let plan_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
         let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
         stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS))))?;
-        if !asks.is_empty() || self.asks {
-            self.asks = !asks.is_empty();
-            let dots = asks.iter().flat_map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
+        if !requests.is_empty() || self.has_request {
+            self.has_request = !requests.is_empty();
+            let dots = requests.iter().flat_map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
             stream.log(self.at("proposal"), &Points3D::update_fields().with_positions(dots))?;
         }
         let branches = &vehicle.plan.branches;
@@ -244,12 +227,7 @@ impl DrawnVehicle {
     }
 
     /// Logs brake lights and indicators where they change.
-    fn log_lights(
-        &mut self,
-        stream: &RecordingStream,
-        vehicle: &VehicleFrame,
-        turns: Option<Turn>,
-    ) -> RecordingStreamResult<()> {
+    fn log_lights(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame, turns: Option<IndicatorSide>) -> Logged {
         let lights = |places: Option<[[f64; 3]; 2]>| {
             let places = places.into_iter().flatten().map(|place| place.map(|part| part as f32));
             Points3D::update_fields().with_positions(places)
@@ -262,7 +240,7 @@ impl DrawnVehicle {
         }
         if turns != self.turns {
             self.turns = turns;
-            let places = turns.map(|turn| car::indicators(&self.body, turn == Turn::Left));
+            let places = turns.map(|turn| car::indicators(&self.body, turn == IndicatorSide::Left));
             stream.log(self.at("body/indicators"), &lights(places))?;
         }
         Ok(())
@@ -281,14 +259,14 @@ fn strips(strips: impl IntoIterator<Item = Vec<[f32; 3]>>) -> LineStrips3D {
     LineStrips3D::update_fields().with_strips(strips)
 }
 
-/// Every second step of a motion.
+/// A trajectory as dashes: every second segment.
 fn dashes(trajectory: &Trajectory, height_m: f64) -> Vec<Vec<[f32; 3]>> {
     points(trajectory, height_m).chunks_exact(2).map(<[_]>::to_vec).collect()
 }
 
 /// The frame of a vehicle in the world.
 fn pose(state: &State) -> Transform3D {
-    Transform3D::update_fields().with_translation(point(state, 0.0)).with_mat3x3(turn(state.heading_rad))
+    Transform3D::update_fields().with_translation(point(state, 0.0)).with_mat3x3(rotation(state.heading_rad))
 }
 
 /// An ellipse around the origin, by its half axes \[m\].

@@ -1,4 +1,4 @@
-//! The days of a building as a readable table.
+//! The days of a building as a table.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
 use interplay_simulation::report::{BuildingReport, ZoneOutcome};
 
-use super::columns::{Align, lines};
+use super::columns::{Align, lines, write_table};
 
 /// The most days that a summary lists.
 const MAX_LISTED_DAYS: usize = 14;
@@ -37,7 +37,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     Ok(())
 }
 
-/// The indicators of a benchmark, by its names, with ours beside its own.
+/// The indicators of a benchmark as it computed them, and as Interplay computes them.
 fn write_benchmark(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let Some(benchmark) = &building.benchmark else { return Ok(()) };
     let official = benchmark.official.iter().filter_map(|(name, value)| Some(format!("{name} {:.5}", (*value)?)));
@@ -48,7 +48,7 @@ fn write_benchmark(text: &mut String, building: &BuildingReport) -> std::fmt::Re
     let Some(ours) = &benchmark.ours else { return Ok(()) };
     writeln!(
         text,
-        "  computed by us: thermal discomfort {:.3} K·h per zone, energy {:.4} kWh/m², cost {:.5} per m², emissions {:.5} kg/m²",
+        "  computed by Interplay: thermal discomfort {:.3} K·h per zone, energy {:.4} kWh/m², cost {:.5} per m², emissions {:.5} kg/m²",
         ours.tdis_k_h, ours.ener_kwh_per_m2, ours.cost_per_m2, ours.emis_kg_per_m2
     )
 }
@@ -90,7 +90,7 @@ fn write_days(text: &mut String, building: &BuildingReport) -> std::fmt::Result 
     Ok(())
 }
 
-/// All days beside the cheapest run with perfect foresight.
+/// The cost of all days, compared with the cheapest run with perfect foresight.
 fn write_whole_run(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let Some(run) = building.whole_run else { return Ok(()) };
     let (cost, least, regret) = (run.cost, run.least_cost, run.regret);
@@ -106,7 +106,7 @@ fn write_whole_run(text: &mut String, building: &BuildingReport) -> std::fmt::Re
     Ok(())
 }
 
-/// Which columns about electricity say more than the heat does.
+/// The columns about electricity that differ from those of the heat.
 struct Supply {
     electricity: bool,
     currency: Option<String>,
@@ -154,9 +154,7 @@ fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result
         cells.extend(supply.cells(total(|day| day.electricity_kwh), energy_cost));
         cells
     };
-    for line in lines(&header, building.zone_figures.iter().take(MAX_LISTED_ZONES).map(row)) {
-        writeln!(text, "  {line}")?;
-    }
+    write_table(text, &header, building.zone_figures.iter().take(MAX_LISTED_ZONES).map(row))?;
     let left_out = building.zone_figures.len().saturating_sub(MAX_LISTED_ZONES);
     if left_out > 0 {
         writeln!(text, "     …  {left_out} more in --json")?;
@@ -164,7 +162,7 @@ fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result
     Ok(())
 }
 
-/// How zones that plan together did on the last day.
+/// The exchange of messages of zones that plan together, on the last day.
 fn write_exchange(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let Some(exchange) = building.iterations.last().and_then(|day| day.exchange) else { return Ok(()) };
     let per_zone = exchange.messages as f64 / building.zones as f64;

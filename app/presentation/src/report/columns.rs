@@ -1,12 +1,30 @@
-//! Rows of words in aligned columns.
+//! Texts with aligned columns.
+
+use std::fmt::{self, Write};
 
 use comfy_table::{CellAlignment, Table, presets};
 
-/// How the words of a column stand.
+/// Alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Align {
     Left,
     Right,
+}
+
+/// The text that `write` writes. Writing to a text cannot fail.
+pub(super) fn written(write: impl FnOnce(&mut String) -> fmt::Result) -> String {
+    let mut text = String::new();
+    let _ = write(&mut text);
+    text
+}
+
+/// Writes the lines of a table, indented.
+pub(super) fn write_table(
+    text: &mut String,
+    header: &[(&str, Align)],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> fmt::Result {
+    lines(header, rows).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }
 
 /// The lines of a table, one for the header and one for each row: two spaces between columns, none at the end of a line.
@@ -24,8 +42,8 @@ pub(super) fn lines(header: &[(&str, Align)], rows: impl IntoIterator<Item = Vec
     table.lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// The lines of a table that is no wider than `width`, if its columns allow it: those that find no place follow below, each time after
-/// the first column, with an empty line between.
+/// The lines of a table at most `width` wide, if its columns allow it. Columns that do not fit follow below, after a repeated first
+/// column, separated by an empty line.
 pub(super) fn lines_within(width: usize, header: &[(&str, Align)], rows: &[Vec<String>]) -> Vec<String> {
     const GAP: usize = 2;
     let widths: Vec<usize> = (0..header.len())
@@ -58,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_that_find_no_place_follow_below() {
+    fn columns_that_do_not_fit_follow_below() {
         let header = ["who", "first", "second", "third"].map(|title| (title, Align::Left));
         let rows = [["a", "1", "2", "3"].map(str::to_owned).to_vec()];
         let found = lines_within(19, &header, &rows);

@@ -1,4 +1,4 @@
-//! An identification as a readable table.
+//! An identification as tables.
 
 use std::fmt::{self, Write};
 
@@ -8,14 +8,11 @@ use interplay_building::identify::{
 
 use interplay_common::spelling::counted;
 
-use super::columns::{Align, lines};
+use super::columns::{Align, write_table, written};
 
-/// The findings for a person: parameters with uncertainty and verdict, residuals, errors, and what to beware of.
+/// The findings as text: parameters with uncertainty and verdict, residuals, errors, and warnings.
 pub fn identification(file: &str, found: &Identification) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_report(&mut text, file, &found.report);
-    text
+    written(|text| write_report(text, file, &found.report))
 }
 
 fn write_report(text: &mut String, file: &str, report: &IdentificationReport) -> fmt::Result {
@@ -47,7 +44,7 @@ fn write_report(text: &mut String, file: &str, report: &IdentificationReport) ->
         writeln!(text, "  {one} - {other}: {first} and {second}: {}", wall.words)?;
     }
     if !report.warnings.is_empty() {
-        writeln!(text, "\nbeware")?;
+        writeln!(text, "\nwarnings")?;
     }
     report.warnings.iter().try_for_each(|warning| writeln!(text, "  - {warning}"))
 }
@@ -86,7 +83,7 @@ fn write_models(text: &mut String, report: &IdentificationReport) -> fmt::Result
         text,
         "\nmodels, each with one more hidden temperature than the one it extends (likelihood-ratio test; * chosen)"
     )?;
-    lines(&header, report.models.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
+    write_table(text, &header, report.models.iter().map(row))
 }
 
 fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
@@ -101,7 +98,7 @@ fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
         ("verdict", Left),
     ];
     let rows = zone.coefficients.iter().chain(&zone.physical).map(row);
-    lines(&header, rows).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
+    write_table(text, &header, rows)?;
     let white = &zone.whiteness;
     writeln!(
         text,
@@ -152,7 +149,7 @@ fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Res
     }
 }
 
-/// A verdict in a word; the warnings below the tables say more.
+/// A verdict in a few words; the warnings below the tables have details.
 fn word(confidence: Confidence) -> &'static str {
     match confidence {
         Confidence::Identified => "identified",

@@ -4,24 +4,23 @@ use std::fmt::{self, Write};
 
 use interplay_building::identify::{IdentificationReport, IdentifiedNetwork, RecordedDays};
 
+use super::columns::written;
+
 /// The smallest and largest factor of `[building.believed]`.
 const BELIEVED: (f64, f64) = (0.1, 10.0);
 
-/// The most days that a scenario takes of a record.
+/// Most days that a scenario takes from a record.
 const MAX_DAYS: usize = 14;
 
-/// A scenario with the network that was identified from `file`. Its `[building.believed]` is wrong by as much as the data allow.
-/// `weather` is what was recorded, and the table beside the scenario in which it stands; without it the weather is synthetic.
+/// A scenario file with the network that was identified from `file`. Its `[building.believed]` has the largest errors that the data
+/// allow. `weather` is the path of a table with recorded weather, and the record; without it the weather is synthetic.
 pub fn identified_scenario(
     file: &str,
     report: &IdentificationReport,
     network: &IdentifiedNetwork,
     weather: Option<(&str, &RecordedDays)>,
 ) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_scenario(&mut text, file, (report, network), weather);
-    text
+    written(|text| write_scenario(text, file, (report, network), weather))
 }
 
 fn write_scenario(
@@ -75,7 +74,7 @@ fn write_scenario(
     writeln!(text, "\n[setpoints]\noccupied_c = [{:?}]", rounded(network.mean_c.0))
 }
 
-/// The recorded weather, or a synthetic one that is as warm.
+/// Writes the recorded weather, or synthetic weather with the same mean temperature.
 fn write_weather(
     text: &mut String,
     network: &IdentifiedNetwork,
@@ -99,7 +98,7 @@ fn write_believed(text: &mut String, network: &IdentifiedNetwork) -> fmt::Result
     let range = &network.uncertainty;
     writeln!(
         text,
-        "# What the controller takes the building for: the upper ends of the 95 % intervals. With all factors 1 its model"
+        "# The building as the controller believes it to be: the upper ends of the 95 % intervals. With all factors 1 its model"
     )?;
     writeln!(text, "# is the estimate. The intervals, as multiples of the estimates:")?;
     let factors = [
@@ -132,7 +131,7 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
-/// To a tenth.
+/// Rounds to a tenth.
 fn rounded(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
 }

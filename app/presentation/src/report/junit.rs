@@ -1,5 +1,5 @@
-//! Many runs as JUnit XML, which build servers show: a test case for every run, counterfactuals included, a failure for what was not as expected,
-//! an error for a run that could not be finished.
+//! Runs as JUnit XML for build servers: a test case for every run and counterfactual, a failure for failed expectations, an error
+//! for an unfinished run.
 
 use std::time::Duration;
 
@@ -38,7 +38,7 @@ fn test_cases(case: &Case) -> Vec<TestCase> {
     std::iter::once(test_case(family, name, status, time_s)).chain(others).collect()
 }
 
-/// A failure for whatever did not hold.
+/// The status of a test case with these failed expectations.
 fn failures(failed: &mut dyn Iterator<Item = &Expectation>) -> TestCaseStatus {
     let failed: Vec<String> = failed.map(ToString::to_string).collect();
     let Some(first) = failed.first() else { return TestCaseStatus::success() };
@@ -57,8 +57,8 @@ fn seconds(time_s: f64) -> Duration {
     Duration::try_from_secs_f64(time_s).unwrap_or_default()
 }
 
-/// A text in which `?` stands for every character that XML 1.0 cannot hold. The library alone would leave two of them in,
-/// and drop others together with what follows an escape character.
+/// Replaces characters that XML 1.0 does not allow by `?`. The library would leave two of them in, and drop others together with
+/// the text after an escape character.
 fn text(text: &str) -> XmlString {
     let is_refused = |c: char| (c.is_control() && !matches!(c, '\n' | '\t')) || matches!(c, '\u{fffe}' | '\u{ffff}');
     XmlString::new(text.replace(is_refused, "?"))
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_in_a_text_is_taken_for_markup() {
+    fn markup_in_texts_is_escaped() {
         let written = unfinished("a<b & \"c\">\u{1b}\u{ffff}", "grün – 1.5 m/s²");
         assert!(written.contains(r#"name="a&lt;b &amp; &quot;c&quot;&gt;??""#), "{written}");
         assert!(written.contains(r#"message="grün – 1.5 m/s²""#), "{written}");

@@ -1,4 +1,4 @@
-//! How models predict recorded cars, as tables.
+//! Comparisons of models that predict recorded cars, as tables.
 
 use std::fmt::Write;
 
@@ -6,24 +6,18 @@ use interplay_recordings::{
     ComparedModel, DrivingStatistics, GroupComparison, MeasureInterval, PredictionComparison, Spread,
 };
 
-use super::columns::Align::{Left, Right};
-use super::columns::{Align, lines};
+use super::columns::{Align, write_table, written};
 
 /// A comparison as a text: for each group of recordings a table of errors, then what was fitted.
 pub fn prediction(comparison: &PredictionComparison) -> String {
-    let mut text = String::new();
-    // Writing to a text cannot fail.
-    let _ = write_comparison(&mut text, comparison);
-    text
+    written(|text| write_comparison(text, comparison))
 }
 
 fn write_comparison(text: &mut String, comparison: &PredictionComparison) -> std::fmt::Result {
     for group in &comparison.groups {
         let GroupComparison { name, starts, cars, .. } = group;
-        writeln!(text, "{name}: {starts} starts of {cars} cars that no model was fitted on")?;
-        for line in lines(&errors_header(), group.models.iter().map(errors_row)) {
-            writeln!(text, "  {line}")?;
-        }
+        writeln!(text, "{name}: {starts} starts of {cars} cars outside the data of the fits")?;
+        write_table(text, &errors_header(), group.models.iter().map(errors_row))?;
         writeln!(text)?;
         let recorded = vec![
             "the record itself".to_owned(),
@@ -35,14 +29,12 @@ fn write_comparison(text: &mut String, comparison: &PredictionComparison) -> std
             String::new(),
         ];
         let rows = group.models.iter().map(rates_row).chain([recorded]);
-        for line in lines(&rates_header(), rows) {
-            writeln!(text, "  {line}")?;
-        }
+        write_table(text, &rates_header(), rows)?;
         writeln!(text)?;
     }
     writeln!(
         text,
-        "In brackets: intervals at 95 % by a bootstrap over cars. Fitted on {} starts of {} other cars:",
+        "In brackets: 95 % intervals by a bootstrap over cars. Fitted on {} starts of {} other cars:",
         comparison.fitted_on_starts, comparison.fitted_on_cars
     )?;
     let models = comparison.groups.first().map(|group| group.models.as_slice()).unwrap_or_default();
@@ -51,23 +43,18 @@ fn write_comparison(text: &mut String, comparison: &PredictionComparison) -> std
         writeln!(text, "  {}: {}", model.name, values.join(", "))?;
     }
     writeln!(text, "\nHow the recorded cars drive: median [5 % to 95 %]")?;
-    for line in lines(&driving_header(), comparison.driving.iter().map(driving_row)) {
-        writeln!(text, "  {line}")?;
-    }
+    write_table(text, &driving_header(), comparison.driving.iter().map(driving_row))?;
     Ok(())
 }
 
-fn errors_header() -> [(&'static str, Align); 8] {
-    [
-        ("along the road, RMSE [m] after", Left),
-        ("1 s", Right),
-        ("2 s", Right),
-        ("3 s", Right),
-        ("4 s", Right),
-        ("5 s", Right),
-        ("of constant velocity, 3 s", Right),
-        ("of fitted IDM, 3 s", Right),
-    ]
+/// A header with a left column and right-aligned ones.
+fn header(first: &'static str, titles: &[&'static str]) -> Vec<(&'static str, Align)> {
+    [(first, Align::Left)].into_iter().chain(titles.iter().map(|title| (*title, Align::Right))).collect()
+}
+
+fn errors_header() -> Vec<(&'static str, Align)> {
+    let titles = ["1 s", "2 s", "3 s", "4 s", "5 s", "of constant velocity, 3 s", "of fitted IDM, 3 s"];
+    header("along the road, RMSE [m] after", &titles)
 }
 
 fn errors_row(compared: &ComparedModel) -> Vec<String> {
@@ -87,16 +74,10 @@ fn errors_row(compared: &ComparedModel) -> Vec<String> {
     ]
 }
 
-fn rates_header() -> [(&'static str, Align); 7] {
-    [
-        ("after 3 s", Left),
-        ("across, RMSE [m]", Right),
-        ("misses by 2 m", Right),
-        ("contacts", Right),
-        ("contacts within 5 s", Right),
-        ("off the road", Right),
-        ("-log likelihood", Right),
-    ]
+fn rates_header() -> Vec<(&'static str, Align)> {
+    let titles =
+        ["across, RMSE [m]", "misses by 2 m", "contacts", "contacts within 5 s", "off the road", "-log likelihood"];
+    header("after 3 s", &titles)
 }
 
 fn rates_row(compared: &ComparedModel) -> Vec<String> {
@@ -125,7 +106,7 @@ fn driving_header() -> Vec<(&'static str, Align)> {
         "the one behind brakes [m/s²]",
         "duration [s]",
     ];
-    [("", Left)].into_iter().chain(titles.map(|title| (title, Right))).collect()
+    header("", &titles)
 }
 
 fn driving_row(driving: &DrivingStatistics) -> Vec<String> {

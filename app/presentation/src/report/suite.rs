@@ -1,11 +1,11 @@
-//! Many runs in one readable table.
+//! Several runs in one table.
 
 use std::fmt::Write;
 
 use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_simulation::run::RunError;
 
-use super::columns::{Align, lines};
+use super::columns::{Align, lines, written};
 
 /// One run of a suite: its report, or why it could not be finished.
 #[derive(Debug)]
@@ -23,12 +23,12 @@ impl Case {
         all.filter(|expectation| !expectation.passed)
     }
 
-    /// The runs beside the scenario's own.
+    /// The counterfactual runs.
     pub(super) fn counterfactuals(&self) -> impl Iterator<Item = &CounterfactualReport> {
         self.outcome.iter().flat_map(|report| &report.counterfactuals)
     }
 
-    /// The word for how the scenario's own run ended.
+    /// The outcome of the scenario's own run in words.
     fn verdict(&self) -> &'static str {
         match &self.outcome {
             Err(_) => "UNFINISHED",
@@ -49,7 +49,7 @@ impl Case {
         std::iter::once(first).chain(others).collect()
     }
 
-    /// What failed in the run of each of these rows.
+    /// The failed expectations of each of these rows.
     fn failures(&self) -> Vec<Vec<String>> {
         let words = |failed: &mut dyn Iterator<Item = &Expectation>| failed.map(ToString::to_string).collect();
         let others = self.counterfactuals().map(|one| words(&mut one.failed()));
@@ -63,15 +63,13 @@ fn figures(report: &Report) -> [String; 3] {
     [report.collisions.len().to_string(), gap, format!("{:.2}", report.wall_s)]
 }
 
-/// A line for every run, those of counterfactuals below the scenario's own, below each whatever failed, and at the end how many passed; the suite took `wall_s` seconds.
+/// A line for every run and, below it, for each counterfactual, with the failed expectations; at the end the number of passed
+/// scenarios. The suite took `wall_s` seconds.
 pub fn table(cases: &[Case], wall_s: f64) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_table(&mut text, cases, wall_s);
-    text
+    written(|text| write_suite(text, cases, wall_s))
 }
 
-fn write_table(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Result {
+fn write_suite(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Result {
     use Align::{Left, Right};
     let header =
         [("scenario", Left), ("outcome", Left), ("collisions", Right), ("smallest gap m", Right), ("time s", Right)];
@@ -89,5 +87,5 @@ fn write_table(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Resu
     }
     let passed = cases.iter().filter(|case| case.outcome.as_ref().is_ok_and(|report| report.passed)).count();
     let verdict = if passed == cases.len() { "PASSED" } else { "FAILED" };
-    writeln!(text, "{verdict}: {passed} of {} did what they should, in {wall_s:.2} s", cases.len())
+    writeln!(text, "{verdict}: {passed} of {} met their expectations, in {wall_s:.2} s", cases.len())
 }

@@ -1,4 +1,4 @@
-//! A run in a few readable lines.
+//! A run in a few lines.
 
 use std::fmt::Write;
 
@@ -7,14 +7,11 @@ use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
-use super::columns::{Align, lines};
+use super::columns::{Align, write_table, written};
 
-/// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
+/// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_summary(&mut text, title, report);
-    text
+    written(|text| write_summary(text, title, report))
 }
 
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
@@ -35,7 +32,7 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     write_counterfactuals(text, &report.counterfactuals)
 }
 
-/// A time to the millisecond: steps of real roads are no round numbers \[s\].
+/// Rounds a time to milliseconds, since the steps of full-size roads are not round numbers \[s\].
 fn to_milliseconds(time_s: f64) -> f64 {
     (1e3 * time_s).round() / 1e3
 }
@@ -49,7 +46,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(text, "  order at the end: {}", report.order_of_driven().join(", "))?;
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
-        None => writeln!(text, "  the ego is alone")?,
+        None => writeln!(text, "  the ego is the only vehicle")?,
     }
     for vehicle in &report.vehicles {
         for belief in &vehicle.beliefs {
@@ -70,7 +67,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     write_vehicles(text, &report.vehicles)
 }
 
-/// For whom a driver takes another one: all kinds of driver that it may well be, and the one for which it plans.
+/// The belief of a driver about another one: the likely kinds of driver, and the one that it plans for.
 fn belief_in_words(belief: &BeliefReport) -> String {
     let BeliefReport { about, taken_for, may_be, .. } = belief;
     let (percent, since_s) = (100.0 * belief.may_be_probability, to_milliseconds(belief.since_s));
@@ -85,7 +82,7 @@ fn belief_in_words(belief: &BeliefReport) -> String {
 
 fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
     if report.expectations.is_empty() {
-        return writeln!(text, "  nothing was expected of this run");
+        return writeln!(text, "  no expectations stated");
     }
     for expectation in &report.expectations {
         let mark = if expectation.passed { "ok  " } else { "FAIL" };
@@ -119,7 +116,7 @@ fn all_of(count: usize, what: &str) -> String {
     if count == 1 { format!("the {what}") } else { format!("all {count} {what}s") }
 }
 
-/// What is wrong with a vehicle's plans.
+/// Remarks about failed and slow plans.
 fn remarks(plans: &PlansReport) -> String {
     let failed = (plans.failed > 0).then(|| format!("{} FAILED", plans.failed));
     let slow = plans.over_budget.filter(|count| *count > 0).map(|count| format!("{count} over budget"));
@@ -152,7 +149,7 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
         ]
     };
     let driven = vehicles.iter().filter(|vehicle| !vehicle.is_obstacle);
-    lines(&header, driven.map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
+    write_table(text, &header, driven.map(row))
 }
 
 #[cfg(test)]
@@ -160,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_belief_names_all_kinds_and_the_one_that_is_planned_for() {
+    fn a_belief_names_all_likely_kinds_and_the_one_of_the_plan() {
         let mut belief = BeliefReport {
             about: "merger".to_owned(),
             taken_for: "nice".to_owned(),

@@ -4,16 +4,13 @@ use std::fmt::Write;
 
 use interplay_simulation::why::{WhyReport, WhyRun};
 
-use super::columns::{Align, lines};
+use super::columns::{Align, write_table, written};
 use crate::shell;
 
 /// A line for every run, and below them in words what the order, the times and the expectations depend on; `command` are the
 /// words that run the scenario itself.
 pub fn why(title: &str, command: &[String], report: &WhyReport) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_why(&mut text, title, command, report);
-    text
+    written(|text| write_why(text, title, command, report))
 }
 
 fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyReport) -> std::fmt::Result {
@@ -25,7 +22,7 @@ fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyRep
     let mut header = vec![("what is changed", Left), ("order", Left)];
     header.extend(names.iter().map(|name| (name.as_str(), Right)));
     header.extend([("gap m", Right), ("expectations", Left)]);
-    lines(&header, report.runs.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
+    write_table(text, &header, report.runs.iter().map(row))?;
     writeln!(text, "\n{}", conclusion(report))?;
     if report.at_s.is_some() {
         return Ok(());

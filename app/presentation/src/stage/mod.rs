@@ -1,14 +1,12 @@
-//! What a page needs to draw a world itself: shapes as data, and ticks as they happen.
+//! The data from which a page in a browser draws a world: shapes, and the frames of a run.
 //!
-//! The shapes are those of the animations (`body_shape`, `road_shapes`, `palette`); only who fills them is another program.
+//! The shapes are those of the animations (`body`, `road_shapes`, `palette`).
 
-mod moment;
+mod frame;
 mod road;
 mod vehicle;
 
-pub use moment::{StageBelief, StageEvent, StageMoment, StageProposal, StageWitness};
-pub use road::{RoadShape, StageLight};
-pub use vehicle::{StageLamps, StageShape, StageVehicle, StageWheels};
+pub use frame::{StageFrame, StageObserver};
 
 use interplay_scenarios::Scenario;
 use serde::Serialize;
@@ -16,10 +14,13 @@ use serde::Serialize;
 use crate::camera::car_m;
 use crate::palette::{GRASS, css, vehicle_colours};
 
+use self::road::{RoadShape, StageLight};
+use self::vehicle::StageVehicle;
+
 /// A world as a page draws it; lengths in metres.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stage {
-    /// What is called how.
+    /// Title of the scenario.
     pub title: String,
     /// What the scenario shows.
     pub shows: String,
@@ -27,7 +28,7 @@ pub struct Stage {
     pub step_s: f64,
     /// Duration of the scenario \[s\].
     pub duration_s: f64,
-    /// Length of a car, from which the zoom follows.
+    /// Length of a car, which determines the zoom.
     pub car_m: f64,
     /// The vehicles, in the scenario's order.
     pub vehicles: Vec<StageVehicle>,

@@ -1,20 +1,20 @@
-//! The road as filled rings and lines.
+//! The road as filled polygons and lines.
 
 use interplay_planners::Route;
 use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
 use crate::camera::car_m;
-use crate::palette::{ARROW, ASPHALT, Colour, KEPT_LANE, KERB, PAINT, PATH, VERGE, css};
+use crate::palette::{ARROW, ASPHALT, Colour, KERB, PAINT, PATH, RESERVED_LANE, VERGE, css};
 use crate::road_shapes::RoadShapes;
 use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
-/// The road is traced this far around everybody's way, in lengths of a car.
+/// The road is traced this far around the routes of all vehicles, in lengths of a car.
 const MARGIN_CARS: f64 = 12.0;
-/// Places on each way.
-const PLACES: usize = 40;
-/// No way is traced further than this many lengths of a car.
-const MOST_CARS: f64 = 400.0;
+/// Number of sampled places on each route.
+const ROUTE_SAMPLES: usize = 40;
+/// Longest traced part of a route, in lengths of a car.
+const MAX_ROUTE_CARS: f64 = 400.0;
 
 /// A part of a road that a page paints.
 #[derive(Clone, Debug, Serialize)]
@@ -22,27 +22,18 @@ const MOST_CARS: f64 = 400.0;
 pub enum RoadShape {
     /// A filled ring.
     Fill {
-        /// The corners \[m\].
         ring: Vec<[f64; 2]>,
-        /// Its colour.
         colour: String,
     },
     /// A line around a ring.
     Outline {
-        /// The corners \[m\].
         ring: Vec<[f64; 2]>,
-        /// Its width \[m\].
         width_m: f64,
-        /// Its colour.
         colour: String,
     },
-    /// A line.
     Line {
-        /// Its points \[m\].
         points: Vec<[f64; 2]>,
-        /// Its width \[m\].
         width_m: f64,
-        /// Its colour.
         colour: String,
     },
 }
@@ -52,13 +43,13 @@ pub enum RoadShape {
 pub struct StageLight {
     /// The ends of its bar \[m\].
     pub bar: [[f64; 2]; 2],
-    /// Its colours in turn, each with the time at which it ends \[s\].
+    /// Successive colours, each with its end \[s\].
     pub colours: Vec<(String, f64)>,
-    /// How long all of them take together \[s\].
+    /// Duration of all colours together \[s\].
     pub cycle_s: f64,
 }
 
-/// What a cycle is looked at every so often \[s\].
+/// Sampling time of the cycles of lights \[s\].
 const LIGHT_STEP_S: f64 = 0.1;
 
 pub(super) fn shapes(scenario: &Scenario) -> (Vec<RoadShape>, Vec<StageLight>) {
@@ -70,7 +61,7 @@ pub(super) fn shapes(scenario: &Scenario) -> (Vec<RoadShape>, Vec<StageLight>) {
     }
     shapes.extend(road.surfaces.iter().map(|ring| fill(ring, ASPHALT)));
     shapes.extend(road.surfaces.iter().map(|ring| outline(ring, 2.0 * SHOULDER_LANES * lane_m, ASPHALT)));
-    for (rings, colour) in [(&road.kept_lanes, KEPT_LANE), (&road.paths, PATH), (&road.zebra_bars, PAINT)] {
+    for (rings, colour) in [(&road.reserved_lanes, RESERVED_LANE), (&road.paths, PATH), (&road.zebra_bars, PAINT)] {
         shapes.extend(rings.iter().map(|ring| fill(ring, colour)));
     }
     for (lines, lanes) in [(&road.edges, LINE_LANES), (&road.dashes, LINE_LANES), (&road.stop_lines, STOP_LINE_LANES)] {
@@ -109,15 +100,15 @@ fn line(points: &[[f64; 2]], width_m: f64, colour: Colour) -> RoadShape {
     RoadShape::Line { points: points.to_vec(), width_m, colour: css(colour) }
 }
 
-/// Where anybody can come to in the time of the scenario \[m\].
+/// Least and greatest coordinates that vehicles can reach in the time of the scenario \[m\].
 fn bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
     let car_m = car_m(scenario);
     let way = |vehicle: &Vehicle| {
         let (route, from_m): (&Route, f64) = (&vehicle.route, vehicle.route.along(vehicle.start.position()));
-        let reach_m = (scenario.duration_s * vehicle.limits.speed_max_mps).min(MOST_CARS * car_m);
+        let reach_m = (scenario.duration_s * vehicle.limits.speed_max_mps).min(MAX_ROUTE_CARS * car_m);
         let end_m = (from_m + reach_m).min(route.end_m());
         let place = move |share: f64| route.position(from_m + share * (end_m - from_m), 0.0);
-        (0..=PLACES).map(|place_at| place(place_at as f64 / PLACES as f64)).collect::<Vec<_>>()
+        (0..=ROUTE_SAMPLES).map(|place_at| place(place_at as f64 / ROUTE_SAMPLES as f64)).collect::<Vec<_>>()
     };
     let places: Vec<[f64; 2]> = scenario.vehicles.iter().flat_map(way).collect();
     let margin_m = MARGIN_CARS * car_m;

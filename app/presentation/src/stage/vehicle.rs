@@ -4,8 +4,7 @@ use interplay_planners::{Body, Limits};
 use interplay_scenarios::{Outline, Vehicle};
 use serde::Serialize;
 
-use crate::body_shape::{Wheels, body_parts, indicators, place_on, rear_lamp, rectangle};
-use crate::body_style::BodyStyle;
+use crate::body::{BodyStyle, Wheels, body_parts, indicators, place_on, rear_lamp, rectangle};
 use crate::palette::{Colour, css};
 
 /// A ring of points ahead of the mass centre and to its left \[m\].
@@ -14,25 +13,20 @@ type Ring = Vec<[f64; 2]>;
 /// A vehicle as a page draws it.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageVehicle {
-    /// Its name.
     pub name: String,
-    /// Its driver in a few words.
     pub driver: String,
-    /// Its colour.
     pub colour: String,
-    /// Whether nobody drives it.
     pub is_obstacle: bool,
-    /// Its size and axles.
     pub body: Body,
     /// The bounds of its inputs and its speed.
     pub limits: Limits,
-    /// What is filled, from below to above.
+    /// Filled parts, from the lowest to the highest.
     pub shape: Vec<StageShape>,
-    /// Its shadow on the road; none of what is flat.
+    /// Shadow on the road, unless the vehicle is flat.
     pub shadow: Option<Ring>,
-    /// Its wheels, if they are seen.
+    /// Wheels, if they are visible.
     pub wheels: Option<StageWheels>,
-    /// Its lamps, if it has any.
+    /// Lamps, if it has any.
     pub lamps: Option<StageLamps>,
 }
 
@@ -43,11 +37,10 @@ pub struct StageShape {
     pub ring: Ring,
     /// Radius of the corners \[m\].
     pub radius: f64,
-    /// Its colour.
     pub colour: String,
 }
 
-/// The wheels of a vehicle that steers straight on, front right, front left, rear right, rear left.
+/// The wheels of a vehicle without steering: front right, front left, rear right, rear left.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageWheels {
     /// The corners of each \[m\].
@@ -63,7 +56,7 @@ pub struct StageWheels {
 pub struct StageLamps {
     /// Tail lamps \[m\].
     pub tail: [Ring; 2],
-    /// The same while it brakes \[m\].
+    /// Tail lamps while the vehicle brakes \[m\].
     pub brake: [Ring; 2],
     /// Indicators on the left \[m\].
     pub indicator_left: [[f64; 2]; 2],

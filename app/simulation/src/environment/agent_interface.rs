@@ -28,8 +28,7 @@ pub struct AgentInterface {
 impl AgentInterface {
     /// The interface of a vehicle whose plans have so many steps, before its first decision.
     pub fn new(observations: &[AgentView], action: Action, horizon: usize) -> AgentInterface {
-        let is_belief = |observation: &AgentView| matches!(observation, AgentView::Belief(_));
-        let infers = observations.iter().any(is_belief);
+        let infers = observations.iter().any(AgentView::shows_beliefs);
         AgentInterface {
             views: observations.iter().map(|view| (view.clone(), view.space(horizon).len())).collect(),
             action,

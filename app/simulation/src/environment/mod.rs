@@ -38,7 +38,10 @@ pub use action::{Action, ActionSpace, DiscreteMeta};
 pub use agent_interface::AgentInterface;
 pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
 pub use episode::{Ending, Episode};
-pub use observation::{AgentView, BeliefView, Kinematics, LaneView, ObservationSpace, OccupancyGrid, PlanView};
+pub use observation::{
+    AgentView, BeliefView, ForeignView, Kinematics, LaneView, ObservationKind, ObservationSpace, OccupancyGrid,
+    PlanView,
+};
 pub use policy::{Policy, PolicyDriver, PolicyError};
 pub use reward::{RewardTerm, RewardWeights};
 pub use settings::{EnvironmentError, EnvironmentSettings};

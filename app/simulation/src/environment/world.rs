@@ -318,7 +318,7 @@ fn agents(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Vec<usi
     }
     let drivable = |index: &usize| {
         let vehicle = &scenario.vehicles[*index];
-        vehicle.obstacle.is_none() && !vehicle.driver.kind().eq("walker")
+        vehicle.obstacle.is_none() && vehicle.driver.can_be_replaced()
     };
     let mut agents = Vec::new();
     for name in &settings.agents {

@@ -98,6 +98,10 @@ fn numbers(hasher: &mut Xxh3, values: &[f64]) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use interplay_planners::Plan;
+
     use super::*;
     use crate::state::frame::VehicleFrame;
 
@@ -112,8 +116,8 @@ mod tests {
     fn tick(speed_mps: f64) -> Recorded {
         let state = State { speed_mps, ..State::default() };
         let trajectory = |speed_mps| Trajectory { states: vec![State { speed_mps, ..state }; 3], inputs: Vec::new() };
-        let mut vehicle = VehicleFrame { state, prediction: trajectory(1.0).into(), ..VehicleFrame::default() };
-        vehicle.plan.trajectory = trajectory(2.0);
+        let plan = Plan { trajectory: trajectory(2.0), ..Plan::default() }.into();
+        let vehicle = VehicleFrame { state, plan, prediction: trajectory(1.0).into(), ..VehicleFrame::default() };
         let frame = Frame { vehicles: vec![vehicle], ..Frame::default() };
         Recorded { frame, after: vec![State { speed_mps: 3.0, ..state }] }
     }
@@ -131,7 +135,7 @@ mod tests {
         assert!(differing(&one, &tick(1.0)).is_empty());
         assert_eq!(differing(&one, &tick(1.5)), ["sense", "physics"]);
         let mut other = one.clone();
-        std::sync::Arc::make_mut(&mut other.frame.vehicles[0].prediction).states[1].x_m = 1.0;
+        Arc::make_mut(&mut other.frame.vehicles[0].prediction).states[1].x_m = 1.0;
         assert_eq!(differing(&one, &other), ["predict"]);
         let mut other = one.clone();
         other.frame.vehicles[0].input.steering_rad = -0.0;
@@ -147,7 +151,7 @@ mod tests {
         let told = |x_m: f64| {
             let mut recorded = tick(1.0);
             let vehicle = &mut recorded.frame.vehicles[0];
-            vehicle.plan.trajectory.states[1].x_m = x_m;
+            Arc::make_mut(&mut vehicle.plan).trajectory.states[1].x_m = x_m;
             vehicle.prediction = vehicle.plan.trajectory.clone().into();
             recorded
         };

@@ -159,6 +159,8 @@ fn listed(names: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use interplay_planners::{Input, Plan, Trajectory};
     use interplay_scenarios::load;
 
@@ -170,7 +172,7 @@ mod tests {
         let vehicle = VehicleFrame {
             name: "ego".to_owned(),
             input: Input { acceleration_mps2, steering_rad: 0.0 },
-            plan: Plan { proposals, ..Plan::default() },
+            plan: Plan { proposals, ..Plan::default() }.into(),
             ..VehicleFrame::default()
         };
         Frame { vehicles: vec![vehicle], ..Frame::default() }
@@ -216,7 +218,7 @@ mod tests {
                 trajectory: Trajectory::default(),
                 acceptance: Some(acceptance),
             };
-            frame.vehicles[0].plan.proposals = of.map(proposal).to_vec();
+            Arc::make_mut(&mut frame.vehicles[0].plan).proposals = of.map(proposal).to_vec();
             frame
         };
         let said = logged(&[asked([("front", 1.0), ("rear", 0.0)]), asked([("front", 0.1), ("rear", 0.9)])]);

@@ -43,7 +43,7 @@ pub use values::{Measured, MetricValue, MetricValues};
 pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
-use crate::state::components::{Clock, CurrentFrame, Identity, Motion};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
 use crate::state::standing::Standing;
 
@@ -162,17 +162,14 @@ impl Measures {
 
 /// Feeds the tick's frame and the states that it led to into every metric.
 pub fn measure(
-    vehicles: Query<(&Identity, &Motion)>,
+    traffic: Res<CurrentTraffic>,
     clock: Res<Clock>,
     mut current_frame: ResMut<CurrentFrame>,
     mut measures: ResMut<Measures>,
 ) {
     let frame = &mut current_frame.0;
     let measures = &mut *measures;
-    let mut after: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
-    for (identity, motion) in &vehicles {
-        after[identity.index] = motion.state;
-    }
+    let after: Vec<State> = traffic.0.road_users.iter().map(|user| user.agent.state).collect();
     let with_states = frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after);
     for ((vehicle, measured), state) in with_states.filter(|((vehicle, _), _)| !vehicle.is_absent) {
         if frame.plans {

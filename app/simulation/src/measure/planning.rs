@@ -56,12 +56,15 @@ impl Planning {
 
 #[cfg(test)]
 mod tests {
+    use interplay_planners::Plan;
+    use interplay_planners::trajectory::Statistics;
+
     use super::*;
 
     fn tick(plan_ms: f64, origin: Origin, unfinished: usize) -> VehicleFrame {
-        let mut frame = VehicleFrame { plan_ms, origin, ..VehicleFrame::default() };
-        frame.plan.statistics.unfinished = unfinished;
-        frame
+        let statistics = Statistics { unfinished, ..Statistics::default() };
+        let plan = Plan { statistics, ..Plan::default() }.into();
+        VehicleFrame { plan_ms, origin, plan, ..VehicleFrame::default() }
     }
 
     #[test]

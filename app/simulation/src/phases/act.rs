@@ -1,41 +1,34 @@
-//! Act: the first input of each plan is applied, within the vehicle's limits.
+//! Act: the first input of each plan is applied, within the vehicle's limits, and the frame of the tick is made.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::Input;
-use interplay_planners::traffic::applied_input;
+use interplay_planners::traffic::{RoadUser, applied_input};
 
-use crate::state::components::{Clock, CurrentFrame, Identity, Motion, Sensed, VehicleParameters};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet};
+use crate::state::frame::VehicleFrame;
 
 /// Hands the decided inputs to the plant. Where there are several ticks from one plan to the next, inputs change evenly from the last
-/// one to that of the plan, which they reach with the last of these ticks. Who follows a record has the inputs of that in every tick.
-pub fn act(
-    mut vehicles: Query<(&Identity, &VehicleParameters, &mut Motion)>,
-    clock: Res<Clock>,
-    sensed: Res<Sensed>,
-    mut current_frame: ResMut<CurrentFrame>,
-) {
+/// one to that of the plan, which they reach with the last of these ticks. Recorded vehicles take their inputs from the record in every
+/// tick.
+pub fn act(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>) {
     let ticks_left = clock.ticks_per_plan - clock.ticks_since_plan();
-    let frame = &mut current_frame.0;
-    for (identity, VehicleParameters { body, limits, record, .. }, mut motion) in &mut vehicles {
-        if frame.vehicles[identity.index].is_absent {
-            continue;
-        }
-        let planned = sensed.0.road_users[identity.index].planned_input();
+    for user in traffic.0.road_users.iter_mut().filter(|user| !user.is_absent()) {
+        let planned = user.planned_input();
+        let RoadUser { agent, record, .. } = user;
+        let (body, limits, last) = (&agent.body, &agent.limits, agent.previous_input);
         let times_s = [clock.time_s(), clock.step_s];
-        let recorded = record.as_ref().and_then(|record| record.input(body, limits, &motion.state, times_s));
-        let wanted = recorded.unwrap_or_else(|| towards(&motion.input, planned, ticks_left));
-        let mut applied = applied_input(&wanted, &motion.state, body, limits, clock.step_s);
+        let recorded = record.as_ref().and_then(|record| record.input(body, limits, &agent.state, times_s));
+        let wanted = recorded.unwrap_or_else(|| towards(&last, planned, ticks_left));
+        let mut applied = applied_input(&wanted, &agent.state, body, limits, clock.step_s);
         // When the run begins, wheels stand as the driver wants.
         if clock.tick > 0 {
-            let last_rad = motion.input.steering_rad;
-            applied.steering_rad = limits.steering_towards_rad(last_rad, applied.steering_rad, clock.step_s);
+            applied.steering_rad = limits.steering_towards_rad(last.steering_rad, applied.steering_rad, clock.step_s);
         }
-        motion.input = applied;
-        frame.vehicles[identity.index].input = motion.input;
+        agent.previous_input = applied;
     }
 }
 
-/// The next of so many inputs that change evenly from one to another.
+/// The next of `ticks_left` inputs that change evenly from one to another.
 fn towards(last: &Input, planned: Input, ticks_left: usize) -> Input {
     if ticks_left == 1 {
         return planned;
@@ -45,4 +38,19 @@ fn towards(last: &Input, planned: Input, ticks_left: usize) -> Input {
         acceleration_mps2: next(last.acceleration_mps2, planned.acceleration_mps2),
         steering_rad: next(last.steering_rad, planned.steering_rad),
     }
+}
+
+/// Writes every vehicle into the frame, for those that watch and measure: its state before it moves, and what it decided.
+pub fn describe(
+    vehicles: Query<&Driving>,
+    fleet: Res<Fleet>,
+    traffic: Res<CurrentTraffic>,
+    mut current_frame: ResMut<CurrentFrame>,
+) {
+    let rows = traffic.0.road_users.iter().zip(&fleet.0);
+    let described = rows.map(|(user, entity)| {
+        let plan_ms = vehicles.get(*entity).map_or(0.0, |driving| driving.plan_ms);
+        VehicleFrame::of(user, plan_ms)
+    });
+    current_frame.0.vehicles = described.collect();
 }

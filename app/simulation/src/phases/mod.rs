@@ -85,7 +85,7 @@ pub fn schedule() -> Schedule {
             (sense::sense, (presence::come_and_go, sense::look).chain().run_if(sense::plans_now)).chain().in_set(Sense),
             predict::predict.in_set(Predict).run_if(sense::plans_now),
             plan::plan.in_set(Plan).run_if(sense::plans_now),
-            act::act.in_set(Act),
+            (act::act, act::describe).chain().in_set(Act),
             physics::step.in_set(Physics),
             measure::measure.in_set(Measure),
         )

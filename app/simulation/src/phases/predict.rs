@@ -1,10 +1,10 @@
-//! Predict: what everybody is expected to do.
+//! Predict: how every vehicle is expected to move on.
 
 use bevy_ecs::prelude::*;
 
-use crate::state::components::Sensed;
+use crate::state::components::CurrentTraffic;
 
-/// Fills the predictions of [`Sensed`].
-pub fn predict(mut sensed: ResMut<Sensed>) {
-    sensed.0.predict();
+/// Fills the predictions of [`CurrentTraffic`].
+pub fn predict(mut traffic: ResMut<CurrentTraffic>) {
+    traffic.0.predict();
 }

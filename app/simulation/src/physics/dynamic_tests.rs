@@ -1,5 +1,6 @@
 //! What tyres and actuators do, against closed forms.
 
+use bevy_ecs::prelude::World;
 use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Input, State};
 use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
@@ -7,7 +8,7 @@ use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 use super::step;
 use super::tyres::GRAVITY_MPS2;
 use crate::simulation::world_state::WorldState;
-use crate::state::components::{CurrentFrame, Motion};
+use crate::state::components::{CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
 
 const STEP_S: f64 = 0.1;
@@ -38,16 +39,21 @@ fn scenario(plant: Dynamic, starts: &[State]) -> Scenario {
     scenario
 }
 
+/// The state of every vehicle now.
+fn states(world: &World) -> Vec<State> {
+    world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
+}
+
 /// The states after every tick in which everybody applies an input of its own, and the collisions.
 fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (Vec<Vec<State>>, Vec<Collision>) {
     let mut world = WorldState::initial(&scenario(plant, starts)).expect("no building").into_world(Vec::new());
-    for (mut motion, input) in world.query::<&mut Motion>().iter_mut(&mut world).zip(inputs) {
-        motion.input = *input;
+    for (user, input) in world.resource_mut::<CurrentTraffic>().0.road_users.iter_mut().zip(inputs) {
+        user.agent.previous_input = *input;
     }
     let mut all = Vec::new();
     for _ in 0..ticks {
         world.run_system_once(step).expect("physics runs");
-        all.push(world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect());
+        all.push(states(&world));
     }
     (all, world.resource::<CurrentFrame>().0.collisions.clone())
 }
@@ -186,6 +192,6 @@ fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     for (was, is) in before.into_iter().zip(after) {
         assert!((was - is).abs() < 1e-3 * before[0].abs(), "{before:?} {after:?}");
     }
-    let hit = world.query::<&Motion>().iter(&world).nth(1).expect("two").state;
+    let hit = states(&world)[1];
     assert!(hit.x_m > 0.05 && (hit.heading_rad - quarter).abs() > 0.05, "{hit:?}");
 }

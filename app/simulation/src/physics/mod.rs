@@ -24,6 +24,7 @@ mod tyres;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::drivers::recorded::next_to;
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Outline, Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
@@ -33,7 +34,7 @@ pub(crate) use footprint::radius_m;
 pub(crate) use near_pairs::near_pairs;
 pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
-use crate::state::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Fleet};
 use crate::state::frame::{Collision, Event, Level, PairGap};
 use dynamic::DynamicPlant;
 use footprint::{Footprint, length_m};
@@ -133,26 +134,25 @@ impl Physics {
 
 /// Moves every vehicle by one tick and turns contacts into collisions.
 pub fn step(
-    mut vehicles: Query<(&Identity, &VehicleParameters, &mut Motion, &VehicleBody)>,
+    bodies: Query<&VehicleBody>,
+    fleet: Res<Fleet>,
+    mut traffic: ResMut<CurrentTraffic>,
     mut physics: ResMut<Physics>,
     mut clock: ResMut<Clock>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    let mut sorted: Vec<_> = vehicles.iter_mut().collect();
-    sorted.sort_by_key(|(identity, ..)| identity.index);
-    let frame = &mut current_frame.0;
+    let (frame, road_users) = (&mut current_frame.0, &mut traffic.0.road_users);
     let Physics { world, dynamic, gaps } = &mut *physics;
-    let moving =
-        |(identity, parameters, motion, body): &(&Identity, &VehicleParameters, Mut<Motion>, &VehicleBody)| Moving {
-            handle: body.0,
-            body: parameters.body,
-            footprint: gaps.footprints()[identity.index].clone(),
-            state: motion.state,
-            input: motion.input,
-            is_absent: frame.vehicles.get(identity.index).is_some_and(|vehicle| vehicle.is_absent),
-            recorded: recorded(parameters, motion, clock.within_s(1.0)),
-        };
-    let moving: Vec<Moving> = sorted.iter().map(moving).collect();
+    let moving = |((user, entity), footprint): ((&RoadUser, &Entity), &Footprint)| Moving {
+        handle: bodies.get(*entity).map_or_else(|_| RigidBodyHandle::invalid(), |body| body.0),
+        body: user.agent.body,
+        footprint: footprint.clone(),
+        state: user.agent.state,
+        input: user.agent.previous_input,
+        is_absent: user.is_absent(),
+        recorded: recorded(user, clock.within_s(1.0)),
+    };
+    let moving: Vec<Moving> = road_users.iter().zip(&fleet.0).zip(gaps.footprints()).map(moving).collect();
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
     frame.gap_m = gaps.begin(&before, moving.iter().map(|vehicle| vehicle.is_absent).collect());
     let (states, contacts) = match dynamic {
@@ -161,33 +161,33 @@ pub fn step(
     };
     gaps.observe(&states, 1.0);
     for Contact { pair: [a, b], share, impulse_ns } in contacts {
-        let between = [a, b].map(|index| sorted[index].0.name.clone());
+        let between = [a, b].map(|row| road_users[row].agent.name.clone());
         let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
         frame.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
         frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns });
         gaps.touch([a, b], share);
-        for index in [a, b] {
-            sorted[index].2.crashed |= dynamic.is_some();
+        for row in [a, b] {
+            road_users[row].is_crashed |= dynamic.is_some();
         }
     }
     frame.smallest_gap_m = gaps.smallest_m();
-    let name = |index: usize| sorted[index].0.name.clone();
+    let name = |row: usize| road_users[row].agent.name.clone();
     frame.closest = gaps.closest().map(|Closest { m, pair, share }| PairGap {
         m,
         between: pair.map(name),
         time_s: clock.within_s(share),
     });
-    for ((_, _, motion, _), state) in sorted.iter_mut().zip(states) {
-        motion.state = state;
+    for (user, state) in road_users.iter_mut().zip(states) {
+        user.agent.state = state;
     }
     clock.tick += 1;
 }
 
-/// Where the record of a vehicle puts it at a time, with a heading by full turns nearest to its present one; none without a record
+/// Where the record of a vehicle puts it at a time, with a heading by full turns nearest to its present one; `None` without a record
 /// \[s\].
-fn recorded(parameters: &VehicleParameters, motion: &Motion, time_s: f64) -> Option<State> {
-    let state = parameters.record.as_ref()?.state_at(time_s)?;
-    Some(State { heading_rad: next_to(state.heading_rad, motion.state.heading_rad), ..state })
+fn recorded(user: &RoadUser, time_s: f64) -> Option<State> {
+    let state = user.record.as_ref()?.state_at(time_s)?;
+    Some(State { heading_rad: next_to(state.heading_rad, user.agent.state.heading_rad), ..state })
 }
 
 /// Momentum of all bodies along x and y, and about the origin of Rapier's world \[kg m/s, kg m²/s\].

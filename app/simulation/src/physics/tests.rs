@@ -1,5 +1,6 @@
 //! Contacts in closed form: every one is found, at its time, however fast; and none where nobody touches.
 
+use bevy_ecs::prelude::World;
 use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Body, State};
 use interplay_scenarios::from_text;
@@ -7,7 +8,7 @@ use interplay_scenarios::from_text;
 use super::path::MIN_STEP_TICKS;
 use super::step;
 use crate::simulation::world_state::WorldState;
-use crate::state::components::{CurrentFrame, Motion};
+use crate::state::components::{CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
 
 const TWO_CARS: &str = r#"
@@ -22,6 +23,11 @@ const TWO_CARS: &str = r#"
 "#;
 const STEP_S: f64 = 0.1;
 
+/// The state of every vehicle now.
+fn states(world: &World) -> Vec<State> {
+    world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
+}
+
 /// Lets two cars of Table 6.1 roll on without input; the collisions and the smallest gap.
 fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     let mut scenario = from_text("two.toml", TWO_CARS, &[]).expect("a sound scenario");
@@ -34,7 +40,7 @@ fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
         world.run_system_once(step).expect("physics runs");
         smallest_m = smallest_m.min(world.resource::<CurrentFrame>().0.smallest_gap_m.expect("there are two"));
     }
-    let ends: Vec<State> = world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect();
+    let ends = states(&world);
     for (start, end) in starts.iter().zip(&ends) {
         let far = start.speed_mps * STEP_S * ticks as f64;
         assert!(((end.x_m - start.x_m).hypot(end.y_m - start.y_m) - far.abs()).abs() < 1e-9, "{start:?} {end:?}");

@@ -20,6 +20,7 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::SensedScene;
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
@@ -30,7 +31,7 @@ use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
 use crate::state::components::{
-    Clock, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, VehicleGoal, to_nanosecond,
+    Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond,
 };
 use crate::state::detail::LevelOfDetail;
 use crate::state::frame::Frame;
@@ -146,10 +147,7 @@ impl Simulation {
         let tick = self.time_points.passed();
         self.time_points = ahead;
         let frame = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
-        let last = std::mem::replace(&mut self.world.resource_mut::<CurrentFrame>().0, frame);
-        if !last.vehicles.is_empty() {
-            self.world.resource_mut::<LastVehicles>().0 = last.vehicles;
-        }
+        self.world.resource_mut::<CurrentFrame>().0 = frame;
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();
@@ -263,17 +261,21 @@ impl Simulation {
     /// From the next tick on the drivers are those of another form of the scenario, with the same vehicles. Each whose settings differ
     /// goes on with the new ones and with all that it remembers; one of another kind begins anew.
     pub(crate) fn change_drivers(&mut self, changed: &Scenario) {
-        let mut vehicles = self.world.query::<(&Identity, &mut VehicleGoal, &mut Driving)>();
-        for (identity, mut goal, mut driving) in vehicles.iter_mut(&mut self.world) {
-            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[identity.index]);
-            if (&old.driver, &old.inference) != (&new.driver, &new.inference) {
-                driving.planner.change(&*new.driver, &new.inference.unwrap_or_default());
-                driving.can_be_asked = new.driver.can_be_asked();
-                driving.goes_first = new.driver.goes_first();
-                driving.knows_plans = new.driver.knows_plans();
-                driving.detail = LevelOfDetail::of(changed, identity.index);
-                goal.shared = new.driver.shared_goal(&goal.goal);
+        let fleet = self.world.resource::<Fleet>().0.clone();
+        for (row, entity) in fleet.into_iter().enumerate() {
+            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[row]);
+            if (&old.driver, &old.inference) == (&new.driver, &new.inference) {
+                continue;
             }
+            if let Some(mut driving) = self.world.get_mut::<Driving>(entity) {
+                driving.planner.change(&*new.driver, &new.inference.unwrap_or_default());
+                driving.detail = LevelOfDetail::of(changed, row);
+            }
+            let user = &mut self.world.resource_mut::<CurrentTraffic>().into_inner().0.road_users[row];
+            user.agent.can_be_asked = new.driver.can_be_asked();
+            user.agent.shared_goal = new.driver.shared_goal(&user.goal);
+            user.goes_first = new.driver.goes_first();
+            user.knows_plans = new.driver.knows_plans();
         }
         self.scenario = Arc::new(changed.clone());
     }
@@ -337,17 +339,18 @@ impl Simulation {
 
     /// The state of every vehicle now, in the scenario's order.
     pub fn states(&self) -> Vec<State> {
-        let Some(mut vehicles) = self.world.try_query::<(&Identity, &Motion)>() else { return Vec::new() };
-        let mut states: Vec<(usize, State)> =
-            vehicles.iter(&self.world).map(|(identity, motion)| (identity.index, motion.state)).collect();
-        states.sort_by_key(|(index, _)| *index);
-        states.into_iter().map(|(_, state)| state).collect()
+        self.world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
     }
 }
 
 impl Simulation {
     fn index_of(&self, vehicle: &str) -> Result<usize, RunError> {
         self.scenario.index_of(vehicle).ok_or_else(|| self.no_vehicle(vehicle))
+    }
+
+    /// The entity of a vehicle, by its row.
+    fn entity(&self, row: usize) -> Entity {
+        self.world.resource::<Fleet>().0[row]
     }
 
     fn no_vehicle(&self, vehicle: &str) -> RunError {
@@ -358,12 +361,10 @@ impl Simulation {
     /// Hands in what an external driver decided.
     pub(crate) fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
-        let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.index == index);
         let step = self.time_points.passed();
         let handed = HandedInput::of(step, vehicle, &decided);
-        match found {
-            Some((_, mut handed_in)) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
+        match self.world.get_mut::<HandedIn>(self.entity(index)) {
+            Some(mut handed_in) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
             _ => return Err(RunError::NotExternal { vehicle: vehicle.to_owned() }),
         }
         // The last call before a step counts.
@@ -376,13 +377,12 @@ impl Simulation {
 
     /// An error if an external driver has not decided.
     fn refuse_without_input(&mut self) -> Result<(), RunError> {
-        let mut vehicles = self.world.query::<(&Identity, &Motion, &HandedIn)>();
-        let waits = |(_, motion, handed_in): &(&Identity, &Motion, &HandedIn)| {
-            **handed_in == HandedIn::Awaited && !motion.crashed
+        let traffic = &self.world.resource::<CurrentTraffic>().0;
+        let waits = |(row, user): &(usize, &RoadUser)| {
+            self.world.get::<HandedIn>(self.entity(*row)) == Some(&HandedIn::Awaited) && !user.is_crashed
         };
-        let first = vehicles.iter(&self.world).filter(waits).min_by_key(|(identity, ..)| identity.index);
-        match first {
-            Some((identity, ..)) => Err(RunError::NoInput { vehicle: identity.name.clone(), time_s: self.time_s() }),
+        match traffic.road_users.iter().enumerate().find(waits) {
+            Some((_, user)) => Err(RunError::NoInput { vehicle: user.agent.name.clone(), time_s: self.time_s() }),
             None => Ok(()),
         }
     }

@@ -1,35 +1,28 @@
-//! From a scenario to the components of its vehicles.
+//! From a scenario to the rows and components of its vehicles.
 
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use interplay_planners::{Goal, Input};
-use interplay_scenarios::Scenario;
+use interplay_planners::rules::RoadRules;
+use interplay_planners::traffic::RoadUser;
+use interplay_planners::{Agent, Goal, Input, State};
+use interplay_scenarios::{Scenario, Vehicle};
 
-use crate::phases::presence::Presence;
 use crate::physics::{Physics, VehicleBody};
-use crate::state::components::{Committed, Driving, HandedIn, Identity, Motion, VehicleGoal, VehicleParameters};
+use crate::state::components::{Driving, HandedIn, Identity, TrafficRow};
 use crate::state::detail::LevelOfDetail;
 
-/// All components of a vehicle.
+/// All components of a vehicle: its name and row, and the state of what is plugged in. The rest stands in its row.
 #[derive(Bundle, Debug)]
 pub struct VehicleState {
-    /// Index and name of the vehicle.
+    /// Name of the vehicle.
     pub identity: Identity,
-    /// State, last input, and whether it has crashed.
-    pub motion: Motion,
-    /// Whether it is on the road.
-    pub presence: Presence,
-    /// Body, limits and route.
-    pub parameters: VehicleParameters,
-    /// The goal of the vehicle.
-    pub goal: VehicleGoal,
+    /// Where it stands in the traffic.
+    pub row: TrafficRow,
     /// The driver with all that it remembers, and the sensor.
     pub driving: Driving,
     /// Inputs or a plan that were handed in from outside for the next tick.
     pub handed_in: HandedIn,
-    /// The plan that it decided on last.
-    pub committed: Committed,
     /// Body of the vehicle in the physics engine.
     pub body: VehicleBody,
 }
@@ -37,41 +30,59 @@ pub struct VehicleState {
 /// Every vehicle of a scenario at its start, in the scenario's order; each gets a body in `physics`.
 pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState> {
     let vehicles = scenario.vehicles.iter().zip(scenario.starts()).enumerate();
-    let vehicles = vehicles.map(|(index, (vehicle, state))| {
-        let goal = Goal {
-            target: vehicle.target(&scenario.road),
-            tracking: vehicle.weights.tracking(),
-            comfort: vehicle.weights.comfort(),
-            safety: vehicle.safety,
-        };
-        let input = Input { acceleration_mps2: vehicle.start_acceleration_mps2, steering_rad: 0.0 };
-        VehicleState {
-            identity: Identity { index, name: vehicle.name.clone() },
-            motion: Motion { state, input, crashed: false },
-            presence: Presence::at_start(&vehicle.stay),
-            parameters: VehicleParameters {
-                body: vehicle.body,
-                limits: vehicle.limits,
-                route: Arc::clone(&vehicle.route),
-                outline: vehicle.outline().cloned(),
-                stay: vehicle.stay,
-                record: vehicle.driver.record().map(Arc::new),
-            },
-            goal: VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
-            driving: Driving {
-                can_be_asked: vehicle.driver.can_be_asked(),
-                planner: vehicle.planner().with_deadline(scenario.plan_deadline(vehicle)),
-                goes_first: vehicle.driver.goes_first(),
-                knows_plans: vehicle.driver.knows_plans(),
-                keeps_rules: vehicle.keeps_rules(),
-                sensor: vehicle.sensor(scenario.seed),
-                sight: None,
-                detail: LevelOfDetail::of(scenario, index),
-            },
-            handed_in: HandedIn::awaited_if(vehicle.driver.is_driven_from_outside()),
-            committed: Committed::default(),
-            body: VehicleBody(physics.add(index, (&vehicle.body, vehicle.outline()), &state)),
-        }
+    let vehicles = vehicles.map(|(index, (vehicle, state))| VehicleState {
+        identity: Identity { name: vehicle.name.clone() },
+        row: TrafficRow(index),
+        driving: Driving {
+            planner: vehicle.planner().with_deadline(scenario.plan_deadline(vehicle)),
+            plan_ms: 0.0,
+            sensor: vehicle.sensor(scenario.seed),
+            sight: None,
+            detail: LevelOfDetail::of(scenario, index),
+        },
+        handed_in: HandedIn::awaited_if(vehicle.driver.is_driven_from_outside()),
+        body: VehicleBody(physics.add(index, (&vehicle.body, vehicle.outline()), &state)),
     });
     vehicles.collect()
+}
+
+/// The rows of all vehicles of a scenario at its start, in the scenario's order.
+pub fn road_users(scenario: &Scenario) -> Vec<RoadUser> {
+    scenario
+        .vehicles
+        .iter()
+        .zip(scenario.starts())
+        .map(|(vehicle, state)| road_user(scenario, vehicle, state))
+        .collect()
+}
+
+fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
+    let goal = Goal {
+        target: vehicle.target(&scenario.road),
+        tracking: vehicle.weights.tracking(),
+        comfort: vehicle.weights.comfort(),
+        safety: vehicle.safety,
+    };
+    let agent = Agent {
+        name: vehicle.name.clone(),
+        state,
+        previous_input: Input { acceleration_mps2: vehicle.start_acceleration_mps2, steering_rad: 0.0 },
+        body: vehicle.body,
+        limits: vehicle.limits,
+        route: Arc::clone(&vehicle.route),
+        prediction: Arc::default(),
+        shared_goal: vehicle.driver.shared_goal(&goal),
+        can_be_asked: vehicle.driver.can_be_asked(),
+        is_obstacle: vehicle.outline().is_some(),
+        rules: RoadRules::default(),
+        urgency: 1.0,
+    };
+    RoadUser {
+        knows_plans: vehicle.driver.knows_plans(),
+        keeps_rules: vehicle.keeps_rules(),
+        presence: vehicle.stay.presence_at_start(),
+        stay: vehicle.stay,
+        record: vehicle.driver.record().map(Arc::new),
+        ..RoadUser::new(agent, goal, vehicle.driver.goes_first())
+    }
 }

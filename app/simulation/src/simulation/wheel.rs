@@ -4,7 +4,7 @@ use interplay_planners::{Drive, Driver, Input};
 
 use super::Simulation;
 use crate::simulation::run_error::RunError;
-use crate::state::components::{Clock, Driving, HandedIn, Identity};
+use crate::state::components::{Clock, Driving, HandedIn};
 
 impl Simulation {
     /// From the next plan on a planner has the wheel of a vehicle that is driven from outside, or, without one, whoever hands in inputs
@@ -28,11 +28,9 @@ impl Simulation {
 
     /// A driver takes the wheel of a vehicle, or, without one, whoever hands in inputs.
     pub(super) fn give_wheel(&mut self, index: usize, to: Option<Box<dyn Drive>>) {
-        let mut vehicles = self.world.query::<(&Identity, &mut Driving, &mut HandedIn)>();
-        let mut found = vehicles.iter_mut(&mut self.world);
-        let Some((_, mut driving, mut handed_in)) = found.find(|(identity, ..)| identity.index == index) else {
-            return;
-        };
+        let entity = self.entity(index);
+        let mut vehicles = self.world.query::<(&mut Driving, &mut HandedIn)>();
+        let Ok((mut driving, mut handed_in)) = vehicles.get_mut(&mut self.world, entity) else { return };
         *handed_in = HandedIn::awaited_if(to.is_none());
         if let Some(driver) = to {
             driving.planner.replace_driver(driver);
@@ -44,21 +42,21 @@ impl Simulation {
     pub(super) fn repeat_inputs(&mut self) -> Result<(), RunError> {
         let plan = self.world.resource::<Clock>().plans();
         let scenario = std::sync::Arc::clone(&self.scenario);
-        for vehicle in &scenario.vehicles {
+        for (row, vehicle) in scenario.vehicles.iter().enumerate() {
             let Some(record) = vehicle.driver.inputs() else { continue };
             if let Some(to) = record.handed_over_at(plan) {
                 self.hand_over(&vehicle.name, to.and_then(Driver::of_kind).as_ref())?;
             }
-            self.repeat(&vehicle.name, record.at(plan));
+            self.repeat(row, record.at(plan));
         }
         Ok(())
     }
 
     /// Hands in an input, unless a planner has the wheel. It is part of the scenario and no input from outside of this run.
-    fn repeat(&mut self, vehicle: &str, input: Input) {
-        let mut vehicles = self.world.query::<(&Identity, &mut HandedIn)>();
-        let found = vehicles.iter_mut(&mut self.world).find(|(identity, _)| identity.name == vehicle);
-        if let Some((_, mut handed_in)) = found.filter(|(_, handed_in)| **handed_in != HandedIn::NotExternal) {
+    fn repeat(&mut self, row: usize, input: Input) {
+        let entity = self.entity(row);
+        let handed_in = self.world.get_mut::<HandedIn>(entity);
+        if let Some(mut handed_in) = handed_in.filter(|handed_in| **handed_in != HandedIn::NotExternal) {
             *handed_in = HandedIn::Input(input);
         }
     }

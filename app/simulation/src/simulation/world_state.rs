@@ -4,19 +4,16 @@
 //! miss it. Watchers are no state: they stay with the world that runs.
 
 use bevy_ecs::prelude::*;
+use interplay_planners::traffic::Traffic;
 use interplay_scenarios::Scenario;
 
 use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
 use crate::measure::{BuildingMeasures, Measures};
-use crate::phases::presence::Presence;
 use crate::phases::time_points::TimePoint;
 use crate::phases::watch::{Watcher, Watchers};
 use crate::physics::{Physics, VehicleBody};
 use crate::simulation::spawn::{self, VehicleState};
-use crate::state::components::{
-    Clock, Committed, CurrentFrame, Driving, HandedIn, Identity, LastVehicles, Motion, Sensed, VehicleGoal,
-    VehicleParameters,
-};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, Identity, TrafficRow};
 use crate::state::not_copied::NotCopied;
 
 /// All state of a world, watchers apart.
@@ -29,10 +26,8 @@ pub struct WorldState {
     pub clock: Clock,
     /// The time point of the last tick.
     pub time_point: TimePoint,
-    /// The traffic as it was sensed last.
-    pub sensed: Sensed,
-    /// The vehicles as they were in the last tick that had any.
-    pub last_vehicles: LastVehicles,
+    /// The traffic: all that the loop keeps of the vehicles.
+    pub traffic: CurrentTraffic,
     /// The last frame.
     pub current_frame: CurrentFrame,
     /// Measures of the vehicles so far.
@@ -60,18 +55,24 @@ impl WorldState {
             let measures = BuildingMeasures::new(&building, &scenario.controller());
             (building, measures)
         };
+        let clock = Clock {
+            tick: 0,
+            step_s: scenario.step_s,
+            horizon: scenario.horizon_steps,
+            ticks_per_plan: scenario.ticks_per_plan,
+        };
+        let traffic = CurrentTraffic(Traffic {
+            step_s: clock.planning_period_s(),
+            horizon: clock.horizon,
+            road_users: spawn::road_users(scenario),
+            ..Traffic::default()
+        });
         Ok(WorldState {
             vehicles,
             nodes,
-            clock: Clock {
-                tick: 0,
-                step_s: scenario.step_s,
-                horizon: scenario.horizon_steps,
-                ticks_per_plan: scenario.ticks_per_plan,
-            },
+            clock,
             time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
-            sensed: Sensed::default(),
-            last_vehicles: LastVehicles::default(),
+            traffic,
             current_frame: CurrentFrame::default(),
             measures: Measures::new(scenario),
             physics,
@@ -85,22 +86,18 @@ impl WorldState {
     /// [`NotCopied`] names what has no copy.
     pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
-        for (identity, motion, presence, parameters, goal, driving, handed_in, committed, body) in
-            world.try_query::<VehicleParts>().iter_mut().flat_map(|query| query.iter(world))
-        {
+        for entity in &world.resource::<Fleet>().0 {
+            let parts = world.try_query::<VehicleParts>();
+            let Some(mut parts) = parts else { continue };
+            let Ok((identity, row, driving, handed_in, body)) = parts.get(world, *entity) else { continue };
             vehicles.push(VehicleState {
                 identity: identity.clone(),
-                motion: *motion,
-                presence: *presence,
-                parameters: parameters.clone(),
-                goal: *goal,
+                row: *row,
                 driving: driving.fork(&identity.name)?,
                 handed_in: handed_in.clone(),
-                committed: committed.clone(),
                 body: *body,
             });
         }
-        vehicles.sort_by_key(|vehicle| vehicle.identity.index);
         let mut nodes: Vec<NodeState> = Vec::new();
         for (node, temperature, zone) in world.try_query::<NodeParts>().iter_mut().flat_map(|query| query.iter(world)) {
             let zone = zone.map(|(equipment, gains)| (*equipment, *gains));
@@ -116,8 +113,7 @@ impl WorldState {
             nodes,
             clock: *world.resource(),
             time_point: *world.resource(),
-            sensed: world.resource::<Sensed>().clone(),
-            last_vehicles: world.resource::<LastVehicles>().clone(),
+            traffic: world.resource::<CurrentTraffic>().clone(),
             current_frame: world.resource::<CurrentFrame>().clone(),
             measures: world.resource::<Measures>().clone(),
             physics: world.resource::<Physics>().fork(),
@@ -128,7 +124,8 @@ impl WorldState {
     /// The world in this state, seen by `watchers` from now on.
     pub fn into_world(self, watchers: Vec<Box<dyn Watcher>>) -> World {
         let mut world = World::new();
-        world.spawn_batch(self.vehicles);
+        let fleet = world.spawn_batch(self.vehicles).collect();
+        world.insert_resource(Fleet(fleet));
         for NodeState { node, temperature, zone } in self.nodes {
             let mut entity = world.spawn((node, temperature));
             if let Some(zone) = zone {
@@ -137,8 +134,7 @@ impl WorldState {
         }
         world.insert_resource(self.clock);
         world.insert_resource(self.time_point);
-        world.insert_resource(self.sensed);
-        world.insert_resource(self.last_vehicles);
+        world.insert_resource(self.traffic);
         world.insert_resource(self.current_frame);
         world.insert_resource(self.measures);
         world.insert_resource(self.physics);
@@ -155,17 +151,7 @@ impl WorldState {
 type NodeParts = (&'static Node, &'static Temperature, Option<(&'static Equipment, &'static Gains)>);
 
 /// The components of [`VehicleState`].
-type VehicleParts = (
-    &'static Identity,
-    &'static Motion,
-    &'static Presence,
-    &'static VehicleParameters,
-    &'static VehicleGoal,
-    &'static Driving,
-    &'static HandedIn,
-    &'static Committed,
-    &'static VehicleBody,
-);
+type VehicleParts = (&'static Identity, &'static TrafficRow, &'static Driving, &'static HandedIn, &'static VehicleBody);
 
 #[cfg(test)]
 mod tests {

@@ -1,84 +1,39 @@
 //! What the entities carry: components of vehicles, and the resources of a world.
 
-use std::sync::Arc;
-
 use bevy_ecs::prelude::*;
-use interplay_planners::drivers::recorded::Record;
 use interplay_planners::perception::sensing::{Sensor, Sight};
-use interplay_planners::traffic::{CommittedPlan, Traffic};
-use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
-use interplay_scenarios::{Outline, Stay};
+use interplay_planners::traffic::{RoadUser, Traffic};
+use interplay_planners::{Input, Planner};
 
 use crate::state::detail::LevelOfDetail;
-use crate::state::frame::{Frame, VehicleFrame};
+use crate::state::frame::Frame;
 use crate::state::not_copied::NotCopied;
 
-/// The identity of a vehicle: its index in the scenario, which is the order of everything that is listed, and its name.
+/// The name of a vehicle.
 #[derive(Component, Clone, Debug)]
 pub struct Identity {
-    /// Index in the scenario.
-    pub index: usize,
     /// Name in the scenario.
     pub name: String,
 }
 
-/// The motion of a vehicle.
-#[derive(Component, Clone, Copy, Debug)]
-pub struct Motion {
-    /// Present position, heading and speed.
-    pub state: State,
-    /// The input it applied last.
-    pub input: Input,
-    /// Whether it had a collision that left it unfit to go on; with the dynamic plant every one does.
-    pub crashed: bool,
-}
+/// The row of a vehicle in [`CurrentTraffic`], where all that the loop keeps of it stands.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrafficRow(pub usize);
 
-/// The parameters of a vehicle that do not change during a run.
-#[derive(Component, Clone, Debug)]
-pub struct VehicleParameters {
-    /// Body and axles.
-    pub body: Body,
-    /// The limits of its inputs and speed.
-    pub limits: Limits,
-    /// The road it may use.
-    pub route: Arc<Route>,
-    /// Its outline where it is an obstacle, which nobody drives.
-    pub outline: Option<Outline>,
-    /// When it is on the road.
-    pub stay: Stay,
-    /// The motion that it carries out, whatever its inputs are; none for a vehicle that its inputs move.
-    pub record: Option<Arc<Record>>,
-}
-
-impl VehicleParameters {
-    /// Whether others are told nothing of its plan: it follows a record at this time \[s\].
-    pub fn hides_plan_at(&self, time_s: f64) -> bool {
-        self.record.as_ref().is_some_and(|record| record.holds_at(time_s))
+impl TrafficRow {
+    /// The vehicle's row.
+    pub fn of(self, traffic: &CurrentTraffic) -> &RoadUser {
+        &traffic.0.road_users[self.0]
     }
-}
-
-/// The goal of a vehicle.
-#[derive(Component, Clone, Copy, Debug)]
-pub struct VehicleGoal {
-    /// The vehicle's goal.
-    pub goal: Goal,
-    /// The goal that it communicates to the others, if any.
-    pub shared: Option<Goal>,
 }
 
 /// The driver of a vehicle, with all that the planner remembers.
 #[derive(Component, Debug)]
 pub struct Driving {
-    /// Whether others can ask it to give way.
-    pub can_be_asked: bool,
     /// The planner.
     pub planner: Planner,
-    /// Whether it plans before those who rely on knowing its plan.
-    pub goes_first: bool,
-    /// Whether it is told the plans of the others.
-    pub knows_plans: bool,
-    /// Whether it keeps all rules of the road.
-    pub keeps_rules: bool,
+    /// Wall time of the plan of this tick, 0 without one \[ms\].
+    pub plan_ms: f64,
     /// Sensor of the vehicle; `None` for one that sees everybody as it is.
     pub sensor: Option<Sensor>,
     /// The vehicles that the sensor sees in this tick.
@@ -93,13 +48,9 @@ impl Driving {
     /// # Errors
     /// [`NotCopied`] if the driver does not fork.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
-        let Driving { can_be_asked, goes_first, knows_plans, keeps_rules, .. } = *self;
         Ok(Driving {
-            can_be_asked,
             planner: self.planner.fork().ok_or_else(|| NotCopied::driver_of(name))?,
-            goes_first,
-            knows_plans,
-            keeps_rules,
+            plan_ms: self.plan_ms,
             sensor: self.sensor.clone(),
             sight: self.sight.clone(),
             detail: self.detail.as_ref().map(|detail| detail.fork(name)).transpose()?,
@@ -135,10 +86,6 @@ impl HandedIn {
         }
     }
 }
-
-/// The plan that a vehicle decided on last; others predict it, and it is continued if the planner fails.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Committed(pub CommittedPlan);
 
 /// Simulated time.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -186,14 +133,13 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
     (time_s * 1e9).round() / 1e9
 }
 
-/// All vehicles as plain values, in the scenario's order; sensed anew every tick.
+/// All vehicles as plain values, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Sensed(pub Traffic);
+pub struct CurrentTraffic(pub Traffic);
 
-/// The vehicles as they were in the last tick that had any, while the next one is made of them: those follow their plans until they
-/// plan again.
+/// The entity of every vehicle, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct LastVehicles(pub Vec<VehicleFrame>);
+pub struct Fleet(pub Vec<Entity>);
 
 /// The frame of the current tick, which the phases fill in.
 #[derive(Resource, Clone, Debug, Default)]

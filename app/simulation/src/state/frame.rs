@@ -6,6 +6,7 @@ use interplay_building::control::Design;
 use interplay_planners::plan::diagnostic;
 use interplay_planners::rules::RoadRules;
 pub use interplay_planners::traffic::Origin;
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
 use serde::Serialize;
 
@@ -96,7 +97,7 @@ pub struct VehicleFrame {
     /// Input that the vehicle applies during the tick.
     pub input: Input,
     /// The plan that it follows; after a failure, the fallback.
-    pub plan: Plan,
+    pub plan: Arc<Plan>,
     /// Where the plan comes from.
     pub origin: Origin,
     /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
@@ -111,6 +112,23 @@ pub struct VehicleFrame {
 }
 
 impl VehicleFrame {
+    /// A vehicle after it decided and before it moves; `plan_ms` is the wall time of its plan \[ms\].
+    pub(crate) fn of(user: &RoadUser, plan_ms: f64) -> Self {
+        let agent = &user.agent;
+        VehicleFrame {
+            name: agent.name.clone(),
+            is_absent: user.is_absent(),
+            state: agent.state,
+            input: if user.is_absent() { Input::default() } else { agent.previous_input },
+            plan: Arc::clone(&user.plan),
+            origin: user.origin,
+            prediction: Arc::clone(&agent.prediction),
+            rules: agent.rules.clone(),
+            urgency: agent.urgency,
+            plan_ms,
+        }
+    }
+
     /// The cost of the plan; none of a plan that no cost chose.
     pub fn plan_cost(&self) -> Option<f64> {
         self.plan.value_of(&diagnostic::COST)

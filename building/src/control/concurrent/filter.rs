@@ -1,7 +1,7 @@
-//! The Q that is worth most under an uncertain disturbance (eq. 4.27, corrected).
+//! The design of the Youla filter Q with the least expected cost (eq. 4.27, corrected).
 //!
 //! As printed, Q does not enter the optimal cost at all, only its bounds, and the Q that a solver returns can be far worse
-//! than none. Here it minimises the expected cost of disturbances with the spectrum that they have,
+//! than Q = 0. Here Q minimises the expected cost under disturbances with their actual spectrum,
 //!
 //! ```text
 //! ‖W_e^½ (I − GQ) G H‖² + ‖W_u^½ Q G H‖²             H: impulse responses of first-order noise, own and common
@@ -24,14 +24,15 @@ use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::control::uncertainty::Uncertainty;
 use crate::lifted::Lifted;
+use crate::staged::dense::dot;
 
 /// The largest number of entries of all taps that is designed.
-pub const MOST_UNKNOWNS: usize = 1024;
+const MOST_UNKNOWNS: usize = 1024;
 /// Cost of the sum of the squares of all taps, which keeps the normal equations definite where a tap has no effect. It is taken
 /// off the reported cost again.
 const TAP_COST: f64 = 1e-9;
 /// The largest number of inputs of a day: the covariance has the square of that many entries.
-pub const MOST_INPUTS: usize = 2400;
+const MOST_INPUTS: usize = 2400;
 /// The default of γ₂, as a multiple of ‖h₁‖.
 const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
 /// The default of γ₂ where no taps within γ_q satisfy that, as a multiple of the least that they do.
@@ -117,11 +118,7 @@ fn mean(values: &[f64]) -> f64 {
     first + values.iter().map(|value| value - first).sum::<f64>() / values.len().max(1) as f64
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Refuses what no disturbance and no day can make work.
+/// Refuses settings that no disturbance and no day can satisfy.
 ///
 /// # Errors
 /// [`ControlError::TooManyUnknowns`]; [`ControlError::BelowFloor`] if γ₂ is stated, and no Q within γ_q satisfies it.
@@ -240,7 +237,7 @@ fn rows_within(program: &mut Program, theta: Variables, n: usize, gamma_q: f64) 
     }
 }
 
-/// ‖t₀ + Σ θ_k t_k‖ for impulses of heat, as ‖R [θ; 1]‖ with R triangular.
+/// The norm ‖t₀ + Σ θ_k t_k‖ under impulses of heat, written as ‖R [θ; 1]‖ with R triangular.
 struct Robust {
     triangular: DMatrix<f64>,
 }
@@ -280,7 +277,7 @@ impl Robust {
 }
 
 impl Lifted {
-    /// ‖h₁‖ in the Frobenius norm: what an impulse of heat in each zone does before anybody can answer \[K/kW\].
+    /// ‖h₁‖ in the Frobenius norm: the effect of an impulse of heat in each zone before the feedback can act \[K/kW\].
     fn product_norm_of_a_step(&self) -> f64 {
         let b = self.model().gain_matrix();
         b.view((0, 0), (self.zones(), self.zones())).norm()

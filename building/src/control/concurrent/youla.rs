@@ -36,7 +36,7 @@ impl YoulaFilter {
         out
     }
 
-    /// n.
+    /// Number of zones.
     fn zones(&self) -> usize {
         self.0.first().map_or(1, DMatrix::nrows)
     }
@@ -47,7 +47,7 @@ impl YoulaFilter {
         (0..self.zones()).map(row).fold(0.0, f64::max)
     }
 
-    /// What disturbances, the columns of `factor`, do under this feedback: T = G (I − QG) d and U = −QG d.
+    /// The response to disturbances, the columns of `factor`, under this feedback: T = G (I − QG) d and U = −QG d.
     pub fn response(&self, lifted: &Lifted, factor: &DMatrix<f64>) -> Response {
         let shape = factor.shape();
         let (mut temperatures_k, mut inputs_kw) = (DMatrix::zeros(shape.0, shape.1), DMatrix::zeros(shape.0, shape.1));
@@ -68,27 +68,6 @@ impl YoulaFilter {
     /// (eq. 4.12, corrected). With the printed α, one vector for all zones, Q₀ = 50 (I − 11ᵀ/4) would be invisible.
     pub fn impulse_norm(&self, lifted: &Lifted) -> f64 {
         self.response(lifted, &impulses(lifted)).temperatures_k.norm()
-    }
-
-    /// C = (I − QG)⁻¹ Q, n·N by n·N \[kW/K\] (eq. 4.29): column by column, forwards in time.
-    pub fn feedback_matrix(&self, lifted: &Lifted) -> DMatrix<f64> {
-        let size = lifted.size();
-        let mut matrix = DMatrix::zeros(size, size);
-        for column in 0..size {
-            let mut state = StateSpace::new(self.clone(), lifted.model());
-            let n = lifted.zones();
-            for t in 0..lifted.steps() {
-                // At time t the error of row t − 1 is known.
-                let mut error_k = vec![0.0; n];
-                if t > 0 && column / n == t - 1 {
-                    error_k[column % n] = 1.0;
-                }
-                let heat_kw = state.answer(&error_k);
-                matrix.view_mut((t * n, column), (n, 1)).copy_from_slice(&heat_kw);
-                state.advance(&heat_kw);
-            }
-        }
-        matrix
     }
 }
 
@@ -121,7 +100,7 @@ impl StateSpace {
         Self { filter, model: model.clone(), state: vec![0.0; nodes], past: vec![vec![0.0; n]; count] }
     }
 
-    /// The feedback u_fb(t) for the error e(t) \[K\]; at t = 0 there is no error yet: pass zeros.
+    /// The feedback u_fb(t) for the error e(t) \[K\]; pass zeros at t = 0, when no error is known.
     pub fn answer(&mut self, error_k: &[f64]) -> Vec<f64> {
         let y = error_k.iter().zip(&self.state).map(|(e, x)| x + e).collect();
         self.past.rotate_right(1);

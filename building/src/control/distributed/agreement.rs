@@ -28,7 +28,7 @@
 //! Momentum is within 0.1 % of the centralised optimum after 40 rounds on the grids of the tests, and after 400 on 50 random
 //! networks where limits and comfort bounds bind. Line search needs 200 on the grids; Jacobi's share 1/n leaves up to 1 %
 //! after 800, and several tens of percent where bounds bind: descent, not optimality. A zone whose own problem has no solution
-//! keeps its inputs for the round; if that happens to all of them, there is no plan.
+//! keeps its inputs for the round; if that happens to all zones, the exchange fails.
 //!
 //! The variables are the inputs u_i, so that the limits are those of each zone alone; with the printed u_ff,i they are coupled
 //! through the feedback, and the zones stall above the optimum where limits bind.

@@ -32,7 +32,7 @@ enum Subject {
     Direction,
 }
 
-/// What the zone of a node knows of a neighbouring node of another zone.
+/// A link over which a zone receives the series of a neighbouring node of another zone.
 #[derive(Clone, Debug)]
 struct Edge {
     /// The node that the messages describe.
@@ -138,12 +138,12 @@ impl Messages {
         self.undelivered = 0;
     }
 
-    /// Whose neighbours' temperatures a zone has heard: (zone, series at the ends of the steps but the last).
+    /// The neighbours of a zone.
     pub fn neighbours(&self, zone: usize) -> impl Iterator<Item = usize> + '_ {
         self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
     }
 
-    /// How many rounds ago the oldest message that each zone uses was sent, not counting silent zones and late messages.
+    /// Age in rounds of the oldest message that each zone uses; silent zones and messages that are late by design do not count.
     pub fn staleness(&self) -> Vec<usize> {
         let mut oldest = vec![0; self.sent.len()];
         for edge in &self.edges {

@@ -5,7 +5,7 @@
 //! zone, `agreement` the rounds, [`cooperative`](super::cooperative) the learning from neighbours and its convergence.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the "exponential"
-//! growth of the source belongs to the dense form. The advantages of the exchange are privacy and robustness: a zone informs
+//! growth of the dissertation belongs to the dense form. The advantages of the exchange are privacy and robustness: a zone informs
 //! its neighbours only, and the others continue when one fails.
 
 mod agreement;

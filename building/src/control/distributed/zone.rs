@@ -4,7 +4,7 @@
 //! min over d, lo ≤ d ≤ hi:   gᵀd + ½ dᵀP d + c Σ_r [ φ(v_r + a_rᵀd) − φ(v_r) − φ'(v_r) a_rᵀd ],     φ(v) = max(v, 0)²
 //! ```
 //!
-//! g is the gradient of the whole J, which came with the neighbours' messages and includes everybody's comfort. P is the
+//! g is the gradient of the whole J, which came with the neighbours' messages and includes the comfort of all zones. P is the
 //! curvature of J in this zone's inputs, known beforehand, with that of the comfort bounds of distant zones as if they were all
 //! violated. Rows r are the comfort bounds of the zone and its neighbours, whose temperatures it knows.
 //! Rows that are not violated now take part, since they may be after the step: leaving them out breaks the descent.
@@ -192,7 +192,7 @@ mod tests {
         }
     }
     #[test]
-    fn what_has_no_single_solution_is_said_to_have_none() {
+    fn a_problem_without_a_unique_minimum_returns_none() {
         let flat = DMatrix::zeros(2, 2);
         let problem = |curvature, gradient| ZoneProblem {
             gradient,

@@ -1,4 +1,4 @@
-//! What the zones know before they talk.
+//! What each zone knows before the first message: its responses and the curvature of the common cost.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;

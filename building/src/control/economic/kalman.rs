@@ -17,7 +17,7 @@ use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::staged::dense::product;
 
-/// Most doublings; each squares the error.
+/// Maximum number of doublings; each squares the error.
 const MAX_DOUBLINGS: usize = 40;
 /// The doublings end when the covariance changes by at most this share.
 const MAX_CHANGE: f64 = 1e-12;
@@ -25,7 +25,7 @@ const MAX_CHANGE: f64 = 1e-12;
 /// The filter with its estimates.
 #[derive(Clone, Debug)]
 pub(super) struct Kalman {
-    /// A single step, to tell heat from temperatures.
+    /// The model over a single step, which infers heat from temperatures.
     one_step: Lifted,
     /// Gain of nodes and missed heat, (nodes + zones) by zones.
     gain: DMatrix<f64>,
@@ -35,7 +35,7 @@ pub(super) struct Kalman {
     pub nodes_c: Vec<f64>,
     /// Estimated heat that the forecast misses \[kW\], of each zone.
     pub missed_kw: Vec<f64>,
-    /// The missed heat that went into the last prediction; `None` if there is no prediction to correct.
+    /// The missed heat that went into the last prediction; `None` before the first prediction.
     predicted_with_kw: Option<Vec<f64>>,
 }
 
@@ -58,7 +58,7 @@ impl Kalman {
         libm::pow(self.persistence, steps as f64)
     }
 
-    /// Temperatures of all nodes are told before the first day; afterwards those of the zones alone count.
+    /// Starts a day: the temperatures of all nodes are used before the first day, afterwards only those of the zones.
     pub fn begin(&mut self, nodes_c: &[f64]) -> Option<Vec<f64>> {
         if self.nodes_c.is_empty() {
             self.nodes_c = nodes_c.to_vec();
@@ -67,8 +67,8 @@ impl Kalman {
         self.measure(&nodes_c[..self.missed_kw.len()])
     }
 
-    /// Corrects the prediction by measured temperatures of the zones \[°C\]. Returns the heat of the last step that nobody
-    /// forecast \[kW\], as if it were all of the zones; `None` without a prediction.
+    /// Corrects the prediction by measured temperatures of the zones \[°C\]. Returns the heat of the last step that was not
+    /// forecast \[kW\], as if all of it entered the zones; `None` without a prediction.
     pub fn measure(&mut self, zones_c: &[f64]) -> Option<Vec<f64>> {
         if !zones_c.iter().all(|temperature_c| temperature_c.is_finite()) {
             return None;

@@ -22,6 +22,7 @@ pub use settings::EconomicSettings;
 use super::interface::ControllerKind;
 use super::money_stages::{Prices, Span, energy_price, inputs, stage};
 use super::optimum::check_size;
+use super::receding_plan::RecedingPlan;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
@@ -49,11 +50,7 @@ pub struct Economic {
     end_value: Vec<f64>,
     /// The highest electric power so far \[kW\].
     peak_kw: f64,
-    /// The last plan: heat of each zone \[kW\], stacked by steps, and how many of its steps are over.
-    planned_kw: Vec<f64>,
-    planned_steps_ago: usize,
-    trouble: Option<ControlError>,
-    days_in_trouble: usize,
+    plan: RecedingPlan,
 }
 
 impl Economic {
@@ -77,10 +74,7 @@ impl Economic {
             steps,
             end_value: vec![0.0; network.node_count()],
             peak_kw: 0.0,
-            planned_kw: Vec::new(),
-            planned_steps_ago: 0,
-            trouble: None,
-            days_in_trouble: 0,
+            plan: RecedingPlan::default(),
             model: model.clone(),
         })
     }
@@ -180,12 +174,6 @@ impl Economic {
         &self.forecast.gains_kw[t * count..(t + 1) * count]
     }
 
-    /// The heat of the last plan for now; none beyond its end.
-    fn planned_now(&self, zones: usize) -> Vec<f64> {
-        let from = self.planned_steps_ago * zones;
-        self.planned_kw.get(from..from + zones).map_or_else(|| vec![0.0; zones], <[f64]>::to_vec)
-    }
-
     /// Learns what the forecast missed in the step before `step`.
     fn note(&mut self, step: usize, unforecast_kw: Option<Vec<f64>>) {
         let zones = self.filter.missed_kw.len();
@@ -243,15 +231,8 @@ impl Control for Economic {
             let unforecast_kw = self.filter.measure(observation.temperatures_c);
             self.note(step - 1, unforecast_kw);
         }
-        self.planned_steps_ago += 1;
-        self.trouble = match self.plan(step, observation.targets) {
-            Ok(planned_kw) => {
-                (self.planned_kw, self.planned_steps_ago) = (planned_kw, 0);
-                None
-            }
-            Err(why) => Some(ControlError::StepWithoutPlan { step, why: Box::new(why) }),
-        };
-        let heat_kw = self.model.network().limits().limited_all(&self.planned_now(zones));
+        let outcome = self.plan(step, observation.targets);
+        let heat_kw = self.model.network().limits().limited_all(&self.plan.adopt(step, zones, outcome));
         let ambient_c = self.forecast.ambient_c[step];
         let mut gains_kw = self.gains_kw(step).to_vec();
         gains_kw.iter_mut().zip(self.learned.bias_kw(step, zones)).for_each(|(gain, bias)| *gain += bias);
@@ -262,17 +243,17 @@ impl Control for Economic {
     }
 
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        self.days_in_trouble = record.design.fallbacks;
+        self.plan.days_with_failures = record.design.fallbacks;
         Ok(())
     }
 
     fn design(&self) -> Design {
         let bias_kw = self.learned.all_kw(self.filter.missed_kw.len());
-        Design { fallbacks: self.days_in_trouble, bias_kw, ..Design::default() }
+        Design { fallbacks: self.plan.days_with_failures, bias_kw, ..Design::default() }
     }
 
     fn trouble(&self) -> Option<&ControlError> {
-        self.trouble.as_ref()
+        self.plan.failure.as_ref()
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

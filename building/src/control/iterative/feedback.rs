@@ -47,7 +47,7 @@ impl Response {
     }
 
     /// Standard deviations of the temperatures \[K\], stacked.
-    pub fn temperature_deviation_k(&self) -> Vec<f64> {
+    pub(crate) fn temperature_deviation_k(&self) -> Vec<f64> {
         row_norms(&self.temperatures_k)
     }
 }
@@ -97,7 +97,7 @@ pub fn optimal_causal(
     Ok(response)
 }
 
-/// The response under u(t) = K e(t), K zones by zones \[kW/K\]; at t = 0 there is no error yet.
+/// The response under u(t) = K e(t), K zones by zones \[kW/K\]; at t = 0 no error is known.
 pub fn static_feedback(lifted: &Lifted, gain: &DMatrix<f64>, factor: &DMatrix<f64>) -> Response {
     let (model, n) = (lifted.model(), lifted.zones());
     let nodes = model.network().node_count();

@@ -8,7 +8,7 @@
 //! u(t) = û(t) + K (T̂(t) − T(t))
 //! ```
 //!
-//! The source's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
+//! The dissertation's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
 //! the nominal inputs. They are found as a sparse problem with temperatures as variables. The last line is U_ff = Û − K Ê.
 //!
 //! Where limits bind, feedback and plan compete for them. [`joint`] finds both together and designs each several times.
@@ -22,13 +22,11 @@ pub mod guard;
 pub mod joint;
 pub mod projection;
 mod settings;
-mod size;
 mod static_feedback;
 
 use nalgebra::DMatrix;
 
 pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objective, Stability};
-pub use size::{MOST_LINEAR_TEMPERATURES, MOST_LMI_TEMPERATURES, MOST_UNKNOWNS};
 pub use static_feedback::StaticFeedback;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
@@ -74,7 +72,7 @@ impl Iterative {
     pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         if settings.objective == Objective::Expected {
-            size::check(&settings, &lifted)?;
+            settings.check_size(&lifted)?;
             decay::chosen(&settings, lifted.model())?;
         }
         let n = lifted.zones();

@@ -18,7 +18,7 @@ use nalgebra::{Cholesky, DMatrix};
 
 use super::feedback::Response;
 use crate::control::ControlError;
-use crate::control::stability::{Certificate, Lmi, Spare};
+use crate::control::stability::Certificate;
 use crate::lifted::Lifted;
 
 /// A linear combination of variables.
@@ -93,7 +93,7 @@ impl<'a> Projection<'a> {
             let driven = (0..n).filter(|_| j < n).map(|k| (gain(k, j), -b[(i, k)]));
             drift.chain(driven).collect()
         };
-        certificate.inequality(&mut program, Lmi::Corrected { decay }, moved, Spare::Fixed(LMI_MARGIN));
+        certificate.inequality(&mut program, decay, moved, LMI_MARGIN);
         certificate.positive(&mut program, LEAST_S);
         certificate.unit_trace(&mut program);
         let scale: Vec<Variable> = fit.scale.iter().filter_map(|&(i, j)| certificate.f(i, j)).collect();

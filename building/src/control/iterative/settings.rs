@@ -4,8 +4,18 @@ use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::control::ControlError;
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
+use crate::lifted::Lifted;
+
+/// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
+const MOST_UNKNOWNS: usize = 1200;
+/// The largest number of temperatures, of zones and walls, for which the matrix inequality is solved. Its time grows with the
+/// sixth power of that number: a design of 24 takes some ten seconds.
+const MOST_LMI_TEMPERATURES: usize = 24;
+/// The largest number of temperatures, of zones and walls, for which the linear certificate is computed.
+const MOST_LINEAR_TEMPERATURES: usize = 256;
 
 /// The objective that the design minimises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -130,5 +140,25 @@ impl IterativeSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
         setting::check(self)
+    }
+
+    /// Refuses a building that is too large for dense matrices.
+    pub(super) fn check_size(&self, lifted: &Lifted) -> Result<(), ControlError> {
+        let (found, most) = (lifted.size(), MOST_UNKNOWNS);
+        if found > most {
+            return Err(ControlError::TooManyUnknowns { design: "iterative", found, most });
+        }
+        let (nodes, zones) = (lifted.model().network().node_count(), lifted.zones());
+        let (certificate, most, remedy) = match self.stability {
+            Stability::Lmi | Stability::LeastSquares => {
+                ("the matrix inequality", MOST_LMI_TEMPERATURES, "set `stability = \"linear\"`")
+            }
+            Stability::Linear => ("the linear certificate", MOST_LINEAR_TEMPERATURES, "use the distributed design"),
+            Stability::Fixed => return Ok(()),
+        };
+        if nodes > most {
+            return Err(ControlError::TooManyTemperatures { certificate, remedy, zones, nodes, most });
+        }
+        Ok(())
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::guard::robust_gain;
 use super::projection::Projection;
-use super::{IterativeSettings, Stability, decay, feedback, size};
+use super::{IterativeSettings, Stability, decay, feedback};
 use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::control::stability::{closed_loop, positive_decay, spectral_radius};
@@ -47,7 +47,7 @@ impl StaticFeedback {
         covariance: DMatrix<f64>,
         price: &[f64],
     ) -> Result<Self, ControlError> {
-        size::check(settings, lifted)?;
+        settings.check_size(lifted)?;
         let factor = factor(covariance)?;
         let causal = feedback::optimal_causal(lifted, targets, &factor, price)?;
         let loops = Loops::new(settings, lifted)?;

@@ -17,6 +17,7 @@ pub use settings::PredictiveSettings;
 
 use super::interface::ControllerKind;
 use super::optimum::{ConstraintTightening, plan};
+use super::receding_plan::RecedingPlan;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
@@ -25,7 +26,7 @@ use estimate::Estimate;
 
 /// Most inputs of a plan (zones times steps of the horizon): a programme of that size takes some tenths of a second, and a day
 /// has one for each step.
-pub const MOST_INPUTS: usize = 1024;
+const MOST_INPUTS: usize = 1024;
 
 /// A model predictive controller with its estimate.
 #[derive(Clone, Debug)]
@@ -35,13 +36,7 @@ pub struct Predictive {
     lifted: Lifted,
     estimate: Estimate,
     forecast: Disturbance,
-    /// The last plan \[kW\], stacked, and how many of its steps are over.
-    planned_kw: Vec<f64>,
-    planned_steps_ago: usize,
-    /// Why the last step has no plan of its own.
-    trouble: Option<ControlError>,
-    /// Days over with such steps.
-    days_in_trouble: usize,
+    plan: RecedingPlan,
 }
 
 impl Predictive {
@@ -61,10 +56,7 @@ impl Predictive {
             estimate: Estimate::new(model, settings.learning_rate),
             lifted,
             forecast: Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() },
-            planned_kw: Vec::new(),
-            planned_steps_ago: 0,
-            trouble: None,
-            days_in_trouble: 0,
+            plan: RecedingPlan::default(),
         })
     }
 
@@ -91,13 +83,6 @@ impl Predictive {
     fn gains_kw(&self, t: usize) -> &[f64] {
         let count = self.lifted.model().network().gain_count();
         &self.forecast.gains_kw[t * count..(t + 1) * count]
-    }
-
-    /// The inputs of the last plan for now; none beyond its end.
-    fn planned_now(&self) -> Vec<f64> {
-        let zones = self.lifted.zones();
-        let from = self.planned_steps_ago * zones;
-        self.planned_kw.get(from..from + zones).map_or_else(|| vec![0.0; zones], <[f64]>::to_vec)
     }
 }
 
@@ -138,31 +123,24 @@ impl Control for Predictive {
         if step > 0 {
             self.estimate.measure(observation.temperatures_c);
         }
-        self.planned_steps_ago += 1;
-        self.trouble = match self.plan(step, observation.targets) {
-            Ok(planned_kw) => {
-                (self.planned_kw, self.planned_steps_ago) = (planned_kw, 0);
-                None
-            }
-            Err(why) => Some(ControlError::StepWithoutPlan { step, why: Box::new(why) }),
-        };
-        let heat_kw = self.planned_now();
+        let outcome = self.plan(step, observation.targets);
+        let heat_kw = self.plan.adopt(step, self.lifted.zones(), outcome);
         let (ambient_c, gains_kw) = (self.forecast.ambient_c[step], self.gains_kw(step).to_vec());
         self.estimate.predict(&heat_kw, ambient_c, &gains_kw);
         heat_kw
     }
 
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        self.days_in_trouble = record.design.fallbacks;
+        self.plan.days_with_failures = record.design.fallbacks;
         Ok(())
     }
 
     fn design(&self) -> Design {
-        Design { fallbacks: self.days_in_trouble, ..Design::default() }
+        Design { fallbacks: self.plan.days_with_failures, ..Design::default() }
     }
 
     fn trouble(&self) -> Option<&ControlError> {
-        self.trouble.as_ref()
+        self.plan.failure.as_ref()
     }
 
     fn fork(&self) -> Option<Box<dyn Control>> {

@@ -16,7 +16,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Arma, is_stable, moving_average_inverted, whitened};
 use crate::identify::IdentifyError;
-use crate::identify::normal::{dot, positive_definite, robust_covariance};
+use crate::identify::normal::{positive_definite, robust_covariance};
+use crate::staged::dense::dot;
 
 /// The largest moving-average coefficient. Beyond it, the inverse filter does not decay.
 const MAX_MOVING_AVERAGE: f64 = 0.98;

@@ -29,7 +29,7 @@ mod tests {
     proptest! {
         /// A second-order autoregression is stable within a triangle.
         #[test]
-        fn second_order_is_the_triangle(a1 in -2.5..2.5, a2 in -1.5..1.5) {
+        fn a_second_order_autoregression_is_stable_within_the_known_triangle(a1 in -2.5..2.5, a2 in -1.5..1.5) {
             let margin: f64 = [1.0 - a2 - a1, 1.0 - a2 + a1, 1.0 + a2].into_iter().fold(f64::MAX, f64::min);
             prop_assume!(margin.abs() > 1e-3);
             prop_assert_eq!(is_stable(&[a1, a2]), margin > 0.0);
@@ -37,7 +37,7 @@ mod tests {
 
         /// Third order, made from its roots.
         #[test]
-        fn third_order_follows_its_roots(p in -1.3..1.3, q in -1.3..1.3, s in -1.3..1.3) {
+        fn a_third_order_autoregression_is_stable_if_its_roots_are_inside_the_unit_circle(p in -1.3..1.3, q in -1.3..1.3, s in -1.3..1.3) {
             prop_assume!([p, q, s].iter().all(|root: &f64| (root.abs() - 1.0).abs() > 1e-2));
             let alpha: [f64; 3] = [p + q + s, -(p * q + q * s + p * s), p * q * s];
             prop_assert_eq!(is_stable(&alpha), [p, q, s].iter().all(|root: &f64| root.abs() < 1.0));

@@ -52,7 +52,7 @@ fn no_step_away_from_the_fit_lowers_the_sum_of_squares() {
 
 /// For a given μ the filtered series obeys a linear regression; the best μ on a fine grid must be the fit's.
 #[test]
-fn a_search_over_the_moving_average_finds_the_same() {
+fn a_grid_search_over_the_moving_average_finds_the_same_minimum() {
     let (series, segments) = process(5, 500, 0.0);
     let found = fit(&[], &series, &segments, 2).expect("enough rows");
     let regression = |mu: f64| {
@@ -78,7 +78,7 @@ fn a_search_over_the_moving_average_finds_the_same() {
 
 /// Bias within two standard errors of the mean, and intervals of 95 % that hold the truth about as often as that.
 #[test]
-fn truth_is_recovered_and_standard_errors_are_honest() {
+fn true_parameters_lie_within_their_confidence_intervals() {
     const SEEDS: u64 = 40;
     let truth = [0.1, TRUTH.0[0], TRUTH.0[1], TRUTH.1];
     let (mut sums, mut squares, mut covered) = ([0.0; 4], [0.0; 4], 0);
@@ -106,7 +106,7 @@ fn truth_is_recovered_and_standard_errors_are_honest() {
 
 /// What the corrected M-step (2.14) converges to: least squares of the autoregression alone. It is biased by the moving average.
 #[test]
-fn an_autoregression_alone_is_biased() {
+fn an_autoregression_without_moving_average_is_biased() {
     let mut error = 0.0;
     for seed in 0..10 {
         let (series, segments) = process(seed, 1500, 0.0);
@@ -120,7 +120,7 @@ fn an_autoregression_alone_is_biased() {
 }
 
 #[test]
-fn a_forecast_goes_on_as_the_process_without_chance() {
+fn a_forecast_follows_the_process_without_new_noise() {
     let arma = Arma { autoregressive: vec![1.55, -0.6], moving_average: 0.4, innovation_sd: 0.02 };
     let forecast = arma.forecast(&[9.0, 1.0, 2.0], 0.5, 3);
     let first = 1.55 * 2.0 - 0.6 * 1.0 + 0.4 * 0.5;

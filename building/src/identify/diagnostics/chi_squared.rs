@@ -57,7 +57,7 @@ mod tests {
 
     /// With two degrees of freedom it is an exponential, with four twice an Erlang: closed forms.
     #[test]
-    fn even_degrees_have_a_closed_form() {
+    fn the_chi_squared_tail_of_even_degrees_has_its_closed_form() {
         for step in 1..400 {
             let x = f64::from(step) * 0.25;
             let half = x / 2.0;
@@ -70,7 +70,7 @@ mod tests {
 
     /// Tabulated 5 % points.
     #[test]
-    fn the_five_percent_points_are_those_of_the_tables() {
+    fn five_percent_points_of_chi_squared_match_published_tables() {
         for (degrees, value) in [(1.0, 3.841_458_820_694), (10.0, 18.307_038_053_275), (45.0, 61.656_233_376_279_6)] {
             assert!((survival(value, degrees) - 0.05).abs() < 1e-9);
         }
@@ -78,7 +78,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_falls_from_one_to_zero(degrees in 1.0..200.0_f64, low in 0.0..300.0, more in 0.01..50.0) {
+        fn the_chi_squared_tail_falls_from_one_to_zero(degrees in 1.0..200.0_f64, low in 0.0..300.0, more in 0.01..50.0) {
             let (a, b) = (survival(low, degrees), survival(low + more, degrees));
             prop_assert!((0.0..=1.0).contains(&a) && b <= a + 1e-14);
         }

@@ -73,7 +73,7 @@ mod tests {
 
     /// Parseval: the power over all frequencies is n Σ x² (frequencies above one half mirror those below).
     #[test]
-    fn it_keeps_the_energy() {
+    fn the_periodogram_obeys_parsevals_theorem() {
         let series: Vec<f64> = (0..101).map(|t| f64::from((t * 31) % 17) - 8.0).collect();
         let mean = series.iter().sum::<f64>() / 101.0;
         let energy: f64 = 101.0 * series.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
@@ -83,7 +83,7 @@ mod tests {
 
     /// The definition, summed term by term.
     #[test]
-    fn it_is_the_discrete_fourier_transform() {
+    fn the_periodogram_is_the_squared_discrete_fourier_transform() {
         for n in [16, 97, 240, 1009] {
             let series: Vec<f64> = (0..n).map(|t| f64::from((t * 7919) % 1013) / 1013.0 - 0.5).collect();
             let energy = f64::from(n) * series.iter().map(|x| x * x).sum::<f64>();
@@ -98,7 +98,7 @@ mod tests {
 
     /// Structure that begins late in a long series counts too.
     #[test]
-    fn long_series_are_looked_at_to_their_end() {
+    fn structure_late_in_a_long_series_is_detected() {
         let mut series = scramble(60_000);
         let white = boundary_excess(&series).expect("long enough");
         for (t, value) in series.iter_mut().enumerate().skip(30_000) {
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_wave_leaves_the_band_and_a_scramble_does_not() {
+    fn a_slow_wave_leaves_the_band_of_white_noise_and_noise_does_not() {
         let wave: Vec<f64> = (0..500).map(|t| (f64::from(t) * 0.05).sin()).collect();
         assert!(boundary_excess(&wave).expect("long enough") > 0.2);
         assert!(boundary_excess(&scramble(500)).expect("long enough") < 1e-3);

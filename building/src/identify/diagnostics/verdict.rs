@@ -8,9 +8,6 @@ pub(in crate::identify) const STANDARD_ERRORS_OF_95_PERCENT: f64 = 1.96;
 /// Largest standard error, as a share of the value, of a coefficient that is not called weak. Chosen: the interval of 95 % is
 /// then about ±50 % of the value.
 const MAX_RELATIVE_STANDARD_ERROR: f64 = 0.25;
-/// Largest magnitude of the correlation of two estimates that are told apart. Two regressors so correlated inflate the variance
-/// of their coefficients tenfold, 1/(1 − 0.95²), the customary limit of collinearity.
-const MAX_SEPARABLE_CORRELATION: f64 = 0.95;
 
 /// Whether the data determine a coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -40,27 +37,8 @@ pub struct ParameterVerdict {
     pub words: String,
 }
 
-impl ParameterVerdict {
-    /// The same with a dispute: a number that would otherwise count as known no longer does.
-    pub(in crate::identify) fn disputed(self, dispute: Option<&str>) -> Self {
-        match (self.confidence, dispute) {
-            (Confidence::Identified | Confidence::Weak, Some(dispute)) => Self {
-                confidence: Confidence::Disputed,
-                words: format!("{} if the model is right, but {dispute}", self.words),
-            },
-            _ => self,
-        }
-    }
-}
-
-/// Judges a coefficient by its unconstrained value and standard error; `name` is what the words call it, and `entangled` are
-/// names of others and their correlations with it.
-pub(in crate::identify) fn judge(
-    name: &str,
-    value: f64,
-    standard_error: f64,
-    entangled: &[(String, f64)],
-) -> ParameterVerdict {
+/// Judges a coefficient, which the words call `name`, by its unconstrained value and standard error.
+pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64) -> ParameterVerdict {
     let relative = standard_error / value.abs();
     let (confidence, words) = match () {
         () if !standard_error.is_finite() || !value.is_finite() => (
@@ -85,17 +63,7 @@ pub(in crate::identify) fn judge(
             format!("{name} is known to ±{:.1} %", 100.0 * STANDARD_ERRORS_OF_95_PERCENT * relative),
         ),
     };
-    let strongest = entangled
-        .iter()
-        .filter(|(_, correlation)| correlation.abs() > MAX_SEPARABLE_CORRELATION)
-        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    match strongest {
-        Some((other, correlation)) if confidence != Confidence::NotIdentifiable => {
-            let words = format!("{words}; hard to tell apart from {other} (correlation {correlation:.2})");
-            ParameterVerdict { confidence, words }
-        }
-        _ => ParameterVerdict { confidence, words },
-    }
+    ParameterVerdict { confidence, words }
 }
 
 #[cfg(test)]
@@ -103,7 +71,7 @@ mod tests {
     use super::{Confidence, judge};
 
     #[test]
-    fn each_class_is_reached() {
+    fn every_verdict_is_reached_by_some_value_and_error() {
         for (value, error, confidence) in [
             (1.0, 0.05, Confidence::Identified),
             (1.0, 0.4, Confidence::Weak),
@@ -113,16 +81,9 @@ mod tests {
             (1.0, f64::INFINITY, Confidence::NotIdentifiable),
             (f64::NAN, 0.1, Confidence::NotIdentifiable),
         ] {
-            let verdict = judge("x", value, error, &[]);
+            let verdict = judge("x", value, error);
             assert_eq!(verdict.confidence, confidence, "{value} ± {error}");
             assert!(verdict.words.starts_with("x "));
         }
-    }
-
-    #[test]
-    fn entanglement_is_said() {
-        let others = [("y".to_owned(), -0.97), ("z".to_owned(), 0.2)];
-        assert!(judge("x", 1.0, 0.1, &others).words.contains("from y (correlation -0.97)"));
-        assert!(!judge("x", 1.0, 0.1, &others[1..]).words.contains("tell apart"));
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::chi_squared::survival;
 use super::periodogram::boundary_excess;
-use crate::identify::normal::dot;
+use crate::staged::dense::dot;
 
 /// The most lags that are looked at.
 const MOST_LAGS: usize = 48;
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn ljung_box_is_its_formula_and_tells_a_wave_from_a_scramble() {
+    fn ljung_box_matches_its_formula_and_rejects_a_wave() {
         let wave: Vec<f64> = (0..400).map(|t| (f64::from(t) * 0.3).sin()).collect();
         let found = whiteness(&wave, std::slice::from_ref(&(0..400)), 3);
         let q: f64 =

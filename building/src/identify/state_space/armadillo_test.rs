@@ -1,5 +1,5 @@
 //! A published fit: the armadillo record of pySIP (github.com/locie/pySIP, `docs/examples/thermal_network/armadillo`), two
-//! states by first-order hold. The record is no part of this repository: `INTERPLAY_THERMAL_DATA` names a folder with
+//! states by first-order hold. The record is not in this repository: `INTERPLAY_THERMAL_DATA` names a folder with
 //! `armadillo/armadillo_data_H2.csv`.
 
 use nalgebra::DMatrix;
@@ -60,7 +60,7 @@ fn record() -> Observations {
 
 #[test]
 #[ignore = "needs the data of measured buildings in INTERPLAY_THERMAL_DATA"]
-fn the_armadillo_has_its_published_likelihood_and_parameters() {
+fn the_armadillo_record_reproduces_its_published_likelihood_and_parameters() {
     let observations = record();
     let capacity = 1e7 / DAY_S;
     let start = [1e-2, 1e-3, capacity, 0.1 * capacity, 1e-3 * DAY_S.sqrt(), 1e-2].map(f64::ln);

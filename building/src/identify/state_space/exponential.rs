@@ -93,7 +93,7 @@ mod tests {
 
     /// exp of a rotation is cosine and sine, and its derivative over the angle is the rotation's own.
     #[test]
-    fn a_rotation_and_its_derivative() {
+    fn the_exponential_of_a_rotation_and_its_derivative_are_exact() {
         for angle in [0.01, 0.7, 3.0, 40.0] {
             let turn = Number::new(angle, INFINITESIMAL);
             let generator = DMatrix::from_row_slice(2, 2, &[real(0.0), -turn, turn, real(0.0)]);
@@ -106,7 +106,7 @@ mod tests {
 
     /// M φ₁(M) = exp(M) − I and M φ₂(M) = φ₁(M) − I, small or large.
     #[test]
-    fn phi_functions_follow_each_other() {
+    fn phi_functions_obey_their_recursion() {
         for size in [0.01, 1.0, 30.0] {
             let matrix = DMatrix::from_row_slice(2, 2, &[-2.0, 1.0, 0.5, -0.7].map(|entry| real(size * entry)));
             let [exponential, first, second] = phi_functions(&matrix).expect("finite");

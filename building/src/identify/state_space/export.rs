@@ -1,12 +1,12 @@
 //! A fitted network as zones and walls of a scenario.
 
+use super::elements::HiddenNode;
 use super::exponential::Number;
-use super::extension::HiddenNode;
 use super::likelihood::numbers;
 use super::profile::Profiler;
 use super::quantities::QuantityKind;
 use super::structure::{ParameterKind, Place};
-use crate::identify::identified_network::{IdentifiedNetwork, NetworkUncertainty};
+use crate::identify::report::{IdentifiedNetwork, NetworkUncertainty};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 use crate::network::{AMBIENT, Wall, Zone};
 

@@ -23,9 +23,8 @@ use crate::identify::report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, SuspectedCause, Suspicion,
     WallReport, ZoneReport, ZoneSeries,
 };
-use crate::identify::settings::IdentifySettings;
+use crate::identify::settings::{IdentifySettings, TrainTestSplit};
 use crate::identify::telemetry::{Neighbour, Telemetry};
-use crate::identify::train_test_split::TrainTestSplit;
 
 /// Everything that a report is made from.
 pub(super) struct StateSpaceFindings<'a> {

@@ -1,4 +1,4 @@
-//! The heat balance of a zone over the whole record, which no dynamic error can hide:
+//! The heat balance of a zone over the whole record, which errors of the dynamics do not affect:
 //!
 //! ```text
 //! mean heat + A · mean sun + Σ_k G_k mean(T_k − T) = stored heat / duration + mean random heat
@@ -18,8 +18,8 @@ use crate::identify::telemetry::{Neighbour, Telemetry};
 /// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.
 const LEAST_DIFFERENCE_K: f64 = 1.0;
 
-/// What the filter needs until it knows hidden temperatures: at first it has them from a guess, and the stored heat would be
-/// wrong by as much as the guess \[s\].
+/// What the filter needs until it knows hidden temperatures: at first they are a guess, and the stored heat would be
+/// wrong by the error of that guess \[s\].
 const SETTLING_S: f64 = 86_400.0;
 
 /// The rows of each segment over which heat is balanced: without those in which the filter settles, if at least as many remain.

@@ -111,7 +111,7 @@ mod tests {
 
     /// One state: Φ = e⁻ᵃʰ, Γ₀ = (1−Φ)/a, Γ₁ = (h − Γ₀)/a, Q = q (1−Φ²)/2a.
     #[test]
-    fn one_state_has_closed_forms() {
+    fn a_model_with_one_state_is_sampled_by_its_closed_forms() {
         for (rate, step) in [(0.01, 60.0), (0.01, 3600.0), (1e-5, 900.0)] {
             let model = ContinuousModel {
                 dynamics: DMatrix::from_element(1, 1, real(-rate)),

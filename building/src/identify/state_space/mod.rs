@@ -8,9 +8,9 @@
 
 #[cfg(test)]
 mod armadillo_test;
+mod elements;
 mod exponential;
 mod export;
-mod extension;
 mod findings;
 mod gains;
 mod heat_balance;
@@ -19,7 +19,6 @@ mod linear_model;
 mod model_average;
 mod network_run;
 mod observations;
-mod parameters;
 mod preparation;
 mod processor_time;
 mod profile;
@@ -41,8 +40,8 @@ use preparation::Prepared;
 use structure::Structure;
 
 use super::report::Identification;
+use super::settings::TrainTestSplit;
 use super::telemetry::Telemetry;
-use super::train_test_split::TrainTestSplit;
 use super::{IdentifyError, IdentifySettings, Progress};
 
 /// At least this many rows are needed for each parameter of the smallest model.

@@ -72,14 +72,14 @@ mod tests {
 
     /// Published values of the normal distribution.
     #[test]
-    fn tails_are_those_of_the_normal_distribution() {
+    fn upper_tails_match_published_values_of_the_normal_distribution() {
         for (z, tail) in [(0.0, 0.5), (1.0, 0.158_655), (1.959_964, 0.025), (-1.0, 0.841_345), (3.0, 0.001_350)] {
             assert!((upper_tail(z) - tail).abs() < 1e-6, "{z}: {}", upper_tail(z));
         }
     }
 
     #[test]
-    fn a_model_that_agrees_or_is_improbable_changes_nothing() {
+    fn an_agreeing_or_improbable_alternative_does_not_widen_the_interval() {
         let own = STANDARD_ERRORS_OF_95_PERCENT * 0.01;
         assert!((Rival::new(0.0, 0.0, 0.01).averaged_end(own) - own).abs() < 1e-6);
         assert_eq!(Rival::new(-50.0, 0.3, 0.01).averaged_end(own), own);
@@ -88,7 +88,7 @@ mod tests {
 
     /// Of two equally probable models that lie far apart, the outer one has all that is beyond the end: 5 % of it.
     #[test]
-    fn a_model_far_away_moves_the_end_to_itself() {
+    fn a_distant_equally_probable_alternative_sets_the_end_of_the_interval() {
         let end = Rival::new(0.0, 1.0, 0.01).averaged_end(0.02);
         assert!((end - (1.0 + 0.01 * 1.644_854)).abs() < 1e-6, "{end}");
     }

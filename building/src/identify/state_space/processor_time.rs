@@ -1,4 +1,4 @@
-//! How long a search among models takes, roughly: what would take hours is refused before it begins.
+//! Estimated time of the search among models, so that a search of hours is refused before it begins.
 //!
 //! ```text
 //! time ∝ rows · models · (2 · zones)^2.5
@@ -17,7 +17,7 @@ use crate::identify::telemetry::Telemetry;
 const ROW_S: f64 = 4.5e-5;
 const GROWTH: f64 = 2.5;
 
-/// Processor time of an identification from so many rows \[s\].
+/// Processor time of an identification from `rows` rows \[s\].
 pub(super) fn processor_s(telemetry: &Telemetry, settings: &IdentifySettings, rows: usize) -> f64 {
     let layout = InputLayout::new(telemetry);
     let is_tried = |kind| settings.hidden.contains(&kind);

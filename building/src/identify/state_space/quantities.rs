@@ -5,8 +5,8 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+use super::elements::HiddenNode;
 use super::exponential::{INFINITESIMAL, Number, real};
-use super::extension::HiddenNode;
 use super::likelihood::{changed, numbers};
 use super::scoring::free_parameters;
 use super::selection::Fit;

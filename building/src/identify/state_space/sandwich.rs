@@ -62,7 +62,7 @@ mod tests {
 
     /// Scores that come in equal pairs have twice the long-run variance of white ones; Bartlett's weights see half of that at L = 1.
     #[test]
-    fn correlated_scores_have_larger_errors() {
+    fn correlated_scores_have_larger_standard_errors() {
         let sign = |row: usize| if (row / 2 * 7919) % 13 < 6 { 1.0 } else { -1.0 };
         let scores: Vec<f64> = (0..400).map(sign).collect();
         let of = |lags| Sandwich {

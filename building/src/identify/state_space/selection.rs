@@ -10,7 +10,7 @@
 
 use rayon::prelude::*;
 
-use super::extension::{Extension, HiddenNode};
+use super::elements::{Extension, HiddenNode};
 use super::likelihood::{Observations, log_likelihood};
 use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;
@@ -27,11 +27,11 @@ const FITTED_SHARE: (usize, usize) = (2, 3);
 const STEPS_OF_FEWER_ROWS: usize = 12;
 /// A larger model whose log-likelihood is lower by more than this was not searched well.
 const WORSE: f64 = 0.05;
-/// Starts go on for so many steps, on at most so many rows, before the best of them go on to the end on all rows.
+/// Limits on steps and rows of the second stage of the search; the best starts then continue on all rows.
 const SEARCH_STEPS: usize = 20;
 const SEARCHED_ROWS: usize = 3000;
 const ENDED_STARTS: usize = 3;
-/// Steps from each start, and rows of them, before they go on.
+/// Limits on steps and rows of the first stage of the search.
 const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
 /// Starts are compared when a step promises less than this gain of the log-likelihood.
@@ -49,7 +49,7 @@ pub(super) struct Fit {
     pub maximum: Maximum,
 }
 
-/// The choice.
+/// The chosen model with its alternatives.
 pub(super) struct Choice {
     pub chosen: Fit,
     /// The best model with one more hidden node or with more sun, if there is one.
@@ -123,7 +123,7 @@ fn predicts_better(larger: &Fit, smaller: &Fit, observations: &Observations) -> 
     let count: usize = observations.segments.iter().map(std::ops::Range::len).sum();
     let beginning = observations.beginning(count * FITTED_SHARE.0 / FITTED_SHARE.1);
     let of_last_rows = |fit: &Fit| -> Option<f64> {
-        let theta = fit.again(&beginning, STEPS_OF_FEWER_ROWS)?.maximum.theta;
+        let theta = fit.refit(&beginning, STEPS_OF_FEWER_ROWS)?.maximum.theta;
         let model = |theta: &[super::exponential::Number]| fit.structure.model(theta);
         Some(log_likelihood(&model, &theta, observations)? - log_likelihood(&model, &theta, &beginning)?)
     };
@@ -134,8 +134,8 @@ fn predicts_better(larger: &Fit, smaller: &Fit, observations: &Observations) -> 
 }
 
 impl Fit {
-    /// The same model fitted to other rows, from this estimate; `None` where it has no likelihood.
-    pub fn again(&self, observations: &Observations, most_steps: usize) -> Option<Self> {
+    /// Fits the same model to other rows, starting from this estimate; `None` if it has no likelihood.
+    pub fn refit(&self, observations: &Observations, most_steps: usize) -> Option<Self> {
         let model = |theta: &[super::exponential::Number]| self.structure.model(theta);
         let ascent =
             Ascent { model: &model, observations, bounds: &self.bounds, constraint: None, least_gain: SCREENING_GAIN };

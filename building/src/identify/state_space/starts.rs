@@ -1,6 +1,6 @@
 //! Where ascents begin, and within which bounds.
 
-use super::extension::{Extension, HiddenNode};
+use super::elements::{Extension, HiddenNode};
 use super::structure::{HOUR_S, ParameterKind, Place, Structure};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 

@@ -17,11 +17,11 @@
 
 use nalgebra::DMatrix;
 
+use super::elements::{Extension, HiddenNode};
+pub(super) use super::elements::{ParameterKind, Place};
 use super::exponential::{Number, exponential, real};
-use super::extension::{Extension, HiddenNode};
 use super::linear_model::{ContinuousModel, InitialState};
 use super::observations::InputLayout;
-pub(super) use super::parameters::{ParameterKind, Place};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// An hour \[s\].

@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 use super::exponential::{INFINITESIMAL, Number};
 use super::gains::{Schedule, follow};
 use super::linear_model::{ContinuousModel, SampledModel};
+use crate::staged::dense::dot;
 
 /// The real part.
 pub(super) fn value(number: Number) -> f64 {
@@ -54,10 +55,6 @@ impl StepMatrices {
             }
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The derivatives by k parameters. Arrays end with k numbers for each entry.

@@ -5,40 +5,30 @@
 use interplay_common::bounds::Bound;
 use interplay_common::json_schema::{definition_of, kind_of, words_of};
 use interplay_common::setting::SettingKey;
+use interplay_common::spelling::suggestion;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::TelemetryProblem;
+use super::error::Problem;
 use super::value_shape::ValueShape;
 
-/// Holds a document to the schema of `T`.
+/// Checks a document against the schema of `T`.
 ///
-/// Returns the problems in the order of the text, each with the byte at which it is written. A key that is missing beside an unknown one
-/// is not told: probably it is that one, misspelt.
-pub(super) fn check<T: JsonSchema>(document: &Spanned<DeTable<'_>>) -> Vec<(usize, TelemetryProblem)> {
+/// Returns the problems in the order of the text, each with the byte offset at which it stands. A missing key is not reported if its
+/// table has an unknown key, which is probably the missing one misspelt.
+pub(super) fn check<T: JsonSchema>(document: &Spanned<DeTable<'_>>) -> Vec<(usize, Problem)> {
     let root = SchemaGenerator::default().into_root_schema_for::<T>().to_value();
-    let mut checker = Checker { problems: Vec::new() };
+    let mut checker = Checker::default();
     checker.table(document.span().start, document.get_ref(), Schema::new(&root, &root), &SettingKey::default());
-    let mut problems = checker.problems;
-    let with_unknown_keys: Vec<SettingKey> = problems.iter().filter_map(|(_, problem)| unknown_in(problem)).collect();
-    problems.retain(|(_, problem)| match problem {
-        TelemetryProblem::MissingKey { key, .. } => !with_unknown_keys.iter().any(|table| is_key_of(key, table)),
-        _ => true,
-    });
+    let Checker { mut problems, missing_keys, tables_with_unknown_keys } = checker;
+    let is_reported = |table: &SettingKey| !tables_with_unknown_keys.contains(table);
+    problems.extend(
+        missing_keys.into_iter().filter(|(table, ..)| is_reported(table)).map(|(_, offset, problem)| (offset, problem)),
+    );
     problems.sort_by_key(|(offset, _)| *offset);
     problems
-}
-
-/// The table in which a key is unknown.
-fn unknown_in(problem: &TelemetryProblem) -> Option<SettingKey> {
-    if let TelemetryProblem::UnknownKey { table, .. } = problem { Some(table.clone()) } else { None }
-}
-
-/// Whether a key stands in a table itself.
-fn is_key_of(key: &SettingKey, table: &SettingKey) -> bool {
-    key.as_str().rsplit_once('.').map_or("", |(table, _)| table) == table.as_str()
 }
 
 /// The byte at which the value of a key such as `zone.0.heat.1.factor` is written; `None` if the document does not state it.
@@ -54,6 +44,9 @@ pub(super) fn place_of(document: &DeTable<'_>, key: &str) -> Option<usize> {
     }
     Some(value.span().start)
 }
+
+/// The remedy of a mapping that is not understood at all.
+pub(super) const SEE_EXAMPLES: &str = "`interplay identify --help` shows a mapping, docs/identification.md every key";
 
 /// A part of the schema, without references and without the alternative of being absent.
 #[derive(Clone, Copy)]
@@ -113,9 +106,9 @@ impl<'a> Schema<'a> {
     fn shape(self) -> ValueShape {
         let (words, kinds) = (self.words(), self.kinds());
         match self.type_name() {
-            _ if !words.is_empty() => ValueShape::OneOf { words },
-            _ if !kinds.is_empty() => ValueShape::TableOfAKind { kinds },
-            Some("object") => ValueShape::Table { keys: self.keys() },
+            _ if !words.is_empty() => ValueShape::OneOf(words),
+            _ if !kinds.is_empty() => ValueShape::TableOfAKind(kinds),
+            Some("object") => ValueShape::Table(self.keys()),
             Some("array") => {
                 let min_entries = self.number("minItems").unwrap_or_default();
                 ValueShape::List { min_entries, max_entries: self.number("maxItems") }
@@ -131,19 +124,24 @@ impl<'a> Schema<'a> {
     }
 }
 
+/// Collects the problems of a document.
+#[derive(Default)]
 struct Checker {
-    problems: Vec<(usize, TelemetryProblem)>,
+    problems: Vec<(usize, Problem)>,
+    /// The table that lacks the key, the offset of the table, and the problem.
+    missing_keys: Vec<(SettingKey, usize, Problem)>,
+    tables_with_unknown_keys: Vec<SettingKey>,
 }
 
 impl Checker {
     fn value(&mut self, value: &Spanned<DeValue<'_>>, schema: Schema<'_>, key: &SettingKey) {
         let offset = value.span().start;
         match (schema.shape(), value.get_ref()) {
-            (ValueShape::OneOf { words }, DeValue::String(word)) => self.word(offset, word, words, key),
-            (ValueShape::TableOfAKind { kinds }, DeValue::Table(table)) => {
+            (ValueShape::OneOf(words), DeValue::String(word)) => self.word(offset, word, words, key),
+            (ValueShape::TableOfAKind(kinds), DeValue::Table(table)) => {
                 self.table_of_a_kind(offset, table, schema, kinds, key);
             }
-            (ValueShape::Table { .. }, DeValue::Table(table)) => self.table(offset, table, schema, key),
+            (ValueShape::Table(_), DeValue::Table(table)) => self.table(offset, table, schema, key),
             (ValueShape::List { min_entries, max_entries }, DeValue::Array(items))
                 if (min_entries..=max_entries.unwrap_or(usize::MAX)).contains(&items.len()) =>
             {
@@ -164,8 +162,7 @@ impl Checker {
                 self.number(offset, float.as_str().parse().unwrap_or(f64::NAN), schema, key);
             }
             (wanted, other) => {
-                let found = written(other, &wanted);
-                self.problems.push((offset, TelemetryProblem::WrongType { key: key.clone(), wanted, found }));
+                self.problems.push((offset, wrong_type(key, &wanted, other)));
             }
         }
     }
@@ -175,16 +172,24 @@ impl Checker {
             match schema.property(name.get_ref()) {
                 Some(property) => self.value(value, property, &key.key(name.get_ref())),
                 None => {
-                    let (table, key) = (key.clone(), name.get_ref().to_string());
-                    let problem = TelemetryProblem::UnknownKey { table, key, known: schema.keys() };
+                    let unknown = name.get_ref();
+                    let within = if *key == SettingKey::default() { String::new() } else { format!(" in `{key}`") };
+                    let remedy = suggestion(unknown, "the keys here are", &schema.keys());
+                    let problem = Problem::new(format!("unknown key `{unknown}`{within}"), remedy);
                     self.problems.push((name.span().start, problem));
+                    self.tables_with_unknown_keys.push(key.clone());
                 }
             }
         }
         for name in schema.required().filter(|name| !table.contains_key(*name)) {
             let wanted = schema.property(name).map_or(ValueShape::Text, Schema::shape);
-            self.problems.push((offset, TelemetryProblem::MissingKey { key: key.key(name), wanted }));
+            self.missing(offset, key, name, &wanted);
         }
+    }
+
+    fn missing(&mut self, offset: usize, table: &SettingKey, name: &str, wanted: &ValueShape) {
+        let problem = Problem::new(format!("`{}` is missing", table.key(name)), format!("it must be {wanted}"));
+        self.missing_keys.push((table.clone(), offset, problem));
     }
 
     /// A table whose `kind` says which keys it has.
@@ -197,8 +202,8 @@ impl Checker {
         key: &SettingKey,
     ) {
         let Some(kind) = table.get("kind") else {
-            let wanted = ValueShape::OneOf { words: kinds };
-            return self.problems.push((offset, TelemetryProblem::MissingKey { key: key.key("kind"), wanted }));
+            let wanted = ValueShape::OneOf(kinds);
+            return self.missing(offset, key, "kind", &wanted);
         };
         let fitting =
             kind.get_ref().as_str().and_then(|word| schema.alternatives().find(|one| one.kind() == Some(word)));
@@ -206,18 +211,15 @@ impl Checker {
             (Some(schema), _) => self.table(offset, table, schema, key),
             (None, DeValue::String(word)) => self.word(kind.span().start, word, kinds, &key.key("kind")),
             (None, other) => {
-                let wanted = ValueShape::OneOf { words: kinds };
-                let found = written(other, &wanted);
-                let problem = TelemetryProblem::WrongType { key: key.key("kind"), wanted, found };
-                self.problems.push((kind.span().start, problem));
+                let wanted = ValueShape::OneOf(kinds);
+                self.problems.push((kind.span().start, wrong_type(&key.key("kind"), &wanted, other)));
             }
         }
     }
 
     fn word(&mut self, offset: usize, word: &str, known: Vec<String>, key: &SettingKey) {
         if !known.iter().any(|known| known == word) {
-            let problem = TelemetryProblem::UnknownWord { key: key.clone(), word: word.to_owned(), known };
-            self.problems.push((offset, problem));
+            self.problems.push((offset, unknown_word(key, word, &known)));
         }
     }
 
@@ -225,9 +227,19 @@ impl Checker {
         // A finite number beyond its own bounds is answered with them, not with the limits of all numbers.
         let mut bounds = [Bound::Finite].into_iter().chain(Bound::read(schema.stated)).chain(Bound::of_every_setting());
         if let Some(bound) = bounds.find(|bound| !bound.admits(value)) {
-            self.problems.push((offset, TelemetryProblem::Setting { key: key.clone(), value, bound }));
+            self.problems.push((offset, Problem::out_of_bounds(key, value, bound)));
         }
     }
+}
+
+/// A text is none of the words from which it is chosen.
+pub(super) fn unknown_word(key: &SettingKey, word: &str, known: &[String]) -> Problem {
+    Problem::new(format!("`{key}` cannot be `{word}`"), suggestion(word, "choose from", known))
+}
+
+/// A value has another type than its key needs.
+fn wrong_type(key: &SettingKey, wanted: &ValueShape, value: &DeValue<'_>) -> Problem {
+    Problem::new(format!("`{key}` must be {wanted}, not {}", written(value, wanted)), SEE_EXAMPLES)
 }
 
 /// The key of an entry of a list: a table is called by its `name`, anything else by its number.

@@ -29,13 +29,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::de::DeTable;
 
-use super::error::{TelemetryError, TelemetryProblem};
+use super::error::{Problem, TelemetryError, listed};
 use super::form;
 use super::measurements::Hold;
 use super::table_form::TableForm;
-use super::time_zone::NamedZone;
 use super::units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
+use crate::series::clock::NamedZone;
 
 /// A mapping: which column of a table is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -259,7 +259,10 @@ impl Mapping {
         };
         let unreadable = |error: toml::de::Error| {
             let reason = error.message().trim().replace('\n', ", ");
-            refused(error.span().map(|span| span.start), TelemetryProblem::Syntax { reason })
+            refused(
+                error.span().map(|span| span.start),
+                Problem::new(format!("not valid TOML: {reason}"), form::SEE_EXAMPLES),
+            )
         };
         let document = DeTable::parse(text).map_err(unreadable)?;
         let faults = form::check::<Self>(&document);
@@ -284,9 +287,10 @@ impl Mapping {
         }
         self.check_names()?;
         self.identify.check(self.time.step_s).map_err(|error| {
-            let problem = TelemetryProblem::setting(&"identify".into(), &error);
+            let key = SettingKey::from("identify").key(error.key.as_str());
+            let problem = Problem::out_of_bounds(&key, error.value, error.bound);
             // The default does not fit the sampling time where the key is not stated.
-            (vec![SettingKey::from("identify").key(error.key.as_str()), "time.step_s".into()], problem)
+            (vec![key, "time.step_s".into()], problem)
         })
     }
 
@@ -297,7 +301,7 @@ impl Mapping {
         }
         let key = SettingKey::from("table.separator");
         let wanted = "another character than `table.decimal`";
-        let problem = TelemetryProblem::Conflict { key: key.clone(), value: format!("`{separator}`"), wanted };
+        let problem = conflict(&key, &format!("`{separator}`"), wanted);
         // One of the two may be left out.
         Err((vec![key, "table.decimal".into()], problem))
     }
@@ -306,14 +310,15 @@ impl Mapping {
         let Some(name) = &self.time.zone else { return Ok(()) };
         let key = SettingKey::from("time.zone");
         if NamedZone::find(name).is_none() {
-            let (word, known) = (name.clone(), NamedZone::names());
-            return Err((vec![key.clone()], TelemetryProblem::UnknownWord { key, word, known }));
+            let problem = form::unknown_word(&key, name, &NamedZone::names());
+            return Err((vec![key], problem));
         }
         if self.time.column.is_some() && self.time.has_dates() && !self.time.format.contains("%z") {
             return Ok(());
         }
         let wanted = "left out, or beside a `time.column` of dates without an offset";
-        Err((vec![key.clone()], TelemetryProblem::Conflict { key, value: format!("`{name}`"), wanted }))
+        let problem = conflict(&key, &format!("`{name}`"), wanted);
+        Err((vec![key], problem))
     }
 
     fn check_names(&self) -> Result<(), Refusal> {
@@ -321,9 +326,10 @@ impl Mapping {
         let zones = self.zones.iter().enumerate().map(|(index, zone)| (&zone.name, key("zone", index)));
         let others = self.boundaries.iter().enumerate().map(|(index, other)| (&other.name, key("boundary", index)));
         let (names, keys): (Vec<&String>, Vec<SettingKey>) = zones.chain(others).unzip();
-        let wrong = |key: SettingKey, field, name: &str, fault| {
-            let known = names.iter().map(|&name| name.clone()).collect();
-            Err((vec![key], TelemetryProblem::Name { field, name: name.into(), fault, known }))
+        let wrong = |key: SettingKey, field: &str, name: &str, fault: &str| {
+            let known: Vec<String> = names.iter().map(|&name| name.clone()).collect();
+            let text = format!("the name `{name}` in {field} is {fault}");
+            Err((vec![key], Problem::new(text, format!("known names: {}", listed(&known)))))
         };
         for (i, name) in names.iter().enumerate() {
             if names[..i].contains(name) {
@@ -353,7 +359,12 @@ impl Mapping {
 }
 
 /// What is wrong, and the keys that could be blamed for it, numbered throughout; the first one that is stated is.
-type Refusal = (Vec<SettingKey>, TelemetryProblem);
+type Refusal = (Vec<SettingKey>, Problem);
+
+/// The value of a key contradicts that of another key.
+fn conflict(key: &SettingKey, value: &str, wanted: &str) -> Problem {
+    Problem::new(format!("`{key}` is {value}"), format!("it must be {wanted}"))
+}
 
 impl ZoneColumns {
     /// Refuses heat without a unit beside other heat, and energies that would not be means; `numbered` is the key of this zone in the
@@ -362,19 +373,16 @@ impl ZoneColumns {
         let is_meter = |heat: &HeatColumns| matches!(heat, HeatColumns::Meter { .. });
         if self.heat_hold == Hold::FirstOrder && self.heat.iter().any(is_meter) {
             let key = SettingKey::from("zone").key(&self.name).key("heat_hold");
-            let value = "`first-order` beside a meter of energy".to_owned();
+            let value = "`first-order` beside a meter of energy";
             let wanted = "`zero-order`: a meter knows the mean from a row to the next";
-            return Err((vec![numbered.key("heat_hold")], TelemetryProblem::Conflict { key, value, wanted }));
+            return Err((vec![numbered.key("heat_hold")], conflict(&key, value, wanted)));
         }
         let is_unknown = |heat: &HeatColumns| matches!(heat, HeatColumns::Power { unit: PowerUnit::Unknown, .. });
         let Some(index) = self.heat.iter().position(is_unknown).filter(|_| self.heat.len() > 1) else { return Ok(()) };
         let unit_of = |zone: &SettingKey| zone.key("heat").entry(index).key("unit");
-        let problem = TelemetryProblem::Conflict {
-            key: unit_of(&SettingKey::from("zone").key(&self.name)),
-            value: format!("`unknown` beside other heat of zone `{}`", self.name),
-            wanted: "a known unit, or the zone's only heat: their sum would mean nothing",
-        };
-        Err((vec![unit_of(numbered)], problem))
+        let value = format!("`unknown` beside other heat of zone `{}`", self.name);
+        let wanted = "a known unit, or the zone's only heat: their sum would mean nothing";
+        Err((vec![unit_of(numbered)], conflict(&unit_of(&SettingKey::from("zone").key(&self.name)), &value, wanted)))
     }
 }
 

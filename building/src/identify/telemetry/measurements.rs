@@ -159,7 +159,7 @@ impl MeasuredZone {
     }
 
     /// Whether any heat is known.
-    pub fn has_heat(&self) -> bool {
+    pub(crate) fn has_heat(&self) -> bool {
         !self.supply_air.is_empty() || self.power_kw.iter().any(|&power| power != 0.0)
     }
 }

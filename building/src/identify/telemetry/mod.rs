@@ -12,13 +12,11 @@ mod read;
 mod recorded_days;
 mod table;
 mod table_form;
-mod time_text;
-mod time_zone;
 mod units;
 mod value_shape;
 mod write;
 
-pub use error::{TelemetryError, TelemetryProblem};
+pub use error::TelemetryError;
 pub use mapping::{
     BoundaryColumns, ComputedColumn, Gaps, HeatColumns, Mapping, MeterReading, SolarColumn, TimeAxis, ZoneColumns,
 };
@@ -26,7 +24,6 @@ pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Su
 pub use recorded_days::RecordedDays;
 pub use table_form::{DecimalSign, TableForm};
 pub use units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
-pub use value_shape::ValueShape;
 
 impl Telemetry {
     /// Reads a table as `mapping` says; `file` is its name for messages.

@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use super::error::{TelemetryError, TelemetryProblem};
+use super::error::{Problem, TelemetryError};
 use super::mapping::{Gaps, HeatColumns, Mapping, MeterReading, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
-use super::table::{Column, Row, Table, TableTime};
-use super::time_text::OFFSET;
-use super::time_zone::NamedZone;
+use super::table::{Column, Row, Table};
 use super::units::PowerUnit;
+use crate::series::clock::{ClockTime, NamedZone, OFFSET};
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
 const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
@@ -96,11 +95,11 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     // The row before, if it was complete: its time and batch.
     let mut before: Option<(f64, &str)> = None;
     let clock = axis.zone.as_deref().and_then(NamedZone::find);
-    let mut last: Option<TableTime> = None;
+    let mut last: Option<ClockTime> = None;
     for (index, row) in table.rows.iter().enumerate() {
         let now = match time {
             Some(column) => table.time(row, column, (axis, clock.as_ref()), last)?,
-            None => TableTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
+            None => ClockTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
         };
         let now_s = now.elapsed_s;
         last = Some(now);
@@ -151,12 +150,25 @@ fn is_step(elapsed_s: f64, step_s: f64) -> bool {
     (elapsed_s - step_s).abs() <= 0.1 * step_s
 }
 
-fn gap(text: &str, elapsed_s: f64, axis: &TimeAxis) -> TelemetryProblem {
+fn gap(text: &str, elapsed_s: f64, axis: &TimeAxis) -> Problem {
     let is_of_clocks = axis.zone.is_none() && axis.has_dates() && !axis.format.contains(OFFSET);
     let is_hour = [3600.0, -3600.0].iter().any(|change_s| is_step(elapsed_s - change_s, axis.step_s));
-    let is_hour_of_clocks = is_of_clocks && is_hour;
-    TelemetryProblem::Gap { text: text.into(), elapsed_s, step_s: axis.step_s, is_hour_of_clocks }
+    let kind = match elapsed_s {
+        elapsed if elapsed < 0.0 => "time goes backwards",
+        0.0 => "one time stands twice",
+        _ => "there is a gap, or the sampling time is another",
+    };
+    let step_s = axis.step_s;
+    let text = format!("`{text}` is {elapsed_s} s after the row before, and the sampling time is {step_s} s: {kind}");
+    Problem::new(text, if is_of_clocks && is_hour { REMEDY_OF_CLOCKS } else { REMEDY_OF_GAP })
 }
+
+const REMEDY_OF_COUNTER: &str =
+    "begin another recording where a meter was changed (`time.batch`), or state `reading` if rows are no counts";
+const REMEDY_OF_GAP: &str =
+    "add the missing rows, correct `time.step_s`, or set `time.gaps = \"split\"` to start anew after each gap";
+const REMEDY_OF_CLOCKS: &str = "state `time.zone` if clocks are put forward or back here, or write times with an offset (`%z` in \
+                                `time.format`); or add the missing rows, or set `time.gaps = \"split\"` to start anew after each gap";
 
 /// Whether every wanted field has a value; an error where one has none and may not.
 fn is_complete(table: &Table<'_>, row: &Row, columns: &[Column], gaps: Gaps) -> Result<bool, TelemetryError> {
@@ -164,9 +176,10 @@ fn is_complete(table: &Table<'_>, row: &Row, columns: &[Column], gaps: Gaps) -> 
     for &column in columns {
         if table.number(row, column)?.is_none() {
             if gaps == Gaps::Refuse {
-                let problem =
-                    TelemetryProblem::Missing { text: table.text(row, column).into(), column: table.title(column) };
-                return Err(table.at(row, column, problem));
+                let text =
+                    format!("column `{}` has no value here (`{}`)", table.title(column), table.text(row, column));
+                let remedy = "fill the value in, or set `time.gaps = \"split\"` to leave such rows out and start anew";
+                return Err(table.at(row, column, Problem::new(text, remedy)));
             }
             complete = false;
         }
@@ -211,8 +224,10 @@ impl Reader<'_> {
         for (value, &index) in values.iter_mut().zip(self.rows) {
             *value = self.mapping.table.temperature_unit.to_celsius(*value);
             if !(low..=high).contains(value) && !value.is_nan() {
-                let problem = TelemetryProblem::Range { value: *value, unit: "°C", column: name.into(), low, high };
-                return Err(self.table.at(&self.table.rows[index], column, problem));
+                let text = format!("{value} °C in column `{name}` is outside {low} to {high} °C");
+                let remedy =
+                    "check the unit in the mapping, or list the text in `table.missing` if it stands for no value";
+                return Err(self.table.at(&self.table.rows[index], column, Problem::new(text, remedy)));
             }
         }
         Ok(values)
@@ -251,8 +266,10 @@ impl Reader<'_> {
                 let (from, to) = (values[row], values[row + 1]);
                 energies[row] = if reading == MeterReading::Counter { to - from } else { to };
                 if reading == MeterReading::Counter && to < from {
-                    let problem = TelemetryProblem::CounterFalls { column: self.table.title(column), from, to };
-                    return Err(self.table.at(&self.table.rows[self.rows[row + 1]], column, problem));
+                    let title = self.table.title(column);
+                    let text = format!("the meter in column `{title}` falls from {from} to {to}");
+                    let row = &self.table.rows[self.rows[row + 1]];
+                    return Err(self.table.at(row, column, Problem::new(text, REMEDY_OF_COUNTER)));
                 }
             }
             energies[last] = if last > segment.start { energies[last - 1] } else { 0.0 };

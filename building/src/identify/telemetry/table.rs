@@ -1,13 +1,11 @@
 //! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use jiff::fmt::strtime::BrokenDownTime;
 
-use super::error::{TelemetryError, TelemetryProblem};
+use super::error::{Problem, TelemetryError, listed};
 use super::mapping::{Mapping, TimeAxis};
 use super::table_form::{DecimalSign, TableForm};
-use super::time_text;
-use super::time_zone::{NamedZone, seconds_since_1970};
+use crate::series::clock::{self, ClockTime, NamedZone, seconds_since_1970};
 
 /// A table of text; every row has as many fields as the header.
 pub(super) struct Table<'a> {
@@ -24,15 +22,6 @@ struct Computed {
     name: String,
     members: Vec<Column>,
     factor: f64,
-}
-
-/// A time of a row.
-#[derive(Clone, Copy)]
-pub(super) struct TableTime {
-    /// Since some moment that is the same for all rows \[s\].
-    pub elapsed_s: f64,
-    /// By how much clocks at the place were ahead of it \[s\].
-    pub offset_s: f64,
 }
 
 /// A row and the line on which it starts, from 1.
@@ -61,11 +50,13 @@ impl<'a> Table<'a> {
         let mut rows = reader.records().map(|record| match record {
             Ok(fields) => Ok(Row { line: lines.number(fields.position(), skipped), fields }),
             Err(error) => {
-                let problem = TelemetryProblem::Row { reason: reason(&error) };
+                let text = format!("the row cannot be read: {}", reason(&error));
+                let problem = Problem::new(text, "every row needs as many fields as the header");
                 Err(TelemetryError::new(file, Some((lines.number(error.position(), skipped), 1)), problem))
             }
         });
-        let empty = || TelemetryError::new(file, None, TelemetryProblem::Empty);
+        let needs = "it needs a header and at least two rows";
+        let empty = || TelemetryError::new(file, None, Problem::new("the table is empty", needs));
         let header = rows.next().ok_or_else(empty)??.fields.iter().map(str::to_owned).collect();
         let rows = rows.collect::<Result<Vec<_>, _>>()?;
         if rows.is_empty() {
@@ -77,10 +68,8 @@ impl<'a> Table<'a> {
             let members = computed.mean_of.iter().map(|name| table.column_of_table(name, &role));
             let members = members.collect::<Result<Vec<_>, _>>()?;
             if table.column(&computed.name, "").is_ok() {
-                let (name, header) = (computed.name.clone(), table.header.clone());
                 let fault = "the name of another column already";
-                let problem = TelemetryProblem::Column { name, role: "a computed column".into(), fault, header };
-                return Err(TelemetryError::new(file, Some((form.skip_rows + 1, 1)), problem));
+                return Err(table.wrong_column(&computed.name, "a computed column", fault));
             }
             table.computed.push(Computed { name: computed.name.trim().into(), members, factor: computed.factor });
         }
@@ -103,9 +92,16 @@ impl<'a> Table<'a> {
             (None, _) => "not in the header",
             (Some(_), Some(_)) => "in the header twice",
         };
-        let problem =
-            TelemetryProblem::Column { name: name.into(), role: role.into(), fault, header: self.header.clone() };
-        Err(TelemetryError::new(self.file, Some((self.form.skip_rows + 1, 1)), problem))
+        Err(self.wrong_column(name, role, fault))
+    }
+
+    fn wrong_column(&self, name: &str, role: &str, fault: &str) -> TelemetryError {
+        let header = listed(&self.header);
+        let problem = Problem::new(
+            format!("column `{name}`, wanted as {role}, is {fault}"),
+            format!("the header has {header}; check `table.separator` if this is one column"),
+        );
+        TelemetryError::new(self.file, Some((self.form.skip_rows + 1, 1)), problem)
     }
 
     /// The text of a field; of the first one where the column is computed.
@@ -146,51 +142,60 @@ impl<'a> Table<'a> {
         match parsed {
             Ok(value) if value.is_finite() => Ok(Some(value)),
             _ => {
-                let problem = TelemetryProblem::Number { text: text.into(), column: self.title(column) };
-                Err(self.at(row, column, problem))
+                let remedy = "write a number like 21.5 (`table.decimal` sets the decimal sign), or list the text in `table.missing`";
+                let text = format!("`{text}` in column `{}` is not a number", self.title(column));
+                Err(self.at(row, column, Problem::new(text, remedy)))
             }
         }
     }
 
-    /// A field as a time. `clock` is the time zone of times without an offset, and `after` the time of the row before.
+    /// A field as a time. `zone` is the time zone of times without an offset, and `after` the time of the row before.
     pub fn time(
         &self,
         row: &Row,
         column: Column,
-        (axis, clock): (&TimeAxis, Option<&NamedZone>),
-        after: Option<TableTime>,
-    ) -> Result<TableTime, TelemetryError> {
+        (axis, zone): (&TimeAxis, Option<&NamedZone>),
+        after: Option<ClockTime>,
+    ) -> Result<ClockTime, TelemetryError> {
         let (text, format) = (self.text(row, column), axis.format.as_str());
         let number = |unit_s: f64| {
             let number = text.parse().ok().filter(|time: &f64| time.is_finite());
-            number.map(|number| TableTime { elapsed_s: number * unit_s, offset_s: 0.0 })
+            number.map(|number| ClockTime { elapsed_s: number * unit_s, offset_s: 0.0 })
         };
-        let parsed = || time_text::parsed(format, text);
-        let time = match (format, clock) {
+        let parsed = || clock::parsed(format, text);
+        let time = match (format, zone) {
             ("seconds", _) => number(1.0),
             ("hours", _) => number(3600.0),
-            (_, None) => parsed().and_then(|parsed| calendar_time(&parsed)),
-            (_, Some(clock)) => {
+            (_, None) => parsed().and_then(|parsed| ClockTime::stated(&parsed)),
+            (_, Some(zone)) => {
                 let shown = parsed().and_then(|parsed| parsed.to_datetime().ok());
                 let time = |shown| {
-                    let offset_s = clock.offset_s(shown, after.map(|after| after.elapsed_s))?;
-                    Some(TableTime { elapsed_s: seconds_since_1970(shown) - offset_s, offset_s })
+                    let offset_s = zone.offset_s(shown, after.map(|after| after.elapsed_s))?;
+                    Some(ClockTime { elapsed_s: seconds_since_1970(shown) - offset_s, offset_s })
                 };
                 if let Some((shown, None)) = shown.map(|shown| (shown, time(shown))) {
-                    let zone = axis.zone.clone().unwrap_or_default();
-                    return Err(self.at(row, column, TelemetryProblem::NoSuchHour { text: shown.to_string(), zone }));
+                    let zone = axis.zone.as_deref().unwrap_or_default();
+                    let text = format!("clocks of {zone} never showed {shown}: they were put forward");
+                    let remedy = "leave `time.zone` out if these clocks are not put forward and back, or correct it";
+                    return Err(self.at(row, column, Problem::new(text, remedy)));
                 }
                 shown.and_then(time)
             }
         };
         time.ok_or_else(|| {
-            let (text, column_name, format) = (text.into(), self.title(column), format.into());
-            self.at(row, column, TelemetryProblem::Time { text, column: column_name, format })
+            let remedy = match clock::format_with_offset(format, text) {
+                Some(format) => {
+                    format!("it has an offset from UTC: set `time.format` to `{format}`, in place of a `time.zone`")
+                }
+                None => "set `time.format` to the form of the column, for example `%Y-%m-%d %H:%M:%S`".into(),
+            };
+            let text = format!("`{text}` in column `{}` is not a time of the form `{format}`", self.title(column));
+            self.at(row, column, Problem::new(text, remedy))
         })
     }
 
     /// The error that `problem` is with the field at `row` and `column`.
-    pub fn at(&self, row: &Row, column: Column, problem: TelemetryProblem) -> TelemetryError {
+    pub fn at(&self, row: &Row, column: Column, problem: Problem) -> TelemetryError {
         let column = self.first_of(column);
         let line = self.lines.text(row.line);
         let place = Some((row.line, field_start(line, self.form.separator, column.0)));
@@ -201,13 +206,6 @@ impl<'a> Table<'a> {
     pub fn title(&self, column: Column) -> String {
         self.header.get(self.first_of(column).0).cloned().unwrap_or_default()
     }
-}
-
-/// A time as it is written: seconds since 1970, in UTC where it has an offset.
-fn calendar_time(parsed: &BrokenDownTime) -> Option<TableTime> {
-    let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
-    let here = seconds_since_1970(parsed.to_datetime().ok()?);
-    Some(TableTime { elapsed_s: here - offset_s, offset_s })
 }
 
 /// A text and where its lines begin. (The reader counts lines too, but one short after a carriage return.)

@@ -24,7 +24,7 @@ pub enum TemperatureUnit {
 
 impl TemperatureUnit {
     /// A temperature of this unit in °C.
-    pub fn to_celsius(self, value: f64) -> f64 {
+    pub(crate) fn to_celsius(self, value: f64) -> f64 {
         match self {
             Self::Celsius => value,
             Self::Kelvin => value - 273.15,
@@ -73,7 +73,7 @@ pub enum EnergyUnit {
 
 impl EnergyUnit {
     /// This unit in kJ.
-    pub fn kj(self) -> f64 {
+    pub(crate) fn kj(self) -> f64 {
         match self {
             Self::Kwh => 3600.0,
             Self::Wh => 3.6,
@@ -96,7 +96,7 @@ pub enum IrradianceUnit {
 
 impl IrradianceUnit {
     /// This unit in kW/m².
-    pub fn kw_per_m2(self) -> f64 {
+    pub(crate) fn kw_per_m2(self) -> f64 {
         match self {
             Self::WPerM2 => 1e-3,
             Self::KwPerM2 => 1.0,

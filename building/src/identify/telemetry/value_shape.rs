@@ -5,56 +5,36 @@ use std::fmt;
 use interplay_common::json_schema::type_in_words;
 use interplay_common::spelling::listed;
 
-/// What the value of a key must be, in plain words: `a table with …`, `one of …`, `a number`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ValueShape {
-    /// A table.
-    Table {
-        /// The keys that it may have.
-        keys: Vec<String>,
-    },
-    /// A table whose `kind` says which other keys it has.
-    TableOfAKind {
-        /// The words that `kind` may be.
-        kinds: Vec<String>,
-    },
-    /// A list.
+/// What the value of a key must be. Displays as `a table with …`, `one of …` or `a number`.
+pub(super) enum ValueShape {
+    /// With the keys that it may have.
+    Table(Vec<String>),
+    /// A table whose `kind`, one of these, says which other keys it has.
+    TableOfAKind(Vec<String>),
     List {
-        /// The smallest number of entries.
         min_entries: usize,
-        /// The largest number of entries, if there is one.
         max_entries: Option<usize>,
     },
-    /// One of several words.
-    OneOf {
-        /// The words.
-        words: Vec<String>,
-    },
-    /// A text.
+    OneOf(Vec<String>),
     Text,
-    /// A text of one character.
     Character {
-        /// Whether it must be one of ASCII.
         ascii: bool,
     },
-    /// `true` or `false`.
     Truth,
-    /// A whole number.
     WholeNumber,
-    /// A number.
     Number,
 }
 
 impl fmt::Display for ValueShape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let type_name = match self {
-            Self::TableOfAKind { kinds } => {
+            Self::TableOfAKind(kinds) => {
                 return write!(f, "a table whose `kind` is one of {}", listed(kinds));
             }
-            Self::OneOf { words } => return write!(f, "one of {}", listed(words)),
+            Self::OneOf(words) => return write!(f, "one of {}", listed(words)),
             Self::Character { ascii: true } => return write!(f, "a text of one ASCII character"),
             Self::Character { ascii: false } => return write!(f, "a text of one character"),
-            Self::Table { .. } => "object",
+            Self::Table(_) => "object",
             Self::List { .. } => "array",
             Self::Text => "string",
             Self::Truth => "boolean",
@@ -63,7 +43,7 @@ impl fmt::Display for ValueShape {
         };
         write!(f, "{}", type_in_words(Some(type_name)))?;
         match self {
-            Self::Table { keys } => write!(f, " with {}", listed(keys)),
+            Self::Table(keys) => write!(f, " with {}", listed(keys)),
             Self::List { min_entries: min, max_entries: Some(max) } if min == max => write!(f, " of {}", entries(*min)),
             Self::List { min_entries: min, max_entries: Some(max) } => write!(f, " of {min} to {}", entries(*max)),
             Self::List { min_entries: min @ 1.., max_entries: None } => write!(f, " of at least {}", entries(*min)),

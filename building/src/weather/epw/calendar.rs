@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn days_of_no_year_are_none() {
+    fn a_day_that_exists_in_no_year_is_none() {
         for (month, day) in [(2, 30), (4, 31), (0, 1), (13, 1), (1, 0), (1, 32), (300, 1), (1, 300)] {
             assert_eq!(Date::new(month, day), None, "{month}/{day}");
         }

@@ -1,7 +1,9 @@
 //! The eight lines before the rows, of which two matter.
 
+use interplay_common::cell::shown_cell;
+
 use super::calendar::Date;
-use super::error::{EpwError, EpwProblem};
+use super::error::EpwError;
 use crate::calendar::Weekday;
 
 /// Where the weather was measured.
@@ -48,7 +50,7 @@ impl Header {
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
         let (_, first_line) = lines.next().unwrap_or((1, ""));
         if !begins(first_line, "LOCATION") {
-            return Err(EpwError { line: 1, problem: EpwProblem::NotEpw });
+            return Err(EpwError::malformed(1, "an EPW file begins with `LOCATION,`, and this does not"));
         }
         let location = location(&Fields::of(1, first_line))?;
         // Only header lines begin with a letter: the periods cannot be looked for among the rows.
@@ -60,7 +62,7 @@ impl Header {
             }
             seen = line;
         }
-        Err(EpwError { line: seen + 1, problem: EpwProblem::HeaderCut { wanted: WANTED } })
+        Err(EpwError::malformed(seen + 1, format!("the file ends before its `{WANTED}` line")))
     }
 
     /// `DATA PERIODS, periods, intervals per hour, name, weekday, first day, last day`.
@@ -112,17 +114,16 @@ impl<'a> Fields<'a> {
         self.fields.get(index).copied().unwrap_or("")
     }
 
-    fn wrong(&self, index: usize, field: &'static str, wanted: &'static str) -> EpwError {
-        let problem = EpwProblem::Header { field, found: self.text(index).to_owned(), wanted };
-        EpwError { line: self.line, problem }
+    fn wrong(&self, index: usize, field: &str, wanted: &str) -> EpwError {
+        EpwError::malformed(self.line, format!("{field} is {}; it should be {wanted}", shown_cell(self.text(index))))
     }
 
-    fn number(&self, index: usize, field: &'static str, wanted: &'static str) -> Result<f64, EpwError> {
+    fn number(&self, index: usize, field: &str, wanted: &str) -> Result<f64, EpwError> {
         let number: Option<f64> = self.text(index).parse().ok();
         number.filter(|number| number.is_finite()).ok_or_else(|| self.wrong(index, field, wanted))
     }
 
-    fn date(&self, index: usize, field: &'static str) -> Result<Date, EpwError> {
+    fn date(&self, index: usize, field: &str) -> Result<Date, EpwError> {
         Date::written(self.text(index))
             .ok_or_else(|| self.wrong(index, field, "month/day, as in 12/31, or year/month/day, or 31-Dec"))
     }

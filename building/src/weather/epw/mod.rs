@@ -32,12 +32,12 @@ pub use usage::{EpwRemark, EpwUse};
 
 use super::{Sky, TimeSeries, Weather};
 use crate::calendar::Weekday;
-use crate::series::gaps;
+use crate::series::{bridge, gaps};
 use crate::sun::{Site, SplitRadiation, days_since_2000};
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
-/// The year of rows that state none; the sun of one year is within half a degree where that of any other is.
+/// The year assumed for rows that state none; from year to year the sun's position differs by less than half a degree.
 const USUAL_YEAR: i16 = 2001;
 
 /// The content of an EPW file.
@@ -57,11 +57,11 @@ pub struct Epw {
     columns: Vec<Option<Vec<f64>>>,
     /// The rows in which each field was missing, in the same order.
     gaps: Vec<Vec<Range<usize>>>,
-    /// Cells that cannot be, which count as missing.
+    /// Cells with impossible values, which count as missing.
     doubts: Vec<Doubt>,
     /// The line of each row, from one.
     lines: Vec<usize>,
-    /// The year that each day's first row states; none where it is no year.
+    /// The year that each day's first row states; none if that is not a year.
     years: Vec<Option<i16>>,
 }
 
@@ -69,7 +69,7 @@ impl Epw {
     /// Reads the text of a file. (Old files are Latin-1: decode them lossily, other letters occur in names only.)
     ///
     /// # Errors
-    /// [`EpwError`] with the line, if the text is no EPW file, is cut off, or skips or repeats a row. What a run does not use
+    /// [`EpwError`] with the line, if the text is not an EPW file, is cut off, or skips or repeats a row. What a run does not use
     /// may be wrong; [`Epw::check_use`] says whether it uses that.
     pub fn parse(text: &str) -> Result<Self, EpwError> {
         let header = Header::parse(text)?;
@@ -82,7 +82,7 @@ impl Epw {
                 if count == values.len() {
                     return None;
                 }
-                specification.fill.apply(&mut values, gaps);
+                bridge(&mut values, gaps);
                 if count > 0 {
                     filled.push((specification.field, count));
                 }
@@ -90,7 +90,7 @@ impl Epw {
             })
             .collect();
         let Some(rows) = columns[Field::DryBulb as usize].as_ref().map(Vec::len) else {
-            return Err(EpwError { line: header.lines + 1, problem: EpwProblem::NoTemperature });
+            return Err(EpwError::malformed(header.lines + 1, "every dry-bulb temperature is marked as missing"));
         };
         let days = if leap { 366 } else { 365 };
         Ok(Self {
@@ -129,7 +129,7 @@ impl Epw {
         self.whole_year
     }
 
-    /// Midnight at the start of a day, as time after that of the first day \[s\]; `None` if there is no such day.
+    /// Midnight at the start of a day, as time after that of the first day \[s\]; `None` if the file has no such day.
     pub fn midnight_s(&self, month: u32, day: u32) -> Option<f64> {
         let date = Date::new(month, day).filter(|date| self.leap || *date != Date::FEBRUARY_29)?;
         let start_s = f64::from(date.days_after(self.first, self.leap)) * DAY_S;

@@ -1,7 +1,9 @@
 //! The rows after the header: their times follow one another, and their cells are numbers or marked as missing.
 
+use interplay_common::cell::shown_cell;
+
 use super::calendar::{Date, Stamp};
-use super::error::{EpwError, EpwProblem};
+use super::error::EpwError;
 use super::field::{COLUMNS, FIELDS, Field, Specification};
 use super::header::Header;
 
@@ -13,17 +15,18 @@ pub(super) struct Rows {
     pub doubts: Vec<Doubt>,
     /// The line of each row, from one.
     pub lines: Vec<usize>,
-    /// The year of each day's first row; none where it is no year.
+    /// The year of each day's first row; none if that is not a year.
     pub years: Vec<Option<i16>>,
 }
 
-/// A cell that holds no number, or an impossible one.
+/// A cell that holds an impossible value, or a text that is not a number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Doubt {
     /// The row, from zero.
     pub row: usize,
     pub field: Field,
-    pub problem: EpwProblem,
+    /// What is wrong, in words.
+    pub problem: String,
 }
 
 impl Rows {
@@ -40,9 +43,9 @@ impl Rows {
             if row.trim().is_empty() {
                 continue;
             }
-            let fail = |problem| EpwError { line, problem };
+            let fail = |words: String| EpwError::malformed(line, words);
             if last == Some(end) {
-                return Err(fail(EpwProblem::TooLong { end }));
+                return Err(fail(format!("a row after {end}, where the data end according to the header")));
             }
             let cells = cells(row).map_err(fail)?;
             let date = date(&cells).map_err(fail)?;
@@ -54,7 +57,9 @@ impl Rows {
             }
             let found = Stamp { date, hour: whole(&cells, 3, "hour").map_err(fail)?, ..wanted };
             if found != wanted {
-                return Err(fail(EpwProblem::OutOfOrder { found, wanted }));
+                let words =
+                    format!("this is {found}, but {wanted} comes next: rows are missing, repeated or out of order");
+                return Err(fail(words));
             }
             rows.push(&cells, line, found == Stamp::first(date, header.intervals_per_hour));
             last = Some(found);
@@ -63,8 +68,8 @@ impl Rows {
         if last == Some(end) {
             return Ok(rows);
         }
-        let found = rows.lines.len();
-        Err(EpwError { line, problem: EpwProblem::CutOff { found, wanted: end } })
+        let words = format!("the file ends here, with {} rows; its header promises data up to {end}", rows.lines.len());
+        Err(EpwError::malformed(line, words))
     }
 
     /// Appends a row whose time is right.
@@ -84,27 +89,32 @@ impl Rows {
 }
 
 /// The columns that are needed.
-fn cells(row: &str) -> Result<[&str; COLUMNS], EpwProblem> {
+fn cells(row: &str) -> Result<[&str; COLUMNS], String> {
     let mut cells = [""; COLUMNS];
     let mut found = 0;
     for (cell, text) in cells.iter_mut().zip(row.split(',')) {
         *cell = text.trim();
         found += 1;
     }
-    if found < COLUMNS { Err(EpwProblem::ShortRow { found, wanted: COLUMNS }) } else { Ok(cells) }
+    if found < COLUMNS {
+        return Err(format!(
+            "the row has {found} columns, and the wind and clouds stand in the first {COLUMNS}: it is cut off or not an EPW row"
+        ));
+    }
+    Ok(cells)
 }
 
-fn date(cells: &[&str; COLUMNS]) -> Result<Date, EpwProblem> {
+fn date(cells: &[&str; COLUMNS]) -> Result<Date, String> {
     let (month, day) = (whole(cells, 1, "month")?, whole(cells, 2, "day")?);
     Date::new(month, day).ok_or_else(|| not_a_number(cells, 2, "day of the month"))
 }
 
-fn whole(cells: &[&str; COLUMNS], column: usize, field: &'static str) -> Result<u32, EpwProblem> {
+fn whole(cells: &[&str; COLUMNS], column: usize, field: &str) -> Result<u32, String> {
     cells[column].parse().map_err(|_| not_a_number(cells, column, field))
 }
 
 /// A value, or NaN where it is missing.
-fn value(cells: &[&str; COLUMNS], specification: &Specification) -> Result<f64, EpwProblem> {
+fn value(cells: &[&str; COLUMNS], specification: &Specification) -> Result<f64, String> {
     let &Specification { field, column, missing, least, greatest, .. } = specification;
     if cells[column].is_empty() {
         return Ok(f64::NAN);
@@ -116,9 +126,10 @@ fn value(cells: &[&str; COLUMNS], specification: &Specification) -> Result<f64, 
     if (least..=greatest).contains(&found) {
         return Ok(found);
     }
-    Err(EpwProblem::Impossible { column: column + 1, field: field.name(), found, least, greatest, missing })
+    let (name, column) = (field.name(), column + 1);
+    Err(format!("column {column}, {name}, is {found}; possible are {least} to {greatest}, and missing is {missing}"))
 }
 
-fn not_a_number(cells: &[&str; COLUMNS], column: usize, field: &'static str) -> EpwProblem {
-    EpwProblem::NotANumber { column: column + 1, field, found: cells[column].to_owned() }
+fn not_a_number(cells: &[&str; COLUMNS], column: usize, field: &str) -> String {
+    format!("column {}, {field}, is {}, not a number", column + 1, shown_cell(cells[column]))
 }

@@ -46,7 +46,8 @@ impl Epw {
             }
             if is_used && self.column(field).is_none() && !self.doubts.iter().any(|doubt| doubt.field == field) {
                 let line = self.lines.first().copied().unwrap_or(1);
-                faults.push(EpwError { line, problem: EpwProblem::NoValues { field: field.name() } });
+                let words = format!("every {} is marked as missing, and the run uses it", field.name());
+                faults.push(EpwError { line, problem: EpwProblem::NoValues(words) });
                 continue;
             }
             let doubtful = |inside: bool| {
@@ -54,7 +55,7 @@ impl Epw {
                 here.filter(move |doubt| (is_used && rows.contains(doubt.row)) == inside)
             };
             if let Some(doubt) = doubtful(true).next() {
-                faults.push(EpwError { line: self.lines[doubt.row], problem: doubt.problem.clone() });
+                faults.push(EpwError::malformed(self.lines[doubt.row], doubt.problem.clone()));
                 continue;
             }
             if let Some(doubt) = doubtful(false).next() {
@@ -97,8 +98,12 @@ impl Epw {
         let used: Vec<&Range<usize>> =
             self.gaps[field as usize].iter().filter(|gap| (gap.start..gap.end).any(|row| rows.contains(row))).collect();
         if let Some(gap) = used.iter().find(|gap| hours(gap) > limit_h) {
-            let problem = EpwProblem::Gap { column, field: field.name(), hours: hours(gap), limit_h };
-            return Err(EpwError { line: self.lines[gap.start], problem });
+            let words = format!(
+                "column {column}, {}, is missing for {} h from here on, and at most {limit_h} h are bridged",
+                field.name(),
+                hours(gap)
+            );
+            return Err(EpwError { line: self.lines[gap.start], problem: EpwProblem::Gap(words) });
         }
         let Some(first) = used.first() else { return Ok(None) };
         let count: usize = used.iter().map(|gap| gap.len()).sum();

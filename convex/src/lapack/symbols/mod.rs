@@ -33,7 +33,7 @@ unsafe fn matrix<'a>(start: *const f64, rows: usize, columns: usize, ld: usize) 
 /// As [`matrix`], but writable.
 ///
 /// # Safety
-/// These entries are readable and writable, and nobody else uses them meanwhile.
+/// These entries are readable and writable, and no other reference to them exists meanwhile.
 unsafe fn matrix_mut<'a>(start: *mut f64, rows: usize, columns: usize, ld: usize) -> &'a mut [f64] {
     let length = extent(rows, columns, ld);
     // SAFETY: the caller guarantees the entries; an empty slice needs none.

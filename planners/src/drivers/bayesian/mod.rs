@@ -23,6 +23,8 @@ pub use settings::{ReplyValue, Settings};
 pub use signal::problem;
 pub use value::attraction;
 
+use serde_json::{Map, Value as Json, json};
+
 use crate::drivers::conservative;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::partner_choice::{PartnerChoice, PartnerSequence};
@@ -89,6 +91,14 @@ impl DriverKind for Settings {
         };
         ordered("w_1_min", self.w_1_min, "w_1_max", self.w_1_max)?;
         ordered("w_4", self.w_4, "w_1_min", self.w_1_min)
+    }
+
+    fn people_defaults(&self) -> Map<String, Json> {
+        Map::from_iter([("answer_s".to_owned(), json!(0.9))])
+    }
+
+    fn rank_beside_person(&self) -> Option<u8> {
+        Some(2)
     }
 }
 

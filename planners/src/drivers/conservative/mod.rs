@@ -10,6 +10,7 @@ mod settings;
 pub(crate) use fallback::{fall_back, solve_or_fall_back};
 pub use settings::Settings;
 
+use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::receding_horizon::{self, Solved};
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
@@ -77,6 +78,14 @@ impl DriverKind for Settings {
 
     fn prediction(&self) -> Option<crate::prediction::Prediction> {
         Some(self.prediction)
+    }
+
+    fn replacement_in_why(&self) -> Option<StandardReplacement> {
+        Some(StandardReplacement::planner(1))
+    }
+
+    fn rank_beside_person(&self) -> Option<u8> {
+        Some(1)
     }
 }
 

@@ -22,6 +22,7 @@ mod settings;
 pub use settings::Settings;
 
 use crate::drivers::conservative;
+use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::problem::{JointVehicle, joint_problem};
@@ -93,6 +94,10 @@ impl DriverKind for Settings {
 
     fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
         Some(Settings::shared_goal(self, goal))
+    }
+
+    fn replacement_in_why(&self) -> Option<StandardReplacement> {
+        Some(StandardReplacement::planner(2))
     }
 }
 

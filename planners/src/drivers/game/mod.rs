@@ -27,6 +27,8 @@ mod settings;
 
 pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, SolutionConcept};
 
+use serde_json::{Map, Value as Json, json};
+
 use crate::drivers::conservative;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::partner_choice::{PartnerChoice, PartnerSequence};
@@ -123,6 +125,10 @@ impl DriverKind for Settings {
 
     fn prediction(&self) -> Option<crate::prediction::Prediction> {
         Some(self.prediction)
+    }
+
+    fn people_defaults(&self) -> Map<String, Json> {
+        Map::from_iter([("answer_s".to_owned(), json!(0.9))])
     }
 }
 

@@ -67,6 +67,8 @@ pub use settings::{REACTION_S, Settings, Style};
 
 use std::borrow::Cow;
 
+use serde_json::{Map, Value as Json, json};
+
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::prediction::steady_inputs;
 use crate::problem::clearance::ellipses;
@@ -159,6 +161,11 @@ impl DriverKind for Settings {
 
     fn goes_first(&self) -> bool {
         true
+    }
+
+    /// A reaction of 0.6 s: people need 0.5 to 1.5 s.
+    fn people_defaults(&self) -> Map<String, Json> {
+        Map::from_iter([("reaction_s".to_owned(), json!(REACTION_S))])
     }
 }
 

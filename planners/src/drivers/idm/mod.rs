@@ -14,6 +14,9 @@ pub use settings::{Mobil, Settings};
 
 use std::borrow::Cow;
 
+use serde_json::{Map, Value as Json, json};
+
+use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::lanes::{RoadLanes, leader};
 use crate::road::network::ConflictKind;
@@ -82,6 +85,27 @@ impl DriverKind for Settings {
 
     fn can_be_asked(&self) -> bool {
         false
+    }
+
+    /// The values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
+    fn people_defaults(&self) -> Map<String, Json> {
+        let Settings { headway_s, gap_m, acceleration_mps2, braking_mps2, .. } = Settings::literature();
+        Map::from_iter([
+            ("headway_s".to_owned(), json!(headway_s)),
+            ("gap_m".to_owned(), json!(gap_m)),
+            ("acceleration_mps2".to_owned(), json!(acceleration_mps2)),
+            ("braking_mps2".to_owned(), json!(braking_mps2)),
+            ("mobil".to_owned(), json!({ "safe_braking_mps2": 2.0 })),
+        ])
+    }
+
+    fn lane_defaults(&self, lane_width_m: f64) -> Map<String, Json> {
+        Map::from_iter([("mobil".to_owned(), json!({ "lane_width_m": lane_width_m }))])
+    }
+
+    /// It follows and gives way by rules and weighs nothing, so it is a factor of its own.
+    fn replacement_in_why(&self) -> Option<StandardReplacement> {
+        Some(StandardReplacement { rank: 3, factor: "replacement by IDM" })
     }
 }
 

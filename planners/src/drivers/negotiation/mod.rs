@@ -30,7 +30,10 @@ pub use proposal::{AskedPartner, optimiser, problem};
 pub use references::References;
 pub use settings::{Concedes, Settings};
 
+use serde_json::{Map, Value as Json, json};
+
 use crate::drivers::conservative::{self, Conservative};
+use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::partner_choice::partner_event;
 use crate::drivers::receding_horizon::Solved;
@@ -111,6 +114,18 @@ impl DriverKind for Settings {
             horizon_steps,
             because: "a plan must reach beyond the steps during which the other is assumed to follow the prediction",
         })
+    }
+
+    fn people_defaults(&self) -> Map<String, Json> {
+        Map::from_iter([("answer_s".to_owned(), json!(0.9)), ("concedes".to_owned(), json!("order"))])
+    }
+
+    fn replacement_in_why(&self) -> Option<StandardReplacement> {
+        Some(StandardReplacement::planner(0))
+    }
+
+    fn rank_beside_person(&self) -> Option<u8> {
+        Some(0)
     }
 }
 

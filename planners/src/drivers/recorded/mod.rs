@@ -21,6 +21,7 @@ use crate::prediction::steering::steer;
 use crate::prediction::{Prediction, steadily_along};
 use crate::scene::inferred_futures::InferredFutures;
 pub use crate::scene::record::{Record, RecordFault, next_to};
+use crate::scene::road_rules::RuleKeeping;
 use crate::{DriverSettingError, Input, Plan, PlanError, PlanTime, Scene, Trajectory};
 
 /// The settings of a recorded driver: what was recorded.
@@ -72,6 +73,15 @@ impl DriverKind for Settings {
 
     fn can_be_asked(&self) -> bool {
         false
+    }
+
+    fn can_take_wheel(&self) -> bool {
+        false
+    }
+
+    /// A record is judged by no rule.
+    fn people_rules(&self) -> RuleKeeping {
+        RuleKeeping::Ignored
     }
 
     fn record(&self) -> Option<Record> {

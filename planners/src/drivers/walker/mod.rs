@@ -57,6 +57,15 @@ impl DriverKind for Settings {
     fn can_be_asked(&self) -> bool {
         false
     }
+
+    fn can_take_wheel(&self) -> bool {
+        false
+    }
+
+    /// The vehicle is a person on foot, who has no wheel.
+    fn can_be_replaced(&self) -> bool {
+        false
+    }
 }
 
 /// A pedestrian.

@@ -28,21 +28,25 @@ pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
 
 /// The schema of a type of files, as the check reads it.
 pub(crate) fn generated<T: JsonSchema>() -> Json {
-    generated_with::<T>(|_| Vec::new())
+    generated_with::<T, 0>(|_| [])
 }
 
-/// The same with further kinds of drivers; `drivers` makes their schemas.
-pub(crate) fn generated_with<T: JsonSchema>(drivers: impl FnOnce(&mut SchemaGenerator) -> Vec<Json>) -> Json {
+/// The same with further kinds; `foreign` makes their schemas, each list with the name of the definition that it extends.
+pub(crate) fn generated_with<T: JsonSchema, const N: usize>(
+    foreign: impl FnOnce(&mut SchemaGenerator) -> [(&'static str, Vec<Json>); N],
+) -> Json {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.root_schema_for::<T>().to_value();
-    let drivers = drivers(&mut generator);
+    let foreign = foreign(&mut generator);
     if let Some(definitions) = schema["$defs"].as_object_mut() {
         for (name, definition) in generator.take_definitions(true) {
             definitions.entry(name).or_insert(definition);
         }
     }
-    if let Some(kinds) = schema["$defs"]["Driver"]["oneOf"].as_array_mut() {
-        kinds.extend(drivers);
+    for (definition, further) in foreign {
+        if let Some(kinds) = schema["$defs"][definition]["oneOf"].as_array_mut() {
+            kinds.extend(further);
+        }
     }
     polish(&mut schema);
     schema

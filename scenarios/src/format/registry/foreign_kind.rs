@@ -1,35 +1,43 @@
-//! Kinds of drivers of other crates: how their settings are described and read.
+//! Kinds of other crates, of drivers, controllers or roads: how their settings are described and read.
 
-use interplay_planners::{Driver, DriverKind, ForeignDriver};
+use std::fmt;
+use std::sync::Arc;
+
+use interplay_common::foreign::ForeignSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Error, Map, Value as Json, json};
 
-/// A kind of driver that another crate provides.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ForeignKind {
+/// A kind that another crate provides; `Kind` is the trait of its settings.
+pub(crate) struct ForeignKind<Kind: ?Sized> {
     /// Its word in a scenario file.
     pub kind: &'static str,
     /// What tells its results from those of earlier versions.
     pub version: &'static str,
+    /// The kind with the defaults of its settings.
+    pub plain: Arc<Kind>,
     /// The schema of its settings; definitions that it refers to are left to the generator.
     settings: fn(&mut SchemaGenerator) -> Json,
-    read: fn(Json) -> Result<ForeignDriver, Error>,
+    read: ReadSettings<Kind>,
 }
 
-impl ForeignKind {
-    /// The kind with these settings.
-    pub fn of<S>() -> ForeignKind
+type ReadSettings<Kind> = Arc<dyn Fn(Json) -> Result<ForeignSettings<Kind>, Error> + Send + Sync>;
+
+impl<Kind: ?Sized + 'static> ForeignKind<Kind> {
+    /// The kind with settings `S`, which `share` makes usable by their trait and `about` gives a word and a version.
+    pub fn of<S>(share: fn(S) -> Arc<Kind>, about: fn(&Kind) -> [&'static str; 2]) -> ForeignKind<Kind>
     where
-        S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
+        S: Default + Serialize + DeserializeOwned + JsonSchema + 'static,
     {
-        let (kind, version) = (S::default().kind(), S::default().version());
-        let read = |table| ForeignDriver::new(serde_json::from_value::<S>(table)?);
-        ForeignKind { kind, version, settings: |generator| S::json_schema(generator).to_value(), read }
+        let plain = share(S::default());
+        let [kind, version] = about(&plain);
+        let read = move |table| ForeignSettings::new(kind, serde_json::from_value::<S>(table)?, share);
+        let settings = |generator: &mut SchemaGenerator| S::json_schema(generator).to_value();
+        ForeignKind { kind, version, plain, settings, read: Arc::new(read) }
     }
 
-    /// The schema of a driver of this kind: its settings beside a `kind`.
+    /// The schema of a table of this kind: its settings beside a `kind`.
     pub fn schema(&self, generator: &mut SchemaGenerator) -> Json {
         let settings = (self.settings)(generator);
         let kind = json!({ "type": "string", "const": self.kind });
@@ -43,9 +51,21 @@ impl ForeignKind {
         })
     }
 
-    /// The driver that a table of a scenario file describes; its `kind` is known to be this one.
-    pub fn driver(&self, mut table: Map<String, Json>) -> Result<Driver, Error> {
+    /// The settings that a table of a scenario file describes; its `kind` is known to be this one.
+    pub fn settings(&self, mut table: Map<String, Json>) -> Result<ForeignSettings<Kind>, Error> {
         table.remove("kind");
-        (self.read)(Json::Object(table)).map(Driver::Foreign)
+        (self.read)(Json::Object(table))
+    }
+}
+
+impl<Kind: ?Sized> Clone for ForeignKind<Kind> {
+    fn clone(&self) -> Self {
+        ForeignKind { plain: Arc::clone(&self.plain), read: Arc::clone(&self.read), ..*self }
+    }
+}
+
+impl<Kind: ?Sized> fmt::Debug for ForeignKind<Kind> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("ForeignKind").field("kind", &self.kind).field("version", &self.version).finish()
     }
 }

@@ -1,14 +1,15 @@
-//! What a scenario file may name: the kinds of drivers and the metrics of Interplay and of other crates.
+//! What a scenario file may name: the kinds of drivers, controllers and roads and the metrics of Interplay and of other crates.
 
 pub(crate) mod foreign_kind;
 
 use std::sync::{Arc, LazyLock};
 
+use interplay_building::control::{Controller, ControllerKind};
 use interplay_planners::{Driver, DriverKind};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use thiserror::Error;
 
 use crate::format::json_schema::{self, SchemaNode};
@@ -16,6 +17,8 @@ use crate::format::registry::foreign_kind::ForeignKind;
 use crate::format::scenario_file::ScenarioFile;
 use crate::format::stated::Stated;
 use crate::model::metric::{DeclaredMetric, RegisteredMetrics};
+use crate::model::traffic::obstacle::DeclaredObstacle;
+use crate::roads::{Road, RoadForm};
 use crate::text::name;
 
 /// What a scenario file may name: the kinds of drivers, and with them the JSON Schema that files are checked against.
@@ -52,33 +55,57 @@ use crate::text::name;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Registry {
-    /// The kinds of drivers of other crates.
-    drivers: Vec<ForeignKind>,
+    /// The kinds of other crates.
+    foreign: ForeignKinds,
     /// The metrics that are declared.
     metrics: RegisteredMetrics,
     /// The schema of a whole scenario, all that it extends included.
     schema: Arc<Json>,
 }
 
-/// Why a kind of driver or a metric cannot be added.
+/// The kinds of other crates.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ForeignKinds {
+    drivers: Vec<ForeignKind<dyn DriverKind>>,
+    controllers: Vec<ForeignKind<dyn ControllerKind>>,
+    roads: Vec<ForeignKind<dyn RoadForm>>,
+    obstacles: Vec<DeclaredObstacle>,
+}
+
+/// Why a kind or a metric cannot be added.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum RegistryError {
-    /// There is a kind of this word already.
-    #[error("there is a kind of driver `{0}` already")]
+    /// There is a kind of this word already, of drivers, of controllers or of roads.
+    #[error("there is a kind `{0}` already")]
     KindTaken(&'static str),
     /// The word could not be written in a scenario file, on the command line and in the path of a recording alike.
-    #[error("a kind of driver cannot be called `{0}`: {help}", help = name::in_words())]
+    #[error("a kind cannot be called `{0}`: {help}", help = name::in_words())]
     NotAName(&'static str),
     /// There is a metric of this name already, or something else in reports or rows is called so.
     #[error("a metric cannot be called `{0}`: something in reports or in rows of sweeps is called so already")]
     MetricTaken(String),
 }
 
-/// The schema of a whole scenario, all that it extends included, whose vehicles may have drivers of `foreign` kinds.
-pub(crate) fn complete(foreign: &[ForeignKind]) -> Json {
-    json_schema::generated_with::<ScenarioFile>(|generator| {
-        foreign.iter().map(|foreign| foreign.schema(generator)).collect()
+/// The schema of a whole scenario, all that it extends included, which may name `foreign` kinds.
+pub(crate) fn complete(foreign: &ForeignKinds) -> Json {
+    json_schema::generated_with::<ScenarioFile, 4>(|generator| {
+        [
+            ("Driver", foreign.drivers.iter().map(|kind| kind.schema(generator)).collect()),
+            ("Controller", foreign.controllers.iter().map(|kind| kind.schema(generator)).collect()),
+            ("Road", foreign.roads.iter().map(|kind| kind.schema(generator)).collect()),
+            ("ObstacleKind", foreign.obstacles.iter().map(word_schema).collect()),
+        ]
     })
+}
+
+/// The schema of the word for a kind of obstacle.
+fn word_schema(obstacle: &DeclaredObstacle) -> Json {
+    json!({ "type": "string", "const": obstacle.kind, "description": obstacle.about })
+}
+
+/// The kind of another crate that a table names, if it names one.
+fn named_by<'k, Kind: ?Sized, S>(kinds: &'k [ForeignKind<Kind>], table: &Stated<S>) -> Option<&'k ForeignKind<Kind>> {
+    kinds.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind))
 }
 
 /// [`Registry::schema`] of what Interplay has.
@@ -91,7 +118,9 @@ static STANDARD: LazyLock<Registry> = LazyLock::new(Registry::default);
 impl Default for Registry {
     /// The kinds of Interplay.
     fn default() -> Self {
-        Registry { drivers: Vec::new(), metrics: RegisteredMetrics::default(), schema: Arc::new(complete(&[])) }
+        let foreign = ForeignKinds::default();
+        let schema = Arc::new(complete(&foreign));
+        Registry { foreign, metrics: RegisteredMetrics::default(), schema }
     }
 }
 
@@ -113,16 +142,60 @@ impl Registry {
     where
         S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
     {
-        let foreign = ForeignKind::of::<S>();
-        if self.driver_kinds().contains(&foreign.kind) {
-            return Err(RegistryError::KindTaken(foreign.kind));
-        }
-        if !name::is_name(foreign.kind) {
-            return Err(RegistryError::NotAName(foreign.kind));
-        }
-        self.drivers.push(foreign);
-        self.schema = Arc::new(complete(&self.drivers));
-        Ok(self)
+        let kind =
+            ForeignKind::<dyn DriverKind>::of::<S>(|settings| Arc::new(settings), |kind| [kind.kind(), kind.version()]);
+        is_free(kind.kind, &self.driver_kinds())?;
+        self.foreign.drivers.push(kind);
+        Ok(self.with_schema())
+    }
+
+    /// The same registry with another kind of controller: that of these settings, as [`Registry::with_driver`].
+    ///
+    /// # Errors
+    /// [`RegistryError`] if the kind's word is taken or is no name.
+    pub fn with_controller<S>(mut self) -> Result<Registry, RegistryError>
+    where
+        S: ControllerKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
+    {
+        let kind = ForeignKind::<dyn ControllerKind>::of::<S>(
+            |settings| Arc::new(settings),
+            |kind| [kind.kind(), kind.version()],
+        );
+        is_free(kind.kind, &self.controller_kinds())?;
+        self.foreign.controllers.push(kind);
+        Ok(self.with_schema())
+    }
+
+    /// The same registry with another form of road: that of these settings, as [`Registry::with_driver`].
+    ///
+    /// # Errors
+    /// [`RegistryError`] if the form's word is taken or is no name.
+    pub fn with_road<S>(mut self) -> Result<Registry, RegistryError>
+    where
+        S: RoadForm + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
+    {
+        let kind =
+            ForeignKind::<dyn RoadForm>::of::<S>(|settings| Arc::new(settings), |kind| [kind.kind(), kind.version()]);
+        is_free(kind.kind, &self.road_kinds())?;
+        self.foreign.roads.push(kind);
+        Ok(self.with_schema())
+    }
+
+    /// The same registry with another kind of obstacle: a word with its usual size.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if the kind's word is taken or is no name.
+    pub fn with_obstacle(mut self, obstacle: DeclaredObstacle) -> Result<Registry, RegistryError> {
+        let words = self.complete().property("obstacle").and_then(SchemaNode::entries);
+        let words = words.and_then(|entry| entry.property("kind")).map(SchemaNode::words).unwrap_or_default();
+        is_free(obstacle.kind, &words)?;
+        self.foreign.obstacles.push(obstacle);
+        Ok(self.with_schema())
+    }
+
+    fn with_schema(mut self) -> Registry {
+        self.schema = Arc::new(complete(&self.foreign));
+        self
     }
 
     /// The same registry with another metric declared. What computes it is known to who made the value: users of the simulation
@@ -152,9 +225,30 @@ impl Registry {
         vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
     }
 
+    /// The kinds of drivers of Interplay and of other crates, each with the defaults of its settings.
+    pub(crate) fn drivers(&self) -> impl Iterator<Item = &dyn DriverKind> {
+        let own = Driver::kinds().iter().map(|driver| &**driver);
+        own.chain(self.foreign.drivers.iter().map(|foreign| &*foreign.plain))
+    }
+
+    /// The kind of driver that a scenario file calls `kind`, with the defaults of its settings.
+    pub(crate) fn driver_kind(&self, kind: &str) -> Option<&dyn DriverKind> {
+        self.drivers().find(|driver| driver.kind() == kind)
+    }
+
+    /// The kinds of obstacles of other crates.
+    pub(crate) fn obstacles(&self) -> &[DeclaredObstacle] {
+        &self.foreign.obstacles
+    }
+
     /// The kinds of controllers that a building may have.
     pub fn controller_kinds(&self) -> Vec<&str> {
         self.complete().property("controller").map(SchemaNode::kinds).unwrap_or_default()
+    }
+
+    /// The kinds of roads that a scenario may have.
+    pub fn road_kinds(&self) -> Vec<&str> {
+        self.complete().property("road").map(SchemaNode::kinds).unwrap_or_default()
     }
 
     /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
@@ -172,25 +266,55 @@ impl Registry {
     /// # Errors
     /// What keeps the table from being the settings of its kind, although it fits the schema.
     pub(crate) fn driver(&self, table: Stated<Driver>) -> Result<Driver, serde_json::Error> {
-        let foreign = self.drivers.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind));
-        match foreign {
-            Some(foreign) => foreign.driver(table.into_keys()),
+        match named_by(&self.foreign.drivers, &table) {
+            Some(foreign) => foreign.settings(table.into_keys()).map(Driver::Foreign),
+            None => table.settings(),
+        }
+    }
+
+    /// The controller that a table of a scenario file describes.
+    ///
+    /// # Errors
+    /// As [`Registry::driver`].
+    pub(crate) fn controller(&self, table: Stated<Controller>) -> Result<Controller, serde_json::Error> {
+        match named_by(&self.foreign.controllers, &table) {
+            Some(foreign) => foreign.settings(table.into_keys()).map(Controller::Foreign),
+            None => table.settings(),
+        }
+    }
+
+    /// The road that a table of a scenario file describes.
+    ///
+    /// # Errors
+    /// As [`Registry::driver`].
+    pub(crate) fn road(&self, table: Stated<Road>) -> Result<Road, serde_json::Error> {
+        match named_by(&self.foreign.roads, &table) {
+            Some(foreign) => foreign.settings(table.into_keys()).map(Road::Foreign),
             None => table.settings(),
         }
     }
 
     /// The versions of the kinds and metrics of other crates; empty without any.
     pub(crate) fn versions(&self) -> String {
-        let drivers = self.drivers.iter().map(|foreign| format!("{} {}\n", foreign.kind, foreign.version));
+        let drivers = self.foreign.drivers.iter().map(|foreign| [foreign.kind, foreign.version]);
+        let controllers = self.foreign.controllers.iter().map(|foreign| [foreign.kind, foreign.version]);
+        let roads = self.foreign.roads.iter().map(|foreign| [foreign.kind, foreign.version]);
         let metrics = self.metrics.0.iter().filter_map(|metric| Some((metric.declaration().name, metric.version()?)));
-        drivers.chain(metrics.map(|(name, version)| format!("{name} {version}\n"))).collect()
+        let kinds = drivers.chain(controllers).chain(roads);
+        kinds.chain(metrics.map(|(name, version)| [name, version])).map(|about| about.join(" ") + "\n").collect()
     }
+}
+
+/// Whether a kind can have this word beside the others.
+fn is_free(word: &'static str, others: &[&str]) -> Result<(), RegistryError> {
+    if others.contains(&word) {
+        return Err(RegistryError::KindTaken(word));
+    }
+    if name::is_name(word) { Ok(()) } else { Err(RegistryError::NotAName(word)) }
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     #[test]
@@ -205,7 +329,7 @@ mod tests {
 
     #[test]
     fn a_variant_may_leave_out_what_a_complete_file_must_state() {
-        let whole_scenario = complete(&[]);
+        let whole_scenario = complete(&ForeignKinds::default());
         let file = json_schema::of_file(&whole_scenario);
         let definitions = file["$defs"].to_string();
         assert!(!definitions.contains("required"), "{definitions}");

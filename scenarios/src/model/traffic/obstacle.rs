@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What an obstacle is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ObstacleKind {
     /// A car that is parked, 4.5 m × 1.8 m.
@@ -19,23 +19,40 @@ pub enum ObstacleKind {
     Wall,
     /// Works, 4 m × 2 m.
     Works,
+    /// A kind of another crate, by its word; the registry declares it ([`DeclaredObstacle`]).
+    #[serde(untagged)]
+    #[schemars(skip)]
+    Declared(String),
+}
+
+/// A kind of obstacle that another crate provides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredObstacle {
+    /// The word for this kind in a scenario file: small letters, digits and hyphens.
+    pub kind: &'static str,
+    /// What the schema says of it.
+    pub about: &'static str,
+    /// The usual length and width of a real one \[m\].
+    pub size_m: [f64; 2],
+    /// Whether its usual shape is a circle.
+    pub is_round: bool,
 }
 
 impl ObstacleKind {
-    /// The usual length and width of a real one \[m\].
-    pub(crate) fn size_m(self) -> [f64; 2] {
+    /// The usual length and width of a real one \[m\], and whether it is a circle.
+    pub(crate) fn shape(&self, declared: &[DeclaredObstacle]) -> ([f64; 2], bool) {
         match self {
-            ObstacleKind::ParkedCar => [4.5, 1.8],
-            ObstacleKind::ParkedVan => [6.0, 2.0],
-            ObstacleKind::Cone => [0.4, 0.4],
-            ObstacleKind::Wall => [10.0, 0.3],
-            ObstacleKind::Works => [4.0, 2.0],
+            ObstacleKind::ParkedCar => ([4.5, 1.8], false),
+            ObstacleKind::ParkedVan => ([6.0, 2.0], false),
+            ObstacleKind::Cone => ([0.4, 0.4], true),
+            ObstacleKind::Wall => ([10.0, 0.3], false),
+            ObstacleKind::Works => ([4.0, 2.0], false),
+            ObstacleKind::Declared(word) => {
+                let found = declared.iter().find(|declared| declared.kind == word);
+                // The schema has refused other words.
+                found.map_or(([1.0, 1.0], false), |declared| (declared.size_m, declared.is_round))
+            }
         }
-    }
-
-    /// Whether its usual shape is a circle.
-    pub(crate) fn is_round(self) -> bool {
-        self == ObstacleKind::Cone
     }
 }
 

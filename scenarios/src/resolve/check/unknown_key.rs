@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_key_in_another_unit_or_another_table_is_told_so() {
-        let whole = crate::format::registry::complete(&[]);
+        let whole = crate::format::registry::complete(&Default::default());
         let file = SchemaNode::new(&whole);
         let vehicle = file.property("vehicle").and_then(SchemaNode::entries).expect("vehicles");
         let start = vehicle.property("start").expect("a start");

@@ -5,6 +5,8 @@ use serde_json::{Map, Value as Json, json};
 use super::fill::{fill_key, scaled};
 use super::people;
 use crate::format::json_schema::SchemaNode;
+use crate::format::registry::Registry;
+use crate::format::vehicle_config::default_driver;
 use crate::model::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
 use crate::resolve::defaults::stated_road::StatedRoad;
 
@@ -14,7 +16,8 @@ const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_
 /// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
 /// of each vehicle. Where neither is stated, the width of the lanes says the size. A scenario of 1/10 scale is left as it is, but
 /// for the lanes of IDM drivers. What is no table of the format is left too.
-pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
+pub(crate) fn expand(scenario: &mut Json, registry: &Registry) {
+    let schema = registry.complete();
     let Some(root) = scenario.as_object_mut() else { return };
     root.remove("defaults");
     let size = size(root, schema);
@@ -38,11 +41,11 @@ pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
     let vehicles = root.get_mut("vehicle").and_then(Json::as_array_mut).into_iter().flatten();
     for vehicle in vehicles.filter_map(Json::as_object_mut) {
         if let Some(lane_width_m) = lane_width_m {
-            state_lane_width(vehicle, lane_width_m);
+            state_lane_width(vehicle, registry, lane_width_m);
         }
         if let (Some(Size { scale, .. }), Some(schema)) = (of_people, vehicle_schema(schema)) {
-            vehicle.entry("driver").or_insert_with(|| json!({ "kind": "human" }));
-            people::state_habits(vehicle, schema, scale);
+            vehicle.entry("driver").or_insert_with(default_kind);
+            people::state_habits(vehicle, registry, schema, scale);
         }
         expand_vehicle(vehicle, size, schema);
     }
@@ -116,7 +119,7 @@ fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>, schema: S
     let mut dimensions = scaled(schema, &dimensions, scale / class.scale());
     dimensions["body"]["scale"] = json!(scale);
     lay_under(vehicle, dimensions);
-    vehicle.entry("driver").or_insert_with(|| json!({ "kind": "human" }));
+    vehicle.entry("driver").or_insert_with(default_kind);
     if class != VehicleClass::ScaleCar {
         state_angle_weights(vehicle, schema, scale);
     }
@@ -161,13 +164,16 @@ fn lay_under(table: &mut Map<String, Json>, under: Json) {
     }
 }
 
-/// Tells an IDM driver who states no width of its lanes that of the road's.
-fn state_lane_width(vehicle: &mut Map<String, Json>, lane_width_m: f64) {
+/// Writes the settings of a driver that follow from the width of the road's lanes.
+fn state_lane_width(vehicle: &mut Map<String, Json>, registry: &Registry, lane_width_m: f64) {
     let Some(driver) = vehicle.get_mut("driver").and_then(Json::as_object_mut) else { return };
-    if driver.get("kind").is_some_and(|kind| kind == "idm") {
-        let mobil = driver.entry("mobil").or_insert_with(|| json!({})).as_object_mut();
-        if let Some(mobil) = mobil {
-            mobil.entry("lane_width_m").or_insert(json!(lane_width_m));
-        }
+    let kind = driver.get("kind").and_then(Json::as_str).and_then(|kind| registry.driver_kind(kind));
+    if let Some(kind) = kind {
+        lay_under(driver, Json::Object(kind.lane_defaults(lane_width_m)));
     }
+}
+
+/// The table of a driver that a vehicle does not state.
+fn default_kind() -> Json {
+    json!({ "kind": default_driver().kind() })
 }

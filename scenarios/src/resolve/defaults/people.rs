@@ -1,12 +1,13 @@
 //! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
 //! which that shows.
 
-use interplay_planners::ComfortLimits;
-use interplay_planners::drivers::{human, idm};
+use interplay_planners::rules::RuleKeeping;
+use interplay_planners::{ComfortLimits, DriverKind};
 use serde_json::{Map, Value as Json, json};
 
 use super::fill::scaled;
 use crate::format::json_schema::SchemaNode;
+use crate::format::registry::Registry;
 use crate::model::classes::FULL_SCALE;
 use crate::model::traffic::conduct::Conduct;
 
@@ -15,22 +16,6 @@ const STEPS_S: [f64; 2] = [0.1, 0.2];
 
 /// Stages of a plan: 8 s of a real car.
 const HORIZON_STEPS: usize = 40;
-
-/// What a human driver of a real car does besides, and one after the intelligent driver model: a reaction of 0.6 s (people need 0.5 to
-/// 1.5 s), and the values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
-fn driver_defaults(kind: &str) -> Json {
-    let idm::Settings { headway_s, gap_m, acceleration_mps2, braking_mps2, .. } = idm::Settings::literature();
-    match kind {
-        "human" => json!({ "reaction_s": human::REACTION_S }),
-        "idm" => json!({
-            "headway_s": headway_s, "gap_m": gap_m, "acceleration_mps2": acceleration_mps2, "braking_mps2": braking_mps2,
-            "mobil": { "safe_braking_mps2": 2.0 },
-        }),
-        "negotiation" => json!({ "answer_s": 0.9, "concedes": "order" }),
-        "bayesian" | "game" => json!({ "answer_s": 0.9 }),
-        _ => json!({}),
-    }
-}
 
 /// Whether drivers are people: as stated, or else where everything is of full size and no figure of the source is reproduced.
 pub(super) fn are_people(root: &Map<String, Json>, is_full: bool) -> bool {
@@ -51,12 +36,11 @@ pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
 }
 
 /// Writes into a vehicle what its driver does; `schema` is that of vehicles.
-pub(super) fn state_habits(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
+pub(super) fn state_habits(vehicle: &mut Map<String, Json>, registry: &Registry, schema: SchemaNode, scale: f64) {
     let ratio = scale / FULL_SCALE;
-    // A record is judged by no rule.
-    let is_recorded =
-        vehicle.get("driver").and_then(|driver| driver.get("kind")).is_some_and(|kind| kind == "recorded");
-    vehicle.entry("rules").or_insert(json!(if is_recorded { "ignored" } else { "kept" }));
+    let kind = vehicle.get("driver").and_then(|driver| registry.driver_kind(driver.get("kind")?.as_str()?));
+    let rules = kind.map_or(RuleKeeping::Kept, DriverKind::people_rules);
+    vehicle.entry("rules").or_insert(json!(rules));
     if let Some(limits) = vehicle.entry("limits").or_insert_with(|| json!({})).as_object_mut() {
         let comfort = schema.property("limits").and_then(|limits| limits.property("comfort"));
         let real = serde_json::to_value(ComfortLimits::default()).unwrap_or_default();
@@ -64,11 +48,9 @@ pub(super) fn state_habits(vehicle: &mut Map<String, Json>, schema: SchemaNode, 
             .entry("comfort")
             .or_insert_with(|| comfort.map_or_else(|| real.clone(), |key| scaled(key, &real, ratio)));
     }
-    let Some(driver) = vehicle.get_mut("driver").and_then(Json::as_object_mut) else { return };
-    let Some(kind) = driver.get("kind").and_then(Json::as_str).map(str::to_owned) else { return };
-    let of_kind = schema.property("driver").and_then(|driver| driver.of_kind(&kind));
-    let Json::Object(defaults) = driver_defaults(&kind) else { return };
-    for (key, value) in defaults {
+    let (Some(kind), Some(driver)) = (kind, vehicle.get_mut("driver").and_then(Json::as_object_mut)) else { return };
+    let of_kind = schema.property("driver").and_then(|driver| driver.of_kind(kind.kind()));
+    for (key, value) in kind.people_defaults() {
         let property = of_kind.and_then(|kind| kind.property(&key));
         driver.entry(key).or_insert_with(|| property.map_or_else(|| value.clone(), |key| scaled(key, &value, ratio)));
     }

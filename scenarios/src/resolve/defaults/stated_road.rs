@@ -62,6 +62,7 @@ mod tests {
             let scenario = serde_json::json!({ "road": road });
             let stated = StatedRoad::read(scenario.as_object().expect("a table"), schema);
             let read: Road = serde_json::from_value(road.clone()).expect("a road");
+            assert_eq!(serde_json::to_value(&read).expect("a table")["kind"], kind);
             assert_eq!(stated.is_network(), read.is_network(), "{kind}");
             assert_eq!(stated.lane_widths_m().next(), Some(read.lane_width_m()), "{kind}");
         }

@@ -6,13 +6,13 @@ use interplay_common::spelling::suggestion;
 use interplay_planners::drivers::recorded;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
-use interplay_planners::{Driver, Limits, Route, SafetyEllipse, State};
+use interplay_planners::{Driver, Route, State};
 
 use crate::format::obstacle::ObstacleConfig;
 use crate::format::read::tree::TomlNode;
-use crate::model::scenario::{Stay, Vehicle};
+use crate::model::scenario::Vehicle;
 use crate::model::traffic::lane_reference::LaneReference;
-use crate::model::traffic::obstacle::{ObstacleForm, Outline};
+use crate::model::traffic::obstacle::{DeclaredObstacle, ObstacleForm, Outline};
 use crate::roads::{Branch, Road};
 use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
@@ -26,6 +26,7 @@ const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 /// For places that are none, and outlines that are no convex polygons.
 pub(crate) fn obstacles(
     stated: &[ObstacleConfig],
+    declared: &[DeclaredObstacle],
     road: &Road,
     network: Option<&RoadNetwork>,
     tree: &TomlNode,
@@ -34,7 +35,7 @@ pub(crate) fn obstacles(
     let scale = vehicles.first().map_or(REAL_SCALE, |vehicle| vehicle.body.scale);
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     for (index, stated) in stated.iter().enumerate() {
-        let written = Written { stated, index, tree, road, network };
+        let written = Written { stated, declared, index, tree, road, network };
         match written.vehicle(scale) {
             Ok(vehicle) => found.push(vehicle),
             Err(fault) => faults.push(fault),
@@ -46,6 +47,7 @@ pub(crate) fn obstacles(
 /// An obstacle of a file, and where it is written.
 struct Written<'a> {
     stated: &'a ObstacleConfig,
+    declared: &'a [DeclaredObstacle],
     index: usize,
     tree: &'a TomlNode,
     road: &'a Road,
@@ -63,25 +65,13 @@ impl Written<'_> {
             outline = outline.turned(start.heading_rad - along_rad);
             (point[3], start.heading_rad) = (along_rad, along_rad);
         }
-        let driver = recorded::Settings { points, ..recorded::Settings::default() };
+        let driver = Driver::Recorded(recorded::Settings { points, ..recorded::Settings::default() });
         Ok(Vehicle {
             name: self.stated.name.clone(),
-            class: None,
-            road: Branch::Main,
-            start,
-            start_acceleration_mps2: 0.0,
-            route,
-            goal: crate::model::traffic::goal::GoalConfig::default(),
-            weights: crate::model::traffic::weights::Weights::default(),
             body: outline.body(scale),
-            limits: Limits::default(),
-            safety: SafetyEllipse::default(),
-            driver: Driver::Recorded(driver),
             rules: Some(RuleKeeping::Ignored),
-            stay: Stay::default(),
-            obstacle: Some(ObstacleForm { kind: self.stated.kind, outline }),
-            sensing: None,
-            inference: None,
+            obstacle: Some(ObstacleForm { kind: self.stated.kind.clone(), outline }),
+            ..Vehicle::new(start, route, driver)
         })
     }
 
@@ -194,10 +184,11 @@ impl Written<'_> {
         if !corners_m.is_empty() {
             return self.polygon(corners_m);
         }
-        let usual_m = kind.size_m().map(|size_m| size_m * scale / REAL_SCALE);
+        let (usual_m, is_round) = kind.shape(self.declared);
+        let usual_m = usual_m.map(|size_m| size_m * scale / REAL_SCALE);
         Ok(match (radius_m, length_m, width_m) {
             (Some(radius_m), _, _) => Outline::Circle { radius_m: *radius_m },
-            (None, None, None) if kind.is_round() => Outline::Circle { radius_m: 0.5 * usual_m[0] },
+            (None, None, None) if is_round => Outline::Circle { radius_m: 0.5 * usual_m[0] },
             _ => Outline::Box { length_m: length_m.unwrap_or(usual_m[0]), width_m: width_m.unwrap_or(usual_m[1]) },
         })
     }

@@ -7,7 +7,7 @@ use crate::animation::pictures::Pictures;
 use crate::animation::timing::{LAST_PICTURE_S, PICTURE_S};
 use crate::palette::Colour;
 
-/// The pictures that decide the palette: every so many.
+/// Distance between the pictures that determine the palette.
 const PALETTE_STRIDE: usize = 9;
 
 /// Pictures with a common palette.
@@ -26,14 +26,14 @@ pub struct Change {
     pub corner: [u32; 2],
     /// Width and height \[px\].
     pub size: [u32; 2],
-    /// The index of each pixel, none where it is as before.
+    /// The index of each pixel; `None` where it is unchanged.
     pub pixels: Vec<Option<u8>>,
-    /// How long the picture stays \[s\].
+    /// Duration of the picture \[s\].
     pub shown_s: f64,
 }
 
 impl Film {
-    /// Draws all pictures, side by side on the threads there are; none if they have no size.
+    /// Draws all pictures in parallel; `None` if their size is zero.
     pub fn draw(pictures: &dyn Pictures) -> Option<Film> {
         let count = pictures.count();
         let samples: Vec<usize> = (0..count).step_by(PALETTE_STRIDE).chain([count - 1]).collect();
@@ -50,7 +50,7 @@ impl Film {
         self.pictures.len()
     }
 
-    /// The part of a picture that differs from the one before; of the first one, all of it.
+    /// The part of a picture that differs from the previous one; the whole first picture.
     pub fn change(&self, index: usize) -> Change {
         let [width, height] = self.size.map(|part| part as usize);
         let now = &self.pictures[index];

@@ -1,4 +1,4 @@
-//! GIF: one palette for all pictures, and of each only what changes.
+//! GIF: one palette for all pictures, and only the changed part of each.
 
 use std::borrow::Cow;
 
@@ -7,14 +7,11 @@ use rayon::prelude::*;
 
 use super::film::Film;
 
-/// A film as a GIF that repeats for ever.
-///
-/// # Errors
-/// If a side is longer than 65535 pixels.
+/// A film as a GIF that repeats forever.
 pub fn gif(film: &Film) -> Result<Vec<u8>, EncodingError> {
     let palette: Vec<u8> = film.colours.iter().flatten().copied().collect();
     let as_before = film.colours.len() as u8;
-    // Room for the index that means "as before".
+    // One more entry for the index that means "unchanged".
     let palette = [palette, vec![0; 3]].concat();
     let frame = |index: usize| {
         let change = film.change(index);

@@ -1,4 +1,4 @@
-//! Pictures as files: GIF, WebP, a filmstrip as PNG, and MP4 by a program of its own.
+//! Pictures as files: GIF, WebP, a filmstrip as PNG, and MP4 by ffmpeg.
 
 mod film;
 mod gif;

@@ -7,15 +7,12 @@ use crate::animation::pictures::Pictures;
 use crate::animation::timing::{LAST_PICTURE_S, PICTURE_S};
 use crate::shell::is_on_path;
 
-/// Whether there is an `ffmpeg` on the path.
+/// Whether `ffmpeg` is on the path.
 pub fn has_ffmpeg() -> bool {
     is_on_path("ffmpeg")
 }
 
 /// Pictures as MP4.
-///
-/// # Errors
-/// If `ffmpeg` cannot be started or refuses, with what it says last.
 pub fn mp4(pictures: &dyn Pictures) -> io::Result<Vec<u8>> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("animation.mp4");
@@ -35,8 +32,8 @@ pub fn mp4(pictures: &dyn Pictures) -> io::Result<Vec<u8>> {
         errors.read_to_string(&mut said)?;
     }
     if !child.wait()?.success() {
-        let last = said.lines().last().unwrap_or("it gives no reason").to_owned();
-        return Err(io::Error::other(format!("ffmpeg refuses: {last}")));
+        let last = said.lines().last().unwrap_or("no message").to_owned();
+        return Err(io::Error::other(format!("ffmpeg failed: {last}")));
     }
     written?;
     std::fs::read(file)

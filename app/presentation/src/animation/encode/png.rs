@@ -1,20 +1,18 @@
-//! A filmstrip: some pictures beside and below one another, as one PNG.
+//! A filmstrip: pictures beside and below one another in one PNG.
 
 use rayon::prelude::*;
 
 use crate::animation::pictures::Pictures;
+use crate::plot::png_of;
 
-/// How many pictures a filmstrip has, and how many side by side.
+/// Number of pictures in a filmstrip, and of those side by side.
 const COUNT: usize = 8;
 const COLUMNS: usize = 2;
 /// Space between pictures \[px\].
 const GAP_PX: usize = 6;
 const PAPER: u8 = 0xFF;
 
-/// Pictures at equal distances, the first and the last among them, as PNG.
-///
-/// # Errors
-/// That of the encoder.
+/// Pictures at equal distances, including the first and the last, as PNG.
 pub fn filmstrip(pictures: &dyn Pictures) -> Result<Vec<u8>, png::EncodingError> {
     let [width, height] = pictures.size().map(|part| part as usize);
     let last = pictures.count() - 1;
@@ -31,12 +29,5 @@ pub fn filmstrip(pictures: &dyn Pictures) -> Result<Vec<u8>, png::EncodingError>
             strip[3 * ((top + row) * wide + left)..][..3 * width].copy_from_slice(line);
         }
     }
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, wide as u32, high as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&strip)?;
-    writer.finish()?;
-    Ok(bytes)
+    png_of((wide as u32, high as u32), &strip)
 }

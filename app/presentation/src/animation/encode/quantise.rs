@@ -7,16 +7,16 @@ use std::collections::BTreeMap;
 
 use crate::palette::Colour;
 
-/// How many colours stay exact, those that are asked for included.
+/// Most exact colours, including the requested ones.
 const MAX_EXACT: usize = 56;
-/// How many colours there are in all; one more index is left for "as before".
+/// Most colours; one more index is left for "unchanged".
 const MAX_COLOURS: usize = 127;
 /// A colour that covers at least this share of the pixels stays exact.
 const MIN_EXACT_SHARE: f64 = 2e-4;
-/// Bits of a part of a colour that decide which colour of the palette takes its place.
+/// Leading bits of red, green and blue that select the nearest colour of the palette.
 const BITS: u32 = 5;
 
-/// A palette and, for each colour by its leading bits, the index that takes its place.
+/// A palette, and the index of its nearest colour for each colour by its leading bits.
 pub struct ColourTable {
     /// At most 127 colours.
     pub colours: Vec<Colour>,
@@ -83,7 +83,7 @@ fn nearest(colours: &[Colour], to: Colour) -> u8 {
     found.map_or(0, |(index, _)| index as u8)
 }
 
-/// At most `limit` colours that stand for all.
+/// At most `limit` colours that represent all.
 fn median_cut(colours: Vec<(Colour, usize)>, limit: usize) -> Vec<Colour> {
     let mut boxes: Vec<Vec<(Colour, usize)>> = Vec::new();
     if !colours.is_empty() {

@@ -14,16 +14,13 @@ const ANIMATED_AND_TRANSPARENT: u8 = 0b0001_0010;
 /// Bytes of a file before its first chunk.
 const RIFF_HEADER_BYTES: usize = 12;
 
-/// A film as a WebP that repeats for ever.
-///
-/// # Errors
-/// If a side is longer than 16384 pixels.
+/// A film as a WebP that repeats forever.
 pub fn webp(film: &Film) -> Result<Vec<u8>, EncodingError> {
     let frames = (0..film.count()).into_par_iter().map(|index| frame(film, &film.change(index)));
     let frames = frames.collect::<Result<Vec<Vec<u8>>, EncodingError>>()?;
     let [width, height] = film.size;
     let header = [&[ANIMATED_AND_TRANSPARENT, 0, 0, 0], &three_bytes(width - 1)[..], &three_bytes(height - 1)].concat();
-    // Background, which nobody shows, and no limit of repetitions.
+    // Background colour, which viewers ignore, and unlimited repetitions.
     let animation = [0xFF, 0xFF, 0xFF, 0xFF, 0, 0];
     let chunks = [chunk(b"VP8X", &header), chunk(b"ANIM", &animation), frames.concat()].concat();
     Ok(chunk(b"RIFF", &[&b"WEBP"[..], &chunks].concat()))
@@ -52,7 +49,7 @@ fn frame(film: &Film, change: &Change) -> Result<Vec<u8>, EncodingError> {
     let still = if predicted.len() < plain.len() { predicted } else { plain };
     let milliseconds = (1000.0 * change.shown_s).round() as u32;
     let place = [left / 2, top / 2, width - 1, height - 1, milliseconds].map(three_bytes).concat();
-    // Transparent pixels show the picture before, which stays.
+    // Transparent pixels keep the previous picture.
     let content = [&place[..], &[0], &still[RIFF_HEADER_BYTES.min(still.len())..]].concat();
     Ok(chunk(b"ANMF", &content))
 }

@@ -1,10 +1,11 @@
 //! A footprint: the body of a vehicle with its windows, and a number.
 
-use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side, width_of};
+use super::super::backend::width_of;
+use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::data::distance;
-use crate::body_shape::{BodyPaint, BodyPart, body_parts};
-use crate::body_style::BodyStyle;
+use crate::body::BodyStyle;
+use crate::body::{BodyPaint, BodyPart, body_parts};
 use crate::rectangle::rounded_corners;
 
 /// Points of a rounded corner.
@@ -51,13 +52,13 @@ fn rounded(ring: &[[f64; 2]], radius: f64) -> Vec<[f64; 2]> {
     rounded_corners(ring, radius).flat_map(curve).collect()
 }
 
-/// Black or white, whichever is better read on a colour.
+/// Black or white, whichever is more legible on a colour.
 fn readable_on([red, green, blue]: Colour) -> Colour {
     let bright = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
     if bright > 125.0 { BLACK } else { PAPER }
 }
 
-/// Writes words, where there is room for them, to the right or the left of a footprint; where it lies, below or above it.
+/// Writes words to the right or the left of an upright footprint, or below or above a horizontal one, if there is space.
 pub(super) fn number_beside(drawing: &mut Drawing, corners: [[f64; 2]; 4], right: bool, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
     let end =
@@ -75,7 +76,7 @@ fn write(drawing: &mut Drawing, at: [f64; 2], side: Side, words: &str) {
     drawing.text_where_free(at, side, words, BLACK, true);
 }
 
-/// Writes words, where there is room for them, onto a footprint of a colour if they fit, otherwise above it.
+/// Writes words onto a footprint if they fit, otherwise above or beside it, if there is space.
 pub(super) fn number(drawing: &mut Drawing, corners: [[f64; 2]; 4], colour: Colour, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
     let (length, width) = (distance(corners[0], corners[2]), distance(corners[0], corners[1]));

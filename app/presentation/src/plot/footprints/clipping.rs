@@ -49,7 +49,7 @@ fn clipped_segment([from, to]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> 
         begin = begin.max(shares[0].min(shares[1]));
         end = end.min(shares[0].max(shares[1]));
     }
-    // Ends that are inside stay as they are, so that parts join.
+    // Ends inside the rectangle stay exact, so that parts join.
     let at = |share: f64| match share {
         0.0 => from,
         1.0 => to,
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_outside_is_cut_away() {
+    fn a_polygon_is_clipped_to_the_rectangle() {
         let diamond = [[0.0, -2.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]];
         let inside = clipped(&diamond, [-1.0, -1.0], [1.0, 1.0]);
         let area: f64 = (0..inside.len())
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_cut_where_it_leaves() {
+    fn a_line_is_clipped_to_the_rectangle() {
         let line = [[-3.0, 0.0], [0.0, 0.0], [0.0, 3.0], [0.5, 3.0], [0.5, -3.0]];
         let parts = clipped_line(&line, [-1.0, -1.0], [1.0, 1.0]);
         assert_eq!(parts, [vec![[-1.0, 0.0], [0.0, 0.0], [0.0, 1.0]], vec![[0.5, 1.0], [0.5, -1.0]]]);

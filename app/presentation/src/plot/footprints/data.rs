@@ -4,22 +4,16 @@ use super::super::drawing::Drawing;
 use super::super::legend::{Legend, Sample};
 use super::super::style::{Colour, Dash, LineStyle, VERMILLION};
 use super::clipping::{clipped, clipped_line};
-use crate::body_style::BodyStyle;
-use crate::extent::extent;
+use crate::body::BodyStyle;
 use crate::palette::{ASPHALT, PAINT};
+use crate::rectangle::extent;
 use crate::road_shapes::RoadShapes;
 
-/// Width of the picture.
-pub(super) const WIDTH_PX: f64 = 1400.0;
-/// Space at the sides of the picture.
-pub(super) const MARGIN_PX: f64 = 30.0;
-/// Height of the line with the title.
-pub(super) const TITLE_HEIGHT_PX: f64 = 48.0;
-/// Smallest distance of two points of a path: closer points are rounded to whole pixels and make the line ragged.
+/// Least distance of points of a path: rounding to pixels would make lines of closer points ragged.
 const MIN_PATH_SPACING_PX: f64 = 16.0;
 /// How far the asphalt reaches beyond the lines at the edges.
 pub(super) const SHOULDER_PX: f64 = 4.0;
-/// The path of the ego, as the source draws it.
+/// The path of the ego, as in the dissertation.
 pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 
 /// Vehicles at equal steps of time. Lengths are in metres of the world; the x axis runs along the main road.
@@ -27,11 +21,9 @@ pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 pub struct FootprintPlot {
     /// Title of the picture.
     pub title: String,
-    /// The road.
     pub road: RoadShapes,
-    /// Lateral coordinates of its right and its left edge, where all drive along x on one straight road.
+    /// Lateral coordinates of the right and the left edge, if all vehicles drive along x on one straight road.
     pub strip_m: Option<[f64; 2]>,
-    /// The vehicles.
     pub vehicles: Vec<FootprintVehicle>,
     /// The snapshots, in order of time.
     pub snapshots: Vec<FootprintSnapshot>,
@@ -39,12 +31,11 @@ pub struct FootprintPlot {
     pub path: Vec<(f64, [f64; 2])>,
 }
 
-/// A vehicle that leaves footprints.
+/// A vehicle with footprints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FootprintVehicle {
     /// Name of the vehicle in the legend.
     pub label: String,
-    /// Colour of the footprints.
     pub colour: Colour,
     /// Look of the vehicle.
     pub style: BodyStyle,
@@ -65,8 +56,8 @@ impl FootprintPlot {
         for vehicle in &self.vehicles {
             legend.add(Sample::Patch(vehicle.colour), &vehicle.label);
         }
-        let who = self.vehicles.first().map_or("", |first| first.label.split(':').next().unwrap_or(&first.label));
-        legend.add(Sample::Line(PATH), &format!("path of {who}"));
+        let ego = self.vehicles.first().map_or("", |first| first.label.split(':').next().unwrap_or(&first.label));
+        legend.add(Sample::Line(PATH), &format!("path of {ego}"));
         legend
     }
 
@@ -97,7 +88,7 @@ impl FootprintPlot {
         }
     }
 
-    /// The path in pixels until a time, with no two points closer than a line can show.
+    /// The path until a time in pixels, without points that are too close.
     pub(super) fn path_pixels(&self, until_s: f64, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
         let driven = self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9);
         spaced(driven.map(|(_, point)| place(*point)))
@@ -110,7 +101,7 @@ impl FootprintPlot {
     }
 }
 
-/// Points of a line, with no two closer than a line can show.
+/// Points of a line, without points that are too close.
 pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut pixels: Vec<[f64; 2]> = Vec::new();
     let mut end = None;
@@ -120,7 +111,7 @@ pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
             pixels.push(pixel);
         }
     }
-    // It ends where the line ends.
+    // The last point is always kept.
     if let Some(end) = end.filter(|end| pixels.last() != Some(end)) {
         if pixels.len() > 1 {
             pixels.pop();

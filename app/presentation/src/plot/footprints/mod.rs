@@ -23,11 +23,11 @@ impl FootprintPlot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body_style::BodyStyle;
-    use crate::extent::extent;
+    use crate::body::BodyStyle;
     use crate::palette::{ASPHALT, PAINT};
     use crate::plot::drawing::Mark;
     use crate::plot::style::{BLUE, Colour, ORANGE};
+    use crate::rectangle::extent;
     use crate::road_shapes::RoadShapes;
 
     fn car(label: &str, colour: Colour) -> FootprintVehicle {
@@ -86,7 +86,7 @@ mod tests {
         footprints
     }
 
-    /// However long the drive, every footprint of every snapshot is seen, large enough, and its number can be read.
+    /// Footprints are complete and large enough, and numbers legible, for any length of the drive.
     #[test]
     fn short_and_long_drives_show_every_footprint() {
         for length_m in [20.0, 100.0, 2000.0] {
@@ -100,7 +100,7 @@ mod tests {
         }
     }
 
-    /// Where roads cross, all snapshots are in one plan, as large in x as in y.
+    /// Where roads cross, all snapshots are in one plan with the same scale in x and y.
     #[test]
     fn a_crossing_is_drawn_to_scale() {
         let footprints = crossing(40.0);
@@ -111,8 +111,7 @@ mod tests {
         assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
     }
 
-    /// A car that has hardly moved has one footprint for several, with the numbers of all; whatever is left of the others does
-    /// not lie on one another.
+    /// Overlapping footprints of a car are drawn once, with the numbers of all.
     #[test]
     fn footprints_of_one_car_do_not_pile_up() {
         for (length_m, kept, words) in [(20.0, 4, "1–2"), (10.0, 2, "1–4"), (0.0, 1, "1–8")] {
@@ -123,13 +122,13 @@ mod tests {
         }
     }
 
-    /// Numbers that would lie on others are left out, but not the first and the last.
+    /// Numbers that would overlap others are left out, the first and the last last.
     #[test]
     fn numbers_do_not_pile_up_where_many_vehicles_pass() {
         let mut footprints = drive(100.0);
-        for who in 2..7 {
-            footprints.vehicles.push(car(&format!("car {who}"), BLUE));
-            let offset = 0.4 * f64::from(who);
+        for number in 2..7 {
+            footprints.vehicles.push(car(&format!("car {number}"), BLUE));
+            let offset = 0.4 * f64::from(number);
             for snapshot in &mut footprints.snapshots {
                 let body = snapshot.bodies[1].map(|[x, y]| [x - offset, y]);
                 snapshot.bodies.push(body);
@@ -143,7 +142,7 @@ mod tests {
         assert!(first.min(last) >= middle.max(1) && middle < 7, "{:?}", drawing.words());
     }
 
-    /// Where a ramp ends, the line at the edge goes with the asphalt, and no line stays where the road was.
+    /// Where a ramp ends, the edge line follows the asphalt.
     #[test]
     fn the_edge_line_follows_a_ramp_that_ends() {
         let mut footprints = drive(20.0);
@@ -160,9 +159,9 @@ mod tests {
         );
     }
 
-    /// A road that turns is drawn around the vehicles, in one plan, and every word can be read.
+    /// A curved road is drawn around the vehicles in one plan, and every word is legible.
     #[test]
-    fn a_road_that_turns_is_in_the_plan() {
+    fn a_curved_road_is_clipped_to_the_plan() {
         let arc = |radius: f64| {
             let at = move |i: u32| libm::sincos(0.05 * f64::from(i));
             (0..=30).map(move |i| [radius * at(i).0, 40.0 - radius * at(i).1]).collect::<Vec<_>>()

@@ -1,31 +1,28 @@
 //! All snapshots in one plan, for roads that cross or turn.
 
 use super::super::axis::Axis;
-use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
+use super::super::drawing::{
+    Drawing, LARGE_TEXT_PX, LEFT_MARGIN_PX, MARGIN_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side, TICK_LABEL_HEIGHT_PX,
+    TITLE_HEIGHT_PX, WIDTH_PX, X_LABEL_HEIGHT_PX,
+};
 use super::super::style::{Colour, Dash, GREY, LineStyle};
 use super::body;
-use super::data::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX, distance};
-use crate::extent::extent;
+use super::data::{FootprintPlot, PATH, distance};
 use crate::palette::ASPHALT;
+use crate::rectangle::extent;
 
-/// Space at the left of the plan, for the tick labels of the y axis.
-const LEFT_MARGIN_PX: f64 = 92.0;
-/// Height of the tick labels of the x axis.
-const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
-/// Height of the line with the name of the x axis.
-const X_LABEL_HEIGHT_PX: f64 = 38.0;
 /// Largest height of the plan.
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.
 const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
 
-/// How much of the colour of its vehicle the first footprint has, and the last: the asphalt shines through.
+/// Opacities of the first and the last footprint of a vehicle.
 const OPACITIES: [f64; 2] = [0.55, 0.95];
 
-/// A footprint that stands for a vehicle until it has left it.
+/// A footprint, which represents all snapshots in which the vehicle still overlaps it.
 struct PlanFootprint {
-    who: usize,
-    /// The first and the last snapshot for which it stands.
+    vehicle: usize,
+    /// The first and the last snapshot that it represents.
     snapshots: [usize; 2],
     /// Whether it is the first footprint of the vehicle or the last.
     is_end: bool,
@@ -41,7 +38,7 @@ impl PlanFootprint {
     }
 }
 
-/// Whether two bodies have a point in common: no side of either separates them.
+/// Whether two bodies overlap, by the separating-axis test.
 fn touch(a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]) -> bool {
     let separates = |body: &[[f64; 2]; 4], [from, to]: [usize; 2]| {
         let axis = [0, 1].map(|part| body[to][part] - body[from][part]);
@@ -61,7 +58,7 @@ fn contains([front_right, front_left, rear_right, rear_left]: &[[f64; 2]; 4], po
     })
 }
 
-/// A colour that lets the asphalt shine through.
+/// A translucent colour on asphalt.
 fn on_asphalt(colour: Colour, opacity: f64) -> Colour {
     let mixed = |part: usize| opacity * f64::from(colour[part]) + (1.0 - opacity) * f64::from(ASPHALT[part]);
     [0, 1, 2].map(|part| mixed(part) as u8)
@@ -120,53 +117,55 @@ impl FootprintPlot {
     fn draw_footprints(&self, drawing: &mut Drawing, map: &Map) {
         let last = self.snapshots.len().saturating_sub(1).max(1) as f64;
         let opacity = |index: usize| OPACITIES[0] + (OPACITIES[1] - OPACITIES[0]) * index as f64 / last;
-        let mut footprints: Vec<PlanFootprint> = (0..self.vehicles.len()).flat_map(|who| self.kept(who)).collect();
-        footprints.sort_by_key(|footprint| (footprint.snapshots[0], footprint.who));
-        for PlanFootprint { who, snapshots, body, .. } in &footprints {
-            let (corners, vehicle) = (body.map(|corner| map.place(corner)), &self.vehicles[*who]);
-            body::draw(drawing, corners, vehicle.style, vehicle.colour, opacity(snapshots[0]));
+        let mut footprints: Vec<PlanFootprint> =
+            (0..self.vehicles.len()).flat_map(|vehicle| self.kept(vehicle)).collect();
+        footprints.sort_by_key(|footprint| (footprint.snapshots[0], footprint.vehicle));
+        for PlanFootprint { vehicle, snapshots, body, .. } in &footprints {
+            let (corners, drawn) = (body.map(|corner| map.place(corner)), &self.vehicles[*vehicle]);
+            body::draw(drawing, corners, drawn.style, drawn.colour, opacity(snapshots[0]));
         }
-        // Where there is no room for all numbers, the first and the last of each vehicle have it.
+        // If space is short, the first and the last footprint of each vehicle have priority.
         footprints.sort_by_key(|footprint| !footprint.is_end);
         for footprint in &footprints {
-            let PlanFootprint { who, snapshots, body, .. } = footprint;
-            let (words, corners, mates) = (footprint.words(), body.map(|corner| map.place(corner)), self.mates(*who));
-            match mates.iter().position(|mate| mate == who) {
+            let PlanFootprint { vehicle, snapshots, body, .. } = footprint;
+            let (words, corners, mates) =
+                (footprint.words(), body.map(|corner| map.place(corner)), self.lane_mates(*vehicle));
+            match mates.iter().position(|mate| mate == vehicle) {
                 Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
-                _ if self.is_crossed(*who, body) => body::number_beside(drawing, corners, true, &words),
+                _ if self.is_crossed(*vehicle, body) => body::number_beside(drawing, corners, true, &words),
                 _ => {
-                    let ground = on_asphalt(self.vehicles[*who].colour, opacity(snapshots[0]));
+                    let ground = on_asphalt(self.vehicles[*vehicle].colour, opacity(snapshots[0]));
                     body::number(drawing, corners, ground, &words);
                 }
             }
         }
     }
 
-    /// The footprints of a vehicle without those that would lie on the one before.
-    fn kept(&self, who: usize) -> Vec<PlanFootprint> {
-        let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
+    /// The footprints of a vehicle that do not overlap the previous one.
+    fn kept(&self, vehicle: usize) -> Vec<PlanFootprint> {
+        let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(vehicle)).collect();
         let mut kept = Vec::new();
         let mut first = 0;
         while first < bodies.len() {
             let last = first + bodies[first + 1..].iter().take_while(|body| touch(bodies[first], body)).count();
             let is_end = first == 0 || last + 1 == bodies.len();
-            kept.push(PlanFootprint { who, snapshots: [first, last], is_end, body: *bodies[first] });
+            kept.push(PlanFootprint { vehicle, snapshots: [first, last], is_end, body: *bodies[first] });
             first = last + 1;
         }
         kept
     }
 
-    /// Whether the middle of a footprint lies on one of another vehicle, at whatever time.
-    fn is_crossed(&self, who: usize, body: &[[f64; 2]; 4]) -> bool {
+    /// Whether the middle of a footprint is on one of another vehicle at any time.
+    fn is_crossed(&self, vehicle: usize, body: &[[f64; 2]; 4]) -> bool {
         let middle = [0, 1].map(|axis| 0.25 * body.iter().map(|corner| corner[axis]).sum::<f64>());
         let others = self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().enumerate());
-        others.filter(|(other, _)| *other != who).any(|(_, other)| contains(other, middle))
+        others.filter(|(other, _)| *other != vehicle).any(|(_, other)| contains(other, middle))
     }
 }
 
 impl FootprintPlot {
-    /// The vehicles that start in the lane of `who`. Their footprints overlap, so their numbers are drawn beside them.
-    fn mates(&self, who: usize) -> Vec<usize> {
+    /// The vehicles that start in the lane of a vehicle. Their footprints overlap, so their numbers are drawn beside them.
+    fn lane_mates(&self, vehicle: usize) -> Vec<usize> {
         let Some(start) = self.snapshots.first() else { return Vec::new() };
         let lane = |[front_right, front_left, rear_right, _]: [[f64; 2]; 4]| {
             let length = distance(front_right, rear_right);
@@ -174,9 +173,9 @@ impl FootprintPlot {
             let middle = [0, 1].map(|axis| 0.5 * (front_right[axis] + front_left[axis]));
             ([cos, sin], cos * middle[1] - sin * middle[0])
         };
-        let width = start.bodies.get(who).map_or(0.0, |body| distance(body[0], body[1]));
+        let width = start.bodies.get(vehicle).map_or(0.0, |body| distance(body[0], body[1]));
         let same = |other: &usize| {
-            let (Some(a), Some(b)) = (start.bodies.get(who), start.bodies.get(*other)) else { return false };
+            let (Some(a), Some(b)) = (start.bodies.get(vehicle), start.bodies.get(*other)) else { return false };
             let ((along, lateral), (others, beside)) = (lane(*a), lane(*b));
             distance(along, others) < 0.1 && (lateral - beside).abs() < 0.5 * width
         };

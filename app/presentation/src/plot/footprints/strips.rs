@@ -1,10 +1,13 @@
 //! One strip of road per snapshot, below the one before.
 
 use super::super::axis::Axis;
-use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
+use super::super::drawing::{
+    Drawing, LARGE_TEXT_PX, MARGIN_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side, TITLE_HEIGHT_PX, WIDTH_PX,
+    X_LABEL_HEIGHT_PX,
+};
 use super::super::style::{Dash, GREY, LineStyle};
 use super::body;
-use super::data::{FootprintPlot, MARGIN_PX, PATH, SHOULDER_PX, TITLE_HEIGHT_PX, WIDTH_PX};
+use super::data::{FootprintPlot, PATH, SHOULDER_PX};
 
 /// Space at the left of each strip, for the number and the time of its snapshot.
 const LEFT_MARGIN_PX: f64 = 150.0;
@@ -12,8 +15,6 @@ const LEFT_MARGIN_PX: f64 = 150.0;
 const STRIP_SPACING_PX: f64 = 16.0;
 /// Height of the tick labels of the x axis.
 const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
-/// Height of the line with the name of the x axis.
-const X_LABEL_HEIGHT_PX: f64 = 38.0;
 /// Smallest length of a body that is visible. If bodies would be shorter, the strips move along with the ego.
 const MIN_BODY_LENGTH_PX: f64 = 40.0;
 /// The length of the longest body in strips that move along with the ego.

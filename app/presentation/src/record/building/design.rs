@@ -1,9 +1,9 @@
-//! What the controller says of its plans: the learned bias, its feedback, convergence, and the exchange between zones.
+//! The designs of the controller: learned bias, feedback, convergence, and the exchange between zones.
 //!
 //! ```text
-//! building/learned/<n>                        heat beyond the forecast that is believed to return
-//! building/feedback/gain/<n>/{own,others}     K: a zone's answer to its own error, and to those of the others in sum
-//! building/feedback/tap/<l>                   Q: a zone's answer to its own deviation, l steps later; mean of the zones
+//! building/learned/<n>                        learned heat beyond the forecast
+//! building/feedback/gain/<n>/{own,others}     K: heat of a zone for its own error, and summed for those of the others
+//! building/feedback/tap/<l>                   Q: heat of a zone l steps after its own deviation; mean of the zones
 //! building/convergence/{spectral-radius,largest-singular-value,one}
 //! building/exchange/cost                      log₁₀ J before the first round and after each, of the first exchange
 //! building/exchange/messages                  messages that each zone has sent
@@ -15,6 +15,7 @@ use interplay_building::control::{Design, Exchange};
 use interplay_simulation::frame::BuildingFrame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::super::Logged;
 use super::super::palette::{self, FAILURE, NEUTRAL};
 use super::super::re_sdk_types::archetypes::{BarChart, Scalars};
 use super::super::re_sdk_types::components::TensorData;
@@ -34,24 +35,21 @@ pub const COST: &str = "building/exchange/cost";
 /// Path of the messages by zone.
 pub const MESSAGES: &str = "building/exchange/messages";
 
-/// The plots of a controller's plans, with what they have shown so far.
+/// Logs the designs of a controller.
 #[derive(Default)]
 pub struct DesignPlots {
-    /// Whether this controller plans at all.
+    /// Whether this controller makes plans.
     learns: bool,
-    /// The description of the day's plan.
+    /// The design of the day.
     design: Design,
     /// Messages sent so far, by zone.
     messages: Vec<usize>,
-    /// The plots that have anything to show.
+    /// The plots that have data.
     seen: BTreeSet<&'static str>,
 }
 
 impl DesignPlots {
-    /// Logs names and colours; `learns` says whether this controller plans at all.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
+    /// Logs names and colours; `learns` tells whether this controller makes plans.
     pub fn begin(
         stream: &RecordingStream,
         names: &[String],
@@ -69,7 +67,7 @@ impl DesignPlots {
                 stream,
                 &(indexed(GAIN, index) + "/others"),
                 &format!("{name}: others'"),
-                series_colour.veiled(130),
+                series_colour.translucent(130),
                 1.5,
             )?;
         }
@@ -83,33 +81,25 @@ impl DesignPlots {
         Ok(DesignPlots { learns, ..DesignPlots::default() })
     }
 
-    /// Whether there is anything to show of `part`.
+    /// Whether the plot `part` has data.
     pub fn has(&self, part: &str) -> bool {
         self.seen.contains(part)
     }
 
     /// Logs one step.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn step(
-        &mut self,
-        stream: &RecordingStream,
-        shown: &[usize],
-        frame: &BuildingFrame,
-    ) -> RecordingStreamResult<()> {
+    pub fn step(&mut self, stream: &RecordingStream, shown: &[usize], frame: &BuildingFrame) -> Logged {
         if !self.learns {
             return Ok(());
         }
         if let Some(design) = &frame.design {
             self.design = (**design).clone();
-            self.styled(stream)?;
+            self.note_design(stream)?;
             if let Some(exchange) = &design.exchange {
                 self.exchange(stream, exchange)?;
             }
         }
         for &index in shown {
-            // Before there was a day, nothing is learned.
+            // On the first day nothing is learned yet.
             let bias_kw = self.design.bias_kw.get(frame.step * frame.zones.len() + index).copied().unwrap_or(0.0);
             stream.log(indexed(LEARNED, index), &Scalars::single(bias_kw))?;
         }
@@ -117,8 +107,8 @@ impl DesignPlots {
         self.convergence(stream)
     }
 
-    /// Notes what there is to show of a new design, and logs the names and colours of its taps.
-    fn styled(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    /// Notes which plots a new design has data for, and logs the names and colours of its taps.
+    fn note_design(&mut self, stream: &RecordingStream) -> Logged {
         let Design { gain_kw_per_k, taps_kw_per_k, spectral_radius, .. } = &self.design;
         self.seen.insert(LEARNED);
         self.seen.extend((!gain_kw_per_k.is_empty()).then_some(GAIN));
@@ -132,7 +122,7 @@ impl DesignPlots {
         Ok(())
     }
 
-    fn feedback(&self, stream: &RecordingStream, shown: &[usize]) -> RecordingStreamResult<()> {
+    fn feedback(&self, stream: &RecordingStream, shown: &[usize]) -> Logged {
         let Design { gain_kw_per_k, taps_kw_per_k, .. } = &self.design;
         for (index, row) in shown.iter().filter_map(|&index| Some((index, gain_kw_per_k.get(index)?))) {
             let own = row[index];
@@ -147,7 +137,7 @@ impl DesignPlots {
         Ok(())
     }
 
-    fn convergence(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    fn convergence(&self, stream: &RecordingStream) -> Logged {
         let log = |name: &str, value: f64| stream.log(format!("{CONVERGENCE}/{name}"), &Scalars::single(value));
         if let Some(radius) = self.design.spectral_radius {
             log("one", 1.0)?;
@@ -156,7 +146,7 @@ impl DesignPlots {
         self.design.largest_singular_value.map_or(Ok(()), |value| log("largest-singular-value", value))
     }
 
-    fn exchange(&mut self, stream: &RecordingStream, exchange: &Exchange) -> RecordingStreamResult<()> {
+    fn exchange(&mut self, stream: &RecordingStream, exchange: &Exchange) -> Logged {
         if self.seen.insert(COST) {
             let logarithms = exchange.costs.iter().map(|cost| cost.log10()).collect();
             stream.log_static(COST, &bars(logarithms).with_color(palette::series(1).solid()))?;
@@ -171,7 +161,7 @@ impl DesignPlots {
     }
 }
 
-/// Where something of a zone, or of a delay, is recorded.
+/// The path of a part for a zone or a delay.
 fn indexed(part: &str, index: usize) -> String {
     format!("{part}/{}", index + 1)
 }

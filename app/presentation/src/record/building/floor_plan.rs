@@ -4,6 +4,7 @@ use interplay_scenarios::FloorPlan;
 use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::super::Logged;
 use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
@@ -17,23 +18,20 @@ const WALL_PX: usize = 1;
 const OUTDOORS_PX: [usize; 2] = [10, 44];
 /// Space between two floors.
 const BETWEEN_FLOORS_PX: usize = 40;
-/// In more rooms than this a label has no space for a name.
+/// Labels of more rooms than this have no space for names.
 const MAX_NAMED_ROOMS: usize = 16;
-/// In more rooms than this there is no space for labels.
+/// More rooms than this have no space for labels.
 const MAX_LABELLED_ROOMS: usize = 144;
 
 /// The floor plan of a building in a recording.
 pub struct FloorPlanLayer {
     rooms: FloorPlan,
-    /// The temperature of each zone that is neither cold nor warm while none is wanted \[°C\].
+    /// The usual wanted temperature of each zone, the middle of the colour scale while none is wanted \[°C\].
     middles_c: Vec<f64>,
 }
 
 impl FloorPlanLayer {
-    /// Logs what never changes.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
+    /// Logs the static style of the labels.
     pub fn begin(
         stream: &RecordingStream,
         rooms: FloorPlan,
@@ -48,10 +46,7 @@ impl FloorPlanLayer {
     }
 
     /// Logs one step.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn step(&self, stream: &RecordingStream, names: &[String], frame: &BuildingFrame) -> RecordingStreamResult<()> {
+    pub fn step(&self, stream: &RecordingStream, names: &[String], frame: &BuildingFrame) -> Logged {
         let [width, height] = self.size();
         let pixels = self.pixels(frame, [width, height]);
         stream.log("building/plan/rooms", &Image::from_rgb24(pixels, [width as u32, height as u32]))?;
@@ -67,7 +62,7 @@ impl FloorPlanLayer {
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels =
             names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]).chain(self.floor_names());
-        // The viewer writes labels below their places. Above several floors are their names.
+        // The viewer writes labels below their places. Several floors have their names above them.
         let outdoors_y = if self.rooms.floors > 1 { height as f32 - 40.0 } else { 0.0 };
         let centre = |index: usize| {
             let [left, top] = self.corner(index);
@@ -82,13 +77,13 @@ impl FloorPlanLayer {
         OUTDOORS_PX[usize::from(self.rooms.floors > 1)]
     }
 
-    /// The names of the floors, where there are several.
+    /// The names of the floors, if there are several.
     fn floor_names(&self) -> impl Iterator<Item = String> {
         let floors = if self.rooms.floors > 1 { self.rooms.floors } else { 0 };
         (1..=floors).map(|floor| format!("floor {floor}"))
     }
 
-    /// Where the names of the floors are: above each.
+    /// The places of the names, above each floor.
     fn floor_places(&self) -> impl Iterator<Item = [f32; 2]> {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let place = move |floor: usize| {
@@ -99,7 +94,7 @@ impl FloorPlanLayer {
         (0..if floors > 1 { floors } else { 0 }).map(place)
     }
 
-    /// Floors beside one another, so that the picture is about as wide as high.
+    /// Number of floors side by side, such that the picture is about square.
     fn across(&self) -> usize {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let square = (floors as f64 * rows as f64 / columns.max(1) as f64).sqrt();
@@ -150,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_room_has_its_place_and_its_colour() {
+    fn rooms_have_the_colours_of_their_temperatures() {
         let plan = FloorPlanLayer { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middles_c: vec![25.0; 4] };
         let zone = |temperature_c| ZoneFrame { temperature_c, ..ZoneFrame::default() };
         let zones: Vec<ZoneFrame> = [20.0, 25.0, 30.0].map(zone).to_vec();
@@ -166,7 +161,7 @@ mod tests {
         let at = |x: usize, y: usize| [0, 1, 2].map(|part| pixels[3 * (y * width + x) + part]);
         let (first, second) = (OUTDOORS_PX[0] + 3, OUTDOORS_PX[0] + ROOM_PX + WALL_PX + 3);
         assert_eq!(at(first, first), [30, 90, 190], "cold");
-        assert_eq!(at(second, first), [95, 100, 95], "neither");
+        assert_eq!(at(second, first), [95, 100, 95], "at the wanted temperature");
         assert_eq!(at(first, second), [200, 60, 20], "warm");
         assert_eq!(at(second, second), at(0, 0), "no room");
     }

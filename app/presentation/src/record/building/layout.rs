@@ -1,13 +1,12 @@
-//! Which panels a building opens with.
+//! The layout of a recording with a building.
 
 use super::super::blueprint::{LayoutNode, View};
 use super::super::layout::rows;
-use super::super::panels::{about, events};
+use super::super::panels::{TimePlot, about, events, ranged};
 use super::super::plots;
 use super::super::re_sdk_types::blueprint::archetypes::{PlotLegend, VisualBounds2D};
 use super::super::re_sdk_types::blueprint::components::VisualBounds2D as ViewBounds;
 use super::super::re_sdk_types::datatypes::Range2D;
-use super::super::time_plot::{TimePlot, ranged};
 use super::{BuildingLayer, design, series};
 
 /// Most zones with a plot of their own on the first tab.
@@ -17,21 +16,20 @@ const QUARTER_WIDTH: f64 = 262.0;
 const TEMPERATURE_WIDTH: f64 = 390.0;
 const HALF_WIDTH: f64 = 600.0;
 
-/// The words that belong to a recording of a building. Beside vehicles their layout has them.
+/// The text panels on the tab of the building. With vehicles, the tab of the interaction has the text about the recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextPanels {
-    /// The words are elsewhere, and there are no events.
-    Elsewhere,
-    /// The events; the rest is elsewhere.
+    /// No text panel.
+    None,
     Events,
-    /// The text about the recording; there are no events.
+    /// The text about the recording.
     About,
     /// The text about the recording, and the events.
     AboutAndEvents,
 }
 
-/// The tabs: the floor plan beside the temperatures of some zones, with weather, heat, costs and words below it; every zone,
-/// where there are more; and what the controller says of its plans, if it plans.
+/// The tabs: the floor plan with temperatures of some zones, weather, heat, costs and texts; every zone, if there are more; and
+/// the designs of the controller, if it has any.
 pub fn tabs(building_layer: &BuildingLayer, words: TextPanels) -> Vec<(&'static str, LayoutNode)> {
     let mut tabs = vec![("The building", overview(building_layer, words))];
     if building_layer.names.len() > MAX_FIRST_ZONES {
@@ -54,12 +52,12 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let cost = plot("Cost of each day", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
-        // The rooms have the colours of their temperatures above.
-        (1.0, heat.alone()),
+        // The legend of the temperatures above names the rooms.
+        (1.0, heat.without_legend()),
         (1.0, cost.with_legend(letters(&["cheapest possible"]), QUARTER_WIDTH)),
     ];
     match words {
-        TextPanels::Elsewhere => {}
+        TextPanels::None => {}
         TextPanels::Events => below.push((1.0, events(plots::BUILDING_LOG))),
         TextPanels::About => below.push((1.2, about())),
         TextPanels::AboutAndEvents => {
@@ -70,12 +68,12 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     LayoutNode::Column(vec![(1.5, above), (1.0, LayoutNode::Row(below))])
 }
 
-/// The zones with a plot of their own on the first tab: all of a few, otherwise some from the first to the last.
+/// The zones with a plot on the first tab: all, or some from the first to the last.
 fn first_zones(building_layer: &BuildingLayer) -> Vec<usize> {
     spread(building_layer.names.len(), MAX_FIRST_ZONES)
 }
 
-/// Numbers from 0, at most `most` of them, spread over all.
+/// At most `most` indices, spread evenly from 0 to `count` − 1.
 fn spread(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
@@ -83,7 +81,7 @@ fn spread(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|index| index * (count - 1) / (most - 1)).collect()
 }
 
-/// Plots that together show every zone: one each, or one for each group where there are many.
+/// Plots of every zone, or of every group of zones if there are many.
 fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
     let single = |&index: &usize| temperature(building_layer, index, None);
     let grouped = |(number, group): (usize, &Vec<usize>)| {
@@ -91,7 +89,7 @@ fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
         let title = format!("{} to {}", building_layer.names[first], building_layer.names[last]);
         let title = ranged(&title, building_layer.ranges.spanning(group), "°C");
         let plot = TimePlot::new(building_layer.duration_s, &title, vec![format!("/{}", series::group(number))]);
-        around(plot, building_layer).alone()
+        around(plot, building_layer).without_legend()
     };
     let panels: Vec<LayoutNode> = if building_layer.groups.is_empty() {
         building_layer.shown.iter().map(single).collect()
@@ -101,14 +99,14 @@ fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
     LayoutNode::Column(rows(panels, 4))
 }
 
-/// What the controller says of its plans.
+/// The panels of the designs of the controller.
 fn plans(building_layer: &BuildingLayer) -> Vec<LayoutNode> {
     let below = |path: &str| vec![format!("/{path}/**")];
     let longest = building_layer.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
     let lines = [
         (design::LEARNED, "Heat beyond the forecast that the controller has learned [kW]", longest),
         (design::GAIN, "Feedback gain K: heat for an error of the temperature [kW/K]", longest + 11),
-        (design::TAPS, "Feedback Q: heat for an error so many steps ago [kW/K]", 14),
+        (design::TAPS, "Feedback Q: heat for an error some steps before [kW/K]", 14),
         (design::CONVERGENCE, "Convergence: below 1, errors fall from day to day", 22),
     ];
     let bars = [
@@ -134,7 +132,7 @@ fn floor(building_layer: &BuildingLayer) -> LayoutNode {
     LayoutNode::View(view.with("VisualBounds2D", VisualBounds2D::new(ViewBounds(bounds))))
 }
 
-/// The temperatures of the first tab, two plots in a row. The first has the legend of all: it takes a third of a plot.
+/// The temperatures of the first tab, two plots in a row. The first plot has the legend of all.
 fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
     let zones = first_zones(building_layer);
     let width = if zones.len() > 1 { TEMPERATURE_WIDTH } else { 2.0 * TEMPERATURE_WIDTH };
@@ -142,7 +140,7 @@ fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
     LayoutNode::Column(rows(zones.iter().enumerate().map(plot).collect(), 2))
 }
 
-/// The temperature of a zone against what is wanted, with a legend in a plot of a width.
+/// The temperature of a zone with its wanted temperature, with a legend if a width is given.
 fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>) -> LayoutNode {
     let paths = ["temperature", "reference", "band/**"];
     let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
@@ -150,11 +148,11 @@ fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>)
     let plot = around(TimePlot::new(building_layer.duration_s, &title, paths.to_vec()), building_layer);
     match width {
         Some(width) => plot.with_legend("comfort, high".len(), width),
-        None => plot.alone(),
+        None => plot.without_legend(),
     }
 }
 
-/// A plot with an axis for the temperatures of all zones, once they are known.
+/// The plot with an axis for the temperatures of all zones, once they are known.
 fn around(plot: TimePlot, building_layer: &BuildingLayer) -> TimePlot {
     match building_layer.ranges.all() {
         Some(range_c) => plot.around(range_c),

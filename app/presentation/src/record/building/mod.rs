@@ -4,15 +4,14 @@
 //!
 //! ```text
 //! building/plan/{rooms,labels}                         the floor plan, coloured by temperature
-//! building/zone/<n>/{temperature,reference,band/…}     what it is, what is wanted
+//! building/zone/<n>/{temperature,reference,band/…}     actual and wanted temperature
 //! building/zone/<n>/heat, building/limit/…             inputs and their limits
 //! building/group/<g>                                   of many zones: the temperatures of some of them
 //! building/outdoors/{real,forecast}
 //! building/iteration/{cost,optimum}                    one value a day
-//! building/{learned,feedback,convergence,exchange}/…   what the controller says of its plans, see `design.rs`
+//! building/{learned,feedback,convergence,exchange}/…   designs of the controller, see `design.rs`
 //! ```
 
-mod about;
 mod design;
 mod floor_plan;
 mod layout;
@@ -21,7 +20,8 @@ mod series;
 use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
-pub use about::about;
+use super::Logged;
+
 pub use layout::{TextPanels, tabs};
 
 use design::DesignPlots;
@@ -34,20 +34,20 @@ use crate::wanted_temperature::usual_wanted_c;
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";
 
-/// Most zones of which everything is recorded.
+/// Most zones that are recorded in full.
 const MAX_SHOWN_ZONES: usize = 16;
-/// Most plots that together show the temperatures of more zones.
+/// Most groups of zones, each with one plot.
 const MAX_GROUPS: usize = 12;
 
-/// The building in a recording: its zones, and what is drawn of them.
+/// Logs the building.
 pub struct BuildingLayer {
     /// Names of the zones.
     pub names: Vec<String>,
-    /// The zones of which everything is recorded, by number from 0: all, or some of many.
+    /// Indices of the zones that are recorded in full: all, or some of many.
     pub shown: Vec<usize>,
-    /// Where there are many, all zones in groups.
+    /// All zones in groups, if there are many.
     groups: Vec<Vec<usize>>,
-    /// How long the run is \[s\].
+    /// Duration of the run \[s\].
     duration_s: f64,
     ranges: TemperatureRanges,
     plan: FloorPlanLayer,
@@ -56,12 +56,9 @@ pub struct BuildingLayer {
 }
 
 impl BuildingLayer {
-    /// Logs what never changes; `None` without a building.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
+    /// Logs the static content; `None` without a building.
     pub fn begin(stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<Option<BuildingLayer>> {
-        // A scenario whose zones make no network is refused before it is run.
+        // A scenario with an invalid network is refused before it is run.
         let network = scenario.building.as_ref().and_then(|building| Some((building, building.network().ok()?)));
         let Some((building, network)) = network else { return Ok(None) };
         let names = network.names()[..network.zone_count()].to_vec();
@@ -85,16 +82,13 @@ impl BuildingLayer {
         }))
     }
 
-    /// Marks the run as over: ranges are final.
+    /// Marks the run as finished, so that ranges are final.
     pub fn end(&mut self) {
         self.ranges.are_final = true;
     }
 
     /// Logs one step.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> RecordingStreamResult<()> {
+    pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> Logged {
         stream.set_time_sequence(ITERATION, i64::try_from(frame.day + 1).unwrap_or(i64::MAX));
         self.ranges.widen(frame);
         self.plan.step(stream, &self.names, frame)?;
@@ -113,7 +107,7 @@ struct TemperatureRanges {
     zones_c: Vec<[f64; 2]>,
     /// Outdoors \[°C\].
     outdoors_c: Option<[f64; 2]>,
-    /// Whether the run is over, so that these are final.
+    /// Whether the run is finished, so that ranges are final.
     are_final: bool,
 }
 
@@ -148,7 +142,7 @@ impl TemperatureRanges {
     }
 }
 
-/// The zones of which everything is recorded: all of a few, otherwise four from the first to the last.
+/// The zones that are recorded in full: all of a few, otherwise four from the first to the last.
 fn shown(zones: usize) -> Vec<usize> {
     if zones <= MAX_SHOWN_ZONES {
         return (0..zones).collect();
@@ -156,7 +150,7 @@ fn shown(zones: usize) -> Vec<usize> {
     (0..4).map(|index| index * (zones - 1) / 3).collect()
 }
 
-/// Many zones in groups, each of whole rows of the floor plan.
+/// Groups of zones, each of whole rows of the floor plan; empty for a few zones.
 fn groups(zones: usize, columns: usize) -> Vec<Vec<usize>> {
     if zones <= MAX_SHOWN_ZONES {
         return Vec::new();
@@ -171,7 +165,7 @@ mod tests {
     use super::{groups, shown};
 
     #[test]
-    fn every_zone_is_recorded_by_itself_or_in_a_group() {
+    fn every_zone_is_recorded_individually_or_in_a_group() {
         assert_eq!(shown(16).len(), 16);
         assert!(groups(16, 4).is_empty());
         assert_eq!(shown(100), [0, 33, 66, 99]);

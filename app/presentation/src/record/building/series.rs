@@ -1,16 +1,17 @@
-//! Numbers of a building over time.
+//! Plots of temperatures, heat, weather and cost of a building.
 
 use interplay_building::network::PowerLimits;
 use interplay_simulation::frame::BuildingFrame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::super::Logged;
 use super::super::palette::{self, FAILURE, MARKING, NEUTRAL};
 use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
 use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
 /// The series of a building.
 pub struct ZonePlots {
-    /// The comfort band while nobody is there \[K\].
+    /// The comfort band of zones without a schedule \[K\].
     band_k: f64,
     /// The largest cooling and heating power of any zone that is shown \[kW\].
     limits_kw: [f64; 2],
@@ -18,16 +19,13 @@ pub struct ZonePlots {
     wanted: Vec<bool>,
 }
 
-/// Where something of a zone is recorded.
+/// The path of a quantity of a zone.
 fn zone(index: usize, what: &str) -> String {
     format!("building/zone/{}/{what}", index + 1)
 }
 
 impl ZonePlots {
     /// Logs names and colours.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
     pub fn begin(
         stream: &RecordingStream,
         names: &[String],
@@ -39,8 +37,8 @@ impl ZonePlots {
             let series_colour = palette::zone(place);
             style(stream, &zone(index, "temperature"), "temperature", series_colour.solid(), 2.0)?;
             style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
-            style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
-            style(stream, &zone(index, "band/high"), "comfort, high", MARKING.veiled(150), 1.0)?;
+            style(stream, &zone(index, "band/low"), "comfort, low", MARKING.translucent(150), 1.0)?;
+            style(stream, &zone(index, "band/high"), "comfort, high", MARKING.translucent(150), 1.0)?;
             style(stream, &zone(index, "heat"), &names[index], series_colour.solid(), 1.5)?;
         }
         for (end, name) in [("low", "limit, cooling"), ("high", "limit, heating")] {
@@ -57,15 +55,7 @@ impl ZonePlots {
     }
 
     /// Logs one step.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn step(
-        &mut self,
-        stream: &RecordingStream,
-        shown: &[usize],
-        frame: &BuildingFrame,
-    ) -> RecordingStreamResult<()> {
+    pub fn step(&mut self, stream: &RecordingStream, shown: &[usize], frame: &BuildingFrame) -> Logged {
         let log = |path: &str, value: f64| stream.log(path, &Scalars::single(value));
         for (place, &index) in shown.iter().enumerate() {
             let now = &frame.zones[index];
@@ -96,16 +86,13 @@ impl ZonePlots {
     }
 }
 
-/// Where the temperatures of a group of zones are recorded.
+/// The path of the temperatures of a group of zones.
 pub fn group(number: usize) -> String {
     format!("building/group/{}", number + 1)
 }
 
 /// Logs the names and colours of the zones of each group.
-///
-/// # Errors
-/// If Rerun refuses a component.
-pub fn begin_groups(stream: &RecordingStream, names: &[String], groups: &[Vec<usize>]) -> RecordingStreamResult<()> {
+pub fn begin_groups(stream: &RecordingStream, names: &[String], groups: &[Vec<usize>]) -> Logged {
     for (number, zones) in groups.iter().enumerate() {
         let lines = SeriesLines::new()
             .with_names(zones.iter().map(|zone| names[*zone].as_str()))
@@ -117,14 +104,7 @@ pub fn begin_groups(stream: &RecordingStream, names: &[String], groups: &[Vec<us
 }
 
 /// Logs the temperatures of each group.
-///
-/// # Errors
-/// If Rerun refuses a component.
-pub fn step_groups(
-    stream: &RecordingStream,
-    groups: &[Vec<usize>],
-    frame: &BuildingFrame,
-) -> RecordingStreamResult<()> {
+pub fn step_groups(stream: &RecordingStream, groups: &[Vec<usize>], frame: &BuildingFrame) -> Logged {
     for (number, zones) in groups.iter().enumerate() {
         let temperatures: Vec<f64> = zones.iter().map(|zone| frame.zones[*zone].temperature_c).collect();
         stream.log(group(number), &Scalars::new(temperatures))?;
@@ -132,11 +112,8 @@ pub fn step_groups(
     Ok(())
 }
 
-/// Logs how a series of steps is called and drawn.
-///
-/// # Errors
-/// If Rerun refuses a component.
-pub fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, width: f32) -> RecordingStreamResult<()> {
+/// Logs the name and the style of a series.
+pub fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, width: f32) -> Logged {
     let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([width]);
     stream.log_static(path, &line.with_interpolation_mode(InterpolationMode::StepAfter))
 }

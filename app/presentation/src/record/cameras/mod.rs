@@ -1,13 +1,12 @@
-//! The cameras of the views: one from above that follows the interaction, one that looks at the same from the side, and one
-//! that sees the whole road.
+//! The cameras of the views: one from above that follows the interaction, one from the side, and one of the whole road.
 //!
-//! The scene is in three dimensions. A view from above is a picture of a pinhole camera so far away that nothing looks
-//! smaller for being lower. Labels are marks on this picture, so that they are as large however near the camera is.
+//! The scene is three-dimensional. The camera of a view from above is so far away that the projection is nearly orthographic.
+//! Labels are marks in the picture of this camera, so that their size does not depend on its distance.
 //!
 //! ```text
 //! world/camera/{top,side}                 a pose at every tick
 //! world/camera/top/label/<name>           name and speed, beside the vehicle
-//! world/camera/top/collision              who collides
+//! world/camera/top/collision              names of the colliding vehicles
 //! world/camera/whole                      static
 //! world/collision                         the star that marks a contact
 //! ```
@@ -17,26 +16,27 @@ use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::Logged;
 use super::car;
-use super::crowd::labelled;
 use super::labels;
 use super::mesh::Mesh;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{Clear, Pinhole, Points2D, Transform3D};
 use super::re_sdk_types::components::{Radius, ViewCoordinates};
-use super::timelines::{SIM_TIME, TICK};
-use crate::camera::{self, CameraMoment, CameraView, ViewFormat};
-use crate::contact::{contact_place, numbers, star};
+use super::{SIM_TIME, TICK};
+use crate::camera::{self, CameraFrame, CameraView, ViewFormat};
+use crate::contact::{contact_place, star, vehicle_indices};
+use crate::crowd::labelled;
 use crate::edge_mark::edge_marks;
-use crate::extent::extent;
 use crate::palette::{FLASH, VERMILLION};
+use crate::rectangle::extent;
 use crate::rectangle::{Rectangle, rectangle_around};
 
 /// Path of the camera from above.
 pub const TOP: &str = "world/camera/top";
-/// Path of another camera of the run, from the side or of the whole road.
+/// Path of the camera from the side.
 pub const SIDE: &str = "world/camera/side";
-/// Path of another camera of the run, from the side or of the whole road.
+/// Path of the camera of the whole road.
 pub const WHOLE: &str = "world/camera/whole";
 
 /// The star that marks a contact.
@@ -48,36 +48,36 @@ const TOP_WIDTH_PX: f64 = 800.0;
 const TOP_HEIGHTS_PX: [f64; 2] = [236.0, 340.0];
 /// Least and greatest length of a car \[px\].
 const CAR_PX: [f64; 2] = [42.0, 104.0];
-/// Least length of a car while somebody further away is spoken of \[px\].
+/// Least length of a car while a more distant vehicle is mentioned \[px\].
 const LEAST_CAR_PX: f64 = 22.0;
-/// Distance of a camera from what it sees from above, by the width of what it sees: of the picture that follows the
-/// interaction, and of that of the whole road. From further away the viewer cannot tell heights apart.
+/// Heights of the cameras from above, by the width of the visible road: of the view that follows the interaction, and of that of
+/// the whole road. From higher up the viewer cannot resolve the heights of objects.
 const HEIGHT_RATIO: f64 = 6.0;
 const WHOLE_HEIGHT_RATIO: f64 = 2.0;
 /// Size of the picture from the side, and its focal length \[px\].
 const SIDE_PX: [f64; 2] = [480.0, 360.0];
 const SIDE_FOCAL_PX: f64 = 430.0;
-/// Distance of this camera from what it looks at, by the width of what is seen from above; how steeply it looks down, and how
-/// far to the right of the ego's first direction \[rad\].
+/// Distance of this camera from its target, by the width of the view from above; its angle downwards, and its angle to the right
+/// of the initial direction of the ego \[rad\].
 const SIDE_DISTANCE_RATIO: f64 = 0.62;
 const SIDE_PITCH_RAD: f64 = 0.5;
 const SIDE_YAW_RAD: f64 = 0.35;
-/// Before and after a contact, for how long it is shown close \[s\], and for how long it is marked, at 1/10 scale.
+/// Times before and after a contact with a close view, and time that it is marked \[s\], at 1/10 scale.
 const CLOSE_UP_S: [f64; 2] = [0.6, 1.6];
 const MARKED_S: f64 = 1.6;
 /// Size of the star that marks a contact, in lengths of a car.
 const STAR_CARS: f64 = 0.35;
 /// Width of the picture of the whole road \[px\].
 const WHOLE_PX: f64 = 1000.0;
-/// Most moments before the present that a live camera remembers.
-const LIVE_MOMENTS: usize = 40;
+/// Most past frames that the cameras of a live recording keep.
+const LIVE_FRAMES: usize = 40;
 
-/// A tick as the cameras need it.
+/// The input of the cameras at a tick.
 struct CameraTick {
     tick: i64,
     time_s: f64,
-    moment: CameraMoment,
-    /// Of each vehicle, whether it has a label.
+    frame: CameraFrame,
+    /// For each vehicle whether it has a label.
     labelled: Vec<bool>,
 }
 
@@ -94,21 +94,18 @@ pub struct Cameras {
     /// Ticks that have not been logged.
     ticks: Vec<CameraTick>,
     contacts: Vec<Contact>,
-    /// On which side each label stood last; the last one is that of contacts.
+    /// The last side of each label; the last entry is that of contacts.
     sides: Vec<usize>,
     time_ratio: f64,
     /// Least and greatest coordinates of all vehicles so far \[m\].
     seen_m: Option<[[f64; 2]; 2]>,
-    /// The same of what the picture of the whole road shows.
+    /// Least and greatest coordinates of the view of the whole road \[m\].
     whole_m: [[f64; 2]; 2],
 }
 
 impl Cameras {
-    /// Logs what never changes about the cameras. Where `has_strip`, the whole road is seen below the picture from above;
-    /// `expected_m` are the least and greatest coordinates of the vehicles to come.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
+    /// Logs the static properties of the cameras. With `has_strip`, the view of the whole road is below the view from above;
+    /// `expected_m` are the expected least and greatest coordinates of the vehicles.
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,
@@ -151,7 +148,7 @@ impl Cameras {
         [self.format.width_px, self.format.height_px[1]]
     }
 
-    /// Whether the whole road is seen below the picture from above.
+    /// Whether the view of the whole road is below the view from above.
     pub fn has_strip(&self) -> bool {
         self.format.height_px[1] == TOP_HEIGHTS_PX[0]
     }
@@ -163,37 +160,39 @@ impl Cameras {
     }
 
     /// Stores a tick for [`Cameras::log_all`].
-    pub fn note(&mut self, scenario: &Scenario, frame: &Frame) {
+    pub fn store(&mut self, scenario: &Scenario, frame: &Frame) {
         let Some(ego) = frame.vehicles.get(scenario.ego_index()) else { return };
-        // Whoever is not there draws no camera: it is taken to be where the ego is.
+        // The camera must not follow an absent vehicle, so it gets the position of the ego.
         let seen = |vehicle: &VehicleFrame| if vehicle.is_absent { ego.state } else { vehicle.state };
         let states: Vec<State> = frame.vehicles.iter().map(seen).collect();
         for hit in &frame.collisions {
-            let Some(between) = numbers(scenario, &hit.between) else { continue };
+            let Some(between) = vehicle_indices(scenario, &hit.between) else { continue };
             let place = contact_place(scenario, between, between.map(|index| &states[index]));
             self.contacts.extend(place.map(|place_m| Contact { time_s: hit.time_s, between, place_m }));
         }
         self.seen_m = Some(extent(states.iter().map(State::position).chain(self.seen_m.into_iter().flatten())));
-        let moment = CameraMoment { states, partners: camera::partners(scenario, ego), close_up: None };
+        let camera_frame = CameraFrame { states, partners: camera::partners(scenario, ego), close_up: None };
         let tick = i64::try_from(frame.tick).unwrap_or(i64::MAX);
-        self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment, labelled: labelled(scenario, frame) });
+        self.ticks.push(CameraTick {
+            tick,
+            time_s: frame.time_s,
+            frame: camera_frame,
+            labelled: labelled(scenario, frame),
+        });
     }
 
-    /// Logs all ticks that were noted: the cameras know what comes, so they move without lag.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn log_all(&mut self, stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<()> {
+    /// Logs all stored ticks. The cameras know the future of the run, so they follow without lag.
+    pub fn log_all(&mut self, stream: &RecordingStream, scenario: &Scenario) -> Logged {
         let mut ticks = std::mem::take(&mut self.ticks);
         if ticks.is_empty() {
             return Ok(());
         }
         for tick in &mut ticks {
-            tick.moment.close_up = self.close_up(tick.time_s);
+            tick.frame.close_up = self.close_up(tick.time_s);
         }
-        let moments: Vec<CameraMoment> = ticks.iter().map(|tick| tick.moment.clone()).collect();
-        let views = camera::views(scenario, &moments, &self.format);
-        let yaw_rad = ticks.first().map_or(0.0, |tick| tick.moment.states[scenario.ego_index()].heading_rad);
+        let frames: Vec<CameraFrame> = ticks.iter().map(|tick| tick.frame.clone()).collect();
+        let views = camera::views(scenario, &frames, &self.format);
+        let yaw_rad = ticks.first().map_or(0.0, |tick| tick.frame.states[scenario.ego_index()].heading_rad);
         for (tick, view) in ticks.iter().zip(&views) {
             stream.set_duration_secs(SIM_TIME, tick.time_s);
             stream.set_time_sequence(TICK, tick.tick);
@@ -203,15 +202,12 @@ impl Cameras {
         log_whole(stream, scenario, self.whole_m)
     }
 
-    /// Logs the tick that was noted last, without knowing what comes.
-    ///
-    /// # Errors
-    /// If Rerun refuses a component.
-    pub fn log_last(&mut self, stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<()> {
-        let first = self.ticks.len().saturating_sub(LIVE_MOMENTS);
+    /// Logs the last stored tick from past ticks only.
+    pub fn log_last(&mut self, stream: &RecordingStream, scenario: &Scenario) -> Logged {
+        let first = self.ticks.len().saturating_sub(LIVE_FRAMES);
         self.ticks.drain(..first);
-        let moments: Vec<CameraMoment> = self.ticks.iter().map(|tick| tick.moment.clone()).collect();
-        let view = camera::views(scenario, &moments, &self.format).pop();
+        let frames: Vec<CameraFrame> = self.ticks.iter().map(|tick| tick.frame.clone()).collect();
+        let view = camera::views(scenario, &frames, &self.format).pop();
         let Some((tick, view)) = self.ticks.pop().zip(view) else { return Ok(()) };
         let yaw_rad = scenario.ego().map_or(0.0, |ego| ego.start.heading_rad);
         self.log(stream, scenario, &tick, &view, yaw_rad)?;
@@ -219,7 +215,7 @@ impl Cameras {
         Ok(())
     }
 
-    /// Who is shown close at a time, because they touch.
+    /// The vehicles in contact that have a close view at a time.
     fn close_up(&self, time_s: f64) -> Option<[usize; 2]> {
         let [before_s, after_s] = CLOSE_UP_S.map(|part| part * self.time_ratio);
         let near = self.contacts.iter().find(|hit| (hit.time_s - before_s..hit.time_s + after_s).contains(&time_s));
@@ -233,11 +229,11 @@ impl Cameras {
         tick: &CameraTick,
         view: &CameraView,
         yaw_rad: f64,
-    ) -> RecordingStreamResult<()> {
+    ) -> Logged {
         let extent_m = view.size_px[0] / view.px_per_m;
         stream.log(TOP, &from_above(view.centre_m, HEIGHT_RATIO * extent_m))?;
-        // Between the middle of what is seen and the ego, so that the ego never is below the camera.
-        let ego = tick.moment.states[scenario.ego_index()].position();
+        // Midway between the centre of the view and the ego, so that the ego is never below the camera.
+        let ego = tick.frame.states[scenario.ego_index()].position();
         let target_m = [0, 1].map(|axis| 0.5 * (view.centre_m[axis] + ego[axis]));
         stream.log(SIDE, &from_the_side(target_m, SIDE_DISTANCE_RATIO * extent_m, yaw_rad - SIDE_YAW_RAD))?;
         self.log_labels(stream, scenario, tick, view)?;
@@ -250,8 +246,8 @@ impl Cameras {
         scenario: &Scenario,
         tick: &CameraTick,
         view: &CameraView,
-    ) -> RecordingStreamResult<()> {
-        let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
+    ) -> Logged {
+        let vehicles = scenario.vehicles.iter().zip(&tick.frame.states);
         let mut boxes: Vec<Rectangle> = vehicles
             .clone()
             .map(|(vehicle, state)| rectangle_around(vehicle.body.corners(state).map(|corner| view.place(corner))))
@@ -263,7 +259,7 @@ impl Cameras {
         let mut words: Vec<String> = vehicles.zip(&tick.labelled).map(label).collect();
         let mut paths: Vec<String> =
             scenario.vehicles.iter().map(|vehicle| format!("{TOP}/label/{}", vehicle.name)).collect();
-        if let Some(hit) = self.marked(scenario, tick.time_s) {
+        if let Some(hit) = self.marked_contact(scenario, tick.time_s) {
             let ([x, y], size) = (view.place(hit.place_m), STAR_CARS * camera::car_m(scenario) * view.px_per_m);
             boxes.push([x - size, y - size, x + size, y + size]);
             let [one, other] = hit.between.map(|index| scenario.vehicles[index].name.as_str());
@@ -273,14 +269,14 @@ impl Cameras {
             words.push(String::new());
         }
         paths.push(format!("{TOP}/collision"));
-        let mut labels = labels::placed(&boxes, &words, view.size_px, &mut self.sides);
-        for mark in edge_marks(scenario, view, &tick.moment.states, &tick.moment.partners) {
+        let mut labels = labels::place_labels(&boxes, &words, view.size_px, &mut self.sides);
+        for mark in edge_marks(scenario, view, &tick.frame.states, &tick.frame.partners) {
             words[mark.vehicle] = format!("{} {}", mark.words, mark.arrow());
             let taken: Vec<Rectangle> = boxes.iter().copied().chain(labels.iter().flatten().copied()).collect();
-            labels[mark.vehicle] = labels::at_edge(mark.at, &words[mark.vehicle], view.size_px, &taken);
+            labels[mark.vehicle] = labels::place_edge_label(mark.at, &words[mark.vehicle], view.size_px, &taken);
         }
         for (index, ((path, words), label)) in paths.into_iter().zip(words).zip(labels).enumerate() {
-            // The last one is seldom there, and then says so only while there are contacts at all.
+            // The label of contacts, the last one, is logged only in runs with contacts.
             if label.is_some() || index < scenario.vehicles.len() || !self.contacts.is_empty() {
                 stream.log(path, &label_at(label, words))?;
             }
@@ -289,14 +285,14 @@ impl Cameras {
     }
 
     /// The contact that is marked at a time.
-    fn marked(&self, scenario: &Scenario, time_s: f64) -> Option<&Contact> {
+    fn marked_contact(&self, scenario: &Scenario, time_s: f64) -> Option<&Contact> {
         let marked_s = MARKED_S * self.time_ratio;
         self.contacts.iter().find(|hit| (0.0..marked_s).contains(&(time_s - hit.time_s + scenario.step_s)))
     }
 
-    /// Marks contacts for a while after they began.
-    fn log_star(&self, stream: &RecordingStream, scenario: &Scenario, time_s: f64) -> RecordingStreamResult<()> {
-        let Some(hit) = self.marked(scenario, time_s) else {
+    /// Logs the star that marks a contact for a while.
+    fn log_star(&self, stream: &RecordingStream, scenario: &Scenario, time_s: f64) -> Logged {
+        let Some(hit) = self.marked_contact(scenario, time_s) else {
             return if self.contacts.is_empty() { Ok(()) } else { stream.log(STAR, &Clear::flat()) };
         };
         let car_m = camera::car_m(scenario);
@@ -319,7 +315,7 @@ fn pinhole(focal_px: f64, size_px: [f64; 2]) -> Pinhole {
         .with_color(opaque(NEUTRAL.rgb))
 }
 
-/// The pose of a camera above a place that looks down, with x to the right.
+/// The pose of a camera above a place that looks down, with the x axis to the right.
 fn from_above([x, y]: [f64; 2], height_m: f64) -> Transform3D {
     Transform3D::update_fields().with_translation([x, y, height_m].map(|part| part as f32)).with_mat3x3([
         [1.0, 0.0, 0.0],
@@ -339,8 +335,8 @@ fn from_the_side([x, y]: [f64; 2], distance_m: f64, yaw_rad: f64) -> Transform3D
     Transform3D::update_fields().with_translation(eye.map(|part| part as f32)).with_mat3x3(columns)
 }
 
-/// Logs the camera that sees all of a rectangle; its picture is as high as the rectangle.
-fn log_whole(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RecordingStreamResult<()> {
+/// Logs the camera of the whole road, whose picture has the aspect ratio of the road.
+fn log_whole(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> Logged {
     let [extent_m, centre_m] = whole(scenario, bounds_m);
     let px_per_m = WHOLE_PX / extent_m[0];
     let size_px = [WHOLE_PX, px_per_m * extent_m[1]];
@@ -348,23 +344,22 @@ fn log_whole(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2];
     stream.log_static(WHOLE, &from_above(centre_m, WHOLE_HEIGHT_RATIO * extent_m[0]))
 }
 
-/// Extents and middle of the picture of the whole road \[m\].
+/// Extent and centre of the view of the whole road \[m\].
 fn whole(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let margin_m = 2.0 * scenario.road.lane_width_m();
     let extent_m = [0, 1].map(|axis| high[axis] - low[axis] + 2.0 * margin_m);
     [extent_m, [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]))]
 }
 
-/// How a label looks.
 fn label_style(colour: NamedColour) -> Points2D {
     Points2D::update_fields()
-        .with_colors([colour.on_labels()])
+        .with_colors([colour.for_labels()])
         .with_radii([Radius::new_ui_points(0.0)])
         .with_show_labels(true)
         .with_draw_order(10.0)
 }
 
-/// Words in a rectangle; the viewer writes them below a point.
+/// A label in a rectangle; the viewer writes the words below a point.
 fn label_at(label: Option<Rectangle>, words: String) -> Points2D {
     let point = |[left, top, right, _]: Rectangle| [(0.5 * (left + right)) as f32, (top - 2.0) as f32];
     let (points, words): (Vec<[f32; 2]>, Vec<String>) = label.map(|label| (point(label), words)).into_iter().unzip();

@@ -1,4 +1,4 @@
-//! What the cameras of authored scenarios see.
+//! The views of cameras in authored scenarios.
 
 use interplay_scenarios::load;
 
@@ -14,24 +14,24 @@ fn filmed(name: &str) -> (Scenario, Cameras, Vec<CameraView>) {
     let shape = (false, expected_bounds_m(&scenario));
     let stream = RecordingStream::disabled();
     let mut cameras = Cameras::begin(&stream, &scenario, &vehicle_colours(&scenario), shape).expect("begun");
-    recorded.frames.iter().for_each(|frame| cameras.note(&scenario, frame));
+    recorded.frames.iter().for_each(|frame| cameras.store(&scenario, frame));
     for index in 0..cameras.ticks.len() {
-        cameras.ticks[index].moment.close_up = cameras.close_up(cameras.ticks[index].time_s);
+        cameras.ticks[index].frame.close_up = cameras.close_up(cameras.ticks[index].time_s);
     }
-    let moments: Vec<CameraMoment> = cameras.ticks.iter().map(|tick| tick.moment.clone()).collect();
+    let moments: Vec<CameraFrame> = cameras.ticks.iter().map(|tick| tick.frame.clone()).collect();
     let views = camera::views(&scenario, &moments, &cameras.format);
     (scenario, cameras, views)
 }
 
-/// At every tick the ego is in view, as long as a car should be, and no label lies on a vehicle or another label.
+/// At every tick the ego is in view, cars have an allowed length, and labels cover neither vehicles nor each other.
 #[test]
-fn the_ego_is_seen_and_labels_cover_no_vehicle() {
+fn the_ego_is_in_view_and_labels_cover_no_vehicle() {
     let overlap = |a: &Rectangle, b: &Rectangle| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
     for name in ["lane-change/front-nice", "intersection/tough", "roundabout/nice", "full-size/ramp-merge"] {
         let (scenario, mut cameras, views) = filmed(name);
         let mut shown = 0;
         for (tick, view) in std::mem::take(&mut cameras.ticks).iter().zip(&views) {
-            let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
+            let vehicles = scenario.vehicles.iter().zip(&tick.frame.states);
             let place = |corner: [f64; 2]| view.place(corner);
             let boxes: Vec<Rectangle> =
                 vehicles.map(|(one, state)| rectangle_around(one.body.corners(state).map(place))).collect();
@@ -41,7 +41,7 @@ fn the_ego_is_seen_and_labels_cover_no_vehicle() {
             let car_px = camera::car_m(&scenario) * view.px_per_m;
             assert!(car_px > 0.99 * LEAST_CAR_PX && car_px < 1.01 * CAR_PX[1], "{name}: {car_px}");
             let words: Vec<String> = scenario.vehicles.iter().map(|one| format!("{} 1.0 m/s", one.name)).collect();
-            let labels = labels::placed(&boxes, &words, view.size_px, &mut cameras.sides);
+            let labels = labels::place_labels(&boxes, &words, view.size_px, &mut cameras.sides);
             let labels: Vec<Rectangle> = labels.into_iter().flatten().collect();
             for (index, label) in labels.iter().enumerate() {
                 assert!(!boxes.iter().chain(&labels[..index]).any(|other| overlap(label, other)), "{name}");
@@ -52,9 +52,9 @@ fn the_ego_is_seen_and_labels_cover_no_vehicle() {
     }
 }
 
-/// With whom the ego deals is seen, too, from the first tick on, unless it is further away than the widest view.
+/// Partners of the ego are in view or, beyond the widest view, marked at the edge.
 #[test]
-fn partners_are_seen_with_the_ego() {
+fn partners_are_in_view_with_the_ego_or_marked() {
     for name in
         ["roundabout/nice", "t-junction/bayesian-nice", "all-way-stop/four", "left-turn/nice", "narrow-passage/nice"]
     {
@@ -62,7 +62,7 @@ fn partners_are_seen_with_the_ego() {
         let ego = scenario.ego_index();
         let (mut seen, mut near, mut marked) = (0, 0, 0);
         for (tick, view) in cameras.ticks.iter().zip(&views) {
-            let CameraMoment { states, partners, .. } = &tick.moment;
+            let CameraFrame { states, partners, .. } = &tick.frame;
             let Some(partner) = partners.first() else { continue };
             let apart = [0, 1].map(|axis| (states[*partner].position()[axis] - states[ego].position()[axis]).abs());
             let most_m = view.size_px.map(|pixels| (pixels / LEAST_CAR_PX - 2.0) * camera::car_m(&scenario));
@@ -80,7 +80,7 @@ fn partners_are_seen_with_the_ego() {
 }
 
 #[test]
-fn a_collision_is_marked_and_shown_close() {
+fn a_collision_is_marked_and_has_a_close_view() {
     let (scenario, cameras, views) = filmed("crash/side-impact");
     let hit = cameras.contacts.first().expect("they collide");
     let at = |time_s: f64| {
@@ -89,11 +89,11 @@ fn a_collision_is_marked_and_shown_close() {
     };
     let greatest = CAR_PX[1] / camera::car_m(&scenario);
     assert!(at(hit.time_s + 0.5) > 0.85 * greatest, "{} of {greatest}", at(hit.time_s + 0.5));
-    assert!(cameras.marked(&scenario, hit.time_s + 0.2).is_some());
-    assert!(cameras.marked(&scenario, hit.time_s - 0.5).is_none());
-    assert!(cameras.marked(&scenario, hit.time_s + 60.0).is_none());
+    assert!(cameras.marked_contact(&scenario, hit.time_s + 0.2).is_some());
+    assert!(cameras.marked_contact(&scenario, hit.time_s - 0.5).is_none());
+    assert!(cameras.marked_contact(&scenario, hit.time_s + 60.0).is_none());
     let apart = |index: usize| {
-        let [x, y] = cameras.ticks.iter().rfind(|tick| tick.time_s <= hit.time_s).expect("a tick").moment.states[index]
+        let [x, y] = cameras.ticks.iter().rfind(|tick| tick.time_s <= hit.time_s).expect("a tick").frame.states[index]
             .position();
         libm::hypot(x - hit.place_m[0], y - hit.place_m[1])
     };

@@ -7,15 +7,16 @@ use super::rows::{TextRows, differences, figures, heading, version_name, versus}
 use crate::page::{Page, Section};
 use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
 
-/// How the columns are to be read.
+/// Explanation of the columns.
 const LEGEND: [&str; 3] = [
-    "Success: the ego did its task and touched nobody. Stuck: it never did its task, though nobody touched anybody. First: it had \
-     the first place in the order, or on a network nobody went before it. As in the file: the order and right of way that the \
-     scenario expects, and nobody touched anybody. Contacts by the ego: it moved towards the other at least as fast as the other \
-     towards it; any: of any two vehicles. Yields: in a conflict zone of a network another went first, or the ego did. Brakes \
-     hard: with at least 75 % of its strongest braking.",
+    "Success: the ego reached its goal without a contact. Stuck: it never reached its goal, although no vehicles touched. First: it \
+     had the first place in the order, or on a network no vehicle went before it. As in the file: the order and right of way that \
+     the scenario expects, without a contact. Contacts by the ego: it moved towards the other vehicle at least as fast as the other \
+     towards it; any: of any two vehicles. Yields: in a conflict zone of a network the other vehicle went first, or the ego did. \
+     Brakes hard: with at least 75 % of its strongest braking.",
     "Intervals of shares are Wilson's, those of means are bootstrapped, at 95 %. Pairs are runs of the same scenario, style, \
-     sample and seed. Place: touching nobody where the other does, or nearer to the front; that is no judgement. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
+     sample and seed. Place: without a contact where the other run has one, or nearer to the front of the order, which is not \
+     a quality. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
      Holm's correction for all tests of its kind on the page; a star marks those below 5 %.",
     "Times of plans are wall times of the machine that made the runs.",
 ];
@@ -40,7 +41,7 @@ pub fn comparison_page(title: &str, comparison: &Comparison) -> Result<Page, Plo
             sections.push(section(sections.len(), family, same.collect(), baseline)?);
         }
     }
-    // What holds for all comes first.
+    // The section of all families comes first.
     sections.rotate_right(usize::from(groups.iter().any(|group| group.family.is_none())));
     Ok(Page { title: title.to_owned(), opening, sections })
 }
@@ -95,7 +96,7 @@ pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> P
     Page { title: title.to_owned(), opening, sections: vec![section] }
 }
 
-/// A table of planners; where there are more measures than planners, a measure a row: a row of them all is wider than a page.
+/// A table of planners; with more measures than planners it has one row per measure, since it would be wider than a page.
 fn table(title: String, (header, rows): TextRows) -> TextTable {
     let table = TextTable { title, header, rows };
     if table.header.len() > table.rows.len() + 1 { table.transposed() } else { table }

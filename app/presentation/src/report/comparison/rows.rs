@@ -1,4 +1,4 @@
-//! Figures of comparisons as rows of words.
+//! Tables of comparisons.
 
 use interplay_sweep::compare::{
     BuildingDifference, BuildingFigures, Estimate, Figure, GroupFigures, NamedFigure, PairedDifference, PlannerFigures,
@@ -8,19 +8,19 @@ use interplay_sweep::compare::{
 /// A table: the words of its header, and its rows.
 pub(super) type TextRows = (Vec<String>, Vec<Vec<String>>);
 
-/// A column of a table: what it is called, and what it says of one.
+/// A column of a table: its title, and the text of a cell.
 type RowColumn<T> = (&'static str, fn(&T) -> String);
 
-/// A column that is there because of a metric: the same, with the key of the metric.
+/// A column of a metric: its title, and the text of a cell.
 type MetricColumn<T> = (String, Box<dyn Fn(&T) -> String>);
 
-/// The columns of what vehicles did, of which some put several figures side by side.
+/// The columns of vehicles, some of which combine several figures.
 const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
     ("planner", |one| one.planner.clone()),
     ("runs", |one| runs(one)),
     ("success % (95 %)", |one| with_interval(one.figures.share("success"))),
     ("as in the file % (95 %)", |one| with_interval(one.figures.share("order_kept"))),
-    ("time s (95 %)", |one| one.figures.mean("completed_s").map_or_else(nothing, |time| estimate(time, 2))),
+    ("time s (95 %)", |one| one.figures.mean("completed_s").map_or_else(no_value, |time| estimate(time, 2))),
     ("first %", |one| percent(share(one, "first"))),
     ("yields %: ego, others", |one| both(share(one, "yields"), share(one, "others_yield"))),
     ("stuck", |one| one.figures.count("deadlocks").to_string()),
@@ -35,8 +35,8 @@ const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
     ("plan ms: median, 99 %", |one| plan_times(one)),
 ];
 
-/// The figures that these columns tell, or that only JSON has.
-const TOLD: [&str; 18] = [
+/// The figures that these columns contain, or that only the JSON output has.
+const COVERED: [&str; 18] = [
     "success",
     "order_kept",
     "completed_s",
@@ -57,14 +57,13 @@ const TOLD: [&str; 18] = [
     "plan_p99_ms",
 ];
 
-/// The columns of what became of buildings.
 fn building_columns<'a>() -> [RowColumn<(&'a PlannerFigures, &'a BuildingFigures)>; 6] {
     [
         ("planner", |(planner, _)| planner.planner.clone()),
         ("runs", |(planner, _)| runs(planner)),
         ("heat kWh (95 %)", |(_, building)| estimate(&building.energy_kwh, 2)),
         ("electricity kWh (95 %)", |(_, building)| {
-            building.electricity_kwh.as_ref().map_or_else(nothing, |electricity| estimate(electricity, 2))
+            building.electricity_kwh.as_ref().map_or_else(no_value, |electricity| estimate(electricity, 2))
         }),
         ("bill (95 %)", |(_, building)| bill(building)),
         ("discomfort K·h (95 %)", |(_, building)| estimate(&building.discomfort_k_h, 3)),
@@ -88,7 +87,6 @@ fn difference_columns<'a>() -> [RowColumn<(&'a str, &'a PairedDifference)>; 11] 
     ]
 }
 
-/// The columns of differences of buildings.
 fn building_difference_columns<'a>() -> [RowColumn<(&'a str, &'a BuildingDifference)>; 6] {
     [
         ("planner", |(name, _)| (*name).to_owned()),
@@ -100,12 +98,12 @@ fn building_difference_columns<'a>() -> [RowColumn<(&'a str, &'a BuildingDiffere
     ]
 }
 
-/// What there is nothing to say of.
-const NOTHING: &str = "-";
+/// The text of a cell without a value.
+const NO_VALUE: &str = "-";
 /// Probabilities below this are written as powers of ten.
 const LEAST_PROBABILITY: f64 = 1e-3;
 
-/// The words for a group.
+/// The heading of a group.
 pub(super) fn heading(group: &GroupFigures) -> String {
     match (&group.family, &group.style) {
         (Some(family), Some(style)) => format!("{family}, {style}"),
@@ -115,14 +113,14 @@ pub(super) fn heading(group: &GroupFigures) -> String {
     }
 }
 
-/// Tables of the figures of some planners: of vehicles, and of buildings, where there are any.
+/// Tables of the figures of planners: of vehicles, and of buildings, if there are any.
 pub(super) fn figures(group: &GroupFigures) -> Vec<TextRows> {
     let planners: Vec<&PlannerFigures> = group.planners.iter().collect();
     let buildings: Vec<(&PlannerFigures, &BuildingFigures)> =
         planners.iter().filter_map(|planner| Some((*planner, planner.building.as_ref()?))).collect();
-    let told = |named: &&NamedFigure| !TOLD.contains(&named.key.as_str());
-    let untold = planners.first().into_iter().flat_map(|planner| planner.figures.0.iter().filter(told));
-    let metrics = untold.map(metric_column).collect();
+    let is_other = |named: &&NamedFigure| !COVERED.contains(&named.key.as_str());
+    let others = planners.first().into_iter().flat_map(|planner| planner.figures.0.iter().filter(is_other));
+    let metrics = others.map(metric_column).collect();
     let traffic = table(&TRAFFIC, metrics, planners.into_iter().filter(|_| group.has_vehicles));
     [traffic, table(&building_columns(), Vec::new(), buildings.iter())]
         .into_iter()
@@ -130,14 +128,14 @@ pub(super) fn figures(group: &GroupFigures) -> Vec<TextRows> {
         .collect()
 }
 
-/// Tables of differences, each with the name of what is different: of vehicles, and of buildings, where there are any.
+/// Tables of named differences: of vehicles, and of buildings, if there are any.
 pub(super) fn differences(all: &[(String, &PairedDifference)], has_vehicles: bool) -> Vec<TextRows> {
     let named: Vec<(&str, &PairedDifference)> = all.iter().map(|(name, one)| (name.as_str(), *one)).collect();
     let buildings: Vec<(&str, &BuildingDifference)> =
         named.iter().filter_map(|(name, one)| Some((*name, one.building.as_ref()?))).collect();
     let splits = named.first().into_iter().flat_map(|(_, one)| &one.metrics.0);
-    let untold = splits.filter(|metric| !TOLD.contains(&metric.key));
-    let metrics = untold.flat_map(|metric| split_columns(metric.key, &metric.title)).collect();
+    let others = splits.filter(|metric| !COVERED.contains(&metric.key));
+    let metrics = others.flat_map(|metric| split_columns(metric.key, &metric.title)).collect();
     let traffic = table(&difference_columns(), metrics, named.iter().filter(|_| has_vehicles));
     [traffic, table(&building_difference_columns(), Vec::new(), buildings.iter())]
         .into_iter()
@@ -153,7 +151,7 @@ pub(super) fn versus(group: &GroupFigures) -> Vec<TextRows> {
     differences(&differing.collect::<Vec<_>>(), group.has_vehicles)
 }
 
-/// A table without the columns that say nothing in any row.
+/// A table without the columns that are empty in all rows.
 fn table<'a, T: 'a>(
     columns: &[RowColumn<T>],
     metrics: Vec<MetricColumn<T>>,
@@ -163,13 +161,13 @@ fn table<'a, T: 'a>(
     let fixed = columns.iter().map(|(title, cell)| ((*title).to_owned(), all.iter().map(|one| cell(one)).collect()));
     let metrics = metrics.into_iter().map(|(title, cell)| (title, all.iter().map(|one| cell(one)).collect()));
     let cells: Vec<(String, Vec<String>)> = fixed.chain(metrics).collect();
-    let told: Vec<(String, Vec<String>)> =
-        cells.into_iter().filter(|(_, cells)| cells.iter().any(|cell| cell != NOTHING)).collect();
-    let rows = (0..all.len()).map(|row| told.iter().map(|(_, cells)| cells[row].clone()).collect()).collect();
-    (told.into_iter().map(|(title, _)| title).collect(), rows)
+    let filled: Vec<(String, Vec<String>)> =
+        cells.into_iter().filter(|(_, cells)| cells.iter().any(|cell| cell != NO_VALUE)).collect();
+    let rows = (0..all.len()).map(|row| filled.iter().map(|(_, cells)| cells[row].clone()).collect()).collect();
+    (filled.into_iter().map(|(title, _)| title).collect(), rows)
 }
 
-/// The column of a figure by what kind of figure it is.
+/// The column of a figure, by its kind.
 fn metric_column(named: &NamedFigure) -> MetricColumn<PlannerFigures> {
     let (key, title) = (named.key.clone(), &named.title);
     let title = match named.figure {
@@ -186,12 +184,12 @@ fn metric_column(named: &NamedFigure) -> MetricColumn<PlannerFigures> {
         }
         Some(Figure::Count(count)) => count.to_string(),
         Some(Figure::Median(Some(median))) => format!("{median:.3}"),
-        Some(Figure::Mean(None) | Figure::Quantiles(None) | Figure::Median(None)) | None => nothing(),
+        Some(Figure::Mean(None) | Figure::Quantiles(None) | Figure::Median(None)) | None => no_value(),
     };
     (title, Box::new(cell))
 }
 
-/// The columns of who has the better value of a metric.
+/// The columns of wins and losses by a metric.
 fn split_columns<'a>(key: &'static str, title: &str) -> [MetricColumn<(&'a str, &'a PairedDifference)>; 2] {
     [
         (format!("{title}: better / worse"), Box::new(move |(_, one)| split(&one.metrics.get(key)))),
@@ -199,7 +197,7 @@ fn split_columns<'a>(key: &'static str, title: &str) -> [MetricColumn<(&'a str, 
     ]
 }
 
-/// A share of the runs of a planner; none of none.
+/// A share of the runs of a planner; `None` without runs.
 fn share(planner: &PlannerFigures, key: &str) -> Option<f64> {
     planner.figures.share(key).and_then(Share::share)
 }
@@ -213,32 +211,33 @@ fn runs(planner: &PlannerFigures) -> String {
 
 fn gap(planner: &PlannerFigures) -> String {
     let gap = planner.figures.quantiles("gap_m");
-    gap.map_or_else(nothing, |Quantiles { least, p05, median }| format!("{least:.3}, {p05:.3}, {median:.3}"))
+    gap.map_or_else(no_value, |Quantiles { least, p05, median }| format!("{least:.3}, {p05:.3}, {median:.3}"))
 }
 
 fn time_to_collision(planner: &PlannerFigures) -> String {
     let time = planner.figures.quantiles("time_to_collision_s");
-    time.map_or_else(nothing, |time| format!("{:.2}, {:.2}", time.p05, time.median))
+    time.map_or_else(no_value, |time| format!("{:.2}, {:.2}", time.p05, time.median))
 }
 
 fn plan_times(planner: &PlannerFigures) -> String {
     let times = planner.figures.median("plan_median_ms").zip(planner.figures.median("plan_p99_ms"));
-    times.map_or_else(nothing, |(median, tail)| format!("{median:.1}, {tail:.1}"))
+    times.map_or_else(no_value, |(median, tail)| format!("{median:.1}, {tail:.1}"))
 }
 
 fn hard_braking(planner: &PlannerFigures) -> String {
-    let Some(ego) = planner.figures.share("hard_braking").filter(|share| share.of > 0) else { return nothing() };
+    let Some(ego) = planner.figures.share("hard_braking").filter(|share| share.of > 0) else { return no_value() };
     format!("{}, {}", with_interval(Some(ego)), percent(share(planner, "others_hard_braking")))
 }
 
 fn bill(building: &BuildingFigures) -> String {
     let currency = building.currency.as_deref().unwrap_or_default().replace(char::is_control, " ");
-    building.bill.as_ref().map_or_else(nothing, |bill| format!("{} {currency}", estimate(bill, 2)))
+    building.bill.as_ref().map_or_else(no_value, |bill| format!("{} {currency}", estimate(bill, 2)))
 }
 
 fn delay(difference: &PairedDifference) -> String {
     let delay = difference.delay_s.zip(difference.delay_interval_s).zip(difference.delay_median_s);
-    delay.map_or_else(nothing, |((mean, interval), median)| format!("{mean:+.2} ({}), {median:+.2}", span(interval, 2)))
+    delay
+        .map_or_else(no_value, |((mean, interval), median)| format!("{mean:+.2} ({}), {median:+.2}", span(interval, 2)))
 }
 
 /// The name of a group of two versions.
@@ -256,27 +255,27 @@ fn estimate(estimate: &Estimate, decimals: usize) -> String {
 
 /// A difference with its sign.
 fn signed(difference: Option<&Estimate>, decimals: usize) -> String {
-    difference.map_or_else(nothing, |one| format!("{:+.decimals$} ({})", one.mean, span(one.interval, decimals)))
+    difference.map_or_else(no_value, |one| format!("{:+.decimals$} ({})", one.mean, span(one.interval, decimals)))
 }
 
-/// Two shares side by side; nothing if neither is known.
+/// Two shares, separated by a comma; no value if neither is known.
 fn both(one: Option<f64>, other: Option<f64>) -> String {
-    if one.or(other).is_none() { nothing() } else { format!("{}, {}", percent(one), percent(other)) }
+    if one.or(other).is_none() { no_value() } else { format!("{}, {}", percent(one), percent(other)) }
 }
 
-fn nothing() -> String {
-    NOTHING.to_owned()
+fn no_value() -> String {
+    NO_VALUE.to_owned()
 }
 
 fn with_interval(share: Option<&Share>) -> String {
     let known = share.and_then(|share| Some((share.share()?, share.interval)));
-    known.map_or_else(nothing, |(value, interval)| {
+    known.map_or_else(no_value, |(value, interval)| {
         format!("{} ({})", percent(Some(value)), span(interval.map(|bound| 100.0 * bound), 0))
     })
 }
 
 fn percent(share: Option<f64>) -> String {
-    share.map_or_else(nothing, |share| format!("{:.0}", 100.0 * share))
+    share.map_or_else(no_value, |share| format!("{:.0}", 100.0 * share))
 }
 
 fn span([low, high]: [f64; 2], decimals: usize) -> String {
@@ -286,7 +285,7 @@ fn span([low, high]: [f64; 2], decimals: usize) -> String {
 /// A corrected probability, with a star where it is below 5 %.
 fn probability(split: &Split) -> String {
     if split.wins + split.losses == 0 {
-        return nothing();
+        return no_value();
     }
     let star = if split.p_holm < 0.05 { " *" } else { "" };
     match split.p_holm {

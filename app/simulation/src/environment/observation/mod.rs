@@ -1,6 +1,7 @@
 //! What an agent sees, as numbers: one view a file.
 
 mod belief;
+mod foreign;
 mod grid;
 mod kinematics;
 mod lane;
@@ -8,6 +9,7 @@ mod plan;
 mod view;
 
 pub use belief::BeliefView;
+pub use foreign::{ForeignView, ObservationKind};
 pub use grid::OccupancyGrid;
 pub use kinematics::Kinematics;
 pub use lane::LaneView;
@@ -34,6 +36,9 @@ pub enum AgentView {
     Plan(PlanView),
     /// How nice the nearest others are, as our inference learns it from their motion.
     Belief(BeliefView),
+    /// A view of another crate.
+    #[serde(skip)]
+    Foreign(ForeignView),
 }
 
 impl AgentView {
@@ -45,6 +50,7 @@ impl AgentView {
             AgentView::OccupancyGrid(view) => view.space(),
             AgentView::Plan(view) => view.space(horizon),
             AgentView::Belief(view) => view.space(),
+            AgentView::Foreign(foreign) => foreign.view().space(horizon),
         }
     }
 
@@ -58,6 +64,16 @@ impl AgentView {
                 (*count == 0 || *count > MOST_SEEN).then(|| format!("`count` is from 1 to {MOST_SEEN}"))
             }
             AgentView::Lane(_) => None,
+            AgentView::Foreign(foreign) => foreign.view().fault(),
+        }
+    }
+
+    /// Whether it shows what is believed of the other drivers.
+    pub(super) fn shows_beliefs(&self) -> bool {
+        match self {
+            AgentView::Belief(_) => true,
+            AgentView::Foreign(foreign) => foreign.view().shows_beliefs(),
+            _ => false,
         }
     }
 
@@ -68,6 +84,7 @@ impl AgentView {
             AgentView::OccupancyGrid(view) => view.write(seen, out),
             AgentView::Plan(view) => view.write(seen, out),
             AgentView::Belief(view) => view.write(seen, out),
+            AgentView::Foreign(foreign) => foreign.view().write(seen.scene, seen.beliefs, out),
         }
     }
 }

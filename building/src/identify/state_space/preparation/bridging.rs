@@ -2,14 +2,14 @@
 //!
 //! A segment begins with a guess of its hidden temperatures, so that a single missing row would cost as much knowledge as days
 //! of rows give. Through a short gap the filter goes on instead: temperatures are missing and weather is interpolated. So is heat
-//! where it is the same on both sides of a very short gap. Elsewhere nobody knows the heat of the missing rows, and the
-//! temperatures that it enters may be anything after them.
+//! where it is the same on both sides of a very short gap. Elsewhere the heat of the missing rows is unknown, and so
+//! are the temperatures of the nodes that it enters.
 
 use std::ops::Range;
 
 use crate::identify::telemetry::{MeasuredZone, Telemetry};
 
-/// The longest gap that is bridged \[s\]. Chosen: the masses of a house keep most of their heat for so long.
+/// The longest gap that is bridged \[s\]. Chosen: the masses of a house keep most of their heat for this long.
 const LONGEST_GAP_S: f64 = 6.0 * 3600.0;
 /// In a gap of a single row, or shorter than this \[s\], heat is taken to go on as before …
 const LONGEST_HELD_GAP_S: f64 = 3600.0;
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_gap_is_one_segment_again_and_a_long_one_is_not() {
+    fn a_short_gap_joins_two_segments_and_a_long_one_does_not() {
         let telemetry = without(50..53);
         let (bridged, unknown_heat) = bridged(&telemetry).expect("a short gap");
         assert_eq!((bridged.segments.len(), bridged.rows()), (1, telemetry.rows() + 3));

@@ -1,7 +1,7 @@
 //! Long records with longer steps.
 //!
 //! The time of a fit is proportional to the rows. A record of many rows holds far more of them than its parameters need:
-//! temperatures are taken every so many rows, and heat and weather are the means over them, so that no heat is lost.
+//! every k-th temperature is kept, and heat and weather are averaged over k rows, so that heat is conserved.
 
 use crate::identify::telemetry::{Hold, SupplyAir, Telemetry};
 
@@ -10,7 +10,7 @@ const MOST_ROWS: usize = 20_000;
 /// The longest step \[s\]: an hour must be a multiple of it.
 const HOUR_S: f64 = 3600.0;
 
-/// How many rows become one.
+/// Number of rows that become one.
 pub(super) fn factor(telemetry: &Telemetry) -> usize {
     let rows = telemetry.rows();
     if rows <= MOST_ROWS {
@@ -88,7 +88,7 @@ mod tests {
     use crate::identify::synthetic_classroom::Classroom;
 
     #[test]
-    fn no_heat_is_lost_and_steps_divide_an_hour() {
+    fn decimation_conserves_heat_and_its_steps_divide_an_hour() {
         let telemetry = Classroom { days: 2, ..Classroom::default() }.simulate();
         assert_eq!(factor(&telemetry), 1, "it is short");
         let (long, unknown) = decimated(&telemetry, &[9], 4);

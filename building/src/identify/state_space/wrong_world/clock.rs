@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::world::World;
+use super::World;
 use crate::identify::state_space::likelihood::Observations;
 
 /// Shifts that are tried \[h\].
@@ -26,7 +26,7 @@ pub(super) fn better_shift(world: &World<'_>) -> Option<(f64, f64)> {
     let margin = libm::ceil(SHIFTS_H[SHIFTS_H.len() - 1] * 3600.0 / step_s) as usize;
     let of_shift = |rows: isize| -> Option<f64> {
         let shifted = shifted(world.observations, &weather, rows, margin);
-        Some(world.fit.again(&shifted, MOST_STEPS)?.maximum.evaluation.log_likelihood)
+        Some(world.fit.refit(&shifted, MOST_STEPS)?.maximum.evaluation.log_likelihood)
     };
     let as_recorded = of_shift(0)?;
     let shifts: Vec<isize> = SHIFTS_H.iter().map(|hours| libm::round(hours * 3600.0 / step_s) as isize).collect();

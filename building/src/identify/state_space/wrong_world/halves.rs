@@ -10,7 +10,7 @@ const MOST_STEPS: usize = 25;
 const CONTRADICTION: f64 = 3.0;
 /// … or fewer if they are also far apart, as a difference of logarithms.
 const CONTRADICTION_OF_FAR: (f64, f64) = (1.96, 0.25);
-/// From so many standard errors on, the record itself is suspected.
+/// Number of standard errors from which on the record itself is suspected.
 const SUSPICION: f64 = 4.0;
 
 /// The two halves.
@@ -45,7 +45,7 @@ impl Halves {
     pub fn new(fit: &Fit, observations: &Observations) -> Option<Self> {
         let rows: usize = observations.segments.iter().map(std::ops::Range::len).sum();
         let of = |half: &Observations| {
-            let fit = fit.again(half, MOST_STEPS)?;
+            let fit = fit.refit(half, MOST_STEPS)?;
             let precision = Precision::new(&fit);
             Some((fit, precision))
         };

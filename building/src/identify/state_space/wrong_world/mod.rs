@@ -8,11 +8,19 @@ mod clock;
 pub(super) mod halves;
 mod score_test;
 mod tails;
-mod world;
 
-pub(super) use world::World;
-
+use super::likelihood::{Filtered, Observations};
+use super::selection::Fit;
 use crate::identify::report::{SuspectedCause, Suspicion};
+use crate::identify::telemetry::Telemetry;
+
+/// A fit, and what it is judged by.
+pub(in crate::identify::state_space) struct World<'a> {
+    pub telemetry: &'a Telemetry,
+    pub observations: &'a Observations,
+    pub fit: &'a Fit,
+    pub filtered: &'a Filtered,
+}
 
 /// What the data contradict, by tests of which each refuses a right world in less than one of a hundred records.
 pub(super) fn suspicions(world: &World<'_>) -> Vec<Suspicion> {

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::world::World;
+use super::World;
 use crate::identify::diagnostics::survival;
 use crate::identify::report::SuspectedCause;
 use crate::identify::state_space::exponential::{Number, real};

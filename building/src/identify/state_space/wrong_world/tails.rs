@@ -1,7 +1,7 @@
 //! Heavy tails: innovations that are far larger at times than they are in general. Random heat and sensor noise have none; windows
 //! that are opened, and people who come and go, have.
 
-use super::world::World;
+use super::World;
 use crate::identify::report::SuspectedCause;
 use crate::identify::telemetry::Neighbour;
 

@@ -1,0 +1,50 @@
+//! The last line that a process writes to its standard error: usually the reason why it ends.
+
+use std::io::{BufRead, BufReader, Read};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use crate::host::shown;
+
+/// Reads the standard error of a process to its end, in a thread, and keeps the last line that is not blank.
+#[derive(Debug)]
+pub(crate) struct LastLine {
+    line: Arc<Mutex<String>>,
+    /// Disconnected once the thread has read everything.
+    open: Mutex<Receiver<()>>,
+}
+
+impl LastLine {
+    pub(crate) fn read(errors: impl Read + Send + 'static) -> Self {
+        let line = Arc::new(Mutex::new(String::new()));
+        let (reading, open) = mpsc::channel();
+        let last = Arc::clone(&line);
+        thread::spawn(move || {
+            // Dropped when the thread ends.
+            let _reading: mpsc::Sender<()> = reading;
+            // Units of other languages write other encodings than UTF-8.
+            for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
+                let line = String::from_utf8_lossy(&line);
+                if !line.trim().is_empty()
+                    && let Ok(mut last) = last.lock()
+                {
+                    *last = shown(line.trim_end());
+                }
+            }
+        });
+        Self { line, open: Mutex::new(open) }
+    }
+
+    /// Returns the last line of a process that has ended, or nothing if it wrote none.
+    ///
+    /// Waits until everything is read, but at most `timeout`: a process that the ended one has started may keep the standard error open.
+    pub(crate) fn at_end(&mut self, timeout: Duration) -> String {
+        if let Ok(open) = self.open.get_mut() {
+            // Nothing is ever sent.
+            let (Ok(()) | Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected)) = open.recv_timeout(timeout);
+        }
+        self.line.lock().map(|line| line.clone()).unwrap_or_default()
+    }
+}

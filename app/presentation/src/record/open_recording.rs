@@ -1,0 +1,64 @@
+//! Recordings that stay open after their run, until other runs have been judged; and recordings of runs of a sweep.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::Frame;
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
+use interplay_simulation::watch::{WatchError, Watcher};
+use interplay_sweep::SweepRow;
+
+use super::{RecordError, Recorder, Sink};
+
+/// A watcher that records and stays open after the run; its clones share the recording. Dropped without
+/// [`OpenRecording::close`], it leaves no file.
+#[derive(Clone)]
+pub struct OpenRecording(Arc<Mutex<Option<Recorder>>>);
+
+impl OpenRecording {
+    /// Keeps this recording open.
+    pub fn new(recorder: Recorder) -> OpenRecording {
+        OpenRecording(Arc::new(Mutex::new(Some(recorder))))
+    }
+
+    /// Adds the outcomes of the counterfactuals, finishes the recording and writes its file.
+    ///
+    /// # Errors
+    /// As [`Recorder::finish`].
+    pub fn close(self, report: &Report) -> Result<(), RecordError> {
+        let recorder = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some(recorder) = recorder else { return Ok(()) };
+        if !report.counterfactuals.is_empty() {
+            recorder.describe(&report.counterfactuals)?;
+        }
+        recorder.finish()
+    }
+}
+
+impl Watcher for OpenRecording {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
+        let mut recorder = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(recorder.as_mut().map_or(Ok(()), |recorder| recorder.log_frame(frame))?)
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
+        Ok(())
+    }
+}
+
+/// Repeats a run of a sweep and records it as `recordings/KEY.rrd` in a folder. A run without a result is not recorded.
+///
+/// # Errors
+/// The error as a text.
+pub fn record_sweep_run(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), String> {
+    if row.error.is_some() {
+        return Ok(());
+    }
+    let path = folder.join("recordings").join(format!("{}.rrd", row.key));
+    let recorder = Recorder::begin(scenario, &row.scenario, &Sink::File(path)).map_err(|error| error.to_string())?;
+    let recording = OpenRecording::new(recorder);
+    let report = run(&row.scenario, scenario, vec![Box::new(recording.clone())]).map_err(|error| error.to_string())?;
+    recording.close(&report).map_err(|error| error.to_string())
+}

@@ -1,0 +1,116 @@
+//! Dates and times as tables write them, and the clocks of a time zone.
+
+use jiff::civil::DateTime;
+use jiff::fmt::strtime::BrokenDownTime;
+use jiff::tz::{AmbiguousOffset, Offset, TimeZone, TimeZoneDatabase};
+
+/// Seconds since 1970, and by how much the clocks that showed the time were ahead of UTC; both in UTC if no offset is known.
+#[derive(Clone, Copy)]
+pub(crate) struct ClockTime {
+    pub elapsed_s: f64,
+    pub offset_s: f64,
+}
+
+impl ClockTime {
+    /// The time that a text states, with its offset from UTC if it has one.
+    pub fn stated(parsed: &BrokenDownTime) -> Option<Self> {
+        let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
+        Some(Self { elapsed_s: seconds_since_1970(parsed.to_datetime().ok()?) - offset_s, offset_s })
+    }
+}
+
+/// An offset from UTC in a format.
+pub(crate) const OFFSET: &str = "%z";
+
+/// The parts of a time of this format. `%z` reads offsets with and without a colon, and `Z`.
+pub(crate) fn parsed(format: &str, text: &str) -> Option<BrokenDownTime> {
+    let at_greenwich =
+        text.strip_suffix('Z').filter(|_| format.ends_with(OFFSET)).map(|local| format!("{local}+00:00"));
+    let text = at_greenwich.as_deref().unwrap_or(text);
+    BrokenDownTime::parse(format, text).or_else(|_| BrokenDownTime::parse(format.replace(OFFSET, "%:z"), text)).ok()
+}
+
+/// The format that reads the time, where the stated one lacks but the offset from UTC at its end.
+pub(crate) fn format_with_offset(format: &str, text: &str) -> Option<String> {
+    if format.contains(OFFSET) {
+        return None;
+    }
+    [format!("{format}{OFFSET}"), format!("{format} {OFFSET}")]
+        .into_iter()
+        .find(|format| parsed(format, text).is_some())
+}
+
+/// A time zone of the tz database, which is part of the program.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedZone(TimeZone);
+
+impl NamedZone {
+    /// The time zone of that name.
+    pub fn find(name: &str) -> Option<Self> {
+        TimeZoneDatabase::bundled().get(name).ok().map(Self)
+    }
+
+    /// The names of all time zones.
+    pub fn names() -> Vec<String> {
+        TimeZoneDatabase::bundled().available().map(|name| name.to_string()).collect()
+    }
+
+    /// By how much clocks of the place were ahead of Greenwich when they showed this \[s\]; `None` where they never did, since they were
+    /// put forward. Of an hour that came twice it is the first, unless that was over `after_s` seconds (of UTC, since 1970).
+    pub fn offset_s(&self, shown: DateTime, after_s: Option<f64>) -> Option<f64> {
+        let seconds = |offset: Offset| f64::from(offset.seconds());
+        match self.0.to_ambiguous_timestamp(shown).offset() {
+            AmbiguousOffset::Unambiguous { offset } => Some(seconds(offset)),
+            AmbiguousOffset::Gap { .. } => None,
+            AmbiguousOffset::Fold { before, after } => {
+                let first_s = seconds_since_1970(shown) - seconds(before);
+                let is_over = after_s.is_some_and(|after_s| first_s <= after_s);
+                Some(seconds(if is_over { after } else { before }))
+            }
+        }
+    }
+}
+
+/// Seconds on the same clocks since the start of 1970.
+pub(crate) fn seconds_since_1970(shown: DateTime) -> f64 {
+    shown.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FORMAT: &str = "%Y-%m-%dT%H:%M:%S%z";
+
+    #[test]
+    fn an_offset_is_written_in_three_ways() {
+        for (offset, seconds) in [("Z", 0), ("+0200", 7200), ("+02:00", 7200), ("-05:30", -19_800)] {
+            let time = parsed(FORMAT, &format!("2026-07-06T00:15:00{offset}")).expect("a time");
+            assert_eq!(time.offset().map(|offset| offset.seconds()), Some(seconds), "{offset}");
+        }
+        assert!(parsed(FORMAT, "2026-07-06T00:15:00").is_none());
+    }
+
+    #[test]
+    fn a_format_that_lacks_only_the_offset_is_found() {
+        let found = |text| format_with_offset("%Y-%m-%d %H:%M", text);
+        assert_eq!(found("2026-07-06 00:15Z").as_deref(), Some("%Y-%m-%d %H:%M%z"));
+        assert_eq!(found("2026-07-06 00:15 +0200").as_deref(), Some("%Y-%m-%d %H:%M %z"));
+        assert_eq!(found("6.7.2026 00:15Z"), None);
+        assert_eq!(format_with_offset(FORMAT, "2026-07-06T00:15:00+02:00"), None);
+    }
+
+    #[test]
+    fn clocks_are_put_forward_and_back() {
+        let zurich = NamedZone::find("Europe/Zurich").expect("a zone");
+        let at = |month: i8, day: i8, hour: i8| DateTime::constant(2026, month, day, hour, 30, 0, 0);
+        assert_eq!(zurich.offset_s(at(1, 1, 12), None), Some(3600.0));
+        assert_eq!(zurich.offset_s(at(7, 1, 12), None), Some(7200.0));
+        assert_eq!(zurich.offset_s(at(3, 29, 2), None), None, "put forward from 2 to 3");
+        let first_s = seconds_since_1970(at(10, 25, 2)) - 7200.0;
+        assert_eq!(zurich.offset_s(at(10, 25, 2), Some(first_s - 900.0)), Some(7200.0), "half past two, summer time");
+        assert_eq!(zurich.offset_s(at(10, 25, 2), Some(first_s)), Some(3600.0), "half past two once more");
+        assert!(NamedZone::find("Europe/Zurch").is_none());
+        assert!(NamedZone::names().iter().any(|name| name == "Asia/Kolkata"));
+    }
+}
