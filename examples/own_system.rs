@@ -6,7 +6,7 @@
 use bevy_ecs::prelude::*;
 use interplay_scenarios::load;
 use interplay_simulation::Simulation;
-use interplay_simulation::components::{Clock, Identity, Motion};
+use interplay_simulation::components::{Clock, CurrentTraffic};
 use interplay_simulation::phases::{Phase, Slot};
 
 /// Energy that the vehicles' brakes have taken, per mass \[J/kg\].
@@ -14,11 +14,9 @@ use interplay_simulation::phases::{Phase, Slot};
 struct BrakedEnergy(f64);
 
 /// Adds the work of this tick's decelerations: `−a v dt` where `a` is negative.
-fn add_braking(vehicles: Query<(&Identity, &Motion)>, clock: Res<Clock>, mut braked: ResMut<BrakedEnergy>) {
-    let mut sorted: Vec<_> = vehicles.iter().collect();
-    sorted.sort_by_key(|(identity, _)| identity.index);
-    for (_, motion) in sorted {
-        braked.0 += (-motion.input.acceleration_mps2).max(0.0) * motion.state.speed_mps * clock.step_s;
+fn add_braking(traffic: Res<CurrentTraffic>, clock: Res<Clock>, mut braked: ResMut<BrakedEnergy>) {
+    for agent in traffic.0.road_users.iter().map(|user| &user.agent) {
+        braked.0 += (-agent.previous_input.acceleration_mps2).max(0.0) * agent.state.speed_mps * clock.step_s;
     }
 }
 

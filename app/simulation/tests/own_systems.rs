@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use interplay_scenarios::{Scenario, load};
-use interplay_simulation::components::Motion;
+use interplay_simulation::components::TrafficRow;
 use interplay_simulation::phases::{Phase, Slot};
 use interplay_simulation::time_points::TimePoint;
 use interplay_simulation::{NotCopied, Simulation};
@@ -19,7 +19,7 @@ struct Counted {
 #[derive(Resource, Default)]
 struct Unregistered;
 
-fn count(time_point: Res<TimePoint>, vehicles: Query<&Motion>, mut counted: ResMut<Counted>) {
+fn count(time_point: Res<TimePoint>, vehicles: Query<&TrafficRow>, mut counted: ResMut<Counted>) {
     counted.ticks += usize::from(time_point.vehicles);
     counted.vehicles += vehicles.iter().count();
 }

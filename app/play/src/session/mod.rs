@@ -12,6 +12,6 @@ pub use error::SessionError;
 pub(crate) use goal::PlayGoal;
 pub(crate) use live::seats_of;
 pub use live::{Session, check_seats};
-pub(crate) use score::{planner_rows, planners_beside_person};
 pub use score::{Score, ScoreRow};
+pub(crate) use score::{planner_rows, planners_beside_person};
 pub use seat::Controls;

@@ -30,9 +30,7 @@ use crate::climate::Building;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
-use crate::state::components::{
-    Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond,
-};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond};
 use crate::state::detail::LevelOfDetail;
 use crate::state::frame::Frame;
 
