@@ -19,13 +19,14 @@ use crate::simulation::world_state::WorldState;
 /// ```
 /// use bevy_ecs::prelude::*;
 /// use interplay_simulation::phases::{Phase, Slot};
-/// use interplay_simulation::{Simulation, components::Motion};
+/// use interplay_simulation::{Simulation, components::CurrentTraffic};
 ///
 /// #[derive(Resource, Clone, Default)]
 /// struct PeakSpeed(f64);
 ///
-/// fn find_peak(vehicles: Query<&Motion>, mut peak: ResMut<PeakSpeed>) {
-///     peak.0 = vehicles.iter().fold(peak.0, |peak_mps, motion| peak_mps.max(motion.state.speed_mps));
+/// fn find_peak(traffic: Res<CurrentTraffic>, mut peak: ResMut<PeakSpeed>) {
+///     let speeds_mps = traffic.0.road_users.iter().map(|user| user.agent.state.speed_mps);
+///     peak.0 = speeds_mps.fold(peak.0, f64::max);
 /// }
 ///
 /// let scenario = interplay_scenarios::load("lane-change/front-nice", &[])?;
