@@ -57,9 +57,7 @@ macro_rules! vehicle_keys {
 
             /// What a file states of the keys that have a place in a vehicle.
             pub(crate) fn of_settled(vehicle: &Vehicle) -> VehicleConfig {
-                let mut config = VehicleConfig::default();
-                $($(config.$key = Key::of_settled(&vehicle.$($place).+);)?)*
-                config
+                VehicleConfig { $($($key: Key::of_settled(&vehicle.$($place).+),)?)* ..VehicleConfig::default() }
             }
         }
     };
