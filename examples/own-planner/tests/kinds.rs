@@ -53,9 +53,10 @@ fn the_command_runs_a_building_with_its_controller() {
     let folder = tempdir().expect("a folder");
     let program = env!("CARGO_BIN_EXE_own-planner");
     let set = "controller={ kind = 'proportional', gain_kw_per_k = 2.0 }";
-    let words = ["run", "building/four-room-pid", "--set", set, "--no-record", "--json", "--set", "expect={}"];
+    let words = ["run", "building/four-room-pid", "--set", set, "--no-record", "--json"];
     let output = Command::new(program).args(words).current_dir(folder.path()).output().expect("it starts");
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    // The scenario expects what a PID controller does.
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
     let report: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
     assert_eq!(report["building"]["controller"], "proportional", "{report}");
 }

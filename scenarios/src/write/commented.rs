@@ -67,6 +67,14 @@ impl Writer {
     fn table(&mut self, path: &str, schema: SchemaNode, value: &Map<String, Json>, live: bool) {
         let first = self.explained.as_mut().is_some_and(|explained| explained.insert(table_type(schema, value)));
         let mut sections = Vec::new();
+        let kind = value.get("kind").and_then(Json::as_str).filter(|_| !schema.kinds().is_empty());
+        if kind.is_some_and(|kind| schema.of_kind(kind).is_none()) {
+            // A kind of another crate: the schema of Interplay does not describe its keys.
+            for (key, value) in value {
+                self.line(&format!("{key} = {}", inline(schema, value)), live);
+            }
+            return;
+        }
         for (key, property) in keys(schema, value) {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
             let stated = value.get(key).filter(|value| !value.is_null());
