@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use bevy_ecs::component::ComponentInfo;
 use bevy_ecs::prelude::*;
+use bevy_ecs::system::ScheduleSystem;
 
 use crate::phases::Slot;
 use crate::simulation::run_error::RunError;
@@ -50,7 +51,7 @@ impl Extensions {
         M: 'static,
     {
         let add = move |schedule: &mut Schedule| {
-            schedule.add_systems(system.clone().in_set(slot));
+            schedule.add_systems(IntoScheduleConfigs::<ScheduleSystem, M>::in_set(system.clone(), slot));
         };
         let has_local = type_name::<M>().contains(LOCAL);
         self.systems.push(AddedSystem { name: type_name::<S>(), has_local, add: Arc::new(add) });
@@ -127,7 +128,7 @@ pub(crate) fn initialize(schedule: &mut Schedule, world: &mut World) -> Result<(
 
 /// The components, resources among them, of which a world holds at least one.
 fn held(world: &World) -> impl Iterator<Item = &ComponentInfo> {
-    let is_held = |component: &&ComponentInfo| {
+    let is_held = move |component: &&ComponentInfo| {
         let mut archetypes = world.archetypes().iter();
         archetypes.any(|archetype| archetype.len() > 0 && archetype.contains(component.id()))
     };
