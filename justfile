@@ -23,11 +23,13 @@ test *WORDS:
 test-crate CRATE *WORDS:
     cargo test --release -p interplay-{{CRATE}} {{WORDS}}
 
-# Compile everything without running it, with all lints
+# Formatting and all lints, as `.ci/run` checks them
 lint:
-    cargo fmt --all --check
-    rustfmt --edition 2024 --check scenarios/src/roads/junctions/*.rs
-    cargo clippy --release --workspace --all-targets --locked -- -D warnings
+    .ci/lint
+
+# Subjects of the commits since BASE: imperative, at most 72 characters
+subjects BASE="main":
+    .github/check-subjects.sh {{BASE}}
 
 # What every change must pass, from formatting to the last test
 ci:

@@ -77,7 +77,7 @@ def made_again(text, kinds):
 
 
 def main():
-    pages = [*sorted(ROOT.glob("docs/*.md")), ROOT / "README.md"]
+    pages = [*sorted(ROOT.glob("docs/**/*.md")), ROOT / "README.md"]
     if "--list" in sys.argv:
         for page in pages:
             for mark in MARK.finditer(page.read_text()):

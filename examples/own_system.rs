@@ -15,8 +15,8 @@ struct BrakedEnergy(f64);
 
 /// Adds the work of this tick's decelerations: `−a v dt` where `a` is negative.
 fn add_braking(traffic: Res<CurrentTraffic>, clock: Res<Clock>, mut braked: ResMut<BrakedEnergy>) {
-    for agent in traffic.0.road_users.iter().map(|user| &user.agent) {
-        braked.0 += (-agent.previous_input.acceleration_mps2).max(0.0) * agent.state.speed_mps * clock.step_s;
+    for user in &traffic.0.road_users {
+        braked.0 += (-user.agent.previous_input.acceleration_mps2).max(0.0) * user.agent.state.speed_mps * clock.step_s;
     }
 }
 

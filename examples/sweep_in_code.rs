@@ -9,7 +9,7 @@ use interplay_scenarios::SweepPlan;
 use interplay_sweep::compare::{GroupBy, compare};
 use interplay_sweep::{Shard, SweepOptions, sweep};
 
-/// `docs/sweeps.md` describes plans. All planners get the same starts.
+/// `docs/guide/sweeps.md` describes plans. All planners get the same starts.
 const PLAN: &str = r#"
 scenario = ["intersection/nice", "lane-change/front-nice"]
 planner = ["conservative", "negotiation"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sums the compiler seconds of a build by group of crates, as in docs/benchmarks.md.
+"""Sums the compiler seconds of a build by group of crates, as in docs/evidence/benchmarks.md.
 
     cargo build --release --timings && tests/build_times.py target/cargo-timings/cargo-timing.html
 """

@@ -25,18 +25,18 @@ fn designs(criterion: &mut Criterion) {
     let cases = [
         (Controller::Iterative(Default::default()), 2, 2),
         (Controller::Concurrent(Default::default()), 2, 2),
-        (distributed, 2, 2),
-        (centralised, 2, 2),
-        (distributed, 3, 3),
-        (distributed, 4, 4),
-        (distributed, 5, 5),
-        (distributed, 10, 10),
-        (distributed, 20, 20),
-        (centralised, 5, 5),
-        (centralised, 10, 10),
+        (distributed.clone(), 2, 2),
+        (centralised.clone(), 2, 2),
+        (distributed.clone(), 3, 3),
+        (distributed.clone(), 4, 4),
+        (distributed.clone(), 5, 5),
+        (distributed.clone(), 10, 10),
+        (distributed.clone(), 20, 20),
+        (centralised.clone(), 5, 5),
+        (centralised.clone(), 10, 10),
     ];
     for (controller, rows, columns) in cases {
-        let case = Case::new(controller, rows, columns);
+        let case = Case::new(controller.clone(), rows, columns);
         group.bench_function(format!("{} {}", controller.kind(), rows * columns), |bencher| {
             bencher.iter_batched(
                 || case.controller.fork().expect("ours can be copied"),

@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, colour, controller, count) in designs {
         let mut points = Vec::new();
         for &(rows, columns) in &grids[..count] {
-            let seconds = seconds(&Case::new(controller, rows, columns))?;
+            let seconds = seconds(&Case::new(controller.clone(), rows, columns))?;
             println!("{name:20} {:4} rooms  {seconds:9.4} s", rows * columns);
             points.push((rows * columns, seconds));
         }

@@ -29,7 +29,7 @@ fn main() {
             Controller::Concurrent(Default::default()),
             Controller::Distributed(Default::default()),
         ] {
-            let outcome = match building.run(controller, DAYS) {
+            let outcome = match building.run(controller.clone(), DAYS) {
                 Ok((costs, fallbacks)) => {
                     let costs: Vec<String> = costs.iter().map(|cost| format!("{cost:.2}")).collect();
                     format!("{} | {fallbacks}", costs.join(" | "))

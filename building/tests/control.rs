@@ -65,10 +65,10 @@ fn answers(controller: Controller, targets: &Targets, temperatures_c: &[f64]) ->
 fn a_thermostat_starts_beyond_its_dead_band_and_stops_at_what_is_wanted() {
     let thermostat = Controller::Thermostat(ThermostatSettings { dead_band_k: 0.5, power: 0.75 });
     let targets = targets(&always(), 1);
-    let cooling = answers(thermostat, &targets, &[22.4, 22.6, 22.3, 22.0, 22.4, 21.6, 21.4, 21.9, 22.1]);
+    let cooling = answers(thermostat.clone(), &targets, &[22.4, 22.6, 22.3, 22.0, 22.4, 21.6, 21.4, 21.9, 22.1]);
     assert_eq!(cooling, [0.0, -1.5, -1.5, 0.0, 0.0, 0.0, 1.5, 1.5, 0.0]);
     // Thrown from one side to the other, it turns round.
-    assert_eq!(answers(thermostat, &targets, &[23.0, 21.0]), [-1.5, 1.5]);
+    assert_eq!(answers(thermostat.clone(), &targets, &[23.0, 21.0]), [-1.5, 1.5]);
     // Where the temperature is free it rests.
     let mut free = targets;
     free.error_weight.fill(0.0);
@@ -210,7 +210,7 @@ fn no_controller_beats_the_clairvoyant_one_which_has_no_regret() {
     for seed in 1..4 {
         let world = World::new(seed, Forecast::Uncertain { level: ErrorLevel::Medium });
         for controller in baselines() {
-            for (cost, regret) in world.run(controller) {
+            for (cost, regret) in world.run(controller.clone()) {
                 assert!(regret > 0.0, "{} {cost} {regret}", controller.kind());
             }
         }
@@ -224,7 +224,7 @@ fn no_controller_beats_the_clairvoyant_one_which_has_no_regret() {
 fn learning_and_forecasts_lower_the_cost() {
     let mean = |seeds: std::ops::Range<u64>, forecast: Forecast, controller: Controller, day: usize| {
         let count = (seeds.end - seeds.start) as f64;
-        seeds.map(|seed| World::new(seed, forecast).run(controller)[day].1).sum::<f64>() / count
+        seeds.map(|seed| World::new(seed, forecast).run(controller.clone())[day].1).sum::<f64>() / count
     };
     let learning =
         |forecast: bool| Controller::IterativeLearning(LearningSettings { forecast, ..LearningSettings::default() });

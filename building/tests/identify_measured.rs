@@ -1,6 +1,6 @@
 //! Real buildings. Their data may not be part of this repository, so these tests are ignored by default. To run them, let
 //! the environment variable `INTERPLAY_THERMAL_DATA` name a folder with `dutch3/blg_1.csv` to `blg_3.csv`,
-//! `flexhouse/inputPRBS1.csv` and `riskbr/riskbr_data.csv` (sources: `docs/identification.md`), and pass `--ignored`:
+//! `flexhouse/inputPRBS1.csv` and `riskbr/riskbr_data.csv` (sources: `docs/guide/identification.md`), and pass `--ignored`:
 //!
 //! ```sh
 //! INTERPLAY_THERMAL_DATA=FOLDER cargo test --release -p interplay-building --test identify_measured -- --ignored

@@ -220,7 +220,7 @@ fn an_unknown_key_is_located_and_the_nearest_key_is_suggested() {
 fn a_value_of_the_wrong_type_is_reported_with_the_type_needed() {
     let wanted = |from: &str, to: &str, message: &str| {
         let expected = format!(
-            "home.toml:{message}; `interplay identify --help` shows a mapping, docs/identification.md every key"
+            "home.toml:{message}; `interplay identify --help` shows a mapping, docs/guide/identification.md every key"
         );
         assert_eq!(refused(from, to).to_string(), expected);
     };
@@ -383,9 +383,9 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
 
 #[test]
 fn the_documentation_shows_a_valid_mapping_and_every_key() {
-    let page = include_str!("../../docs/identification.md");
+    let page = include_str!("../../docs/guide/identification.md");
     let example = page.split("```toml mapping\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a mapping");
-    Mapping::parse("docs/identification.md", example).expect("sound");
+    Mapping::parse("docs/guide/identification.md", example).expect("sound");
     let mut found = Vec::new();
     keys(schemars::schema_for!(Mapping).as_value(), &mut found);
     assert!(found.len() > 20);

@@ -12,7 +12,7 @@ const SETTLED: f64 = 1.002;
 fn check(controller: Controller, seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let building = OrdinaryBuilding::new(seed);
-        let (costs, fallbacks) = building.run(controller, 5).expect("it starts");
+        let (costs, fallbacks) = building.run(controller.clone(), 5).expect("it starts");
         let what = format!("{} {seed} {:?}: {costs:?}", controller.kind(), building.construction);
         assert_eq!(fallbacks, 0, "{what}");
         assert!(costs[1] < 0.2 * costs[0] && costs[4] < costs[1], "{what}");

@@ -1,6 +1,6 @@
 """Makes the page of the trained agent from what ``examples/train_ppo.py OUT`` left: ``python trained_agent_page.py OUT DOCS``.
 
-It writes ``trained-agent.md`` and ``images/trained-agent.svg`` into the folder DOCS. It needs matplotlib.
+It writes ``evidence/trained-agent.md`` and ``images/trained-agent.svg`` into the folder DOCS. It needs matplotlib.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def main() -> None:
     lines = [
         head.rstrip().replace("LAST_SHARES", shares).replace("RUNS", f"{test['runs'] + unmet['runs']:,}"),
         "",
-        "![Goals of the last 200 episodes over decisions, for five seeds](images/trained-agent.svg)",
+        "![Goals of the last 200 episodes over decisions, for five seeds](../images/trained-agent.svg)",
         "",
         "## On unseen starts, among humans as in training",
         "",
@@ -82,7 +82,7 @@ def main() -> None:
         "",
         *table(unmet),
     ]
-    (docs / "trained-agent.md").write_text("\n".join(lines).rstrip() + "\n")
+    (docs / "evidence/trained-agent.md").write_text("\n".join(lines).rstrip() + "\n")
 
 
 if __name__ == "__main__":

@@ -57,12 +57,23 @@ pub(crate) fn root() -> PathBuf {
 
 /// Path from the root and text of every document for users.
 pub(crate) fn documents() -> Vec<(String, String)> {
-    let pages = fs::read_dir(root().join("docs")).expect("the book");
-    let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
-    let mut names: Vec<String> = pages.filter(|name| name.ends_with(".md")).collect();
+    let mut names = pages();
     names.push("README.md".to_owned());
     names.sort();
     names.into_iter().map(|name| (name.clone(), fs::read_to_string(root().join(name)).expect("a document"))).collect()
+}
+
+/// Path from the root of every page of the book, the summary included.
+pub(crate) fn pages() -> Vec<String> {
+    let is_folder = |entry: &fs::DirEntry| entry.path().is_dir();
+    let names_in = |folder: &str| -> Vec<(String, bool)> {
+        let entries = fs::read_dir(root().join(folder)).expect("a folder of the book");
+        let entries = entries.map(|entry| entry.expect("readable"));
+        entries.map(|entry| (format!("{folder}/{}", entry.file_name().to_string_lossy()), is_folder(&entry))).collect()
+    };
+    let (folders, mut names): (Vec<_>, Vec<_>) = names_in("docs").into_iter().partition(|(_, is_folder)| *is_folder);
+    names.extend(folders.iter().flat_map(|(folder, _)| names_in(folder)));
+    names.into_iter().map(|(name, _)| name).filter(|name| name.ends_with(".md")).collect()
 }
 
 /// The fenced blocks of a document: language and content, in order.
@@ -191,7 +202,7 @@ fn every_scenario_in_the_documents_is_used_there() {
 /// The excerpt of an error message in the authoring guide is what the command says.
 #[test]
 fn the_error_in_the_authoring_guide_is_the_command_s() {
-    let text = fs::read_to_string(root().join("docs/authoring.md")).expect("the guide");
+    let text = fs::read_to_string(root().join("docs/guide/authoring.md")).expect("the guide");
     let folder = scratch("book-error");
     let blocks = blocks(&text);
     let find = |language: &str, piece: &str| {
@@ -238,6 +249,31 @@ fn links_lead_somewhere_and_the_summary_lists_every_page() {
     }
 }
 
+/// Largest number of words in all pages of the guide together.
+const MAX_GUIDE_WORDS: usize = 45_000;
+
+/// Largest number of words in the summary of a report of measurements.
+const MAX_SUMMARY_WORDS: usize = 200;
+
+#[test]
+fn the_guide_is_short_enough_to_read() {
+    let guide = documents().into_iter().filter(|(name, _)| name.starts_with("docs/guide/"));
+    let words: usize = guide.map(|(_, text)| text.split_whitespace().count()).sum();
+    assert!((10_000..=MAX_GUIDE_WORDS).contains(&words), "{words} words");
+}
+
+#[test]
+fn every_report_begins_with_a_summary() {
+    let mut count = 0;
+    for (name, text) in documents().into_iter().filter(|(name, _)| name.starts_with("docs/evidence/")) {
+        let (_, rest) = text.split_once("\n\n## Summary\n\n").unwrap_or_else(|| panic!("{name} has no summary"));
+        let words = rest.split("\n## ").next().unwrap_or(rest).split_whitespace().count();
+        assert!((20..=MAX_SUMMARY_WORDS).contains(&words), "{name}: {words} words");
+        count += 1;
+    }
+    assert!(count > 10, "{count} reports");
+}
+
 /// The page of all authored scenarios is what they say of themselves. `INTERPLAY_BLESS=1` writes it anew.
 #[test]
 fn the_list_of_scenarios_is_complete() {
@@ -249,24 +285,24 @@ fn the_list_of_scenarios_is_complete() {
         let [name, shows, figure] = ["name", "shows", "figure"].map(|key| row[key].as_str().unwrap_or_default());
         page += &format!("| `{name}` | {} | {figure} |\n", shows.replace('|', "\\|"));
     }
-    let path = root().join("docs/scenarios.md");
+    let path = root().join("docs/reference/scenarios.md");
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
         fs::write(&path, &page).expect("the page can be written");
     }
     let written = fs::read_to_string(&path).unwrap_or_default();
-    assert!(written == page, "docs/scenarios.md is out of date: renew it with INTERPLAY_BLESS=1");
+    assert!(written == page, "docs/reference/scenarios.md is out of date: renew it with INTERPLAY_BLESS=1");
 }
 
 /// The page of all keys is what the schema says, and its links lead to headings. `INTERPLAY_BLESS=1` writes it anew.
 #[test]
 fn the_reference_of_keys_is_the_schema_s() {
     let page = interplay_scenarios::key_reference();
-    let path = root().join("docs/reference.md");
+    let path = root().join("docs/reference/reference.md");
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
         fs::write(&path, &page).expect("the page can be written");
     }
     let written = fs::read_to_string(&path).unwrap_or_default();
-    assert!(written == page, "docs/reference.md is out of date: renew it with INTERPLAY_BLESS=1");
+    assert!(written == page, "docs/reference/reference.md is out of date: renew it with INTERPLAY_BLESS=1");
     let headings: BTreeSet<String> = page.lines().filter_map(|line| line.strip_prefix("## ")).map(place_of).collect();
     let links: Vec<&str> = page.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     assert!(links.len() > 100 && headings.len() > 50, "{} links, {} sections", links.len(), headings.len());
@@ -286,7 +322,7 @@ fn place_of(heading: &str) -> String {
 /// Tests that the errata name are there.
 #[test]
 fn the_errata_name_tests_that_exist() {
-    let text = fs::read_to_string(root().join("docs/errata.md")).expect("the errata");
+    let text = fs::read_to_string(root().join("docs/theory/errata.md")).expect("the errata");
     let named: BTreeSet<&str> = text
         .lines()
         .filter(|line| line.starts_with('|'))
@@ -320,7 +356,7 @@ fn gather(folder: &Path, into: &mut String) {
 #[test]
 fn the_workflow_for_users_is_sound() {
     let text = fs::read_to_string(root().join("assets/ci/interplay.yml")).expect("the workflow");
-    let page = fs::read_to_string(root().join("docs/ci.md")).expect("the page");
+    let page = fs::read_to_string(root().join("docs/guide/ci.md")).expect("the page");
     let shown = blocks(&page).into_iter().find(|(language, _)| *language == "yaml").expect("it is shown").1;
     assert_eq!(shown.trim_end(), text.trim_end());
     let events = Parser::new_from_str(&text).map(|event| event.expect("YAML").0);

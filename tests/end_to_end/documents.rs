@@ -1,12 +1,14 @@
 //! The documents say what is so: the README's commands, its example and its sample output, and what CI runs.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use interplay_scenarios::{embedded, from_text};
 use saphyr_parser::Parser;
 
-use crate::command::{interplay, scratch};
+use crate::command::{contents, interplay, scratch};
 
 fn document(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
@@ -48,16 +50,22 @@ fn ci_runs_the_readme_s_test_command() {
     let (ci, readme) = (document(".ci/run"), document("README.md"));
     let test = &blocks(&readme)[1].1;
     assert!(ci.lines().any(|line| line.starts_with(&format!("run {test} "))), "`{test}` is not in .ci/run");
+    assert!(
+        ci.contains("\nrun .ci/lint\n") && document("justfile").contains("\n    .ci/lint\n"),
+        "both check the same"
+    );
     for check in ["cargo fmt", "cargo clippy", "cargo doc"] {
-        assert!(ci.contains(check), "{check} is not in .ci/run");
+        assert!((document(".ci/lint") + &ci).contains(check), "{check} is not in .ci/run");
     }
 }
 
 /// The sample in the README is the command's own output, but for the numbers.
 #[test]
 fn the_readme_s_sample_is_what_the_command_prints() {
-    let sample = block(&document("README.md"), "text", "[lane-change/front-nice]");
-    let printed = interplay(&scratch("sample"), &["run", "--no-record"]).stdout;
+    let sample = block(&document("README.md"), "text", "[people/intersection]");
+    let folder = scratch("sample");
+    let outcome = interplay(&folder, &[]);
+    let printed = outcome.stdout;
     let masked = |text: &str| -> Vec<String> {
         let lines = text.lines().map(|line| {
             let words = line.split_whitespace().map(|word| {
@@ -69,6 +77,12 @@ fn the_readme_s_sample_is_what_the_command_prints() {
         lines.collect()
     };
     assert_eq!(masked(&sample), masked(&printed), "paste the output anew:\n{printed}");
+    // The first run fits a screen, leaves no file behind, and ends with what to try next.
+    let said = outcome.stderr.lines().collect::<Vec<_>>();
+    assert!(printed.lines().count() + said.len() <= 15 && contents(&folder).is_empty(), "{printed}{said:?}");
+    let next = ["why", "play", "new"].map(|command| format!(" {command} "));
+    assert!(said.len() == 3 && said.iter().zip(&next).all(|(line, next)| line.contains(next)), "{said:?}");
+    assert!(!printed.contains('{'), "no JSON on the first screen: {printed}");
 }
 
 #[test]
@@ -91,13 +105,15 @@ fn is_flag(word: &str) -> bool {
     word.strip_prefix("--").is_some_and(|name| name.starts_with(char::is_alphabetic))
 }
 
-/// Scenarios that the README names are there; `docs/scenarios.md` has all of them.
+/// Scenarios that the README names are there; `docs/reference/scenarios.md` has all of them.
 #[test]
 fn the_readme_names_scenarios_that_exist() {
     let readme = document("README.md");
-    let rows = readme.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
-    let named: Vec<&str> = rows.filter(|word| !word.ends_with('/')).collect();
-    assert!(named.len() > 8, "{named:?}");
+    let families: BTreeSet<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
+    let is_name = |word: &&str| word.split_once('/').is_some_and(|(family, _)| families.contains(family));
+    let words = readme.split(|c: char| c.is_whitespace() || "`\"()[]".contains(c));
+    let named: BTreeSet<&str> = words.filter(is_name).collect();
+    assert!(named.len() >= 3, "{named:?}");
     for name in named {
         assert!(embedded().iter().any(|file| file.name == name), "there is no {name}");
     }
@@ -109,9 +125,7 @@ fn the_documents_speak_of_files_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut names =
         ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"].map(str::to_owned).to_vec();
-    let pages = fs::read_dir(root.join("docs")).expect("the book");
-    let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
-    names.extend(pages.filter(|name| name.ends_with(".md")));
+    names.extend(crate::book::pages());
     for name in &names {
         for path in document(name).split('`').filter(|word| is_path(word)) {
             assert!(root.join(path.trim_end_matches('/')).exists(), "{name} speaks of `{path}`");
@@ -157,8 +171,54 @@ fn workflows_are_yaml_and_start_what_exists() {
             count += 1;
         }
     }
+    for other in [".github/dependabot.yml", "CITATION.cff"] {
+        for event in Parser::new_from_str(&document(other)) {
+            assert!(event.is_ok(), "{other}: {event:?}");
+        }
+    }
     assert!(count >= 6 && started.contains("\n      - run: .ci/run\n"), "{count} files");
+    for test in
+        ["python/test.sh", "tests/browser/play.mjs", "tests/browser/play_parts.mjs", ".github/check-subjects.sh"]
+    {
+        assert!(started.contains(test), "no workflow runs {test}");
+    }
     for word in started.split_whitespace().filter(|word| is_path(word) && !word.contains('*')) {
         assert!(root.join(word).exists(), "a workflow or the justfile starts `{word}`");
     }
+}
+
+/// The description of the architecture is short enough to read.
+#[test]
+fn the_architecture_is_described_on_few_pages() {
+    let words = document("ARCHITECTURE.md").split_whitespace().count();
+    assert!((1_000..=2_500).contains(&words), "{words} words");
+}
+
+/// The check of subjects accepts imperatives and refuses what is longer, or begins with another word.
+#[cfg(unix)]
+#[test]
+fn subjects_of_commits_are_imperative_and_short() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/check-subjects.sh");
+    let accepts = |subject: &str| {
+        let input = format!("printf '%s\\n' \"$1\" | {} -", script.display());
+        let status = Command::new("bash").args(["-c", &input, "bash", subject]).status().expect("there is a shell");
+        status.success()
+    };
+    let longest = format!("Bound {}", "x".repeat(66));
+    for good in ["Bound steering rate in plans", "Pass the seed on", "Embed the font", longest.as_str()] {
+        assert!(accepts(good), "{good}");
+    }
+    let too_long = format!("{longest}x");
+    let wrong =
+        ["What a dash means", "Plans know their wheels", "Added a test", "bound rates", "Bound rates.", "Adding"];
+    for bad in wrong.into_iter().chain([too_long.as_str()]) {
+        assert!(!accepts(bad), "{bad}");
+    }
+}
+
+/// The version that is cited is that of the program.
+#[test]
+fn the_citation_states_the_version() {
+    let stated = format!("\nversion: {}\n", env!("CARGO_PKG_VERSION"));
+    assert!(document("CITATION.cff").contains(&stated), "no {stated}");
 }

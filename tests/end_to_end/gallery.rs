@@ -26,14 +26,14 @@ fn read(path: &Path) -> String {
 
 /// The entries of the gallery: a line with the arguments of `interplay run`, and below it the picture.
 pub(crate) fn entries() -> Vec<Entry> {
-    let text = read(&docs().join("gallery.md"));
+    let text = read(&docs().join("reference/gallery.md"));
     let mut command = None;
     let mut entries = Vec::new();
     for line in text.lines() {
         if let Some(words) = line.strip_suffix("`.").and_then(|line| line.rsplit('`').next()) {
             command = Some(words.to_owned());
         }
-        let Some((_, file)) = line.split_once("](gallery/").filter(|_| line.starts_with("![")) else { continue };
+        let Some((_, file)) = line.split_once("](../gallery/").filter(|_| line.starts_with("![")) else { continue };
         let command = command.take().unwrap_or_else(|| panic!("no command above {file}"));
         let mut parts = command.split(" --set ");
         let name = parts.next().unwrap_or_default();

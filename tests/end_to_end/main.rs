@@ -1,7 +1,7 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
-//!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`]
+//!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
 //! - many runs from one plan: [`sweeps`]; what vehicles did as tables: [`trajectories`]; as scenarios of others: [`exports`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
@@ -43,6 +43,7 @@ mod gallery;
 mod identified_houses;
 mod laws;
 mod learning;
+mod limits;
 mod measures;
 mod modules;
 mod mutation;

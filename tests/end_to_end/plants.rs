@@ -1,4 +1,4 @@
-//! What becomes of a run when the plant is not the planners' model: the table in `docs/dynamic-plant.md`.
+//! What becomes of a run when the plant is not the planners' model: the table in `docs/theory/dynamic-plant.md`.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -78,7 +78,7 @@ fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
     let figures = figures();
     let kept = figures.iter().filter(|(own, tyres)| is_kept(&own.report, &tyres.report)).count();
     assert!(16 * kept >= KEPT_OF_16 * figures.len(), "only {kept} of {}", figures.len());
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/dynamic-plant.md");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/theory/dynamic-plant.md");
     let page = fs::read_to_string(&path).expect("the page can be read");
     let (before, rest) = page.split_once(MARKS[0]).expect("the page marks where the table begins");
     let (found, after) = rest.split_once(MARKS[1]).expect("and where it ends");

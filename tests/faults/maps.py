@@ -81,7 +81,7 @@ def _commands(text: str) -> Commands:
 
 def targets(_binary: str) -> dict[str, Target]:
     """Scenes of the repository, and real ones where they are there."""
-    short = re.findall(r"(?ms)^```xml\n(.*?)^```", (ROOT / "docs/commonroad.md").read_text("utf-8"))
+    short = re.findall(r"(?ms)^```xml\n(.*?)^```", (ROOT / "docs/guide/commonroad.md").read_text("utf-8"))
     own = short * 2 + [file.read_text("utf-8") for file in sorted((ROOT / "tests/cases/commonroad").glob("*.xml"))]
     found = {"commonroad": Target("xml", own, _spoil, _commands, may_refuse=DRIVERS)}
     files = [file for folder in REAL for file in sorted(folder.glob("*.xml")) if file.stat().st_size < MOST_REAL_BYTES]

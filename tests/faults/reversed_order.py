@@ -2,7 +2,7 @@
 """Every authored scenario with its vehicles listed in reverse order: by how much final states differ.
 
 Prints how many are equal to the last bit, how many differ by rounding (below 1e-9 in every state), and the others by name.
-Nothing of it is a fault; it is what `docs/reliability.md` says of the order.
+Nothing of it is a fault; it is what `docs/evidence/reliability.md` says of the order.
 
     tests/faults/reversed_order.py [--binary target/release/interplay]
 """

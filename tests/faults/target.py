@@ -54,7 +54,7 @@ def reader_checked_and_run(_: str) -> Commands:
 
 def documented(page: str) -> list[str]:
     """The scenarios that a page of the documentation has in full."""
-    blocks = re.findall(r"(?ms)^```toml\n(.*?)^```", (ROOT / "docs" / page).read_text("utf-8"))
+    blocks = re.findall(r"(?ms)^```toml\n(.*?)^```", (ROOT / "docs/guide" / page).read_text("utf-8"))
     return [block for block in blocks if re.search(r"(?m)^title = ", block)]
 
 

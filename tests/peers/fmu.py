@@ -16,7 +16,7 @@ largest difference is printed. Beyond 1e-9 K the script fails, and so it does
 
     python tests/peers/fmu.py --serve FILE.fmu --port 7878
 
-makes an FMU, of ours or of another program, the plant of a run (docs/foreign-plants.md): its inputs and outputs must be called
+makes an FMU, of ours or of another program, the plant of a run (docs/guide/foreign-plants.md): its inputs and outputs must be called
 `ZONE.heat` [kW] and `ZONE.temperature` [°C].
 """
 

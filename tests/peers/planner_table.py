@@ -1,4 +1,4 @@
-"""The tables of docs/planner-benchmark.md from the rows of a sweep.
+"""The tables of docs/evidence/planner-benchmark.md from the rows of a sweep.
 
     python tests/peers/planner_table.py FOLDER [--interplay PROGRAM]
 

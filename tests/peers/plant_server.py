@@ -1,4 +1,4 @@
-"""The other side of `building.plant = { kind = "socket" }`: answers the lines of a run (docs/foreign-plants.md).
+"""The other side of `building.plant = { kind = "socket" }`: answers the lines of a run (docs/guide/foreign-plants.md).
 
 `serve` takes a listening socket and a function that makes a plant of the `start` message. A plant is an object with
 

@@ -1,4 +1,4 @@
-"""The tables of docs/robustness.md from the rows of sweeps.
+"""The tables of docs/evidence/robustness.md from the rows of sweeps.
 
     pip install pandas pyarrow
     python tests/peers/robustness_table.py starts settled unpersuaded unexpressed ramps unpriced

@@ -41,7 +41,7 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
 #[derive(Debug, Parser)]
 #[command(name = "interplay", version = VERSION.as_str(), max_term_width = 100)]
-#[command(after_help = "Without a command: interplay run lane-change/front-nice.\n\n\
+#[command(after_help = "Without a command: interplay run people/intersection --no-record.\n\n\
     Exit codes: 0 all well, 1 an expectation failed, 2 bad input, 3 a run could not be finished.")]
 struct Interplay {
     #[command(subcommand)]
@@ -117,7 +117,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())),
     };
     match interplay.command {
-        None => run::Run::default().execute(registry),
+        None => run::Run::first().execute(registry),
         Some(Command::Run(command)) => command.execute(registry),
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(registry),
@@ -143,6 +143,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
 
 /// The arguments, with the kinds of drivers that `--planner` takes.
 fn command(registry: &Registry) -> clap::Command {
-    let drivers = run::planner_help(registry);
+    let kinds = registry.driver_kinds().join(", ");
+    let drivers = format!("Who drives the ego instead of the scenario's choice: {kinds}");
     Interplay::command().mut_subcommand("run", |run| run.mut_arg("planner", |planner| planner.help(drivers)))
 }

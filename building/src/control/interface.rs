@@ -118,7 +118,7 @@ pub trait ControllerKind: fmt::Debug + Send + Sync {
 
     /// About how many operations it takes to design a day of `zones` zones and `steps` steps.
     ///
-    /// Leading terms, with factors that fit the times of `docs/building-benchmarks.md` at about 5e8 operations a second. They tell
+    /// Leading terms, with factors that fit the times of `docs/evidence/building-benchmarks.md` at about 5e8 operations a second. They tell
     /// a second from an hour, and not one second from two.
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
         zones * steps

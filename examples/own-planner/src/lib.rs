@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GapAcceptance {
-    /// Shortest time between the ego and whoever is ahead or behind in the lane of its goal.
+    /// Shortest time between the ego and the vehicles ahead and behind in its goal lane.
     #[schemars(range(min = 0.0))]
     gap_s: f64,
 }

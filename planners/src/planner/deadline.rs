@@ -11,7 +11,7 @@ pub struct PlanDeadline {
 
 impl PlanDeadline {
     /// Units of [work](Statistics::work) that a millisecond stands for. A unit took 10 to 35 µs for the planners and machine of
-    /// `docs/benchmarks.md`.
+    /// `docs/evidence/benchmarks.md`.
     const WORK_PER_MS: f64 = 50.0;
 
     /// The deadline after this time \[ms\], by what it stands for; at least one unit of work.

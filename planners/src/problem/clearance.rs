@@ -1,7 +1,7 @@
 //! The time gap that drivers who know comfort keep to those on the same road.
 //!
 //! Of recorded people, gaps between bumpers in steady following are 3.5 m + 1.15 s · v, and time gaps spread from 0.6 to 3.7 s
-//! (`docs/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
+//! (`docs/guide/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
 //! ahead or behind.
 
 use crate::road::network::ConflictKind;

@@ -19,7 +19,7 @@
 //! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
 //! prediction); of one another they know the last plans only, so that no decision depends on which driver was asked before in the
 //! same tick. Sums and the search over homotopy classes still go through the others as they are listed: reversed, they differ in
-//! rounding, and in a near-tie by more (`docs/reliability.md`).
+//! rounding, and in a near-tie by more (`docs/evidence/reliability.md`).
 //! A driver that infers plans ([`RoadUser::knows_plans`]) knows none: its scene has the states of the others only.
 
 mod committed;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Bounds that are kept while no vehicle is in danger; what is measured of people on roads is below them in 95 of 100 cases
-/// (`docs/people.md`). The default is that of a real car.
+/// (`docs/guide/people.md`). The default is that of a real car.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ComfortLimits {

@@ -20,7 +20,7 @@ const HEAD: &str = "# Every key\n\n\
     What a scenario file may state. This page is made of the schema that scenarios are checked against; `interplay schema` prints\n\
     the schema for editors, and `interplay new` writes the same words beside each key of a file.\n\n\
     - *Default*: the value of a key that is left out. **Required** keys have none. Defaults are those of 1/10 scale cars; vehicles of\n  \
-    another [size](authoring.md#full-size) get scaled ones.\n\
+    another [size](../guide/authoring.md#full-size) get scaled ones.\n\
     - *Unit* 1: dimensionless. Whole numbers are counts and have none.\n\
     - Where a table has a `kind`, that key chooses which of its sections applies.\n\
     - Every key exists since version 0.1.0, the first, but for the kind `external` of drivers (0.2.0), and those of version 0.3.0: `conduct`,\n  \
@@ -34,7 +34,7 @@ pub fn key_reference() -> String {
     let mut pages = Sections::default();
     let schema = Registry::standard().complete();
     let extends = "| `extends` | text | | | | `\"lane-change/front-nice\"` | Another scenario, from which this one differs in what it \
-                   states: [variants](authoring.md#variants). |\n";
+                   states: [variants](../guide/authoring.md#variants). |\n";
     pages.add("Top level", schema, "The keys outside of any table.");
     let mut page = HEAD.to_owned() + "\n## All tables\n\n| table | what |\n|---|---|\n";
     for section in &pages.sections {
@@ -145,7 +145,7 @@ fn type_of(property: SchemaNode, link: Option<&str>) -> String {
     let forms: Vec<String> = property.forms().map(|form| type_of(form, link)).collect();
     let words: Vec<String> = property.words().iter().map(|word| code(&format!("\"{word}\""))).collect();
     if property.holds_paths() {
-        "table of [paths](authoring.md#variants)".to_owned()
+        "table of [paths](../guide/authoring.md#variants)".to_owned()
     } else if !property.kinds().is_empty() {
         table()
     } else if !forms.is_empty() {

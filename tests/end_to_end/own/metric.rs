@@ -20,7 +20,7 @@ struct ShortestHeadway {
 
 impl Metric for Headway {
     fn declaration(&self) -> MetricDeclaration {
-        let doc = "Shortest time headway to a vehicle ahead in its lane; none if nobody was ahead";
+        let doc = "Shortest time headway to a vehicle ahead in its lane; none without a vehicle ahead";
         MetricDeclaration::of_vehicle("time_headway_s", MetricKind::Number, doc)
             .compared(MetricComparison::Quantiles)
             .better(Better::Higher)
@@ -144,12 +144,12 @@ fn a_metric_that_is_not_there_or_is_there_already_is_refused() -> Result<(), Box
 #[test]
 fn the_page_of_metrics_is_what_they_declare() -> Result<(), Box<dyn Error>> {
     let page = interplay_simulation::measure::metric_table(Registry::standard().metrics());
-    let path = crate::architecture::root().join("docs/metrics.md");
+    let path = crate::architecture::root().join("docs/reference/metrics.md");
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
         std::fs::write(&path, &page)?;
     }
     let written = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(written == page, "docs/metrics.md is out of date: renew it with INTERPLAY_BLESS=1");
+    assert!(written == page, "docs/reference/metrics.md is out of date: renew it with INTERPLAY_BLESS=1");
     let own = interplay_simulation::measure::metric_table(registry()?.metrics());
     assert!(own.contains("| `time_headway_s` | vehicles |  | s | quantiles, higher is better |"), "{own}");
     Ok(())

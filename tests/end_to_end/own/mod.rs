@@ -1,4 +1,4 @@
-//! Metrics and controllers of one's own, and worlds that are stepped: the examples of `docs/extending.md` and `docs/stepping.md`,
+//! Metrics and controllers of one's own, and worlds that are stepped: the examples of `docs/guide/extending.md` and `docs/guide/stepping.md`,
 //! which show these files from the first to the last line that is marked. A planner of one's own is a crate,
 //! `examples/own-planner`, with tests of its own.
 
@@ -28,8 +28,11 @@ fn the_document_shows_what_is_compiled() {
         ("end_to_end/own/stepping.rs", "stepping"),
     ];
     for (file, page) in pages {
-        let document = fs::read_to_string(root.join(format!("../docs/{page}.md"))).expect("the document");
-        assert!(document.contains(&format!("```rust\n{}\n```", shown(file))), "docs/{page}.md: {file} has changed");
+        let document = fs::read_to_string(root.join(format!("../docs/guide/{page}.md"))).expect("the document");
+        assert!(
+            document.contains(&format!("```rust\n{}\n```", shown(file))),
+            "docs/guide/{page}.md: {file} has changed"
+        );
     }
     let lines = shown(planner).lines().count();
     assert!(lines <= 60, "a planner of one's own takes {lines} lines");

@@ -5,7 +5,7 @@
     python tests/peers/boptest/serve.py --boptest FOLDER --fmu FILE.fmu [--port 8080]
 
 FOLDER is a copy of github.com/ibpsa/project1-boptest that still has `restapi.py`: commit 21433f81 is the last one. FILE is the case, with
-its data in `resources` (docs/foreign-plants.md says where they are from). PyFMI, which has no wheels, is replaced by `shim/pyfmi.py`, over FMPy.
+its data in `resources` (docs/guide/foreign-plants.md says where they are from). PyFMI, which has no wheels, is replaced by `shim/pyfmi.py`, over FMPy.
 The FMU runs in the server's process, so a crash of it ends the server and not a run of ours, which then ends with exit code 3.
 Without one of these it says that it skips.
 """

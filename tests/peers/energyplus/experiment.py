@@ -9,7 +9,7 @@
 2. `interplay identify` makes a scenario of it. Another one extends it: EnergyPlus is the plant, and the estimate the model.
 3. Our designs run the ten days after the telemetry on EnergyPlus, at six times of a winter, with a window to the north and to
    the south; and one day of February over and over.
-The tables are those of docs/foreign-plants.md.
+The tables are those of docs/guide/foreign-plants.md.
 """
 
 import argparse

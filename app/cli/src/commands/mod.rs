@@ -1,9 +1,10 @@
-//! The subcommands, one a file.
+//! The subcommands, one a file, and the first run.
 
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod export_fmu;
+pub(crate) mod first_run;
 pub(crate) mod fit;
 pub(crate) mod fmu_host;
 pub(crate) mod identify;

@@ -12,6 +12,7 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
 
+use crate::commands::first_run;
 use crate::flag_values::files::short_name;
 use crate::flag_values::values;
 use crate::output::error::CommandError;
@@ -82,12 +83,21 @@ pub(crate) struct Run {
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
+
+    /// Whether the next commands to try follow the report.
+    #[arg(skip)]
+    introduces: bool,
 }
 
-/// What is run, and started from, unless something else is asked for.
+/// The scenario of `run`, and the origin of `new`, if none is named.
 pub(crate) const DEFAULT_SCENARIO: &str = "lane-change/front-nice";
 
 impl Run {
+    /// The run of the command without a subcommand: it writes no file, and ends with the commands to try next.
+    pub(crate) fn first() -> Run {
+        Run { scenario: Some(first_run::SCENARIO.to_owned()), no_record: true, introduces: true, ..Run::default() }
+    }
+
     pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
         if self.watch { self.run_at_every_change(registry) } else { self.run_once(registry) }
     }
@@ -145,6 +155,9 @@ impl Run {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     let view = shell::line([this_program().as_str(), "view", &path.to_string_lossy()]);
                     print_error(&format!("recorded to {}; to open it: {view}", path.display()));
+                }
+                if self.introduces {
+                    first_run::print_next_commands();
                 }
                 if passed { ExitStatus::Well } else { ExitStatus::Failed }
             }
@@ -274,11 +287,6 @@ fn print_remarks(scenario: &Scenario) {
     for remark in scenario.remarks.iter() {
         print_error(&format!("note: {remark}"));
     }
-}
-
-/// What `--planner` does, with the kinds of drivers that a scenario may name.
-pub(crate) fn planner_help(registry: &Registry) -> String {
-    format!("Who drives the ego instead of the scenario's choice: {}", registry.driver_kinds().join(", "))
 }
 
 #[cfg(test)]

@@ -19,10 +19,7 @@ impl RunOutput for AnimationFile {
     fn begin(&self, _: &Scenario, _: &str) -> Result<BegunOutput, OutputError> {
         self.check()?;
         let file = self.clone();
-        let finish = Box::new(move |run: &_| {
-            file.write(run)?;
-            Ok(format!("animation in {}", file.path().display()))
-        });
-        Ok(BegunOutput { watcher: None, finish })
+        let told = format!("animation in {}", file.path().display());
+        Ok(BegunOutput { watcher: None, finish: Box::new(move |run| Ok(file.write(run).map(|()| told)?)) })
     }
 }

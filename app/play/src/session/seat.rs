@@ -58,7 +58,7 @@ impl Seat {
     /// Makes a pending hand-over, and applies the input of the person, if the person has the wheel.
     pub fn decide(&mut self, plan: usize, world: &mut Simulation) -> Result<(), SessionError> {
         if let Some(to) = self.handed_to.take().filter(|to| *to != self.planner) {
-            world.hand_over(&self.name, to.as_deref().and_then(Driver::of_kind).as_ref())?;
+            world.hand_over(&self.name, to.as_deref().and_then(Driver::at_wheel).as_ref())?;
             self.record.hand_overs.push(WheelHandOver { plan: plan as u32, to: to.clone() });
             (self.planner, self.target_m) = (to, None);
         }

@@ -6,8 +6,8 @@ use super::registered::metrics_of;
 
 const HEAD: &str = "# Every metric\n\n\
     This page is made of what the metrics declare of themselves.\n\n\
-    - *Name*: the column in rows of [sweeps](sweeps.md), which of a metric of vehicles has the value of the ego; the name in\n  \
-    `[[expect.metric]]`; and without another *key*, the key in the [report](output.md), below `vehicles[]` if each vehicle has a\n  \
+    - *Name*: the column in rows of [sweeps](../guide/sweeps.md), which of a metric of vehicles has the value of the ego; the name in\n  \
+    `[[expect.metric]]`; and without another *key*, the key in the [report](../guide/output.md), below `vehicles[]` if each vehicle has a\n  \
     value of its own.\n\
     - *Unit*: none for flags, counts, and shares.\n\
     - *Compared*: what `interplay compare` tells. Of pairs of runs it counts which has the better value where a direction is\n  \

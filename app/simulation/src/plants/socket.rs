@@ -1,6 +1,6 @@
 //! A plant that is another program: each step is a line of JSON there and a line back, over TCP.
 //!
-//! `docs/foreign-plants.md` describes the protocol.
+//! `docs/guide/foreign-plants.md` describes the protocol.
 
 use std::time::Duration;
 

@@ -45,7 +45,7 @@ impl Simulation {
         for (row, vehicle) in scenario.vehicles.iter().enumerate() {
             let Some(record) = vehicle.driver.inputs() else { continue };
             if let Some(to) = record.handed_over_at(plan) {
-                self.hand_over(&vehicle.name, to.and_then(Driver::of_kind).as_ref())?;
+                self.hand_over(&vehicle.name, to.and_then(Driver::at_wheel).as_ref())?;
             }
             self.repeat(row, record.at(plan));
         }
@@ -83,7 +83,7 @@ mod tests {
         loop {
             if plan == from || plan == until {
                 let to = (plan == from).then(|| "negotiation".to_owned());
-                played.hand_over("ego", to.as_deref().and_then(Driver::of_kind).as_ref()).expect("external");
+                played.hand_over("ego", to.as_deref().and_then(Driver::at_wheel).as_ref()).expect("external");
                 record.hand_overs.push(WheelHandOver { plan, to });
             }
             let input = Input { acceleration_mps2: 0.3 * libm::sin(0.7 * f64::from(plan)), steering_rad: 0.01 };

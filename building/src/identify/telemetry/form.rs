@@ -46,7 +46,8 @@ pub(super) fn place_of(document: &DeTable<'_>, key: &str) -> Option<usize> {
 }
 
 /// The remedy of a mapping that is not understood at all.
-pub(super) const SEE_EXAMPLES: &str = "`interplay identify --help` shows a mapping, docs/identification.md every key";
+pub(super) const SEE_EXAMPLES: &str =
+    "`interplay identify --help` shows a mapping, docs/guide/identification.md every key";
 
 /// A part of the schema, without references and without the alternative of being absent.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Recorded people look at several vehicles ahead: on US-101 and on a motorway of Munich `α = 0.27` and `β = 0.1` lower the error along
-//! the road after 3 s by 5 % (`docs/how-human.md`).
+//! the road after 3 s by 5 % (`docs/evidence/how-human.md`).
 
 use crate::{Agent, Scene};
 

@@ -134,7 +134,7 @@ impl Registry {
     ///
     /// A table `driver = { kind = "…", … }` of a scenario file is checked against the schema of the settings and read by
     /// `serde`. Whatever is said of a setting stands on its field, as in Interplay: units, bounds, examples, defaults
-    /// (`docs/extending.md`).
+    /// (`docs/guide/extending.md`).
     ///
     /// # Errors
     /// [`RegistryError`] if the kind's word is taken or is no name.
