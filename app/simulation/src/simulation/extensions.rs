@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use bevy_ecs::component::ComponentInfo;
 use bevy_ecs::prelude::*;
-use bevy_ecs::system::ScheduleSystem;
 
 use crate::phases::Slot;
 use crate::simulation::run_error::RunError;
@@ -51,7 +50,7 @@ impl Extensions {
         M: 'static,
     {
         let add = move |schedule: &mut Schedule| {
-            schedule.add_systems(IntoScheduleConfigs::<ScheduleSystem, M>::in_set(system.clone(), slot));
+            schedule.add_systems(system.clone().in_set(slot));
         };
         let has_local = type_name::<M>().contains(LOCAL);
         self.systems.push(AddedSystem { name: type_name::<S>(), has_local, add: Arc::new(add) });
@@ -128,7 +127,7 @@ pub(crate) fn initialize(schedule: &mut Schedule, world: &mut World) -> Result<(
 
 /// The components, resources among them, of which a world holds at least one.
 fn held(world: &World) -> impl Iterator<Item = &ComponentInfo> {
-    let is_held = move |component: &&ComponentInfo| {
+    let is_held = |component: &&ComponentInfo| {
         let mut archetypes = world.archetypes().iter();
         archetypes.any(|archetype| archetype.len() > 0 && archetype.contains(component.id()))
     };
