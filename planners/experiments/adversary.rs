@@ -5,8 +5,8 @@
 //! ```
 //!
 //! For each planner and family of scenarios it varies the starts of all vehicles, their speeds, and how much each human minds others
-//! (safety weights from 0.01 to 100), so that the ego comes as near to another vehicle as possible: half of the steps (200 unless stated) are
-//! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says
+//! (safety weights from 0.01 to 100), so that the ego comes as near to another vehicle as possible: half of the steps (200 unless stated)
+//! are drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says
 //!
 //! - until which tick one of the [last resorts](interplay_planners::plan::certificate::last_resorts) would have avoided it if the others
 //!   had moved as they did (*avoidable*), which no planner knows beforehand, and

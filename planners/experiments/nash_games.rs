@@ -5,10 +5,11 @@
 //! cargo run --release -p interplay-planners --example nash_games -- GAMES SEED FILE.json
 //! ```
 //!
-//! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one
-//! descent whose certificate holds against small deviations; *all classes* compares the homotopy classes, for the joint motion
-//! and for each player's deviation. A game counts as solved if the descent or the best responses in its place ended, no vehicle enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
-//! player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the certificate.
+//! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one descent whose
+//! certificate holds against small deviations; *all classes* compares the homotopy classes, for the joint motion and for each player's
+//! deviation. A game counts as solved if the descent or the best responses in its place ended, no vehicle enters a safety ellipse by more
+//! than 0.001 (of `1 − d²`), and no player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the
+//! certificate.
 //!
 //! With a file, it writes the own problem of every player of the solved games, with the equilibrium as the guess, for
 //! `tests/peers/nash_second_opinion.py`.

@@ -69,8 +69,8 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         false
     }
 
-    /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Drivers that go first, and drivers that
-    /// decides from outside, drive as they do.
+    /// Whether a plan that breaks a condition is refused, so that the vehicle drives something less harmful. Drivers that go first, and
+    /// drivers that decide from outside, drive as they do.
     fn may_be_refused(&self) -> bool {
         !self.goes_first() && !self.is_driven_from_outside()
     }

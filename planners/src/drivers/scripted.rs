@@ -1,9 +1,9 @@
 //! A driver who does what the scenario says, whatever happens around it.
 //!
-//! A script is a list of orders, each from a time on, or from the moment at which a vehicle reaches a place: a speed to drive at, a lateral position to drive to. Of the orders
-//! that have begun, the latest with a speed rules the speed, and the latest with a position the position; before the first,
-//! the vehicle keeps what it has. The plan covers what the script says about the horizon, so others who know plans see
-//! it coming.
+//! A script is a list of orders, each from a time on, or from the moment at which a vehicle reaches a place: a speed to drive at, a
+//! lateral position to drive to. Of the orders that have begun, the latest with a speed rules the speed, and the latest with a position
+//! the position; before the first, the vehicle keeps what it has. The plan covers what the script says about the horizon, so others who
+//! know plans see it coming.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

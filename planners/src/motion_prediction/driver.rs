@@ -1,8 +1,8 @@
 //! Our human driver as a prediction: one plan of it, made on the straightened lane.
 //!
-//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those beside it
-//! are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A driver in traffic
-//! wants about the speed that it has: what it would want on a free road cannot be seen.
+//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those
+//! beside it are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A
+//! driver in traffic wants about the speed that it has: what it would want on a free road cannot be seen.
 
 use std::sync::Arc;
 

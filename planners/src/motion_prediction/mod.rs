@@ -1,7 +1,7 @@
 //! Predictions of one vehicle of real traffic from what is known of it and of the vehicles around it at a moment.
 //!
 //! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
-//! middle, positive to the left. It holds no plan, and nothing that was seen later: all others are expected to keep their speeds
+//! middle, positive to the left. It holds no plan, and nothing that was seen later: each other vehicle is expected to keep its speed
 //! along its lane. A [`MotionModel`] answers with places at steps of [`STEP_S`].
 //!
 //! | model | along the lane | across it |

@@ -4,8 +4,8 @@ use crate::trajectory::HomotopySearch;
 
 /// Processor time of a plan, on one core of the reference machine, an AMD EPYC at 2.6 GHz.
 ///
-/// Measured on random runs, most of which take between a third of this time and three times as long; `tests/peers/plan_times.py` compares it with
-/// other runs.
+/// Measured on random runs, most of which take between a third of this time and three times as long; `tests/peers/plan_times.py` compares
+/// it with other runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanTime {
     /// A plan of 30 stages without other vehicles near \[s\].

@@ -16,8 +16,8 @@ use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Goal, SafetyEllipse, Scene};
 
-/// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for which a
-/// plan would otherwise trade the road.
+/// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for
+/// which a plan would otherwise trade the road.
 const PEOPLE_ON_ROAD: f64 = 5.0;
 
 impl Agent {

@@ -63,8 +63,8 @@ impl RuleBook {
         users.iter().zip(&holds).map(asked).collect()
     }
 
-    /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no vehicle
-    /// comes. To be called once a tick.
+    /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
+    /// vehicle comes. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         match memory.judge(scene) {

@@ -4,9 +4,9 @@ use crate::{Body, Input, Limits, State};
 
 /// The input nearest to `wanted` within the limits of the vehicle.
 ///
-/// The steering also keeps the lateral acceleration within its bound. The acceleration also keeps the speed within its bounds during the next `step_s` seconds, whatever a fallback requests.
-/// Where a plant has driven the speed so far out of its bounds that no admissible acceleration leads back in one step, the
-/// limits of the acceleration win.
+/// The steering also keeps the lateral acceleration within its bound. The acceleration also keeps the speed within its bounds during the
+/// next `step_s` seconds, whatever a fallback requests. Where a plant has driven the speed so far out of its bounds that no admissible
+/// acceleration leads back in one step, the limits of the acceleration win.
 pub fn applied_input(wanted: &Input, state: &State, body: &Body, limits: &Limits, step_s: f64) -> Input {
     let steering_max_rad = limits.steering_max_at_rad(body, state.speed_mps);
     let low = limits.acceleration_min_mps2.max((limits.speed_min_mps - state.speed_mps) / step_s);

@@ -55,7 +55,8 @@ pub enum DerivativeError {
     NotConvex(f64),
 }
 
-/// Checks the first and second derivatives that the terms of a problem state, at an iterate along eight random directions, every time the same ones.
+/// Checks the first and second derivatives that the terms of a problem state, at an iterate along eight random directions, every time the
+/// same ones.
 ///
 /// The states of the iterate are rolled out ([`Problem::start`]). Rows should not be within a ten-thousandth of their bound: there
 /// the penalty has a kink.

@@ -14,8 +14,8 @@ const MIN_LOWER_BOUND: f64 = 0.01;
 
 /// The lowest and the highest probability at which the other is to believe that the ego passes: `[p* − ε_p, p*]` (eq. 8.11).
 ///
-/// Expressed on one side, an ego that intends to pass may seem surer of it, and so may one that yields. With both bounds an ego that is ahead
-/// and thought to pass for sure slows down until it seems less determined, and the other no longer yields.
+/// Expressed on one side, an ego that intends to pass may seem surer of it, and so may one that yields. With both bounds an ego that is
+/// ahead and thought to pass for sure slows down until it seems less determined, and the other no longer yields.
 pub fn wanted_posterior(intention: f64, settings: &Settings) -> [Option<f64>; 2] {
     let lower = (intention - settings.epsilon_p).max(MIN_LOWER_BOUND);
     let [has_lower, has_upper] = match settings.expresses_intervals() {

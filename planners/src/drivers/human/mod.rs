@@ -35,8 +35,8 @@
 //! wait at a line, its desired speed is at most that of a comfortable approach.
 //!
 //! A driver who knows comfort ([`ComfortLimits`](crate::ComfortLimits)), as people on real roads do, differs in what is around others
-//! (module `clearance`): the ellipses of following and of the firm wall grow with the speed, an exact one keeps it from pulling into a short
-//! gap, and oncoming vehicles are passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
+//! (module `clearance`): the ellipses of following and of the firm wall grow with the speed, an exact one keeps it from pulling into a
+//! short gap, and oncoming vehicles are passed side by side. If it keeps the rules of the road, it passes what stands in its way (module
 //! `obstacle`), beside an exact ellipse around the body.
 //!
 //! Drivers differ from this one by their settings:
@@ -235,7 +235,8 @@ pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
     pose(scene, &scene.others, None, settings)
 }
 
-/// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and meets an obstacle, which it passes or not.
+/// The problem of a driver who sees `scene`, yields to the others as `expected`, in the order of the scene, and meets an obstacle, which
+/// it passes or not.
 fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);

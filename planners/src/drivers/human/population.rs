@@ -1,7 +1,7 @@
 //! The drivers of `style = "measured"`: a population whose time gaps are those of recorded people.
 //!
-//! - **Time gap.** The steady gap beyond 3.5 m is a multiple of 1.15 s, spread log-normally over drivers. The median is that of recorded cars;
-//!   the deviation of the logarithm is smaller than theirs, 0.65, part of which is that a car is seen for some seconds only
+//! - **Time gap.** The steady gap beyond 3.5 m is a multiple of 1.15 s, spread log-normally over drivers. The median is that of recorded
+//!   cars; the deviation of the logarithm is smaller than theirs, 0.65, part of which is that a car is seen for some seconds only
 //!   (`docs/evidence/how-human.md`).
 //! - **Safety weight.** Recordings do not tell it: it changes predictions by less than 1 %. It is drawn log-uniformly from 0.5 to 30.
 //! - **Flow.** Each driver adapts to the vehicles ahead as people do on average.

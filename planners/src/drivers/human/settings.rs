@@ -101,8 +101,8 @@ pub struct Settings {
     /// recorded people 0.1.
     #[schemars(range(min = 0.0, max = 1.0), example = 0.1, extend("x-unit" = "dimensionless"))]
     pub adapts_to_lane: f64,
-    /// The time gap that the driver keeps to the vehicle ahead, as a multiple of `limits.comfort.time_gap_s`. Without it 0.6 to 1.4, the more
-    /// the more safety weighs.
+    /// The time gap that the driver keeps to the vehicle ahead, as a multiple of `limits.comfort.time_gap_s`. Without it 0.6 to 1.4, the
+    /// more the more safety weighs.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0), example = 1.0, extend("x-unit" = "dimensionless"))]
     pub time_gap_ratio: Option<f64>,

@@ -96,8 +96,8 @@ pub fn equilibrium<S: StageSolver>(
     }
 }
 
-/// The optimum of the joint problem; where its descent does not end, the motions at which best responses settle, from what it has come to or
-/// from the guess, and whether they did.
+/// The optimum of the joint problem; where its descent does not end, the motions at which best responses settle, from what it has come to
+/// or from the guess, and whether they did.
 fn joint_optimum<S: StageSolver>(
     joint: &mut Optimiser<S>,
     responses: &mut Optimiser<S>,

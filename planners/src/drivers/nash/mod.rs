@@ -48,7 +48,8 @@ pub struct Nash {
 /// best responses settle sooner.
 const JOINT_WORK_LIMIT: usize = 500;
 /// A full step of a descent of the joint problem is compared with the worst of this many iterates and the last one: where two vehicles
-/// both turn along an ellipse, steps that enter it a little and leave it with the next one lead on much faster than those that stay outside.
+/// both turn along an ellipse, steps that enter it a little and leave it with the next one lead on much faster than those that stay
+/// outside.
 const REMEMBERED_COSTS: usize = 7;
 
 /// An optimiser for the joint problem of a game, whose optima are candidates for equilibria.

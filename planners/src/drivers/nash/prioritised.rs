@@ -12,7 +12,8 @@ const GUESS_WORK_LIMIT: usize = 100;
 /// Per player, inputs that keep all apart where they can.
 ///
 /// First each player plans as if alone. Of two whose plans lead into one another, the one that is ahead of the other there has priority;
-/// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution keeps to its plan alone.
+/// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution
+/// keeps to its plan alone.
 pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
     let exact = optimiser.tolerances;
     optimiser.tolerances =

@@ -1,11 +1,11 @@
 //! Which vehicles the ego negotiates with.
 //!
-//! The source asks the front vehicle first and the rear one when the front one has refused for too long ([`Patience`]). A
-//! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
-//! crossed, or that the ego has crossed before. With one that a safe fallback passes ahead of no negotiation is begun: it need not be
-//! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of
-//! no vehicle outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
-//! When all have refused the ego asks no vehicle and drives by its fallback.
+//! The source asks the front vehicle first and the rear one when the front one has refused for too long ([`Patience`]). A vehicle with
+//! which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has crossed, or that the ego
+//! has crossed before. With one that a safe fallback passes ahead of no negotiation is begun: it need not be asked for what the ego can
+//! have without its consent, and waiting for its answer could cost the way. A driver who takes notice of no vehicle outside its own lane
+//! is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the
+//! same time. When all have refused the ego asks no vehicle and drives by its fallback.
 
 use super::patience::{FallbackPrice, Patience};
 use super::settings::Settings;

@@ -3,7 +3,8 @@
 //! A driver with `prediction = "inferred"` knows no other plan. Of each vehicle that it sees it asks which of a list of
 //! drivers would move like that:
 //!
-//! - our human driver, with a safety weight of 0, 8 or 50 and one of several wishes ([`DriverModel`](crate::scene::driver_estimate::DriverModel), `wishes`);
+//! - our human driver, with a safety weight of 0, 8 or 50 and one of several wishes
+//!   ([`DriverModel`](crate::scene::driver_estimate::DriverModel), `wishes`);
 //! - the intelligent driver model;
 //! - none of these: constant velocity with large errors.
 //!

@@ -1,10 +1,10 @@
 //! What stands in the way: whether it is passed, where, and which vehicle a driver waits for before.
 //!
 //! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind another one: then it is
-//! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to others. That is
-//! done only while no other vehicle comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind.
-//! The condition is hard, whatever the driver's style, and is checked again at each tick: a driver who is not beside the obstacle yet
-//! goes back behind it.
+//! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to others. That is done only
+//! while no other vehicle comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind. The
+//! condition is hard, whatever the driver's style, and is checked again at each tick: a driver who is not beside the obstacle yet goes
+//! back behind it.
 
 mod room;
 mod standing;
@@ -91,7 +91,8 @@ impl ObstacleMemory {
         let out_m =
             scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
         let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
-        // A driver that has begun to pass a row goes on to its next vehicle. Nor does it come back when a slow vehicle that it overtakes stops.
+        // A driver that has begun to pass a row goes on to its next vehicle. Nor does it come back when a slow vehicle that it overtakes
+        // stops.
         let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
             || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {

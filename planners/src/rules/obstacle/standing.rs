@@ -76,8 +76,8 @@ impl Obstacle {
         touches_ahead(scene, motion, &Agent { body, ..other.clone() })
     }
 
-    /// What keeps the driver beside it: the middle of its body stays out of an ellipse that contains all places at which the bodies would be
-    /// nearer to each other than the free space to the side.
+    /// What keeps the driver beside it: the middle of its body stays out of an ellipse that contains all places at which the bodies would
+    /// be nearer to each other than the free space to the side.
     pub(crate) fn keep_out(&self, scene: &Scene) -> KeepOut {
         let route = &scene.ego.route;
         let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);

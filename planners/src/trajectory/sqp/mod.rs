@@ -1,7 +1,7 @@
 //! Sequential quadratic programming with the problem's own cost as merit function.
 //!
-//! From an iterate that obeys the dynamics, a QP subproblem ([`QpSubproblem`]) gives a direction `w` and the decrease that its model predicts;
-//! a backtracking search takes the largest `α ∈ {1, ½, ¼, …}` with
+//! From an iterate that obeys the dynamics, a QP subproblem ([`QpSubproblem`]) gives a direction `w` and the decrease that its model
+//! predicts; a backtracking search takes the largest `α ∈ {1, ½, ¼, …}` with
 //!
 //! ```text
 //! φ(u + α w) ≤ φ(u) − 10⁻⁴ α · predicted,      φ = J − (1 − κ) Σ linear·s       (Armijo)
