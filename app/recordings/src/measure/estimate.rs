@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// A number with its interval at 95 %, by a bootstrap over cars.
+/// A number with its 95 % interval, by a bootstrap over cars.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeasureInterval {
     /// The number.
@@ -13,7 +13,7 @@ pub struct MeasureInterval {
     pub high: f64,
 }
 
-/// The number at a share of some ascending ones, of which there is at least one.
+/// The nearest-rank quantile of ascending numbers, which must not be empty.
 pub(crate) fn nearest_rank(ascending: &[f64], share: f64) -> f64 {
     ascending[(share * (ascending.len() - 1) as f64).round() as usize]
 }
