@@ -1,25 +1,25 @@
-//! The interval of a mean, whatever the distribution.
+//! The bootstrap interval of a mean.
 
 use interplay_common::random::Random;
 use rayon::prelude::*;
 
 use super::quantile::quantile;
 
-/// How often the numbers are drawn again.
+/// Number of resamples.
 const RESAMPLES: u64 = 1000;
-/// All intervals are drawn from this seed, so that the same rows give the same intervals.
+/// Seed of all intervals: the same rows give the same intervals.
 const SEED: u64 = 1;
-/// The shares of the resampled means that bound 95 %.
+/// The quantiles of the resampled means that bound 95 %.
 const BOUNDS: [f64; 2] = [0.025, 0.975];
 
-/// The mean of some numbers and its interval at 95 %: quantiles of the means of as many numbers drawn from them with
-/// replacement (Efron's percentile bootstrap). None without numbers; `stream`, below 2⁵⁴, tells the draws of one interval from another's.
+/// The mean of numbers with its 95 % interval: quantiles of the means of equally many numbers drawn with
+/// replacement (Efron's percentile bootstrap). None without numbers; `stream`, below 2⁵⁴, separates the draws of intervals.
 pub(crate) fn mean_interval(numbers: &[f64], stream: u64) -> Option<(f64, [f64; 2])> {
     if numbers.is_empty() {
         return None;
     }
     let count = numbers.len();
-    // Each mean has a stream of its own, so that threads do not change it.
+    // Each mean has its own random stream, so the result does not depend on threads.
     let resampled = |resample: u64| {
         let mut random = Random::new(SEED, stream * RESAMPLES + resample);
         let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
@@ -38,11 +38,11 @@ mod tests {
 
     /// `scipy.stats.bootstrap((x,), numpy.mean, n_resamples=200000, method="percentile")` of SciPy 1.17.1 gives 2.47 to 4.62.
     #[test]
-    fn the_interval_is_near_that_of_scipy() {
+    fn the_interval_agrees_with_scipy() {
         let numbers = [2.1, 2.4, 3.0, 2.2, 8.5, 2.9, 3.3, 2.0, 2.8, 4.1];
         let (mean, [low, high]) = mean_interval(&numbers, 0).expect("numbers");
         assert!((mean - 3.33).abs() < 1e-12);
-        // A quantile at 2.5 % of 1000 means has a standard error of some 0.03 below and 0.08 above.
+        // A quantile at 2.5 % of 1000 means has a standard error of about 0.03 below and 0.08 above.
         assert!((low - 2.47).abs() < 0.1 && (high - 4.62).abs() < 0.25, "{low} to {high}");
         assert_eq!(mean_interval(&numbers, 0), mean_interval(&numbers, 0));
         assert_eq!(mean_interval(&[], 0), None);

@@ -1,7 +1,7 @@
-//! Several tests at once.
+//! Correction for multiple tests.
 
-/// Holm's correction: each probability such that, judged by it, the chance of any false alarm among all of the tests is at most
-/// the level. The `i`-th smallest of `m` is multiplied by `m − i + 1`, and none is below one that is smaller.
+/// Holm's correction: adjusts each probability so that the chance of any false alarm among all tests is at most
+/// the level. The `i`-th smallest of `m` is multiplied by `m − i + 1`, and none may be below a smaller one.
 pub(crate) fn holm(probabilities: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..probabilities.len()).collect();
     order.sort_by(|a, b| probabilities[*a].total_cmp(&probabilities[*b]));
@@ -19,7 +19,7 @@ mod tests {
 
     /// `statsmodels.stats.multitest.multipletests(p, method="holm")[1]`, and the example of Holm's definition.
     #[test]
-    fn the_correction_is_that_of_statsmodels() {
+    fn the_correction_agrees_with_statsmodels() {
         let found = holm(&[0.01, 0.04, 0.03, 0.005]);
         for (found, expected) in found.iter().zip([0.03, 0.06, 0.06, 0.02]) {
             assert!((found - expected).abs() < 1e-15, "{found}");

@@ -1,4 +1,4 @@
-//! What can be said of numbers that were drawn.
+//! Statistics of samples.
 
 mod bootstrap;
 mod holm;

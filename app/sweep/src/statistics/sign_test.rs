@@ -1,10 +1,10 @@
-//! Whether a split of unequal pairs is chance.
+//! Significance of a split of unequal pairs.
 
-/// The probability, if both were equally likely, of a split of the unequal pairs at least as uneven: McNemar's exact test, which
+/// The probability of a split of the unequal pairs at least as uneven if both outcomes were equally likely: McNemar's exact test, which
 /// is the two-sided sign test. 1 without unequal pairs.
 ///
-/// `2 Σ_{k ≤ min} C(n, k) 2⁻ⁿ`, from its largest term downwards, which alone is computed by a logarithm: no power underflows,
-/// however many pairs there are.
+/// `2 Σ_{k ≤ min} C(n, k) 2⁻ⁿ`, summed from its largest term downwards; only that term needs a logarithm, so no power underflows,
+/// for any number of pairs.
 pub(crate) fn sign_test(wins: usize, losses: usize) -> f64 {
     let (of, least) = ((wins + losses) as f64, wins.min(losses));
     let ln_choose = libm::lgamma(of + 1.0) - libm::lgamma(least as f64 + 1.0) - libm::lgamma(of - least as f64 + 1.0);
@@ -23,7 +23,7 @@ mod tests {
 
     /// `scipy.stats.binomtest(wins, wins + losses).pvalue` of SciPy 1.17.1.
     #[test]
-    fn the_probability_is_that_of_scipy() {
+    fn the_probability_agrees_with_scipy() {
         for (wins, losses, expected) in [
             (0, 194, 7.965_459_555_662_261e-59),
             (5, 7, 0.774_414_062_5),
@@ -41,7 +41,7 @@ mod tests {
 
     /// `2^(1 − n)` where all pairs go one way.
     #[test]
-    fn a_clean_sweep_has_its_closed_form() {
+    fn the_probability_of_a_one_sided_split_has_a_closed_form() {
         assert!((sign_test(10, 0) / 0.5_f64.powi(9) - 1.0).abs() < 1e-12);
         assert!(sign_test(2000, 0) == 0.0 && sign_test(1000, 0) > 0.0);
     }

@@ -1,9 +1,9 @@
-//! The interval of a share.
+//! Wilson's interval of a share.
 
 /// The quantile of the standard normal distribution that bounds 95 % on both sides.
 const NORMAL_QUANTILE_95: f64 = 1.959_963_984_540_054;
 
-/// Wilson's interval of a share at 95 %, `kept` of `of`; the whole unit interval for none of none.
+/// Wilson's 95 % interval of a share, `kept` of `of`; the whole unit interval if `of` is zero.
 ///
 /// The set of all shares `p` with `|k/n − p| ≤ z √(p (1 − p)/n)`.
 pub(crate) fn wilson_interval(kept: usize, of: usize) -> [f64; 2] {
@@ -22,7 +22,7 @@ mod tests {
 
     /// `scipy.stats.binomtest(k, n).proportion_ci(method="wilson")` of SciPy 1.17.1.
     #[test]
-    fn the_interval_is_that_of_scipy() {
+    fn the_interval_agrees_with_scipy() {
         for (kept, of, low, high) in [
             (0, 20, 0.0, 0.161_125_158_052_819_35),
             (10, 20, 0.299_298_008_198_212_4, 0.700_701_991_801_787_7),

@@ -112,7 +112,7 @@ impl TableReader {
 const DAMAGED: &str = "it is damaged";
 
 fn strange(path: &Path, what: &str) -> TableError {
-    TableError::Input(format!("`{}` is no table of runs: {what}", path.display()))
+    TableError::Input(format!("`{}` is not a table of runs: {what}", path.display()))
 }
 
 /// Whether the type of a column allows only missing values.
