@@ -241,7 +241,7 @@ fn whatever_a_server_does_wrong_is_an_error() {
         ("POST /advance/1f-2", "a failure", Some((200, r#"{"status":500,"message":"solver"}"#)), "status 500"),
         ("POST /advance/1f-2", "a crash", None, "advance"),
         ("GET /kpi/1f-2", "a text", Some((200, r#"{"payload":{"tdis_tot":"much"}}"#)), "`tdis_tot` is neither"),
-        ("PUT /results/1f-2", "no JSON", Some((200, "<html>")), "no JSON"),
+        ("PUT /results/1f-2", "no JSON", Some((200, "<html>")), "not JSON"),
     ];
     for (path, what, answer, said) in wrong {
         let answer = answer.map(|(status, text)| (status, text.to_owned()));
