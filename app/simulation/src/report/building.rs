@@ -1,4 +1,5 @@
 //! The outcome for a building.
+
 use interplay_building::day::ZoneFigures;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
