@@ -21,7 +21,7 @@ pub enum RecordingsError {
     #[error("there is no .xml and no .csv file in folder `{}`", .0.display())]
     EmptyFolder(PathBuf),
     /// A file is neither a scenario of CommonRoad nor a table.
-    #[error("`{}` is no scenario of CommonRoad (.xml) and no table (.csv)", .0.display())]
+    #[error("`{}` is neither a scenario of CommonRoad (.xml) nor a table (.csv)", .0.display())]
     UnknownFormat(PathBuf),
     /// A file is invalid; the error states the place.
     #[error(transparent)]
@@ -34,7 +34,7 @@ pub enum RecordingsError {
     },
     /// A vehicle follows others for too short a time.
     #[error(
-        "`{vehicle}` follows somebody at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
+        "`{vehicle}` follows another vehicle at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
     )]
     TooLittleFollowing {
         /// The vehicle.

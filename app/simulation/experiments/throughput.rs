@@ -30,7 +30,7 @@ const ON_MOTORWAY: [usize; 9] = [5, 10, 20, 40, 80, 100, 160, 320, 1000];
 /// Drivers of the vehicles, with conduct, and the maximum number of vehicles.
 const MOTORISTS: [(&str, &str, &str, usize); 3] = [
     ("IDM", "idm", "", 1000),
-    ("human of the source", "human", "conduct = 'source'", 160),
+    ("human of the dissertation", "human", "conduct = 'source'", 160),
     ("human of people", "human", "", 100),
 ];
 /// Rows and columns of grids of zones.

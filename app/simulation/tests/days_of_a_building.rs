@@ -42,8 +42,8 @@ fn early_heat_is_the_heat_before_the_first_occupied_time() {
     for (day, figures) in report.iterations.iter().enumerate() {
         let steps = frames[day * steps_per_day..][..steps_per_day].iter().map(|frame| frame.building.as_ref());
         let steps: Vec<_> = steps.map(|step| step.expect("a step of the building")).collect();
-        let unoccupied = steps.iter().skip(1).position(|step| step.zones.iter().any(|zone| zone.band_k.is_some()));
-        let early = &steps[..=unoccupied.expect("an occupied time")];
+        let occupied = steps.iter().skip(1).position(|step| step.zones.iter().any(|zone| zone.band_k.is_some()));
+        let early = &steps[..=occupied.expect("an occupied time")];
         let kwh: f64 = early.iter().flat_map(|step| &step.zones).map(|zone| zone.heat_kw.abs() * step_h).sum();
         assert!(day == 0 || kwh > 0.5, "{kwh} on day {day}");
         assert!((figures.early_kwh - kwh).abs() <= 1e-9 * kwh, "{kwh} and {}", figures.early_kwh);

@@ -181,7 +181,7 @@ mod tests {
         for _ in 0..40 {
             simulation.step().expect("the run goes on");
         }
-        let mut resumed = simulation.snapshot().expect("everything of ours can be copied").resume().expect("a copy");
+        let mut resumed = simulation.snapshot().expect("all state can be copied").resume().expect("a copy");
         // Both take another step, so both contain what the engine adds when a schedule runs.
         for world in [&mut simulation, &mut resumed] {
             world.step().expect("the run goes on");

@@ -23,8 +23,8 @@ const SPEEDING_MPS: f64 = 0.5;
 /// Minimum time between leaving a conflict and the arrival of the vehicle with priority, for a real car \[s\].
 const SPARE_S: f64 = 1.0;
 
-const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, takes somebody's right of way, or \
-                   exceeds a speed limit";
+const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, \
+                   takes another vehicle's right of way, or exceeds a speed limit";
 
 pub(super) const METRICS: &[&dyn Metric] = &[&RulesBroken];
 
