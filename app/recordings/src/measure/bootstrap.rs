@@ -2,14 +2,25 @@
 
 use interplay_common::random::Random;
 use rayon::prelude::*;
+use serde::Serialize;
 
-use super::estimate::{MeasureInterval, nearest_rank};
 use super::outcome::Outcome;
 
 /// Number of resamples.
 const RESAMPLES: u64 = 1000;
 /// Seed of all intervals: the same recordings give the same intervals.
 const SEED: u64 = 46;
+
+/// A number with its 95 % interval, by a bootstrap over cars.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MeasureInterval {
+    /// The number.
+    pub value: f64,
+    /// The lower bound.
+    pub low: f64,
+    /// The upper bound.
+    pub high: f64,
+}
 
 /// Resamples of the cars, with the number of times that each car was drawn.
 pub(crate) struct Resamples {
@@ -77,6 +88,11 @@ impl Resamples {
         let at = |share: f64| nearest_rank(&drawn, share);
         MeasureInterval { value: of(&vec![1; self.cars]), low: at(0.025), high: at(0.975) }
     }
+}
+
+/// The nearest-rank quantile of ascending numbers, which must not be empty.
+pub(crate) fn nearest_rank(ascending: &[f64], share: f64) -> f64 {
+    ascending[(share * (ascending.len() - 1) as f64).round() as usize]
 }
 
 #[cfg(test)]

@@ -1,12 +1,10 @@
 //! Measures of predictions.
 
 mod bootstrap;
-mod estimate;
 mod outcome;
 
-pub(crate) use bootstrap::{Resamples, Sums};
-pub use estimate::MeasureInterval;
-pub(crate) use estimate::nearest_rank;
+pub use bootstrap::MeasureInterval;
+pub(crate) use bootstrap::{Resamples, Sums, nearest_rank};
 pub(crate) use outcome::{Outcome, Scales};
 
 use serde::Serialize;
