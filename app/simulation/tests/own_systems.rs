@@ -15,7 +15,6 @@ struct Counted {
     order: Vec<Slot>,
 }
 
-/// State that no test registers.
 #[derive(Resource, Default)]
 struct Unregistered;
 

@@ -146,11 +146,9 @@ fn inputs(plan: &SweepPlan) -> TableSchema {
     plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect()
 }
 
-/// The runs of a shard.
 struct Part {
     /// The keys and numbers of all its runs, sorted.
     runs: Vec<(RunKey, u64)>,
-    /// The runs without a row.
     to_make: Vec<(RunKey, u64)>,
     /// Number of runs with a row.
     there: u64,

@@ -24,7 +24,6 @@ const BUILDING_COLUMNS: [(&str, ColumnKind); 8] = [
     ("electric_kw", ColumnKind::Number),
 ];
 
-/// A column of a zone.
 type ZoneColumn = (&'static str, fn(&ZoneFrame) -> Option<f64>);
 
 /// The columns of each zone, after its name and a point.

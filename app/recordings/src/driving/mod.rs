@@ -61,7 +61,6 @@ const STANDSTILL_M: f64 = 3.5;
 const STEADY_MPS: f64 = 1.0;
 const STEADY_COUNT: usize = 3;
 
-/// Samples from a timeline.
 #[derive(Default)]
 struct Counted {
     gaps_s: Vec<f64>,

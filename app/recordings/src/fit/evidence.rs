@@ -14,7 +14,6 @@ const FOLLOWED_M: f64 = 20.0;
 const MAX_STARTS: usize = 120;
 /// The horizons \[s\] with the weight of a squared error at each: errors grow roughly with the square of the horizon.
 const HORIZONS: [(f64, f64); 3] = [(1.0, 9.0), (2.0, 1.5), (3.0, 0.5)];
-/// Seed of the bootstrap.
 const SEED: u64 = 64;
 
 /// The evidence of a record about a driver.

@@ -55,7 +55,6 @@ pub struct FittedDriver {
 const MIN_STARTS: usize = 10;
 /// Number of starts in a block: errors within 3 s of one another are correlated.
 const BLOCK: usize = 4;
-/// Number of bootstrap resamples.
 const RESAMPLES: u64 = 400;
 
 impl Recordings {

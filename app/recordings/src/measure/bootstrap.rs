@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::outcome::Outcome;
 
-/// Number of resamples.
 const RESAMPLES: u64 = 1000;
 /// Seed of all intervals: the same recordings give the same intervals.
 const SEED: u64 = 46;
@@ -25,7 +24,6 @@ pub struct MeasureInterval {
 /// Resamples of the cars, with the number of times that each car was drawn.
 pub(crate) struct Resamples {
     cars: usize,
-    /// The car of each start.
     car_of_start: Vec<usize>,
     counts: Vec<Vec<u32>>,
 }

@@ -11,7 +11,6 @@ use super::{Building, Equipment, Node, Temperature};
 use crate::state::components::CurrentFrame;
 use crate::state::frame::{Event, Level};
 
-/// Source of the log entry.
 const CONTROLLER_SOURCE: &str = "controller";
 
 /// Obtains the heat of every zone from the controller.

@@ -43,7 +43,6 @@ pub struct Episode {
     pub ending: Option<Ending>,
     /// Number of decisions so far.
     pub decisions: usize,
-    /// The measures before the decision.
     before: Counts,
 }
 

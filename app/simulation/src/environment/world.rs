@@ -17,7 +17,6 @@ use crate::report::Report;
 pub struct Environment {
     scenario: Scenario,
     settings: EnvironmentSettings,
-    /// Generates the seeds of episodes.
     seeds: SplitMix64,
     /// Number of plans from one decision to the next.
     plans_per_decision: usize,
@@ -32,7 +31,6 @@ struct Seat {
     name: String,
     interface: AgentInterface,
     episode: Episode,
-    /// Its latest sensed scene.
     sensed: Option<SensedScene>,
 }
 

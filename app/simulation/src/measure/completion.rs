@@ -22,7 +22,6 @@ pub struct Completion {
     pub completed_s: Option<f64>,
 }
 
-/// The goal.
 #[derive(Clone, Copy, Debug)]
 enum Task {
     /// A lateral position.

@@ -20,7 +20,6 @@ const MIN_ACCEPTED_PROBABILITY: f64 = 0.8;
 const MAX_REFUSED_PROBABILITY: f64 = 0.2;
 /// At most this many zones are named; the others are counted.
 const MAX_NAMED_ZONES: usize = 3;
-/// Source of the log entry.
 const BUILDING_SOURCE: &str = "building";
 
 /// The present milestones of all vehicles.

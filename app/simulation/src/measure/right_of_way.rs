@@ -39,7 +39,6 @@ struct WatchedZone {
 /// One of the two vehicles of a zone.
 #[derive(Clone, Debug)]
 struct ZoneApproach {
-    /// Its index.
     vehicle: usize,
     /// Where the zone begins on its route \[m\].
     from_m: f64,

@@ -74,14 +74,12 @@ impl Metric for VehicleMetric {
 #[derive(Clone, Copy, Debug)]
 struct FoldedMetric {
     metric: VehicleMetric,
-    /// The index of the vehicle.
     vehicle: usize,
     applies: bool,
     /// The folded value; for a mean, the sum.
     value: f64,
     /// Time at which a peak was first reached \[s\].
     time_s: Option<f64>,
-    /// Number of values.
     count: usize,
 }
 

@@ -13,7 +13,6 @@ pub struct Lines {
     /// Bytes received after the last line.
     received: Vec<u8>,
     timeout: Duration,
-    /// The longest line \[bytes\].
     limit: usize,
 }
 

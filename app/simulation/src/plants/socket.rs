@@ -20,7 +20,6 @@ use crate::state::not_copied::NotCopied;
 const NUMBER_BYTES: usize = 64;
 const REST_BYTES: usize = 64 * 1024;
 
-/// A message to the plant.
 #[derive(Debug, Serialize)]
 #[serde(tag = "message", rename_all = "kebab-case")]
 enum Request<'a> {

@@ -147,10 +147,8 @@ impl WorldState {
     }
 }
 
-/// The components of [`NodeState`].
 type NodeParts = (&'static Node, &'static Temperature, Option<(&'static Equipment, &'static Gains)>);
 
-/// The components of [`VehicleState`].
 type VehicleParts = (&'static Identity, &'static TrafficRow, &'static Driving, &'static HandedIn, &'static VehicleBody);
 
 #[cfg(test)]

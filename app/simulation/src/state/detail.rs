@@ -12,7 +12,6 @@ const STAYS_NEAR: f64 = 1.1;
 /// The two drivers of a vehicle that is simulated in detail only near the ego.
 #[derive(Debug)]
 pub struct LevelOfDetail {
-    /// Index of the ego.
     ego: usize,
     /// Distance to the ego within which it drives as its scenario states \[m\].
     within_m: f64,
@@ -20,7 +19,6 @@ pub struct LevelOfDetail {
     near: Planner,
     /// The driver far from the ego, before its first plan.
     far: Planner,
-    /// Whether it is far.
     is_far: bool,
 }
 

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::quantile::quantile;
 
-/// Number of resamples.
 const RESAMPLES: u64 = 1000;
 /// Seed of all intervals: the same rows give the same intervals.
 const SEED: u64 = 1;

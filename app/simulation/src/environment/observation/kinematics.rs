@@ -60,7 +60,6 @@ impl Kinematics {
     }
 }
 
-/// Position \[m\] and velocity \[m/s\].
 fn motion(state: &State) -> [f64; 4] {
     let (sin, cos) = libm::sincos(state.heading_rad);
     [state.x_m, state.y_m, state.speed_mps * cos, state.speed_mps * sin]

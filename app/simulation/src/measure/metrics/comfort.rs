@@ -89,12 +89,10 @@ const PEAK_LATERAL_ACCELERATION: VehicleMetric = VehicleMetric::new(
     VehicleQuantity::OverTick(lateral_acceleration),
 );
 
-/// Longitudinal acceleration \[m/s²\].
 fn acceleration(tick: &VehicleTick<'_>) -> f64 {
     tick.frame.input.acceleration_mps2
 }
 
-/// Magnitude of the jerk \[m/s³\].
 fn jerk(tick: &VehicleTick<'_>) -> Option<f64> {
     Some((acceleration(tick) - tick.previous_input.acceleration_mps2).abs() / tick.step_s)
 }

@@ -47,7 +47,6 @@ impl Metric for ContactByEgo {
 /// The first contact of the ego, and the state that its rules need.
 #[derive(Clone, Debug)]
 struct FirstContact {
-    /// The index of the ego.
     ego: usize,
     /// Whether the ego caused it; none before there is one.
     by_ego: Option<bool>,

@@ -65,7 +65,6 @@ struct LaneChangeMetric {
     fold: fn(&[LaneChange]) -> Option<f64>,
 }
 
-/// A lane change.
 #[derive(Clone, Copy, Debug)]
 struct LaneChange {
     /// Time at which the centre crossed the line \[s\].
@@ -76,7 +75,6 @@ struct LaneChange {
     lead_s: Option<f64>,
     /// Time gap of the follower \[s\].
     lag_s: Option<f64>,
-    /// The index of the follower.
     follower: Option<usize>,
     /// Its hardest braking so far \[m/s²\].
     braking_mps2: f64,
@@ -152,7 +150,6 @@ struct LaneChanges {
     fold: fn(&[LaneChange]) -> Option<f64>,
     vehicle: usize,
     lanes: Lanes,
-    /// The present lane.
     lane: i64,
     /// A lane change whose line was crossed, but which is not complete.
     begun: Option<LaneChange>,

@@ -16,7 +16,6 @@ use crate::plants::foreseen::Foreseen;
 
 /// Interval of requested series \[s\]; those of BOPTEST's cases change at these times at the earliest.
 pub const INTERVAL_S: f64 = 900.0;
-/// Intervals of an hour.
 const PER_HOUR: usize = 4;
 const W_PER_KW: f64 = 1000.0;
 const REQUEST: &str = "PUT /forecast";

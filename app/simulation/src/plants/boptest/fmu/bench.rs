@@ -29,7 +29,6 @@ pub struct FmuBench {
     /// Interval of measurements \[s\].
     sampling_s: f64,
     step_s: f64,
-    /// Present time \[s\].
     time_s: f64,
     /// Times \[s\] and measurements since the start of the test.
     times_s: Vec<f64>,
