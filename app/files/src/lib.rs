@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_appears_whole_in_folders_made_for_it() {
+    fn a_file_appears_complete_in_folders_created_for_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a/b/run.rrd");
         check(&target).expect("writable");

@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_and_deviations_are_those_of_the_numbers() {
+    fn quantiles_and_deviations_of_a_sample_are_exact() {
         let found = quantiles((0..=100).map(f64::from).collect()).expect("numbers");
         assert_eq!((found.count, found.low, found.median, found.high), (101, 5.0, 50.0, 95.0));
         assert_eq!((quantiles(Vec::new()), deviation(&[1.0])), (None, None));

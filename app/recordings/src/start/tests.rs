@@ -59,7 +59,7 @@ fn records_after_the_start_do_not_change_predictions() {
 }
 
 #[test]
-fn starts_are_a_second_apart_and_have_enough_around_them() {
+fn starts_are_a_second_apart_with_enough_records_around_them() {
     let recordings = Recordings::of(vec![Timeline::of(traffic(), 0)]);
     let steps: Vec<i64> = starts(&recordings).iter().filter(|it| it.track == 0).map(|it| it.step).collect();
     assert_eq!(steps, [6, 11, 16, 21, 26, 31, 36, 41, 46, 51]);

@@ -71,7 +71,7 @@ fn the_message_of_a_panic_is_kept() {
 }
 
 #[test]
-fn success_is_a_task_done_without_contact_of_the_ego() -> Outcome {
+fn success_is_a_completed_task_without_contact_of_the_ego() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let of = |report: &Report| {
         measured(&scenario, report).map(|row| (row["success"] == json!(true), row["deadlock"] == json!(true)))

@@ -183,7 +183,7 @@ mod tests {
 
     /// The first vehicle leaves the square where both paths cross with its rear; the second enters it with its front.
     #[test]
-    fn it_is_the_time_from_leaving_to_entering_the_crossing() {
+    fn post_encroachment_is_the_time_from_leaving_to_entering() {
         let body = load("full-size/lane-change", &[]).expect("authored").vehicles[0].body;
         let across = std::f64::consts::FRAC_PI_2;
         for (ego_s, other_s) in [(3.0, 5.0), (5.0, 3.0)] {
