@@ -1,7 +1,7 @@
-//! The version of the program as far as it decides results: a digest of the sources that a run and its row are computed by.
+//! The version of the program as far as it determines results: a digest of the sources that compute a run and its row.
 //!
-//! A row of an older version must not be taken for one of this version, and the version number of the package changes too
-//! seldom to tell. The digest is of contents, so that it is the same on every machine that builds the same sources.
+//! A row of an older version must not be taken for one of this version, and the package's version number changes too
+//! seldom to tell them apart. The digest depends only on contents, so it is the same on every machine that builds the same sources.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-/// What decides results, from the root of the repository.
+/// The sources that determine results, relative to the root of the repository.
 const SOURCES: [&str; 10] = [
     "Cargo.lock",
     "common/src",
@@ -22,11 +22,11 @@ const SOURCES: [&str; 10] = [
     "app/sweep/src/measure",
     "app/sweep/src/row.rs",
 ];
-/// How much of the digest is kept \[bytes\].
+/// Length of the digest that is kept \[bytes\].
 const DIGEST_BYTES: usize = 8;
 
 fn main() -> io::Result<()> {
-    // Read when it runs: this program may have been built for another folder.
+    // Read when it runs, since this build script may have been compiled for another folder.
     let package = std::env::var("CARGO_MANIFEST_DIR").map_err(io::Error::other)?;
     let root = Path::new(&package).join("../..");
     let mut digest = Sha256::new();
@@ -48,7 +48,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// A file itself, or all files below a folder, sorted; none if there is nothing.
+/// A file itself, or all files below a folder, sorted; empty if the path does not exist.
 fn files(path: &Path) -> io::Result<Vec<PathBuf>> {
     if !path.is_dir() {
         return Ok(if path.is_file() { vec![path.to_owned()] } else { Vec::new() });

@@ -71,5 +71,5 @@ fn a_unit_that_cannot_run_ends_the_run_with_a_reason() {
     fs::write(folder.join("room.fmu"), "no archive").expect("written");
     let broken = run(&folder, "unit.toml", &[]);
     assert_eq!(broken.code, Some(3), "{broken:?}");
-    assert!(broken.stderr.contains("is no FMU"), "{broken:?}");
+    assert!(broken.stderr.contains("is not an FMU"), "{broken:?}");
 }

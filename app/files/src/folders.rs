@@ -1,4 +1,4 @@
-//! Folders that are made for a file, and go again if it is not written.
+//! Folders that are created for a file, and removed again if the file is not written.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -8,10 +8,10 @@ use std::{fs, io};
 pub struct NewFolders(Vec<PathBuf>);
 
 impl NewFolders {
-    /// Makes the folders above a file.
+    /// Creates the folders above a file.
     ///
     /// # Errors
-    /// What the disk says. Then nothing was made.
+    /// The error of the file system. Then no folder was created.
     pub fn make_above(target: &Path) -> io::Result<NewFolders> {
         let folders = NewFolders(above(target).take_while(|folder| !folder.exists()).collect());
         folders.0.first().map_or(Ok(()), fs::create_dir_all)?;
@@ -26,7 +26,7 @@ impl NewFolders {
 
 impl Drop for NewFolders {
     fn drop(&mut self) {
-        // What cannot be removed was never created, or is in somebody else's use by now.
+        // A folder that cannot be removed was never created, or another process uses it by now.
         for folder in &self.0 {
             let _ = fs::remove_dir(folder);
         }

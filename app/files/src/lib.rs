@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all, however the process ends.
 //!
-//! On Linux a file has no name until it is complete, where the file system allows that: the system removes it with the process.
-//! Elsewhere it is written beside its place and renamed. What it replaces stays as it is until then. When a function
+//! On Linux, where the file system allows it, a file has no name until it is complete: the system removes it if the process ends earlier.
+//! Elsewhere it is written to a temporary name in the same folder and renamed. The file that it replaces stays until then. When a function
 //! returns without an error, content and name are on the disk.
 //!
 //! ```
@@ -42,19 +42,19 @@ pub fn check(target: &Path) -> io::Result<()> {
     WholeFile::begin(&nearest.unwrap_or_default().join("new")).map(drop)
 }
 
-/// Writes a file in the place of what may stand there, making folders as needed.
+/// Writes a file, replacing one that exists at `target`; creates folders as needed.
 ///
 /// # Errors
-/// What the disk says. Then nothing was made, and what stood at `target` is as it was.
+/// The error of the file system. Then nothing was created, and a file that existed at `target` is unchanged.
 pub fn write(target: &Path, content: &[u8]) -> io::Result<()> {
     check(target)?;
     in_new_folders(target, content, WholeFile::replace)
 }
 
-/// Writes a file where there is none, making folders as needed.
+/// Writes a file unless one exists at `target`; creates folders as needed.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`], and what the disk says. Then nothing was made.
+/// [`io::ErrorKind::AlreadyExists`], and other errors of the file system. Then nothing was created.
 pub fn write_new(target: &Path, content: &[u8]) -> io::Result<()> {
     in_new_folders(target, content, WholeFile::keep_out)
 }
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_appears_whole_in_folders_made_for_it() {
+    fn a_file_appears_complete_in_folders_created_for_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a/b/run.rrd");
         check(&target).expect("writable");
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_file_takes_nobody_s_place() {
+    fn a_new_file_does_not_replace_an_existing_one() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a/mine.toml");
         write_new(&target, b"first").expect("writable");
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_is_no_file_is_refused_with_its_reason() {
+    fn a_target_that_cannot_be_a_file_is_refused_with_the_reason() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("file"), b"mine").expect("writable");
         let cases = [
@@ -130,9 +130,9 @@ mod tests {
         assert_eq!(fs::read(folder.path().join("file")).expect("there"), b"mine");
     }
 
-    /// A file that is given up leaves nothing, and neither do the folders made for it.
+    /// A file that is abandoned leaves nothing behind, and neither do the folders created for it.
     #[test]
-    fn a_file_that_is_given_up_leaves_nothing() {
+    fn an_abandoned_file_leaves_nothing_behind() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a/b/run.rrd");
         {

@@ -1,4 +1,4 @@
-//! A file that has no place until it is complete.
+//! A file that appears at its path only when it is complete.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// A file that is being written. Dropped before it has its place, it vanishes.
+/// A file that is being written. It vanishes if it is dropped before it has its path.
 #[derive(Debug)]
 pub struct WholeFile {
     target: PathBuf,
@@ -15,18 +15,17 @@ pub struct WholeFile {
 
 #[derive(Debug)]
 enum Unplaced {
-    /// A file without a name, which vanishes with the process, however that ends.
+    /// A file without a name, which vanishes when the process ends in any way.
     #[cfg(target_os = "linux")]
     Unnamed(File),
-    /// A file with a temporary name, which is removed when it is dropped.
     Named(NamedTempFile),
 }
 
 impl WholeFile {
-    /// Begins a file in the folder of `target`, which must exist.
+    /// Creates a file in the folder of `target`, which must exist.
     ///
     /// # Errors
-    /// What the disk says.
+    /// The error of the file system.
     pub fn begin(target: &Path) -> io::Result<WholeFile> {
         let folder = folder_of(target);
         #[cfg(target_os = "linux")]
@@ -34,7 +33,7 @@ impl WholeFile {
             return Ok(WholeFile { target: target.to_owned(), file: Unplaced::Unnamed(file?) });
         }
         let mut builder = parts();
-        // Readable for whom any new file would be.
+        // With the permissions of any new file.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         Ok(WholeFile {
@@ -43,18 +42,18 @@ impl WholeFile {
         })
     }
 
-    /// Moves the file to its place, replacing a file that stands there.
+    /// Moves the file to its path, replacing a file that exists there.
     ///
     /// # Errors
-    /// What the disk says. The other stands as it was, unless only its folder could not be forced onto the disk.
+    /// The error of the file system. The old file is unchanged, unless only its folder could not be synced to the disk.
     pub fn replace(self) -> io::Result<()> {
         self.place(true)
     }
 
-    /// Moves the file to its place unless a file stands there.
+    /// Moves the file to its path unless a file exists there.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`], and what the disk says. Then nothing was made.
+    /// [`io::ErrorKind::AlreadyExists`], and other errors of the file system. Then nothing was created.
     pub fn keep_out(self) -> io::Result<()> {
         self.place(false)
     }
@@ -66,7 +65,7 @@ impl WholeFile {
             #[cfg(target_os = "linux")]
             Unplaced::Unnamed(file) => match link(&file, &self.target) {
                 Err(error) if replaces && error.kind() == io::ErrorKind::AlreadyExists => {
-                    // No call takes a file without a name to a name that is taken: it has another for the time of one call.
+                    // No system call links an unnamed file to a name that is taken, so it gets a temporary name for one call.
                     let named = parts().make_in(folder, |name| link(&file, name))?;
                     named.into_temp_path().persist(&self.target).map_err(|error| error.error)?;
                 }
@@ -106,26 +105,26 @@ pub fn folder_of(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What the disk said, without the passing name of a file that has no place yet.
+/// The error of the file system, without the temporary name of the file.
 fn of_disk(error: io::Error) -> io::Error {
     let said = error.to_string();
     let (reason, _) = said.split_once(" at path ").unwrap_or((&said, ""));
     io::Error::new(error.kind(), reason.to_owned())
 }
 
-/// How files are called that have no place yet.
+/// Settings of the temporary names.
 fn parts() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".part");
     builder
 }
 
-/// A file without a name; none where the file system knows no such files.
+/// A file without a name; `None` where the file system does not support such files.
 #[cfg(target_os = "linux")]
 fn unnamed_in(folder: &Path) -> Option<io::Result<File>> {
     use rustix::fs::{Mode, OFlags};
     use rustix::io::Errno;
-    // Where files without a name are found again to be named.
+    // An unnamed file is named through this folder.
     if !Path::new("/proc/self/fd").exists() {
         return None;
     }
@@ -137,7 +136,6 @@ fn unnamed_in(folder: &Path) -> Option<io::Result<File>> {
     }
 }
 
-/// Names a file that has no name.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
     use std::os::fd::AsRawFd;
@@ -147,7 +145,7 @@ fn link(file: &File, name: &Path) -> io::Result<()> {
     Ok(linkat(CWD, itself, CWD, name, AtFlags::SYMLINK_FOLLOW)?)
 }
 
-/// Makes the new name of a file last through a loss of power, where the file system can.
+/// Syncs the folder so that the file's new name survives a loss of power, where the file system supports that.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(not(unix)) {
         return Ok(());

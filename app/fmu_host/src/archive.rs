@@ -1,4 +1,4 @@
-//! Reads an archive in the format ZIP (APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16): files that are stored or deflated.
+//! Reads ZIP archives (APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16) whose files are stored or deflated.
 
 use std::ops::Range;
 
@@ -7,10 +7,10 @@ use miniz_oxide::inflate::decompress_to_vec_with_limit;
 const END_OF_DIRECTORY: u32 = 0x0605_4b50;
 const DIRECTORY_ENTRY: u32 = 0x0201_4b50;
 const FILE_HEADER: u32 = 0x0403_4b50;
-/// Length of the end of the directory without its comment, and of the longest comment \[bytes\].
+/// Length of the end-of-directory record without its comment, and of the longest comment \[bytes\].
 const END_BYTES: usize = 22;
 const MAX_COMMENT_BYTES: usize = 65_535;
-/// Length of an entry of the directory and of the header of a file, without names \[bytes\].
+/// Length of a directory entry and of a file header, both without names \[bytes\].
 const ENTRY_BYTES: usize = 46;
 const HEADER_BYTES: usize = 30;
 /// The largest file that is unpacked \[bytes\].
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_archive_is_refused() {
+    fn a_file_that_is_not_an_archive_is_refused() {
         for bytes in [
             &b""[..],
             b"PK",

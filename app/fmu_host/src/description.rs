@@ -1,4 +1,4 @@
-//! What a unit says of itself: `modelDescription.xml` of FMI 2.0.
+//! The description of a unit: `modelDescription.xml` of FMI 2.0.
 
 use roxmltree::{Document, Node};
 
@@ -7,7 +7,7 @@ use roxmltree::{Document, Node};
 pub struct Description {
     /// Its identity, which its library checks.
     pub guid: String,
-    /// The name of its library, without its ending.
+    /// The name of its library, without the extension.
     pub library: String,
     /// Its inputs and outputs.
     pub variables: Vec<UnitVariable>,
@@ -18,7 +18,7 @@ pub struct Description {
 pub struct UnitVariable {
     /// Its name.
     pub name: String,
-    /// The number by which its library knows it.
+    /// Its value reference in the library.
     pub reference: u32,
     /// Whether it is an input.
     pub causality: Causality,
@@ -28,10 +28,10 @@ pub struct UnitVariable {
     pub unit: Option<String>,
 }
 
-/// Who sets a variable.
+/// Which side sets a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
-    /// Whoever runs the unit.
+    /// The program that runs the unit.
     Input,
     /// The unit.
     Output,
@@ -47,12 +47,12 @@ pub enum VariableKind {
 }
 
 impl Description {
-    /// Reads a description. Inputs and outputs of other kinds than numbers and booleans are left out.
+    /// Reads a description. Inputs and outputs that are neither numbers nor booleans are left out.
     ///
     /// # Errors
     /// What is wrong, in words.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let document = Document::parse(text).map_err(|error| format!("its description is no XML: {error}"))?;
+        let document = Document::parse(text).map_err(|error| format!("its description is not XML: {error}"))?;
         let root = document.root_element();
         let version = root.attribute("fmiVersion").unwrap_or("none");
         if version != "2.0" {
@@ -67,7 +67,7 @@ impl Description {
         let library = co_simulation.attribute("modelIdentifier").ok_or("its description has no `modelIdentifier`")?;
         let word = |character: char| character.is_ascii_alphanumeric() || "_-".contains(character);
         if library.is_empty() || !library.chars().all(word) {
-            return Err(format!("`{library}` is no name of a library"));
+            return Err(format!("`{library}` is not a valid name of a library"));
         }
         let variables = root.children().find(|node| node.has_tag_name("ModelVariables"));
         let variables = variables.into_iter().flat_map(|list| list.children()).filter_map(variable).collect();
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn inputs_and_outputs_are_found() {
+    fn inputs_and_outputs_are_read_from_the_description() {
         let text = r#"<fmiModelDescription fmiVersion="2.0" guid="{1}"><CoSimulation modelIdentifier="case"/><ModelVariables>
             <ScalarVariable name="oveY_u" valueReference="3" causality="input"><Real unit="1"/></ScalarVariable>
             <ScalarVariable name="oveY_activate" valueReference="4" causality="input"><Boolean/></ScalarVariable>
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn other_units_are_refused_with_the_reason() {
+    fn units_of_other_versions_and_kinds_are_refused_with_the_reason() {
         for (text, said) in [
             ("nothing", "no XML"),
             (r#"<a fmiVersion="3.0"/>"#, "version 3.0"),

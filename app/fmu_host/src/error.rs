@@ -1,11 +1,11 @@
-//! What can go wrong with a unit.
+//! Errors of a unit.
 
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a unit cannot be run, or does not run on.
+/// Why a unit cannot be started or cannot continue.
 #[derive(Debug, Error)]
 pub enum HostError {
     /// The file cannot be read.
@@ -16,15 +16,15 @@ pub enum HostError {
         /// The system's reason.
         reason: io::Error,
     },
-    /// The file is no archive.
-    #[error("{} is no FMU: {reason}", path.display())]
+    /// The file is not an archive.
+    #[error("{} is not an FMU: {reason}", path.display())]
     Archive {
         /// The file.
         path: PathBuf,
         /// What is wrong.
         reason: String,
     },
-    /// The description is not that of a unit which this program can run.
+    /// The unit is described as one that this program cannot run.
     #[error("cannot run the FMU {}: {reason}", path.display())]
     Description {
         /// The file.
@@ -32,7 +32,7 @@ pub enum HostError {
         /// What is wrong.
         reason: String,
     },
-    /// The files of the unit cannot be put anywhere.
+    /// The files of the unit cannot be unpacked to the disk.
     #[error("cannot unpack the FMU: {reason}")]
     Unpack {
         /// The system's reason.
@@ -51,7 +51,7 @@ pub enum HostError {
     /// The process has ended.
     #[error("the FMU crashed at `{question}`: its process ended with {how}{said}")]
     Crashed {
-        /// What was asked.
+        /// The request.
         question: String,
         /// The exit code or the signal.
         how: String,
@@ -63,7 +63,7 @@ pub enum HostError {
         "the FMU gave no answer to `{question}` within {timeout_s} s{said}; `building.plant.timeout_s` is that limit"
     )]
     Timeout {
-        /// What was asked.
+        /// The request.
         question: String,
         /// Longest time of an answer \[s\].
         timeout_s: f64,
@@ -73,9 +73,9 @@ pub enum HostError {
     /// The unit or its library refused.
     #[error("the FMU failed at `{question}`: {reason}")]
     Failed {
-        /// What was asked.
+        /// The request.
         question: String,
-        /// What it says.
+        /// The reason that it states.
         reason: String,
     },
 }

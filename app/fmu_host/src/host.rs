@@ -14,16 +14,15 @@ use crate::last_line::LastLine;
 use crate::protocol::{HostAnswer, Request, Values};
 use crate::unit::Unit;
 
-/// How long a process that has closed its output may take to end, and its last output to be read.
+/// Time in which a process that has closed its output must end and its last output must be read.
 const ENDING: Duration = Duration::from_secs(2);
 const ENDING_POLL: Duration = Duration::from_millis(5);
-/// How much of a line from the process an error shows \[characters\].
+/// Maximum length of a line of the process that an error shows \[characters\].
 const SHOWN_CHARACTERS: usize = 120;
-/// The name of the command line.
 const PROGRAM: &str = "interplay";
 
-/// The program that is started for a unit: it gets the library, the identity and the folder of resources as its last arguments, and
-/// calls [`serve`](crate::serve) with them.
+/// The program that is started for a unit. Its last arguments are the library, the identity and the folder of resources, with which it
+/// calls [`serve`](crate::serve).
 #[derive(Clone, Debug)]
 pub struct HostProgram {
     /// The program.
@@ -33,7 +32,7 @@ pub struct HostProgram {
 }
 
 impl Default for HostProgram {
-    /// `interplay fmu-host`: this program if it is `interplay`, and otherwise the one in the search path.
+    /// `interplay fmu-host`: the current program if that is `interplay`, and otherwise the one in the search path.
     fn default() -> Self {
         let this = env::current_exe()
             .ok()
@@ -55,7 +54,7 @@ pub struct Host {
 }
 
 impl Host {
-    /// Starts the process, which loads the library and makes an instance.
+    /// Starts the process, which loads the library and creates an instance.
     ///
     /// # Errors
     /// [`HostError`].
@@ -85,7 +84,7 @@ impl Host {
         Ok(host)
     }
 
-    /// Asks, and waits for the answer: numbers and texts; none of either for requests that only act.
+    /// Sends a request and waits for the answer: numbers and texts, both empty for requests that only act.
     ///
     /// # Errors
     /// [`HostError`] if the unit fails, the process ends, or no answer comes in time.
@@ -121,7 +120,7 @@ impl Host {
         }
     }
 
-    /// The process is gone, or soon.
+    /// The error for a process that has ended or is about to end.
     fn crashed(&mut self, question: &str) -> HostError {
         let mut waited = Duration::ZERO;
         let status = loop {
@@ -139,14 +138,14 @@ impl Host {
         }
     }
 
-    /// What the process wrote last, as the end of an error; nothing if it wrote nothing.
+    /// The last line that the process wrote, as the end of an error message; empty if it wrote nothing.
     fn last_words(&mut self) -> String {
         let line = self.errors.as_mut().map(|errors| errors.at_end(ENDING)).unwrap_or_default();
         if line.is_empty() { line } else { format!(", after it wrote `{line}`") }
     }
 
     fn kill(&mut self) {
-        // It may have ended by itself.
+        // The process may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -154,13 +153,13 @@ impl Host {
 
 impl Drop for Host {
     fn drop(&mut self) {
-        // Without its input the process ends by itself; a unit that hangs does not.
+        // Without its input the process ends by itself, but a unit that hangs does not.
         self.input = None;
         self.kill();
     }
 }
 
-/// The beginning of a line from the process, as an error shows it.
+/// The beginning of a line of the process, as an error shows it.
 pub(crate) fn shown(line: &str) -> String {
     line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
 }

@@ -1,4 +1,4 @@
-//! The last line that a process writes to its standard error: usually the reason why it ends.
+//! The last line that a process writes to its standard error, which is usually the reason why it ends.
 
 use std::io::{BufRead, BufReader, Read};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -24,7 +24,7 @@ impl LastLine {
         thread::spawn(move || {
             // Dropped when the thread ends.
             let _reading: mpsc::Sender<()> = reading;
-            // Units of other languages write other encodings than UTF-8.
+            // Units in other languages may write encodings other than UTF-8.
             for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
                 let line = String::from_utf8_lossy(&line);
                 if !line.trim().is_empty()
@@ -39,10 +39,10 @@ impl LastLine {
 
     /// Returns the last line of a process that has ended, or nothing if it wrote none.
     ///
-    /// Waits until everything is read, but at most `timeout`: a process that the ended one has started may keep the standard error open.
+    /// Waits until everything is read, but at most `timeout`: a child of the ended process may keep the standard error open.
     pub(crate) fn at_end(&mut self, timeout: Duration) -> String {
         if let Ok(open) = self.open.get_mut() {
-            // Nothing is ever sent.
+            // The channel carries no messages: it only disconnects.
             let (Ok(()) | Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected)) = open.recv_timeout(timeout);
         }
         self.line.lock().map(|line| line.clone()).unwrap_or_default()

@@ -1,16 +1,16 @@
-//! Runs a functional mock-up unit (FMI 2.0, co-simulation) in a process of its own, and speaks to it in lines of JSON.
+//! Runs a functional mock-up unit (FMI 2.0, co-simulation) in a separate process and exchanges lines of JSON with it.
 //!
 //! ```text
 //! Unit::open: archive -> description          Host::start -> child process: serve -> library -> the unit's functions
 //!                                             Host::ask   -> Request, a line -> HostAnswer, a line
 //! ```
 //!
-//! The functions of a unit are foreign code: they may crash, hang, or write to the standard output. So they are called by a child process,
+//! The functions of a unit are foreign code: they may crash, hang, or write to the standard output. A child process therefore calls them,
 //! and a crash is a [`HostError`] of the parent. The crate `fmi` (0.8) was considered: it binds both versions of the standard by `bindgen`,
-//! which needs a Clang library when it is compiled, and it loads the unit into the process that calls it. What is needed here is a dozen
+//! which needs a Clang library at build time, and it loads the unit into the process that calls it. This crate needs only a dozen
 //! functions of one version, which `library` declares.
 //!
-//! `unsafe` is allowed in `library`, which calls the unit, and in `standard_output`, which keeps the unit's texts out of the answers.
+//! `unsafe` is allowed in `library`, which calls the unit, and in `standard_output`, which separates the unit's output from the answers.
 
 mod archive;
 mod description;

@@ -1,6 +1,6 @@
-//! The library of a unit and its functions: the only place that calls foreign code.
+//! The library of a unit and its functions: the only module that calls foreign code.
 //!
-//! Declarations follow `fmi2Functions.h` of FMI 2.0.4. Booleans are `int`, and a status is 0 (fine) or 1 (a warning) where a call worked.
+//! Declarations follow `fmi2Functions.h` of FMI 2.0.4. Booleans are `int`. The status of a call that worked is 0 (ok) or 1 (warning).
 #![allow(unsafe_code, reason = "the functions of a unit are C")]
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -31,15 +31,15 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-/// The last message of the unit, which explains a status.
+/// The last message of the unit; it explains a status.
 static LAST_MESSAGE: Mutex<String> = Mutex::new(String::new());
 
-/// The format of a message that is one text.
+/// The format of a message that is a single text.
 const ONE_TEXT: &CStr = c"%s";
 
-/// Keeps a message. In the standard its format is followed by any number of arguments, which Rust cannot declare for a function of its own.
-/// On Linux with x86-64, where alone units are run, the first of them is passed where a sixth fixed argument would be; it is looked at only
-/// where the format says that it is a text. Other formats are kept as they are.
+/// Keeps a message. In the standard any number of arguments follow the format; a Rust function cannot declare them.
+/// Units run only on Linux with x86-64. There the first of these arguments is passed where a sixth fixed argument would be. It is read
+/// only if the format says that it is a text. Other formats are kept as they are.
 unsafe extern "C" fn log(
     _: *mut c_void,
     _: *const c_char,
@@ -51,10 +51,10 @@ unsafe extern "C" fn log(
     if message.is_null() {
         return;
     }
-    // SAFETY: messages are texts that end with a zero (FMI 2.0.4, section 2.1.5).
+    // SAFETY: messages are zero-terminated texts (FMI 2.0.4, section 2.1.5).
     let mut text = unsafe { CStr::from_ptr(message) };
     if text == ONE_TEXT && !first.is_null() {
-        // SAFETY: the format promises a text that ends with a zero.
+        // SAFETY: the format promises a zero-terminated text.
         text = unsafe { CStr::from_ptr(first) };
     }
     if let Ok(mut last) = LAST_MESSAGE.lock() {
@@ -71,12 +71,12 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Loads the library and makes an instance. `resources` is the URI of its folder.
+    /// Loads the library and creates an instance. `resources` is the URI of its folder.
     ///
     /// # Errors
-    /// What the loader or the unit says.
+    /// The error of the loader or the unit.
     pub fn new(path: &Path, guid: &str, resources: &str) -> Result<Self, String> {
-        // SAFETY: the initialisers of the library run; whoever states an FMU wants it to run, and this process does nothing else.
+        // SAFETY: the library's initialisers run, as a user who states an FMU intends; this process does nothing else.
         let library = unsafe { Loaded::new(path) }.map_err(|error| format!("its library cannot be loaded: {error}"))?;
         let callbacks = Box::new(Callbacks {
             logger: log,
@@ -109,7 +109,7 @@ impl Instance {
         Ok(Self { library, component, _callbacks: callbacks })
     }
 
-    /// Sets the experiment up from `start_s` on, and initialises.
+    /// Sets up the experiment from `start_s` on, and initialises the unit.
     ///
     /// # Errors
     /// The call that failed, with the unit's message.
@@ -136,7 +136,7 @@ impl Instance {
         self.transfer("fmi2SetBoolean", &references, values.as_ptr().cast_mut())
     }
 
-    /// Numbers now, and then booleans as 0 or 1.
+    /// The current numbers, followed by the booleans as 0 or 1.
     ///
     /// # Errors
     /// As [`Instance::initialize`].
@@ -149,7 +149,7 @@ impl Instance {
         Ok(values)
     }
 
-    /// Texts now.
+    /// The current texts.
     ///
     /// # Errors
     /// As [`Instance::initialize`].
@@ -160,13 +160,13 @@ impl Instance {
             if pointer.is_null() {
                 return String::new();
             }
-            // SAFETY: texts end with a zero and live until the next call (FMI 2.0.4, section 2.1.7).
+            // SAFETY: texts are zero-terminated and live until the next call (FMI 2.0.4, section 2.1.7).
             unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
         });
         Ok(texts.collect())
     }
 
-    /// A communication step.
+    /// Simulates a communication step.
     ///
     /// # Errors
     /// As [`Instance::initialize`].
@@ -177,7 +177,7 @@ impl Instance {
         checked("fmi2DoStep", status)
     }
 
-    /// Back to the state before the initialisation.
+    /// Returns the unit to the state before the initialisation.
     ///
     /// # Errors
     /// As [`Instance::initialize`].
@@ -193,14 +193,14 @@ impl Instance {
         self.call("fmi2Terminate")
     }
 
-    /// A function whose only argument is the instance.
+    /// Calls a function whose only argument is the instance.
     fn call(&self, name: &str) -> Result<(), String> {
         type Plain = unsafe extern "C" fn(Component) -> Status;
         // SAFETY: the type is that of the standard, and the instance is alive.
         checked(name, unsafe { function::<Plain>(&self.library, name)?(self.component) })
     }
 
-    /// A function that reads or writes a list of values, of which there is one for each reference.
+    /// Calls a function that reads or writes a list of values, one for each reference.
     fn transfer<T>(&self, name: &str, references: &[u32], values: *mut T) -> Result<(), String> {
         if references.is_empty() {
             return Ok(());
@@ -218,7 +218,7 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         type Free = unsafe extern "C" fn(Component);
-        // SAFETY: the type is that of the standard, and nobody uses the instance any more.
+        // SAFETY: the type is that of the standard, and the instance is not used after this call.
         if let Ok(free) = unsafe { function::<Free>(&self.library, "fmi2FreeInstance") } {
             // SAFETY: as above.
             unsafe { free(self.component) };
@@ -226,12 +226,12 @@ impl Drop for Instance {
     }
 }
 
-/// A function of the library.
+/// Looks up a function of the library.
 ///
 /// # Safety
 /// `F` is the type that the standard gives the function of this name.
 unsafe fn function<'a, F>(library: &'a Loaded, name: &str) -> Result<Symbol<'a, F>, String> {
-    // SAFETY: promised by the caller.
+    // SAFETY: the caller guarantees it.
     unsafe { library.get(name.as_bytes()) }.map_err(|_| format!("its library has no function `{name}`"))
 }
 

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the parent asks. References are those of the description.
+/// A request of the parent. References are those of the description.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "call", rename_all = "kebab-case")]
 pub enum Request {
     /// `fmi2SetupExperiment`, `fmi2EnterInitializationMode`, `fmi2ExitInitializationMode`.
     Initialize {
-        /// When the simulation begins \[s\].
+        /// Start time of the simulation \[s\].
         start_s: f64,
     },
     /// `fmi2SetReal` and `fmi2SetBoolean`, before the next step.
@@ -18,7 +18,7 @@ pub enum Request {
         /// Booleans by their references.
         booleans: Vec<(u32, bool)>,
     },
-    /// `fmi2GetReal`, `fmi2GetBoolean` and `fmi2GetString`, now.
+    /// `fmi2GetReal`, `fmi2GetBoolean` and `fmi2GetString`: current values.
     Get {
         /// References of numbers.
         reals: Vec<u32>,
@@ -27,13 +27,13 @@ pub enum Request {
         /// References of texts.
         strings: Vec<u32>,
     },
-    /// `fmi2DoStep` again and again, and after each step the numbers.
+    /// Repeated `fmi2DoStep`, with the values after each step.
     Steps {
-        /// When the first step begins \[s\].
+        /// Start time of the first step \[s\].
         from_s: f64,
         /// Length of a step \[s\].
         step_s: f64,
-        /// How many steps.
+        /// Number of steps.
         count: usize,
         /// References of the numbers.
         reals: Vec<u32>,
@@ -47,7 +47,7 @@ pub enum Request {
 }
 
 impl Request {
-    /// The request in a word, for errors.
+    /// The name of the request, for errors.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Initialize { .. } => "initialize",
@@ -60,25 +60,25 @@ impl Request {
     }
 }
 
-/// What the process answers.
+/// The answer of the process.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "answer", rename_all = "kebab-case")]
 pub enum HostAnswer {
-    /// It is done. Also the first line of all, when the unit has been instantiated.
+    /// The request is done. Also the first line, which says that the unit has been instantiated.
     Done,
-    /// What was read.
+    /// The values that were read.
     Values(Values),
-    /// It failed.
+    /// The request failed.
     Failed {
-        /// Why, in words.
+        /// The reason, in words.
         reason: String,
     },
 }
 
-/// What was read of a unit.
+/// Values that were read from a unit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Values {
-    /// A row for each step, or one for now: the numbers, and then the booleans as 0 or 1. A number that is not finite is missing.
+    /// One row for each step, or a single row of current values: the numbers, then the booleans as 0 or 1. `None` if not finite.
     pub rows: Vec<Vec<Option<f64>>>,
     /// Texts.
     pub strings: Vec<String>,

@@ -1,4 +1,4 @@
-//! The child: a loop from requests to calls of the unit.
+//! The child's side: a loop that turns requests into calls of the unit.
 
 use std::io::{self, BufRead, Write};
 use std::path::Path;
@@ -7,11 +7,11 @@ use crate::library::Instance;
 use crate::protocol::{HostAnswer, Request, Values};
 use crate::standard_output;
 
-/// Loads a library, makes an instance of the unit, and answers requests from the standard input until it is asked to end or its input ends.
-/// What the unit itself prints goes to the standard error.
+/// Loads a library, creates an instance of the unit, and answers requests from the standard input until the request to end or the end
+/// of the input. Output that the unit itself prints goes to the standard error.
 ///
 /// # Errors
-/// What the system says of reading and writing. That the unit fails is an answer.
+/// Errors of reading and writing. A failure of the unit is an answer, not an error.
 pub fn serve(library: &Path, guid: &str, resources: &str) -> io::Result<()> {
     let mut output = standard_output::taken()?;
     let instance = match Instance::new(library, guid, resources) {
@@ -23,7 +23,7 @@ pub fn serve(library: &Path, guid: &str, resources: &str) -> io::Result<()> {
         let request = match serde_json::from_str(&line?) {
             Ok(request) => request,
             Err(error) => {
-                answer(&mut output, &HostAnswer::Failed { reason: format!("it is no request: {error}") })?;
+                answer(&mut output, &HostAnswer::Failed { reason: format!("it is not a request: {error}") })?;
                 continue;
             }
         };

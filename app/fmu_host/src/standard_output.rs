@@ -1,27 +1,27 @@
-//! Keeps what a unit prints out of the answers.
+//! Separates the output that a unit prints from the answers.
 #![allow(unsafe_code, reason = "the standard library has no function that exchanges the standard output")]
 
 use std::fs::File;
 use std::io;
 
-/// The standard output as it was. What this process prints from now on goes to the standard error.
+/// Returns the original standard output. From now on this process prints to the standard error instead.
 ///
 /// # Errors
-/// What the system says.
+/// The error of the system.
 #[cfg(unix)]
 pub fn taken() -> io::Result<File> {
     use std::os::fd::FromRawFd;
-    // SAFETY: both numbers are open files of this process, and no other thread runs yet.
+    // SAFETY: both descriptors are open files of this process, and no other thread runs yet.
     let kept = unsafe { libc::dup(libc::STDOUT_FILENO) };
     // SAFETY: as above.
     if kept < 0 || unsafe { libc::dup2(libc::STDERR_FILENO, libc::STDOUT_FILENO) } < 0 {
         return Err(io::Error::last_os_error());
     }
-    // SAFETY: the number was made above, and nobody else has it.
+    // SAFETY: the descriptor was created above and has no other owner.
     Ok(unsafe { File::from_raw_fd(kept) })
 }
 
-/// Nowhere else are units run.
+/// Units run on no other system.
 ///
 /// # Errors
 /// Always.

@@ -9,12 +9,12 @@ use crate::archive::{self, Packed};
 use crate::description::Description;
 use crate::error::HostError;
 
-/// The folder of libraries for this system.
+/// The folder of the libraries for this system.
 const SYSTEM: &str = "binaries/linux64";
-/// The ending of a library on this system.
+/// The extension of a library on this system.
 const ENDING: &str = "so";
 
-/// A unit whose files lie in a folder of their own, until it is dropped.
+/// A unit whose files lie in a temporary folder until it is dropped.
 #[derive(Debug)]
 pub struct Unit {
     folder: TempDir,
@@ -25,7 +25,7 @@ impl Unit {
     /// Unpacks an FMU of FMI 2.0 for co-simulation.
     ///
     /// # Errors
-    /// [`HostError`] if it cannot be read, is no such unit, has no library for this system, or if this system is not Linux on x86-64.
+    /// [`HostError`] if the file is unreadable or another kind of unit, has no library for this system, or if this is not Linux on x86-64.
     pub fn open(path: &Path) -> Result<Self, HostError> {
         let described = |reason: String| HostError::Description { path: path.to_owned(), reason };
         let broken = |reason: String| HostError::Archive { path: path.to_owned(), reason };
@@ -61,7 +61,7 @@ impl Unit {
         Ok(Self { folder, description })
     }
 
-    /// What the unit says of itself.
+    /// The description of the unit.
     pub fn description(&self) -> &Description {
         &self.description
     }

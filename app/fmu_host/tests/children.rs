@@ -1,4 +1,4 @@
-//! Whatever the process of a unit does is an answer or an error in time. Shells stand in for the process: no unit is needed to crash.
+//! Every behaviour of the unit's process gives an answer or an error in time. Shell scripts replace the process, so no unit has to crash.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use std::fs;
@@ -48,7 +48,7 @@ fn shell(script: &str) -> HostProgram {
 }
 
 #[test]
-fn crashes_and_wrong_answers_are_errors() {
+fn crashes_and_malformed_answers_are_errors() {
     let folder = tempfile::tempdir().expect("a folder");
     let unit = sound(folder.path());
     let done = r#"echo '{"answer":"done"}'; read line; "#;
@@ -88,7 +88,7 @@ fn a_process_that_keeps_the_standard_error_open_does_not_delay_the_error_of_a_cr
 }
 
 #[test]
-fn a_unit_that_hangs_is_ended_in_time() {
+fn a_unit_that_hangs_is_stopped_at_the_timeout() {
     let folder = tempfile::tempdir().expect("a folder");
     let unit = sound(folder.path());
     let began = Instant::now();
@@ -101,7 +101,7 @@ fn a_unit_that_hangs_is_ended_in_time() {
 }
 
 #[test]
-fn files_that_are_no_unit_are_refused() {
+fn files_that_are_not_units_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let description = ("modelDescription.xml", DESCRIPTION.as_bytes());
     let refused = |files: &[(&str, &[u8])]| unit(folder.path(), files).map(|_| ()).expect_err("refused").to_string();

@@ -1,4 +1,4 @@
-//! Models compared on recorded cars: fitted on one half of the cars, judged on the other.
+//! Compares models on recorded cars: fitted on one half of the cars, evaluated on the other.
 
 use std::collections::BTreeMap;
 
@@ -13,17 +13,17 @@ use crate::models::{self, NamedModel, every};
 use crate::start::{Start, starts};
 use crate::traffic::Recordings;
 
-/// The fewest starts of each half that say anything.
+/// Minimum number of starts in each half of the cars.
 const MIN_STARTS: usize = 10;
-/// The most starts on which the scales of likelihoods are estimated.
+/// Maximum number of starts on which the scales of the likelihoods are estimated.
 const MAX_SCALE_STARTS: usize = 1500;
 
-/// How models predict recorded cars.
+/// Comparison of how models predict recorded cars.
 #[derive(Clone, Debug, Serialize)]
 pub struct PredictionComparison {
-    /// How many starts of cars models were fitted on.
+    /// Number of starts on which models were fitted.
     pub fitted_on_starts: usize,
-    /// How many cars these are.
+    /// Number of cars with these starts.
     pub fitted_on_cars: usize,
     /// All held-out cars together, and those of each group of recordings.
     pub groups: Vec<GroupComparison>,
@@ -31,18 +31,18 @@ pub struct PredictionComparison {
     pub driving: Vec<DrivingStatistics>,
 }
 
-/// How models predict the held-out cars of a group of recordings.
+/// Comparison on the held-out cars of a group of recordings.
 #[derive(Clone, Debug, Serialize)]
 pub struct GroupComparison {
     /// Its name; `all` for all groups together.
     pub name: String,
-    /// How many starts there are.
+    /// Number of starts.
     pub starts: usize,
-    /// How many cars these are.
+    /// Number of cars with these starts.
     pub cars: usize,
-    /// Share of the recorded cars themselves whose recorded body overlaps another within 3 s: boxes are not exact.
+    /// Share of the recorded cars whose recorded body overlaps another one within 3 s, since boxes are not exact.
     pub recorded_contact_share_3s: MeasureInterval,
-    /// Share of the recorded cars that are on no lane of the map after 3 s; none without a map.
+    /// Share of the recorded cars that are outside all lanes of the map after 3 s; none without a map.
     pub recorded_off_road_share: Option<MeasureInterval>,
     /// The models.
     pub models: Vec<ComparedModel>,
@@ -59,10 +59,10 @@ pub struct ComparedModel {
     pub measures: ModelMeasures,
 }
 
-/// Compares all models on recordings, on at most so many held-out starts.
+/// Compares all models on recordings, on at most `most_starts` held-out starts.
 ///
 /// # Errors
-/// [`RecordingsError::TooFewStarts`] where a half of the cars has hardly any.
+/// [`RecordingsError::TooFewStarts`] if a half of the cars has too few starts.
 pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<PredictionComparison, RecordingsError> {
     let starts = starts(recordings);
     let car = |start: &Start| recordings.timelines[start.timeline].tracks[start.track].car.as_str();
@@ -103,7 +103,7 @@ pub fn compare(recordings: &Recordings, most_starts: usize) -> Result<Prediction
     })
 }
 
-/// Whether a car belongs to the half of the cars that models are fitted on: by its name alone.
+/// Whether a car belongs to the half on which models are fitted; depends on its name alone.
 fn is_for_fitting(car: &str) -> bool {
     SplitMix64::new(hash_of(car)).next_u64() & 1 == 0
 }

@@ -14,42 +14,42 @@ pub enum RecordingsError {
     UnreadableFolder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         reason: io::Error,
     },
     /// A folder has no recordings.
     #[error("there is no .xml and no .csv file in folder `{}`", .0.display())]
     EmptyFolder(PathBuf),
     /// A file is neither a scenario of CommonRoad nor a table.
-    #[error("`{}` is no scenario of CommonRoad (.xml) and no table (.csv)", .0.display())]
+    #[error("`{}` is neither a scenario of CommonRoad (.xml) nor a table (.csv)", .0.display())]
     UnknownFormat(PathBuf),
-    /// A file is wrong; the error has the place.
+    /// A file is invalid; the error states the place.
     #[error(transparent)]
     Refused(Box<LoadError>),
-    /// There is no such vehicle.
+    /// The recordings have no vehicle of this name.
     #[error("the recordings have no vehicle `{vehicle}`")]
     UnknownVehicle {
-        /// The name that was asked for.
+        /// The requested name.
         vehicle: String,
     },
-    /// A vehicle follows nobody for long enough.
+    /// A vehicle follows others for too short a time.
     #[error(
-        "`{vehicle}` follows somebody at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
+        "`{vehicle}` follows another vehicle at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
     )]
     TooLittleFollowing {
         /// The vehicle.
         vehicle: String,
-        /// How many starts there are.
+        /// Number of starts.
         starts: usize,
-        /// How many are needed.
+        /// Number of starts that are needed.
         needed: usize,
     },
-    /// There is too little to judge by.
+    /// There are too few starts to compare models.
     #[error(
         "{starts} starts of moving cars with 1.2 s before them and 5 s after them are too few: both halves of the cars need some"
     )]
     TooFewStarts {
-        /// How many there are.
+        /// Number of starts.
         starts: usize,
     },
 }

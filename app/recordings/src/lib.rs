@@ -4,11 +4,11 @@
 //! files -> joined traffic (`traffic`) -> starts in the frame of a lane (`start`) -> predictions (`models`) -> measures (`measure`)
 //! ```
 //!
-//! - [`Recordings`] reads files and folders, joins windows that follow one another, and finds the rows that repeat others.
-//! - [`compare`] lets models predict the recorded cars from each second on, fitted on one half of the cars and judged on the other.
-//! - [`fit_driver`] finds the time gap, the comfort and the style of our human that drives as a recorded vehicle did.
+//! - [`Recordings`] reads files and folders, joins consecutive windows, and finds the rows that repeat others.
+//! - [`compare`] lets models predict the recorded cars from each second on, fitted on one half of the cars and evaluated on the other.
+//! - [`fit_driver`] finds the time gap, the comfort and the style with which our human drives like a recorded vehicle.
 //!
-//! What a prediction is given is causal: nothing of it depends on what is recorded after its start.
+//! The inputs of a prediction are causal: none of them depends on records after its start.
 
 mod compare;
 mod driving;

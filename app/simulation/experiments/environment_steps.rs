@@ -1,4 +1,4 @@
-//! Decisions a second of an environment of meta-actions, from Rust alone: what a profiler sees is the world and nothing of Python.
+//! Decisions a second of an environment with meta-actions, from Rust alone: a profiler sees the world without Python.
 //!
 //!     cargo run --release -p interplay-simulation --example environment_steps -- FILE.toml SECONDS
 //!
@@ -10,7 +10,6 @@ use std::time::Instant;
 
 use interplay_simulation::environment::{Action, Environment, EnvironmentSettings};
 
-/// The number of the meta-action that changes nothing.
 const IDLE: f32 = 1.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

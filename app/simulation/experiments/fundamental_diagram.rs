@@ -1,10 +1,10 @@
-//! How many vehicles a lane carries at a speed: a row of cars behind one that keeps that speed, until all have settled.
+//! Capacity of a lane as a function of speed: a row of cars follows a leader at constant speed until all have settled.
 //!
 //! ```sh
 //! cargo run --release -p interplay-simulation --example fundamental_diagram
 //! ```
 //!
-//! Beside the intelligent driver model stands its closed form: in equilibrium the gap is `(s₀ + v T) / √(1 − (v/v₀)^δ)`.
+//! The closed form of the intelligent driver model is listed beside it: in equilibrium the gap is `(s₀ + v T) / √(1 − (v/v₀)^δ)`.
 
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 
@@ -17,11 +17,10 @@ use interplay_simulation::frame::Frame;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-/// Cars behind the first.
 const FOLLOWERS: usize = 12;
-/// The speed at which all but the first aim \[m/s\].
+/// Desired speed of all cars but the first \[m/s\].
 const WANTED_MPS: f64 = 30.0;
-/// A row whose speed is further from that of the first has not settled \[m/s\].
+/// A row that differs more from the leader's speed has not settled \[m/s\].
 const MOST_OFF_MPS: f64 = 0.5;
 const SPEEDS_MPS: [f64; 6] = [2.0, 5.0, 10.0, 15.0, 20.0, 25.0];
 const DRIVERS: [(&str, &str); 4] = [
@@ -65,7 +64,7 @@ fn scenario(driver: &str, speed_mps: f64) -> Result<Scenario, Box<dyn Error>> {
     Ok(from_text("row.toml", &text, &[])?)
 }
 
-/// The distance from front to front in the rear half of the row, and the speed there.
+/// The distance from front to front in the rear half of the row, and its speed.
 fn settled(scenario: &Scenario) -> Result<[f64; 2], Box<dyn Error>> {
     let last = Last::default();
     run("row", scenario, vec![Box::new(last.clone())])?;

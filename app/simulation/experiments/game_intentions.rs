@@ -1,13 +1,13 @@
-//! How a persuasion game goes over many starts, and where its probabilities lie.
+//! Outcomes of a persuasion game over many starts, and the probabilities in it.
 //!
 //! ```sh
 //! cargo run --release -p interplay-simulation --example game_intentions -- SCENARIO SEEDS [PATH=VALUE ...]
 //! ```
 //!
-//! runs the scenario with seeds 1 to SEEDS and starts changed by up to 0.1 m and 0.1 m/s. It prints how often each order
-//! occurs, when the ego completes, and in how many steps of the game its intention is off its bounds, the accident is its
+//! runs the scenario with seeds 1 to SEEDS and starts perturbed by up to 0.1 m and 0.1 m/s. It prints how often each order
+//! occurs, when the ego completes, and in how many steps of the game its intention is off its bounds, an accident is its
 //! worst outcome, it expresses its intention, the bounds on its mean speed hold, and then the next belief about the ego
-//! is as wanted to 0.02.
+//! is as desired within 0.02.
 
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 
@@ -26,9 +26,9 @@ use interplay_simulation::frame::Frame;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-/// Bounds that are violated by less than this hold \[m/s\].
+/// Violations of bounds below this are ignored \[m/s\].
 const MAX_SLACK_MPS: f64 = 1e-3;
-/// By how much a belief may miss the wanted interval.
+/// Tolerance of a belief about the desired interval.
 const BELIEF_TOLERANCE: f64 = 0.02;
 
 /// Sends the ego's plans; the ego is the first vehicle.

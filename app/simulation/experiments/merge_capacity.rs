@@ -1,11 +1,11 @@
-//! How many vehicles pass a merge: a motorway of two lanes that an on-ramp joins, at growing demand.
+//! Capacity of a merge: an on-ramp joins a motorway of two lanes, at growing demand.
 //!
 //! ```sh
 //! cargo run --release -p interplay-simulation --example merge_capacity
 //! ```
 //!
-//! The lane's own capacity is the most that the fundamental diagram of its drivers allows (`fundamental_diagram`); what a merge carries
-//! beyond a demand is what it has lost to the changes of lane.
+//! The capacity of a lane without a merge is the maximum of the fundamental diagram of its drivers (`fundamental_diagram`); the
+//! difference is lost to lane changes.
 
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 
@@ -14,11 +14,11 @@ use std::error::Error;
 use interplay_scenarios::{Scenario, from_text};
 use interplay_simulation::Simulation;
 
-/// Vehicles are counted here, as a coordinate of the world along the motorway, behind the merge \[m\].
+/// World coordinate along the motorway at which vehicles are counted, behind the merge \[m\].
 const COUNTED_AT_M: f64 = 440.0;
-/// The road fills for so long before anybody is counted \[s\].
+/// Time for which the road fills before the count begins \[s\].
 const FILLS_S: f64 = 90.0;
-/// Vehicles are counted for so long \[s\].
+/// Duration of the count \[s\].
 const COUNTED_S: f64 = 180.0;
 /// Vehicles an hour on each of two lanes, and on the ramp \[1/h\].
 const DEMANDS_PER_H: [[f64; 2]; 6] =
@@ -29,18 +29,16 @@ const DRIVERS: [(&str, &str); 3] = [
     ("normal", "{ kind = \"human\", style = \"normal\" }"),
 ];
 
-/// What was counted behind the merge.
 #[derive(Debug, Default)]
 struct Counted {
     passed: usize,
-    /// Sum of speeds \[m/s\].
     speeds_mps: f64,
-    /// Vehicles whose time has come, and for whom there was no room at the end.
+    /// Vehicles that were due and had no room to enter by the end.
     outside: usize,
     contacts: usize,
 }
 
-/// Counts who passes the line in a run.
+/// Counts the vehicles that pass the line in a run.
 fn counted(scenario: &Scenario) -> Result<Counted, Box<dyn Error>> {
     let mut simulation = Simulation::new(scenario)?;
     let mut found = Counted::default();

@@ -1,4 +1,4 @@
-//! How fast worlds are: by family, against the number of vehicles, and against the number of zones.
+//! Simulation speed: by family, by number of vehicles, and by number of zones.
 //!
 //! ```sh
 //! cargo run --release -p interplay-simulation --example throughput -- [families] [vehicles] [motorway] [zones] [only NAME...]
@@ -18,29 +18,28 @@ use std::time::Instant;
 use interplay_scenarios::{Override, Scenario, embedded, from_text, load};
 use interplay_simulation::run::run;
 
-/// How often the same runs are timed.
+/// Number of batches of the same runs.
 const BATCHES: usize = 3;
-/// How long they take at least \[s\].
+/// Minimum duration of a batch \[s\].
 const BATCH_S: f64 = 0.5;
-/// How many ticks a second the kernel counts processor time in (`USER_HZ` of Linux).
+/// Unit of processor time in the kernel (`USER_HZ` of Linux).
 const CLOCK_TICKS_PER_S: f64 = 100.0;
-/// Numbers of vehicles.
 const VEHICLES: [usize; 5] = [2, 4, 8, 16, 32];
 /// Numbers of vehicles on a motorway.
 const ON_MOTORWAY: [usize; 9] = [5, 10, 20, 40, 80, 100, 160, 320, 1000];
-/// Who drives there, with what conduct, and up to how many.
+/// Drivers of the vehicles, with conduct, and the maximum number of vehicles.
 const MOTORISTS: [(&str, &str, &str, usize); 3] = [
     ("IDM", "idm", "", 1000),
-    ("human of the source", "human", "conduct = 'source'", 160),
+    ("human of the dissertation", "human", "conduct = 'source'", 160),
     ("human of people", "human", "", 100),
 ];
 /// Rows and columns of grids of zones.
 const GRIDS: [[usize; 2]; 8] = [[1, 2], [2, 2], [2, 4], [4, 4], [4, 8], [8, 8], [8, 16], [16, 16]];
-/// How long vehicles are driven \[s\].
+/// Duration of a drive \[s\].
 const DRIVE_S: f64 = 10.0;
-/// How many days a building has.
+/// Number of days of a building.
 const DAYS: usize = 4;
-/// Distance of vehicles on a lane \[m\], at 1/10 scale.
+/// Spacing of vehicles in a lane \[m\], at 1/10 scale.
 const SPACING_M: f64 = 2.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -76,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// How long a world takes.
+/// The time that a world takes.
 #[derive(Clone, Copy)]
 struct Speed {
     /// Processor time of one run \[s\].
@@ -86,7 +85,6 @@ struct Speed {
 }
 
 impl Speed {
-    /// Times a scenario.
     fn measure(scenario: &Scenario) -> Result<Speed, Box<dyn Error>> {
         let mut best = Speed { processor_s: f64::INFINITY, simulated_s: 0.0 };
         for _ in 0..BATCHES {
@@ -109,19 +107,19 @@ impl Speed {
     }
 }
 
-/// Processor time of this process so far \[s\]; wall time where the system does not tell.
+/// Processor time of this process so far \[s\]; wall time on systems that do not report it.
 fn processor_s() -> Result<f64, Box<dyn Error>> {
     static BEGAN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     let Ok(stat) = fs::read_to_string("/proc/self/stat") else {
         return Ok(BEGAN.get_or_init(Instant::now).elapsed().as_secs_f64());
     };
-    // The name of the program, in brackets, may have blanks in it. Of what follows, user and system time are the 12th and 13th.
+    // The program's name, in brackets, may contain spaces. Of the fields after it, user and system time are the 12th and 13th.
     let after = stat.rsplit_once(')').ok_or("a strange /proc/self/stat")?.1;
     let times = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>).collect::<Result<Vec<f64>, _>>()?;
     Ok(times.iter().sum::<f64>() / CLOCK_TICKS_PER_S)
 }
 
-/// A line for each family of authored scenarios.
+/// Prints a line for each family of authored scenarios.
 fn families() -> Result<(), Box<dyn Error>> {
     let mut names: Vec<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
     names.dedup();
@@ -148,7 +146,7 @@ fn families() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A line for each number of vehicles on a straight road with two lanes.
+/// Prints a line for each number of vehicles on a straight road with two lanes.
 fn vehicles() -> Result<(), Box<dyn Error>> {
     println!(
         "| vehicles | IDM: times real time | of that with 2 | human: times real time | of that with 2 |\n|---|---|---|---|---|"
@@ -175,7 +173,7 @@ fn straight_road(count: usize, driver: &str) -> String {
     for index in 0..count {
         let (lane, place) = (index % 2, index / 2);
         let (x_m, y_m) = (-SPACING_M * place as f64, 0.185 + 0.37 * lane as f64);
-        // Whoever is behind would be a little faster.
+        // The vehicles behind drive slightly faster.
         let speed_mps = 1.1 + 0.02 * (place % 5) as f64;
         let _ = write!(
             text,
@@ -186,7 +184,7 @@ fn straight_road(count: usize, driver: &str) -> String {
     text
 }
 
-/// A line for each number of cars at 25 m/s on a motorway of three lanes, 40 m apart on each.
+/// Prints a line for each number of cars at 25 m/s on a motorway of three lanes, 40 m apart in each lane.
 fn motorway() -> Result<(), Box<dyn Error>> {
     println!("| drivers | vehicles | times real time | for twice as many |\n|---|---|---|---|");
     for (name, kind, conduct, most) in MOTORISTS {
@@ -194,7 +192,7 @@ fn motorway() -> Result<(), Box<dyn Error>> {
         for count in ON_MOTORWAY.into_iter().filter(|count| *count <= most) {
             let scenario = from_text("motorway", &three_lanes(count, kind, conduct), &[])?;
             let factor = Speed::measure(&scenario)?.real_time_factor();
-            // A factor per doubling, whatever the ratio of the numbers is.
+            // Growth factor for each doubling of the number of vehicles.
             let growth = last.map(|(fewer, before)| {
                 (before / factor).powf(std::f64::consts::LN_2 / (count as f64 / fewer as f64).ln())
             });
@@ -228,7 +226,7 @@ fn three_lanes(count: usize, kind: &str, conduct: &str) -> String {
     text
 }
 
-/// A line for each number of zones.
+/// Prints a line for each number of zones.
 fn zones() -> Result<(), Box<dyn Error>> {
     const CONTROLLERS: [&str; 3] = ["building/four-room-pid", "building/hundred-zones", "building/distributed-hundred"];
     println!(

@@ -1,13 +1,13 @@
-//! What every vehicle did in a run, for whoever writes it as a scenario.
+//! The trajectories of a run, from which a scenario can be written.
 
 use interplay_scenarios::{DrivenVehicle, Scenario};
 
 use crate::report::Report;
 use crate::state::frame::Frame;
 
-/// What every vehicle did while it was on the road, from the frames of all ticks of a run and its report.
+/// The trajectory of every vehicle while it was on the road, from the frames of all ticks of a run and its report.
 ///
-/// Frames have the state at the begin of each tick; where a vehicle was at the end of its last one stands in the report.
+/// Frames hold the state at the start of each tick; the state at the end of the last tick is in the report.
 pub fn driven(scenario: &Scenario, frames: &[Frame], report: &Report) -> Vec<DrivenVehicle> {
     let vehicles = scenario.vehicles.iter().zip(&report.vehicles).enumerate();
     vehicles

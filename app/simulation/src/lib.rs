@@ -4,15 +4,15 @@
 //! scenario -> entities -> sense -> predict -> plan -> act -> physics | climate -> measure -> record -> report
 //! ```
 //!
-//! A [`Simulation`] is stepped from outside; [`run`](run::run) steps it to its end. The loop is one visible list in [`phases`]; each
-//! phase is one file. Who wants to see the ticks of a run implements [`Watcher`](watch::Watcher).
+//! The caller steps a [`Simulation`]; [`run`](run::run) steps it to its end. The loop is one visible list in [`phases`]; each
+//! phase is one file. A [`Watcher`](watch::Watcher) receives the ticks of a run.
 //!
 //! ```
 //! use interplay_planners::Input;
 //! use interplay_scenarios::{Override, load};
 //! use interplay_simulation::Simulation;
 //!
-//! // The ego is driven from here, the others by our human drivers.
+//! // The caller drives the ego, and our human drivers drive the other vehicles.
 //! let external = Override::Set("vehicle.ego.driver={ kind = 'external' }".to_owned());
 //! let mut world = Simulation::new(&load("lane-change/front-nice", &[external])?)?;
 //! while world.time_s() < 1.0 {
@@ -39,7 +39,7 @@ mod simulation;
 mod state;
 pub mod why;
 
-/// The lines of the README that use the library are compiled and run.
+/// Compiles and runs the Rust examples of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;

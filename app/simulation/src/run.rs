@@ -1,4 +1,4 @@
-//! One run: a scenario in, a report out.
+//! Runs a scenario and returns its report.
 
 use interplay_scenarios::{Counterfactual, Scenario};
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use crate::simulation::Simulation;
 
 pub use crate::simulation::run_error::RunError;
 
-/// Runs `scenario`, called `name` in the report, in front of `watchers`.
+/// Runs `scenario`, called `name` in the report, and passes its ticks to `watchers`.
 ///
-/// The result depends on the scenario alone (its seed included), and on the program that is the building if there is one: only
-/// wall times differ from run to run.
+/// The result depends only on the scenario (its seed included), and on the program that simulates the building if there is one. Only
+/// wall times differ between runs.
 ///
 /// # Errors
 /// [`RunError`] if the schedule cannot be built or a watcher fails.
@@ -22,11 +22,11 @@ pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> 
     simulation.finish()
 }
 
-/// Runs `scenario` as [`run`] does, then its counterfactuals side by side, and judges all of them. The scenario's own run is
-/// the same bit for bit with and without them; watchers see nothing else.
+/// Runs `scenario` as [`run`] does, then its counterfactuals in parallel, and judges all of them. The scenario's own run is
+/// bit-identical with and without them; watchers receive nothing else.
 ///
 /// # Errors
-/// As [`run`]; [`RunError::Counterfactual`] if one of the other runs cannot be finished.
+/// As [`run`]; [`RunError::Counterfactual`] if one of the counterfactual runs fails.
 pub fn run_with_counterfactuals(
     name: &str,
     scenario: &Scenario,

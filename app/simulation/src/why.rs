@@ -1,4 +1,4 @@
-//! What the outcome of a drive depends on: the scenario's own run beside runs in each of which one thing is changed.
+//! Dependence of a run's outcome on single factors: compares the scenario's own run with runs that each change one.
 
 use interplay_scenarios::{Scenario, StandardChange};
 use rayon::prelude::*;
@@ -9,26 +9,26 @@ use crate::simulation::Simulation;
 use crate::simulation::Snapshot;
 use crate::simulation::run_error::RunError;
 
-/// The smallest change of a completion time that is spoken of \[s\].
+/// Smallest reported change of a completion time \[s\].
 const NOTICEABLE_S: f64 = 0.3;
 
-/// The scenario's own run and the changed ones; its serialisation is what `interplay why --json` prints.
+/// The scenario's own run and the changed ones; its serialisation is the output of `interplay why --json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct WhyReport {
     /// Name of the scenario.
     pub scenario: String,
     /// The seed of all runs, unless a change concerns it.
     pub seed: u64,
-    /// From when on the changes hold; none if they hold from the beginning \[s\].
+    /// Time from which the changes hold; none if they hold from the beginning \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_s: Option<f64>,
-    /// Factors of which at least one change gives another order.
+    /// Factors with at least one change that gives another order.
     pub order_depends_on: Vec<String>,
-    /// Factors of which no change gives another order.
+    /// Factors without a change that gives another order.
     pub order_does_not_depend_on: Vec<String>,
-    /// Factors of which at least one change makes an expectation fail; none if the scenario's own run does not pass.
+    /// Factors with at least one change that makes an expectation fail; none if the scenario's own run does not pass.
     pub expectations_depend_on: Vec<String>,
-    /// Factors that leave the order alone, but move somebody's completion by at least 0.3 s, or prevent it.
+    /// Factors that do not affect the order, but shift a vehicle's completion by at least 0.3 s, or prevent it.
     pub times_depend_on: Vec<String>,
     /// The scenario's own run, then the changed ones.
     pub runs: Vec<WhyRun>,
@@ -45,9 +45,9 @@ pub struct WhyRun {
     pub set: Vec<String>,
     /// Names from first to last.
     pub order: Vec<String>,
-    /// Whether this is another order than in the scenario's own run.
+    /// Whether the order differs from that of the scenario's own run.
     pub order_differs: bool,
-    /// When each vehicle reached its goal.
+    /// Completion time of each vehicle.
     pub vehicles: Vec<Arrival>,
     /// Smallest distance of the ego's footprint to another \[m\].
     pub min_gap_m: Option<f64>,
@@ -73,7 +73,7 @@ pub struct Arrival {
 }
 
 impl WhyRun {
-    /// What stands on the road is not listed.
+    /// Obstacles are not listed.
     fn new(report: &Report, main: &Report, change: Option<&StandardChange>) -> WhyRun {
         let order = report.order_of_driven();
         let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.clone());
@@ -97,7 +97,7 @@ impl WhyRun {
         }
     }
 
-    /// Whether somebody arrives noticeably earlier or later than in another run, or in one of both only.
+    /// Whether a vehicle completes noticeably earlier or later than in another run, or in only one of them.
     fn times_differ(&self, main: &WhyRun) -> bool {
         let mut pairs = self.vehicles.iter().zip(&main.vehicles);
         pairs.any(|(here, there)| match (here.completed_s, there.completed_s) {
@@ -108,13 +108,13 @@ impl WhyRun {
     }
 }
 
-/// Runs a scenario, called `name`, and its changed forms side by side; `advance` is called after every run.
+/// Runs a scenario, called `name`, and its changed forms in parallel; `advance` is called after every run.
 ///
-/// The changes hold from the beginning, or from the first tick at or after `at_s` \[s\]: until then all runs are the scenario's own.
-/// Drivers whose settings change then keep what they remember; one that another kind replaces begins anew.
+/// The changes hold from the beginning, or from the first tick at or after `at_s` \[s\]: until then all runs equal the scenario's own.
+/// Drivers with changed settings then keep their memory; a driver of another kind starts anew.
 ///
 /// # Errors
-/// [`RunError`], if one of the runs cannot be finished, or the world cannot be copied at `at_s`.
+/// [`RunError`], if one of the runs fails, or the world cannot be copied at `at_s`.
 pub fn why(
     name: &str,
     scenario: &Scenario,
@@ -150,7 +150,7 @@ fn moment(name: &str, scenario: &Scenario, at_s: f64) -> Result<Snapshot, RunErr
     Ok(simulation.snapshot()?)
 }
 
-/// Sorts the factors; the first run is the scenario's own.
+/// Sorts the factors by their effect; the first run is the scenario's own.
 fn conclude(name: &str, seed: u64, at_s: Option<f64>, runs: Vec<WhyRun>) -> WhyReport {
     let factors = |matters: &dyn Fn(&WhyRun) -> bool| {
         let mut found: Vec<String> = Vec::new();
@@ -202,7 +202,7 @@ mod tests {
 
     /// A factor matters if any of its changes does, and is listed once.
     #[test]
-    fn factors_are_sorted_by_what_they_change() {
+    fn factors_are_sorted_by_their_effect() {
         let runs = |passes: bool| {
             vec![
                 run_of(None, "a b", Some(2.0), passes),
@@ -219,6 +219,6 @@ mod tests {
         assert_eq!(report.times_depend_on, ["filter", "belief"]);
         assert_eq!(report.expectations_depend_on, ["style", "belief"]);
         let failed = conclude("x", 1, None, runs(false));
-        assert!(failed.expectations_depend_on.is_empty(), "what fails anyhow depends on nothing");
+        assert!(failed.expectations_depend_on.is_empty(), "a run that fails anyway has no dependence");
     }
 }

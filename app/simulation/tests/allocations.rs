@@ -1,12 +1,12 @@
-//! What a tick of traffic allocates: as much in the hundredth second as in the first, and twice as much for twice as many vehicles at
-//! the same density. It is not nothing: scenes, plans and what the engine and measures keep of a tick are made anew.
+//! Allocations of a tick of traffic are constant over time and proportional to the number of vehicles at
+//! constant density. They are not zero: scenes, plans, and the values that the engine and measures keep of a tick are created anew.
 
 use std::fmt::Write;
 
 use interplay_scenarios::from_text;
 use interplay_simulation::Simulation;
 
-/// Cars after the intelligent driver model on three lanes, 40 m apart on each.
+/// Cars with the intelligent driver model in three lanes, 40 m apart in each.
 fn motorway(vehicles: usize) -> Simulation {
     let mut text = String::from(
         "title = 'Motorway'\nshows = 'Three lanes'\nduration_s = 100.0\nroad = { kind = 'lanes', lane_count = 3, lane_width_m = 3.5 }\n\
@@ -21,7 +21,7 @@ fn motorway(vehicles: usize) -> Simulation {
     Simulation::new(&from_text("motorway.toml", &text, &[]).expect("a scenario")).expect("a world")
 }
 
-/// Allocations and bytes held more than before, over so many ticks.
+/// Allocations, and additional bytes held, over `ticks` ticks.
 fn over(simulation: &mut Simulation, ticks: usize) -> (u64, i64) {
     let info = allocation_counter::measure(|| {
         for _ in 0..ticks {
@@ -32,7 +32,7 @@ fn over(simulation: &mut Simulation, ticks: usize) -> (u64, i64) {
 }
 
 #[test]
-fn a_tick_allocates_no_more_as_time_goes_by_and_in_proportion_to_the_vehicles() {
+fn allocations_per_tick_are_constant_in_time_and_proportional_to_vehicles() {
     const TICKS: usize = 100;
     let counted = [120, 240].map(|vehicles| {
         let mut simulation = motorway(vehicles);
@@ -41,7 +41,7 @@ fn a_tick_allocates_no_more_as_time_goes_by_and_in_proportion_to_the_vehicles() 
         over(&mut simulation, 2 * TICKS);
         let (late, held_more) = over(&mut simulation, TICKS);
         assert!(late <= early + early / 50, "{early} allocations in the second 10 s, {late} in the fifth");
-        // Measures keep numbers of each tick: time gaps, and whatever medians are made of.
+        // Measures keep numbers of each tick: time gaps, and samples for medians.
         let held_per_tick = held_more / (TICKS * vehicles) as i64;
         assert!(held_per_tick < 100, "{held_per_tick} bytes more a vehicle and tick");
         let each = late as f64 / (TICKS * vehicles) as f64;

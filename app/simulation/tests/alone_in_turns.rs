@@ -1,16 +1,16 @@
-//! A vehicle alone takes every turn at a speed at which it stays on its road.
+//! A single vehicle takes every turn at a speed at which it stays on its road.
 
 use interplay_planners::road::network::RoadNetwork;
 use interplay_scenarios::{Scenario, from_text};
 use interplay_simulation::report::VehicleReport;
 use interplay_simulation::run::run;
 
-/// A vehicle may be beside its road by this \[m\].
+/// Tolerance of the distance beyond the edge of the road \[m\].
 const MOST_OFF_ROAD_M: f64 = 0.05;
-/// It may be faster than permitted by this, unless it starts so \[m/s\].
+/// Tolerance above the speed limit, unless the vehicle starts faster \[m/s\].
 const MOST_SPEEDING_MPS: f64 = 0.1;
 
-/// A car that follows IDM, alone.
+/// A single car with IDM.
 fn scenario(road: &str, start: &str, goal: &str, speed_mps: f64) -> Scenario {
     let text = format!(
         "title = 'a'\nshows = 'b'\nscale = 'full'\nduration_s = 75.0\n[road]\n{road}\n[[vehicle]]\nname = 'car'\n\
@@ -20,7 +20,7 @@ fn scenario(road: &str, start: &str, goal: &str, speed_mps: f64) -> Scenario {
     from_text("turn.toml", &text, &[]).unwrap_or_else(|error| panic!("{road}: {error:?}"))
 }
 
-/// What the car did; it stayed on its road.
+/// The report of the car, after a check that it stayed on its road.
 fn driven(scenario: &Scenario, of: &str) -> VehicleReport {
     let mut report = run("turn", scenario, Vec::new()).unwrap_or_else(|error| panic!("{of}: {error}"));
     let car = report.vehicles.remove(0);
@@ -37,7 +37,7 @@ fn ends(network: &RoadNetwork) -> [Vec<&str>; 2] {
     [begins.map(|lane| lane.name.as_str()).collect(), ends.map(|lane| lane.name.as_str()).collect()]
 }
 
-/// Drives every way through a network at some speeds. Returns how many ways there are.
+/// Drives every route through a network at several speeds. Returns the number of routes.
 fn drive_every_way(road: &str, lane: &str, speeds_mps: &[f64]) -> usize {
     let quoted = |lane: &str| format!("'{lane}'");
     let network = scenario(road, &quoted(lane), &quoted(lane), 1.0).network.expect("a network");
@@ -63,7 +63,7 @@ fn drive_every_way(road: &str, lane: &str, speeds_mps: &[f64]) -> usize {
     ways
 }
 
-/// At any speed: below, at and above the limit of the road on which it comes.
+/// At speeds below, at and above the limit of the road from which it comes.
 #[test]
 fn idm_stays_on_its_road_in_every_turn_of_every_short_form() {
     let speeds_mps = [8.0, 10.0, 12.0, 13.9, 18.0];
@@ -77,7 +77,7 @@ fn idm_stays_on_its_road_in_every_turn_of_every_short_form() {
     assert_eq!(drive_every_way("kind = 'on-ramp'", "ramp", &[10.0, 16.7, 25.0]), 7);
 }
 
-/// Roads of pieces have no limits; what the tyres take limits the speed.
+/// Roads of pieces have no speed limits; the tyres limit the speed.
 #[test]
 fn idm_stays_on_its_road_in_a_curve() {
     let pieces = "pieces = [{ straight_m = 80 }, { turn_deg = 90, radius_m = 20 }, { turn_deg = -90, radius_m = 15 }]";

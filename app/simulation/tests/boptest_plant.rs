@@ -1,5 +1,5 @@
-//! A test case of BOPTEST as the plant, with a server of ours in its place: what is sent, what is measured and computed, and that
-//! whatever else a server does ends the run with an error and in time.
+//! A test case of BOPTEST as the plant, with a mock server: requests, measurements and indicators. Any
+//! misbehaviour of the server ends the run with an error and in time.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;
 
-/// What a server is asked: method and path, and the body.
+/// A request to the server: method and path, and the body.
 type Asked = Arc<Mutex<Vec<(String, Value)>>>;
 
 /// A server that gives `answer` to each request; `None` closes the connection without an answer.
@@ -31,7 +31,7 @@ fn server(answer: impl Fn(&str, &Value) -> Option<(u16, String)> + Send + 'stati
         for stream in listener.incoming() {
             let Ok(mut stream) = stream else { return };
             let Some((request, body)) = read(&mut stream) else { continue };
-            log.lock().expect("nobody panicked").push((request.clone(), body.clone()));
+            log.lock().expect("no thread panics").push((request.clone(), body.clone()));
             if let Some((status, text)) = answer(&request, &body) {
                 let _ = write!(stream, "HTTP/1.0 {status} X\r\nContent-Length: {}\r\n\r\n{text}", text.len());
             }
@@ -59,7 +59,7 @@ fn read(stream: &mut TcpStream) -> Option<(String, Value)> {
     }
 }
 
-/// A case whose zone is always at 20 °C where at least 21 °C are wanted, and whose heat pump always takes 960 W.
+/// A case whose zone is always at 20 °C with a target of at least 21 °C, and whose heat pump always takes 960 W.
 fn sound(request: &str, body: &Value) -> Option<(u16, String)> {
     let state = json!({ "time": 86_400.0, "reaT_y": 293.15 });
     let payload = match request {
@@ -87,8 +87,8 @@ fn sound(request: &str, body: &Value) -> Option<(u16, String)> {
     Some((200, json!({ "status": 200, "message": "done", "payload": payload }).to_string()))
 }
 
-/// Two days of the case: -3 °C outdoors, a sun of 100 W/m², people who give 200 W and are away from 8 to 18 o'clock, and electricity that is
-/// dear from 12 o'clock on.
+/// Two days of the case: -3 °C outdoors, a sun of 100 W/m², people who give 200 W and are away from 8 to 18 o'clock, and electricity that
+/// is expensive from 12 o'clock on.
 fn foretold(body: &Value) -> Value {
     assert_eq!((&body["horizon"], &body["interval"]), (&json!(172_800.0), &json!(900.0)));
     let hours: Vec<f64> = (0..=192).map(|quarter| f64::from(quarter % 96) / 4.0).collect();
@@ -133,7 +133,7 @@ fn config(url: String) -> BoptestPlantConfig {
     }
 }
 
-/// A day of one zone at the server.
+/// A day of one zone on the server.
 fn scenario(config: BoptestPlantConfig) -> Scenario {
     scenario_with(config, "controller.kind=\"pid\"")
 }
@@ -170,7 +170,7 @@ fn heat_becomes_inputs_and_measurements_become_indicators() {
     assert!((ours.pele_kw_per_m2.expect("electricity") - 0.005).abs() < 1e-12, "{ours:?}");
     assert!(benchmark.time_ratio.is_some_and(|ratio| ratio > 0.0 && ratio < 0.01));
 
-    let asked = asked.lock().expect("nobody panicked");
+    let asked = asked.lock().expect("no thread panics");
     let step = asked.iter().find(|(request, _)| request == "PUT /step/1f-2").expect("a step");
     assert_eq!(step.1, json!({ "step": STEP_S }));
     let advances: Vec<&Value> =
@@ -186,7 +186,7 @@ fn heat_becomes_inputs_and_measurements_become_indicators() {
 }
 
 #[test]
-fn forecasts_prices_and_bounds_are_those_of_the_case() {
+fn forecasts_prices_and_bounds_come_from_the_case() {
     let (url, _) = server(sound);
     let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
     let mut scenario = scenario(BoptestPlantConfig { forecast: Some(forecast), ..config(url) });
@@ -212,7 +212,7 @@ fn forecasts_prices_and_bounds_are_those_of_the_case() {
 }
 
 #[test]
-fn designs_that_learn_and_that_count_money_run_on_the_case() {
+fn learning_and_economic_designs_run_on_the_case() {
     for kind in ["economic-mpc", "model-predictive", "iterative", "concurrent"] {
         let (url, _) = server(sound);
         let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
@@ -225,11 +225,11 @@ fn designs_that_learn_and_that_count_money_run_on_the_case() {
     }
 }
 
-/// What a server does wrong: when, what, the status and body that it answers with, and what is said then.
+/// A fault of the server: request, name, its answer with status and body, and a fragment of the error.
 type Lie<'a> = (&'a str, &'a str, Option<(u16, &'a str)>, &'a str);
 
 #[test]
-fn whatever_a_server_does_wrong_is_an_error() {
+fn every_fault_of_a_server_is_an_error() {
     let wrong: [Lie<'_>; 11] = [
         ("POST /testcases/a-case/select", "refused", Some((404, r#"{"message":"no such case"}"#)), "no such case"),
         ("POST /testcases/a-case/select", "without identifier", Some((200, "{}")), "no `testid`"),
@@ -241,7 +241,7 @@ fn whatever_a_server_does_wrong_is_an_error() {
         ("POST /advance/1f-2", "a failure", Some((200, r#"{"status":500,"message":"solver"}"#)), "status 500"),
         ("POST /advance/1f-2", "a crash", None, "advance"),
         ("GET /kpi/1f-2", "a text", Some((200, r#"{"payload":{"tdis_tot":"much"}}"#)), "`tdis_tot` is neither"),
-        ("PUT /results/1f-2", "no JSON", Some((200, "<html>")), "no JSON"),
+        ("PUT /results/1f-2", "no JSON", Some((200, "<html>")), "not JSON"),
     ];
     for (path, what, answer, said) in wrong {
         let answer = answer.map(|(status, text)| (status, text.to_owned()));
@@ -252,7 +252,7 @@ fn whatever_a_server_does_wrong_is_an_error() {
 }
 
 #[test]
-fn temperatures_that_no_case_has_are_not_believed() {
+fn implausible_temperatures_are_refused() {
     for (name, kelvin) in [("TDryBul", -9.0), ("LowerSetp[1]", 21.0), ("UpperSetp[1]", 1e9)] {
         let (url, _) = server(move |request, body| {
             let (status, text) = sound(request, body)?;
@@ -269,7 +269,7 @@ fn temperatures_that_no_case_has_are_not_believed() {
 }
 
 #[test]
-fn a_server_that_is_silent_ends_the_run_in_time() {
+fn a_silent_server_ends_the_run_in_time() {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let url = format!("http://{}", listener.local_addr().expect("an address"));
     let began = Instant::now();
@@ -279,8 +279,8 @@ fn a_server_that_is_silent_ends_the_run_in_time() {
 }
 
 #[test]
-fn nobody_at_the_address_is_an_error() {
-    // Port 1: another test may listen on a port that was free a moment ago.
-    let error = run(config("http://127.0.0.1:1".to_owned())).map(|_| ()).expect_err("nobody listens");
+fn an_address_without_a_server_is_an_error() {
+    // Port 1: another test may listen on a port that was free before.
+    let error = run(config("http://127.0.0.1:1".to_owned())).map(|_| ()).expect_err("no server listens");
     assert!(error.contains("cannot connect") && error.contains("building.plant.url"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! What is measured of a building, against what its frames show.
+//! Measures of a building agree with its frames.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
@@ -9,7 +9,6 @@ use interplay_simulation::report::BuildingReport;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-/// Keeps every frame.
 struct Film(Arc<Mutex<Vec<Frame>>>);
 
 impl Watcher for Film {
@@ -23,7 +22,7 @@ impl Watcher for Film {
     }
 }
 
-/// A run with changes, and all that was shown of it.
+/// A run with changes, and all its frames.
 fn filmed(name: &str, changes: &[&str]) -> (BuildingReport, Vec<Frame>) {
     let changes: Vec<Override> = changes.iter().map(|change| Override::Set((*change).to_owned())).collect();
     let scenario = load(name, &changes).expect("authored");
@@ -33,9 +32,9 @@ fn filmed(name: &str, changes: &[&str]) -> (BuildingReport, Vec<Frame>) {
     (report.building.expect("a building"), frames)
 }
 
-/// Heat before the first occupied time, summed from the frames. A frame shows who is there at the beginning of its step.
+/// Heat before the first occupied time, summed from the frames. A frame shows the occupation at the beginning of its step.
 #[test]
-fn early_heat_is_what_comes_before_the_first_occupied_time() {
+fn early_heat_is_the_heat_before_the_first_occupied_time() {
     let (report, frames) = filmed("building/distributed", &["iterations=3"]);
     assert_eq!(report.iterations.len(), 3);
     let steps_per_day = frames.len() / 3;
@@ -43,19 +42,19 @@ fn early_heat_is_what_comes_before_the_first_occupied_time() {
     for (day, figures) in report.iterations.iter().enumerate() {
         let steps = frames[day * steps_per_day..][..steps_per_day].iter().map(|frame| frame.building.as_ref());
         let steps: Vec<_> = steps.map(|step| step.expect("a step of the building")).collect();
-        let nobody = steps.iter().skip(1).position(|step| step.zones.iter().any(|zone| zone.band_k.is_some()));
-        let early = &steps[..=nobody.expect("an occupied time")];
+        let occupied = steps.iter().skip(1).position(|step| step.zones.iter().any(|zone| zone.band_k.is_some()));
+        let early = &steps[..=occupied.expect("an occupied time")];
         let kwh: f64 = early.iter().flat_map(|step| &step.zones).map(|zone| zone.heat_kw.abs() * step_h).sum();
         assert!(day == 0 || kwh > 0.5, "{kwh} on day {day}");
         assert!((figures.early_kwh - kwh).abs() <= 1e-9 * kwh, "{kwh} and {}", figures.early_kwh);
         assert!(steps.iter().enumerate().all(|(at, step)| step.figures.is_some() == (at + 1 == steps_per_day)));
     }
     let (free, _) = filmed("building/four-room-pid", &["iterations=1"]);
-    assert!(free.iterations[0].early_kwh < 1e-9, "nobody asks for heat at night");
+    assert!(free.iterations[0].early_kwh < 1e-9, "no heat is requested at night");
 }
 
 #[test]
-fn who_knows_everything_regrets_nothing() {
+fn perfect_foresight_has_no_regret() {
     let (report, _) = filmed("building/four-room-pid", &["iterations=1", "controller.kind=clairvoyant"]);
     let regret = report.iterations[0].regret.expect("a small building");
     assert!(regret.abs() < 1e-3, "{regret}");
@@ -64,9 +63,9 @@ fn who_knows_everything_regrets_nothing() {
     assert!((cost - regret - report.iterations[0].figures.cost).abs() < 1e-3, "{cost}, {regret}");
 }
 
-/// The digest of each part changes with what it is made of, and with nothing that comes later.
+/// The digest of each part changes with its inputs, and with no later part.
 #[test]
-fn digests_tell_what_differs() {
+fn digests_identify_the_part_that_differs() {
     let digests = |changes: &[&str]| filmed("building/four-room-pid", changes).0.digests;
     let (one, two) = (digests(&["iterations=1"]), digests(&["iterations=2"]));
     assert_ne!(one.disturbance, one.control);
@@ -77,16 +76,16 @@ fn digests_tell_what_differs() {
     assert!(one.control != other.control && one.balance != other.balance);
 }
 
-/// The first of some steps that concerns any zones, and which.
+/// The first step that concerns any zones, with these zones.
 fn first(mut steps: Range<usize>, zones: impl Fn(usize) -> Vec<usize>) -> (usize, Vec<usize>) {
     let found = steps.find_map(|at| Some((at, zones(at))).filter(|(_, zones)| !zones.is_empty()));
     found.expect("it happens every day")
 }
 
-/// What the log says of each day: the first time that heat is at its limit, and that somebody who is there is not comfortable, with
+/// Events of each day in the log: the first time that heat is at its limit, and that an occupied zone is not comfortable, with
 /// the time at the end of the step.
 #[test]
-fn the_log_names_what_begins_on_a_day() {
+fn the_log_names_the_events_that_begin_on_a_day() {
     let (report, frames) = filmed("building/four-room-pid", &["iterations=2", "controller.proportional_kw_per_k=9.0"]);
     let steps: Vec<_> = frames.iter().filter_map(|frame| frame.building.as_ref()).collect();
     let (steps_per_day, mut expected) = (steps.len() / 2, Vec::new());
@@ -96,7 +95,7 @@ fn the_log_names_what_begins_on_a_day() {
             let zones = steps[at].zones.iter().enumerate();
             zones.filter(|(_, zone)| zone.heat_kw.abs() == most_kw).map(|(index, _)| index).collect()
         };
-        // A step shows what was wanted at its beginning, so the one after it shows what was wanted at its end.
+        // A step has the targets of its beginning, so the next step has the targets of its end.
         let missed = |at: usize| {
             let wanted = steps.get(at + 1).map_or(&[][..], |next| &next.zones);
             let pairs = steps[at].zones.iter().zip(wanted).enumerate();

@@ -7,7 +7,7 @@ use interplay_simulation::phases::{Phase, Slot};
 use interplay_simulation::time_points::TimePoint;
 use interplay_simulation::{NotCopied, Simulation};
 
-/// Counts the time points, and remembers in which order systems ran.
+/// Counts the time points, and records the order of the systems.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 struct Counted {
     ticks: usize,
@@ -15,7 +15,6 @@ struct Counted {
     order: Vec<Slot>,
 }
 
-/// State that no test registers.
 #[derive(Resource, Default)]
 struct Unregistered;
 
@@ -33,7 +32,7 @@ fn counting(scenario: &Scenario) -> Simulation {
     builder.with_system(Slot::After(Phase::Physics), count).build().expect("a world")
 }
 
-/// The reason for which a world with one more system has no snapshot after a step.
+/// The reason why a world with an additional system has no snapshot after a step.
 fn refusal<M: 'static>(system: impl IntoSystem<(), (), M> + Clone + Send + Sync + 'static) -> NotCopied {
     let mut world =
         Simulation::builder(&scenario()).with_system(Slot::Before(Phase::Act), system).build().expect("built");
@@ -58,7 +57,7 @@ fn a_resumed_world_continues_the_state_of_an_added_system_and_the_same_run() {
     }
     assert_eq!(world.state::<Counted>().map(|counted| counted.ticks), Some(30));
     assert_eq!(world.state::<Counted>(), resumed.state::<Counted>());
-    // A system that only looks changes no vehicle.
+    // A read-only system changes no vehicle.
     assert_eq!(world.states(), resumed.states());
     assert_eq!(world.states(), plain.states());
     world.restore(&snapshot).expect("a snapshot");

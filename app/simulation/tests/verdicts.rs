@@ -1,4 +1,4 @@
-//! Expectations hold up to their bound and not beyond it, and say what they were judged by.
+//! Expectations hold up to their bound and not beyond it, and report the value by which they were judged.
 
 use interplay_building::day::ZoneFigures;
 use interplay_scenarios::{Override, Scenario, from_text, load};
@@ -12,13 +12,13 @@ fn report(name: &str, changes: &[String]) -> Report {
     run(name, &scenario, Vec::new()).expect("it runs")
 }
 
-/// The expectation of this name in a run with changes.
+/// The named expectation in a run with changes.
 fn judged(name: &str, changes: &[String], what: &str) -> Expectation {
     let found = report(name, changes).expectations.into_iter().find(|expectation| expectation.what == what);
     found.unwrap_or_else(|| panic!("{name}: {what} is not judged"))
 }
 
-/// A bound holds at what was measured; not a little beyond, on the side where it is stricter (`sign`).
+/// A bound holds at the measured value, but not slightly beyond, on the side where it is stricter (`sign`).
 fn holds_up_to(name: &str, changes: &[String], path: &str, what: &str, got: f64, sign: f64) {
     let bounded = |bound: f64| {
         let changes = [changes, &[format!("{path}={bound:?}")]].concat();
@@ -35,7 +35,7 @@ fn holds_up_to(name: &str, changes: &[String], path: &str, what: &str, got: f64,
 const DRIVE: &str = "intersection/nice";
 
 #[test]
-fn bounds_of_a_drive() {
+fn bounds_of_a_drive_hold_up_to_the_measured_value() {
     let plain = report(DRIVE, &[]);
     let ego = plain.vehicle("ego").expect("an ego");
     let gap_m = plain.min_gap_m().expect("two vehicles");
@@ -70,25 +70,25 @@ fn bounds_of_a_drive() {
 }
 
 #[test]
-fn orders_and_contacts() {
+fn orders_and_contacts_are_judged() {
     let verdict = |name: &str, change: &str, what: &str| judged(name, &[change.to_owned()], what).passed;
     let order = report(DRIVE, &[]).order;
     let reversed: Vec<&String> = order.iter().rev().collect();
     assert!(verdict(DRIVE, &format!("expect.order={order:?}"), "order"));
     assert!(!verdict(DRIVE, &format!("expect.order={reversed:?}"), "order"));
     assert!(verdict(DRIVE, "expect.no_collision=true", "no_collision"));
-    assert!(!verdict(DRIVE, "expect.collisions=[['ego', 'crossing']]", "collisions"), "nobody touches");
+    assert!(!verdict(DRIVE, "expect.collisions=[['ego', 'crossing']]", "collisions"), "no vehicle touches another");
     assert!(verdict(DRIVE, "expect.plan_failures_at_most=0", "plan_failures_at_most"));
     let crash = "crash/side-impact";
     let contacts = report(crash, &[]).collisions;
     let [a, b] = &contacts.first().expect("a contact").between;
     assert!(verdict(crash, &format!("expect.collisions=[['{a}', '{b}']]"), "collisions"));
-    assert!(verdict(crash, &format!("expect.collisions=[['{b}', '{a}']]"), "collisions"), "whoever is named first");
+    assert!(verdict(crash, &format!("expect.collisions=[['{b}', '{a}']]"), "collisions"), "in either order of names");
     assert!(verdict(crash, "expect.no_collision=false", "no_collision"));
     assert!(!verdict(DRIVE, "expect.no_collision=false", "no_collision"));
 }
 
-/// A street with a stop sign, 10 m ahead of which the ego starts; somebody who breaks no rule drives ahead of it.
+/// A street with a stop sign, 10 m ahead of the ego's start; a vehicle that breaks no rule drives ahead of it.
 fn stop_street(speed_mps: f64, rules: &str) -> Scenario {
     let text = format!(
         "title = 'a'\nshows = 'b'\nduration_s = 6.0\nconduct = 'people'\n\
@@ -105,7 +105,7 @@ fn stop_street(speed_mps: f64, rules: &str) -> Scenario {
 }
 
 #[test]
-fn rules_are_kept_by_those_who_keep_them() {
+fn only_rule_keeping_vehicles_are_judged_by_rules() {
     let verdict = |speed_mps: f64, rules: &str| {
         let scenario = stop_street(speed_mps, rules);
         let report = run("street", &scenario, Vec::new()).expect("it runs");
@@ -119,14 +119,14 @@ fn rules_are_kept_by_those_who_keep_them() {
     assert!(!passed && broken >= Some(1.0), "it cannot stop");
     assert_eq!(got["rules_broken"]["ego"].as_f64(), broken);
     let (passed, broken, _) = verdict(15.0, "ignored");
-    assert!(passed && broken >= Some(1.0), "who ignores the rules is not judged by them");
+    assert!(passed && broken >= Some(1.0), "a vehicle that ignores the rules is not judged by them");
 }
 
 const BUILDING: &str = "building/distributed";
 
-/// Of the days that count, the worst is judged.
+/// The worst of the days that count is judged.
 #[test]
-fn bounds_of_a_building() {
+fn bounds_of_a_building_hold_up_to_the_worst_day() {
     let changes = ["iterations=3".to_owned(), "expect.building.after_iterations=1".to_owned()];
     let plain = report(BUILDING, &changes).building.expect("a building");
     let days = &plain.iterations[1..];
@@ -169,7 +169,7 @@ fn bounds_of_a_building() {
 
 /// A zone is judged by its own figures, on the days that count.
 #[test]
-fn bounds_of_a_zone() {
+fn bounds_of_a_zone_hold_up_to_the_worst_day() {
     let changes = ["iterations=3".to_owned(), "expect.building.after_iterations=1".to_owned()];
     let plain = report(BUILDING, &changes).building.expect("a building");
     let zone = &plain.zone_figures[1];

@@ -1,12 +1,12 @@
-//! What a sweep costs besides its runs: the runs of a plan made by a sweep, and by the library in a loop.
+//! The overhead of a sweep: the runs of a plan, made by a sweep and by the library in a loop.
 //!
 //! ```sh
 //! cargo run --release -p interplay-sweep --example overhead -- [PLAN] [SAMPLES] [REPEATS]
 //! ```
 //!
 //! Both make the same runs on one thread, in turn. *Besides its runs* is the share of the sweep's wall time in which no run was
-//! under way: keys, two checks of every scenario, journal, table. A sweep and a loop are disturbed differently by other programs, so
-//! their ratio says less.
+//! active: keys, two checks of every scenario, journal, table. Other programs disturb a sweep and a loop differently, so
+//! their ratio is less reliable.
 
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 

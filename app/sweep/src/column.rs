@@ -1,8 +1,8 @@
-//! The columns of a table of rows: each with its type, and with how its value is found.
+//! The columns of a table of rows: each with its type and the computation of its value.
 //!
-//! A column is declared once. The metrics of runs are columns by their own declarations; here are what tells rows apart, and
-//! what follows from the report of a run and is no metric: what the ego did as a driver with a task, the others taken
-//! together, and the sums over a building's days.
+//! Each column is declared once. Metrics of runs are columns by their own declarations. This file declares the columns that identify
+//! a row, and those that follow from the report of a run and are not metrics: the ego's task, aggregates over the other
+//! vehicles, and sums over a building's days.
 
 use interplay_scenarios::{Better, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics, Scenario};
 use interplay_simulation::measure::{Passage, metrics_of};
@@ -12,13 +12,13 @@ use serde_json::{Value as Json, json};
 
 use crate::row::SweepRow;
 
-/// A column of what tells a row apart, or of the run as a whole.
+/// A column that identifies a row or describes the run as a whole.
 type RowColumn = (&'static str, ColumnKind, fn(&SweepRow) -> Json);
 
-/// A column of what follows from the report of a run with vehicles.
+/// A column that follows from the report of a run with vehicles.
 type TrafficColumn = (&'static str, ColumnKind, fn(&EgoRun<'_>) -> Json);
 
-/// A column of what follows from the report of a building.
+/// A column that follows from the report of a building.
 type BuildingColumn = (&'static str, ColumnKind, fn(&BuildingReport) -> Json);
 
 use ColumnKind::{Count, Flag, Number, Text};
@@ -26,10 +26,10 @@ use ColumnKind::{Count, Flag, Number, Text};
 /// Columns that are not reproducible.
 pub(crate) const TIMINGS: [&str; 3] = ["wall_s", "plan_median_ms", "plan_p99_ms"];
 
-/// Who is further beyond an edge has left the road, for a real car \[m\].
+/// A vehicle further beyond an edge has left the road, for a real car \[m\].
 const MOST_OFF_ROAD_M: f64 = 0.05;
 
-/// Columns before those of what varies.
+/// Columns before the varied inputs.
 const HEAD: [RowColumn; 8] = [
     ("key", Text, |row| json!(row.key.to_string())),
     ("version", Text, |row| json!(row.version)),
@@ -41,7 +41,7 @@ const HEAD: [RowColumn; 8] = [
     ("seed", Count, |row| json!(row.seed)),
 ];
 
-/// Columns after those of what varies.
+/// Columns after the varied inputs.
 const RUN: [RowColumn; 4] = [
     ("error", Text, |row| json!(row.error)),
     ("digest", Text, |row| json!(row.result.as_ref().map(|result| &result.digest))),
@@ -56,17 +56,16 @@ const TAIL: [RowColumn; 3] = [
     ("plan_p99_ms", Number, |row| json!(row.plan_p99_ms)),
 ];
 
-/// A run with vehicles, seen from its ego.
 pub(crate) struct EgoRun<'a> {
     pub scenario: &'a Scenario,
     pub report: &'a Report,
     pub ego: &'a VehicleReport,
 }
 
-/// What the ego did with its task, before the columns of metrics.
+/// The ego's task, before the columns of metrics.
 const TASK: [TrafficColumn; 17] = [
-    // Whether the ego does its task without touching anybody; without a task, whether it touches nobody. Of an ego that keeps the rules
-    // of the road, also whether it stays on the road, breaks no rule and is never stuck.
+    // Whether the ego completes its task without contact; without a task, whether it has no contact. An ego that keeps the rules
+    // of the road must also stay on the road, break no rule and never be stuck.
     ("success", Flag, |run| json!(run.is_done() && !run.has_contact() && run.is_lawful())),
     ("driver", Text, |run| json!(run.ego.driver)),
     ("has_task", Flag, |run| json!(run.ego.has_task)),
@@ -105,7 +104,7 @@ const PLANS: [TrafficColumn; 4] = [
     ("others_plans_failed", Count, |run| json!(run.others().map(|vehicle| vehicle.plans.failed).sum::<usize>())),
 ];
 
-/// What a building amounts to over all its days.
+/// Totals of a building over all its days.
 const BUILDING: [BuildingColumn; 8] = [
     ("controller", Text, |building| json!(building.controller)),
     ("days", Count, |building| json!(building.iterations.len())),
@@ -147,12 +146,12 @@ impl EgoRun<'_> {
         self.report.right_of_way.iter().filter(|passage| passage.second == self.ego.name)
     }
 
-    /// Whether the second one in a conflict zone yielded. Of who keeps no rules, going second is enough.
+    /// Whether the second vehicle in a conflict zone yielded. For an ego that does not keep the rules, going second suffices.
     fn is_yielding(&self, passage: &Passage) -> bool {
         passage.yielded || !self.report.vehicle(&passage.second).is_some_and(|vehicle| vehicle.keeps_rules)
     }
 
-    /// Whether the ego does what the rules of the road ask, if it keeps them: no corner further than 5 cm of a real car beyond an edge,
+    /// Whether an ego that keeps the rules obeys them: no corner further than 5 cm of a real car beyond an edge,
     /// no rule broken, no deadlock.
     fn is_lawful(&self) -> bool {
         let number = |name: &str| self.ego.metrics.number(name).unwrap_or(0.0);
@@ -188,8 +187,8 @@ pub(crate) fn building_values(building: &BuildingReport) -> impl Iterator<Item =
     BUILDING.iter().map(|(name, _, value)| ((*name).to_owned(), value(building)))
 }
 
-/// Whether the scenario's expectations of order and right of way hold and nobody touches anybody; none without such expectations.
-/// They are about the drivers that the file states.
+/// Whether the expectations of order and right of way hold and no vehicle touches another; none without such expectations.
+/// They concern the drivers that the scenario's file states.
 fn order_kept(report: &Report) -> Option<bool> {
     let is_order = |what: &str| what == "order" || what.starts_with("yields.");
     let mut of_order = report.expectations.iter().filter(|expectation| is_order(&expectation.what)).peekable();
@@ -197,7 +196,7 @@ fn order_kept(report: &Report) -> Option<bool> {
     Some(of_order.all(|expectation| expectation.passed) && report.collisions.is_empty())
 }
 
-/// The columns of a table in their order, between them those of what varies.
+/// The columns of a table in order, with those of the varied inputs between them.
 pub(crate) fn schema(inputs: &TableSchema, registered: &RegisteredMetrics) -> TableSchema {
     fn named<T>(columns: &[(&str, ColumnKind, T)]) -> TableSchema {
         columns.iter().map(|(name, kind, _)| ((*name).to_owned(), *kind)).collect()
@@ -229,7 +228,7 @@ fn kind_of(declaration: &MetricDeclaration) -> ColumnKind {
     }
 }
 
-/// The values of a row in the columns of a schema, of which `inputs` are those of what varies.
+/// The values of a row in the columns of a schema; `inputs` are the varied inputs.
 pub(crate) fn cells(row: &SweepRow, schema: &TableSchema, inputs: &TableSchema) -> Vec<Cell> {
     let measured = |name: &str| {
         let result = row.result.as_ref()?;
@@ -247,7 +246,7 @@ pub(crate) fn cells(row: &SweepRow, schema: &TableSchema, inputs: &TableSchema) 
     columns.map(|column| cell_of(column.1.1, value(column).unwrap_or(Json::Null))).collect()
 }
 
-/// A value in a column of a type; none if it is of another type. In a column of texts everything is a text.
+/// A value in a column of a type; none if it is of another type. A column of texts accepts every value.
 fn cell_of(kind: ColumnKind, value: Json) -> Cell {
     match (kind, value) {
         (Flag, value) => Cell::Flag(value.as_bool()),

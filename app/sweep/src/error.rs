@@ -1,4 +1,4 @@
-//! Why a sweep gave up.
+//! Errors of sweeps.
 
 use std::error::Error;
 use std::io;
@@ -17,60 +17,60 @@ pub enum SweepError {
     /// A file cannot be read or written.
     #[error("cannot {what} `{}`: {reason}", path.display())]
     File {
-        /// What was tried.
+        /// The operation.
         what: &'static str,
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why it failed.
+        /// The reason.
         reason: io::Error,
     },
     /// A table cannot be read or written.
     #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
     Table {
-        /// What was tried.
+        /// The operation.
         what: &'static str,
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why it failed.
+        /// The reason.
         reason: Box<dyn Error + Send + Sync>,
     },
     /// A line of a journal is damaged.
-    #[error("{}:{line}: this is no row: {reason}; without this line the run is made again", path.display())]
+    #[error("{}:{line}: this is not a row: {reason}; without this line the run is made again", path.display())]
     Journal {
-        /// Which journal.
+        /// The journal.
         path: PathBuf,
-        /// Which line, from 1.
+        /// The line, from 1.
         line: usize,
-        /// Why it is none.
+        /// The reason.
         reason: serde_json::Error,
     },
-    /// A line of a journal is not as it was written.
+    /// A line of a journal does not match its checksum.
     #[error("{}:{line}: the row is damaged: its checksum is another", path.display())]
     Damaged {
-        /// Which journal.
+        /// The journal.
         path: PathBuf,
-        /// Which line, from 1.
+        /// The line, from 1.
         line: usize,
     },
     /// The system has no threads for it.
     #[error("{0}")]
     Threads(String),
-    /// Somebody else works on the shard.
+    /// Another process works on the shard.
     #[error("`{}` is in use: another process works on this shard", .0.display())]
     InUse(PathBuf),
-    /// What the user gave does not fit together.
+    /// The user's inputs are inconsistent.
     #[error("{0}")]
     Input(String),
-    /// A file stands where the folder of the rows, or a folder above it, has to be.
+    /// A file exists where the folder of the rows, or a folder above it, must be.
     #[error("`{}` is a file, and the rows of a sweep need a folder; choose another with `--out`", .0.display())]
     FileInTheWay(PathBuf),
-    /// A recording could not be kept.
+    /// A recording could not be written.
     #[error("{0}")]
     Recording(String),
 }
 
 impl SweepError {
-    /// Whether the input is to blame, and not the machine.
+    /// Whether the input is at fault, and not the machine.
     pub fn is_bad_input(&self) -> bool {
         matches!(
             self,
@@ -87,7 +87,7 @@ impl SweepError {
     }
 }
 
-/// What is wrong with a table of rows is wrong with the sweep that reads or writes it.
+/// An error of a table of rows is an error of the sweep that reads or writes it.
 impl From<TableError> for SweepError {
     fn from(error: TableError) -> SweepError {
         match error {

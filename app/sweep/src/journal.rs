@@ -1,8 +1,8 @@
-//! The journals of a folder: one line a run, appended when it is done.
+//! The journals of a folder: one line for each run, appended when the run is done.
 //!
-//! A line is written at once, so a process that is killed leaves at most the last one torn. A torn line has no end; it is ignored,
-//! and cut off before anything is appended. A line that is not as it was written, as its checksum says, is as if it were not there,
-//! and named. Everything else in a journal stays as it is for ever: rows of other plans and versions too.
+//! A line is written at once, so a killed process leaves at most one torn line, the last. A torn line has no end; it is ignored,
+//! and cut off before the next append. A line that does not match its checksum counts as missing and is reported.
+//! All other lines of a journal stay permanently, including rows of other plans and versions.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -20,11 +20,11 @@ use crate::row::SweepRow;
 use crate::shard::Shard;
 use crate::version::program_version;
 
-/// How names of journals begin and end.
+/// Prefix and extension of the names of journals.
 const PREFIX: &str = "journal";
 const SUFFIX: &str = ".jsonl";
-/// Time between two times at which what was written is forced onto the disk. A killed process loses nothing of it either way; a
-/// machine that loses its power, at most the runs of this time. All threads wait meanwhile, for tens of milliseconds on a busy disk.
+/// Interval between syncs to the disk. A killed process loses nothing either way; a machine that loses
+/// power loses at most the runs of this interval. All threads wait during a sync, for tens of milliseconds on a busy disk.
 const SYNC_INTERVAL: Duration = Duration::from_secs(10);
 
 /// The journal of a shard in a folder.
@@ -50,7 +50,7 @@ pub(crate) fn journals(folder: &Path) -> Result<Vec<PathBuf>, SweepError> {
     Ok(found)
 }
 
-/// A journal that rows are appended to. Only one process can have it.
+/// A journal to which rows are appended. It is locked for one process.
 pub(crate) struct Journal {
     path: PathBuf,
     file: File,
@@ -58,13 +58,13 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens a journal, makes it if it is not there, and cuts off a torn last line.
+    /// Opens a journal, creates it if it does not exist, and cuts off a torn last line.
     pub fn open(path: &Path) -> Result<Journal, SweepError> {
         let failed = SweepError::file("open", path);
         let mut file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(&failed)?;
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => return Err(SweepError::InUse(path.to_owned())),
-            // File systems without locks are left to their users.
+            // On file systems without locks, users must prevent concurrent writers.
             Ok(()) | Err(TryLockError::Error(_)) => {}
         }
         let whole = length_of_whole_lines(&mut file).map_err(&failed)?;
@@ -86,13 +86,13 @@ impl Journal {
         Ok(())
     }
 
-    /// Forces everything onto the disk.
+    /// Syncs all lines to the disk.
     pub fn sync(&self) -> Result<(), SweepError> {
         self.file.sync_data().map_err(SweepError::file("write to", &self.path))
     }
 }
 
-/// How long a file is without a last line that has no end \[bytes\].
+/// Length of the file without a torn last line \[bytes\].
 fn length_of_whole_lines(file: &mut File) -> io::Result<u64> {
     const BLOCK: u64 = 64 * 1024;
     let mut end = file.metadata()?.len();
@@ -109,10 +109,10 @@ fn length_of_whole_lines(file: &mut File) -> io::Result<u64> {
     Ok(0)
 }
 
-/// All rows of a journal, also those that older versions wrote without a checksum; a torn last line is ignored.
+/// All rows of a journal, including those that older versions wrote without a checksum; a torn last line is ignored.
 ///
 /// # Errors
-/// A line that is damaged, or no row: nobody can make it again.
+/// If a line is damaged or is not a row, since these runs cannot be repeated.
 pub(crate) fn read_rows(path: &Path) -> Result<Vec<SweepRow>, SweepError> {
     let text = fs::read_to_string(path).map_err(SweepError::file("read", path))?;
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
@@ -124,12 +124,12 @@ pub(crate) fn read_rows(path: &Path) -> Result<Vec<SweepRow>, SweepError> {
     lines.map(row).collect()
 }
 
-/// What a line of a journal says.
+/// Parses a line of a journal.
 fn parsed<T: DeserializeOwned>(path: &Path, line: usize, text: &[u8]) -> Result<T, SweepError> {
     serde_json::from_slice(text).map_err(|reason| SweepError::Journal { path: path.to_owned(), line, reason })
 }
 
-/// Where the line of a run is.
+/// The location of a run's line.
 #[derive(Clone, Copy, Debug)]
 struct LinePlace {
     journal: u32,
@@ -138,25 +138,25 @@ struct LinePlace {
     length: u32,
 }
 
-/// Where the line of each run of a folder is; of a run with several lines, of the first.
+/// The location of each run's line in a folder; of several lines of one run, the first.
 pub(crate) struct JournalIndex {
     journals: Vec<PathBuf>,
     places: HashMap<RunKey, LinePlace>,
-    /// Lines that are not as they were written, or no rows: journal and line, from 1.
+    /// Lines that are damaged or not rows: journal and line, from 1.
     damaged: Vec<(PathBuf, usize)>,
 }
 
-/// What of a line says which run it is.
+/// The field of a line that identifies its run.
 #[derive(Deserialize)]
 struct Keyed {
     key: RunKey,
     version: String,
 }
 
-/// Which run a line is of.
+/// The run to which a line belongs.
 enum LineRun {
     Known(RunKey),
-    /// A row that an older version wrote without a checksum, and that no plan asks for any more.
+    /// A row that an older version wrote without a checksum; no plan needs it any more.
     Older,
     Damaged,
 }
@@ -178,7 +178,7 @@ impl JournalIndex {
         JournalIndex { journals: Vec::new(), places: HashMap::new(), damaged: Vec::new() }
     }
 
-    /// Reads all journals of a folder. It takes some 60 bytes a run.
+    /// Reads all journals of a folder. It takes about 60 bytes for each run.
     pub fn read(folder: &Path) -> Result<JournalIndex, SweepError> {
         let mut index = JournalIndex { journals: journals(folder)?, places: HashMap::new(), damaged: Vec::new() };
         for journal in 0..index.journals.len() {
@@ -196,7 +196,7 @@ impl JournalIndex {
             text.clear();
             let length = reader.read_until(b'\n', &mut text).map_err(&failed)?;
             if text.last() != Some(&b'\n') {
-                // The end, or a line that is still being written, or never will be.
+                // The end, or a torn line, or one that is being written.
                 return Ok(());
             }
             if text.len() > 1 {
@@ -215,17 +215,17 @@ impl JournalIndex {
         }
     }
 
-    /// Lines that are not as they were written, or no rows: journal and line, from 1. Their runs are not there.
+    /// Lines that are damaged or not rows: journal and line, from 1. Their runs count as missing.
     pub fn damaged(&self) -> &[(PathBuf, usize)] {
         &self.damaged
     }
 
-    /// Whether a run is there.
+    /// Whether the journals contain a run.
     pub fn holds(&self, key: RunKey) -> bool {
         self.places.contains_key(&key)
     }
 
-    /// Reads the rows of some keys, in their order, as far as they are there, each with what stands beside its key.
+    /// Reads the existing rows of the given keys, in this order, each with the value beside its key.
     pub fn rows<'a, T: Copy>(
         &'a self,
         keys: &'a [(RunKey, T)],
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torn_line_is_ignored_and_cut_off_and_rows_are_read_as_they_were() {
+    fn a_torn_line_is_cut_off_and_whole_rows_read_back_exactly() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = path_of(folder.path(), Shard::WHOLE);
         let mut journal = Journal::open(&path).expect("new");
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_is_not_as_it_was_written_is_named_and_not_taken() {
+    fn a_line_that_does_not_match_its_checksum_is_reported_and_ignored() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("journal-2-of-3.jsonl");
         let [one, two] = ["one", "two"].map(|name| line_of(&serde_json::to_string(&row(name)).expect("JSON")));
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_row_that_nobody_can_make_again_is_an_error() {
+    fn a_damaged_row_that_cannot_be_repeated_is_an_error() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("people.jsonl");
         let line = line_of(&serde_json::to_string(&row("one")).expect("JSON"));

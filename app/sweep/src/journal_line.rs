@@ -1,34 +1,34 @@
-//! A line of a journal: a row as an object of JSON, whose last field is a checksum of what stands before it.
+//! A line of a journal: a row as a JSON object, whose last field is a checksum of the text before it.
 
 use std::fmt::Write;
 
-/// How the field begins and ends.
+/// Beginning and end of the field.
 const FIELD: &str = ",\"checksum\":\"";
 const END: &str = "\"}";
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 8;
 
-/// What a line is.
+/// The condition of a line.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum JournalLine {
-    /// A row, as it was written.
+    /// A row that matches its checksum.
     Sound,
-    /// A line without a checksum, as versions before 0.3 wrote them, or text of somebody else.
+    /// A line without a checksum, as versions before 0.3 wrote them, or text of another program.
     Unchecked,
-    /// What is there is not what was written.
+    /// A line that does not match its checksum.
     Damaged,
 }
 
-/// The line of a row, with the end of the line.
+/// The line of a row, with its line break.
 pub(crate) fn line_of(row_json: &str) -> String {
     let fields = row_json.strip_suffix('}').unwrap_or(row_json);
     let mut line = String::with_capacity(row_json.len() + FIELD.len() + DIGITS + END.len());
-    // Writing to a text cannot fail.
+    // Writing to a string cannot fail.
     let _ = writeln!(line, "{fields}{FIELD}{:08x}{END}", crc32fast::hash(fields.as_bytes()));
     line
 }
 
-/// What a line is, with or without its end.
+/// Checks a line, with or without its line break.
 pub(crate) fn judged(line: &[u8]) -> JournalLine {
     let line = line.strip_suffix(b"\n").unwrap_or(line);
     let length = FIELD.len() + DIGITS + END.len();
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_with_any_bit_flipped_is_not_sound() {
+    fn a_line_with_a_flipped_bit_is_never_sound() {
         let line = line_of("{\"key\":1,\"smallest_gap_m\":0.25}").into_bytes();
         assert_eq!(judged(&line), JournalLine::Sound);
         for bit in 0..8 * (line.len() - 1) {

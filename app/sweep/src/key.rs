@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::version::program_version;
 
-/// Digest of all that decides the result of a run: the program's version, the scenario, what is changed in it, and the seed.
+/// Digest of all that determines the result of a run: the program's version, the scenario, the changes to it, and the seed.
 /// The first half of a SHA-256.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RunKey([u8; 16]);
@@ -21,11 +21,11 @@ impl RunKey {
         RunKey::of_parts(&parts)
     }
 
-    /// The key of some texts.
+    /// The key of a list of texts.
     pub fn of_parts(parts: &[&str]) -> RunKey {
         let mut digest = Sha256::new();
         for part in parts {
-            // With lengths, no two lists of parts are one text.
+            // The lengths make different lists of parts different inputs.
             digest.update((part.len() as u64).to_le_bytes());
             digest.update(part.as_bytes());
         }
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_is_read_as_it_is_written_and_parts_do_not_run_together() {
+    fn keys_read_back_exactly_and_depend_on_the_boundaries_of_parts() {
         let key = RunKey::of_parts(&["ab", "c"]);
         assert_eq!(key.to_string().parse(), Ok(key));
         assert_ne!(key, RunKey::of_parts(&["a", "bc"]));

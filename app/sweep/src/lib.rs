@@ -1,12 +1,12 @@
-//! Many runs from one plan, a row each, and what they say of the planners.
+//! Many runs from one plan, one row each, and the comparison of planners from these rows.
 //!
 //! ```text
 //! plan -> runs, each with a key -> journal, a line a run -> rows sorted by key, in one Parquet file a shard -> merged -> compared
 //! ```
 //!
-//! The key of a run is a digest of all that decides its result. So a run that is in a journal is not run again, whoever ran it:
-//! a sweep that was killed goes on where it was, and a bigger one reuses the rows of a smaller one. Shards divide the keys, and
-//! need not know of one another.
+//! The key of a run is a digest of all that determines its result, so a run that is in a journal is not made again:
+//! a sweep that was killed continues, and a bigger sweep reuses the rows of a smaller one. Shards divide the keys and
+//! are independent of one another.
 //!
 //! ```
 //! use interplay_scenarios::SweepPlan;
@@ -28,7 +28,7 @@
 //!     advance: &|| (),
 //! };
 //! assert_eq!(sweep(&plan, &options)?.made, 4);
-//! assert_eq!(sweep(&plan, &options)?.made, 0, "they are there");
+//! assert_eq!(sweep(&plan, &options)?.made, 0, "all rows exist already");
 //!
 //! let figures = compare(folder.path(), Some("idm"), GroupBy::Scenario, plan.metrics())?;
 //! assert_eq!(figures.runs, 4);

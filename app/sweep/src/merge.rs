@@ -1,4 +1,4 @@
-//! The tables of all shards as one, sorted by key.
+//! Merges the tables of all shards into one, sorted by key.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,26 +10,26 @@ use crate::error::SweepError;
 use crate::shard::Shard;
 use crate::sweep::{PLAN_NOTE, RUNS_FILE, SHARD_NOTE, table_path};
 
-/// What became of a merge.
+/// The outcome of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MergedSweep {
-    /// Where the rows are.
+    /// Path of the merged table.
     pub table: PathBuf,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// How many shards there were.
+    /// Number of shards.
     pub shards: u32,
-    /// How many rows the table had that was there before, if there was one.
+    /// Number of rows of the table that was replaced, if one existed.
     pub replaced: Option<usize>,
 }
 
-/// Merges the tables of all shards in a folder into `target`, by default `runs.parquet` beside them. A folder without shards
-/// must have that table itself. Without `timings`, the columns that are not reproducible are left out.
+/// Merges the tables of all shards in a folder into `target`, by default `runs.parquet` in this folder. A folder without shards
+/// must contain that table itself. Without `timings`, the columns that are not reproducible are left out.
 ///
-/// A row group of each shard is in memory at a time.
+/// Only one row group of each shard is in memory at a time.
 ///
 /// # Errors
-/// Shards that are missing, or are not of one plan; files that cannot be read or written.
+/// If shards are missing or belong to different plans, or if files cannot be read or written.
 pub fn merge(folder: &Path, target: Option<&Path>, timings: bool) -> Result<MergedSweep, SweepError> {
     let sources = sources(folder)?;
     let target = target.map_or_else(|| folder.join(RUNS_FILE), Path::to_owned);
@@ -61,14 +61,14 @@ pub fn merge(folder: &Path, target: Option<&Path>, timings: bool) -> Result<Merg
     Ok(MergedSweep { table: target, rows, shards: sources.len() as u32, replaced })
 }
 
-/// How many rows there are in a table that would be replaced.
+/// The number of rows of a table that would be replaced.
 ///
 /// # Errors
-/// A file that is no table of runs: it would be lost.
+/// If the file is not a table of runs, since the merge would destroy it.
 fn row_count(target: &Path) -> Result<usize, SweepError> {
     let table = RowTable::read(target, &["key".to_owned()]).ok().filter(|table| !table.columns.is_empty());
     table.map(|table| table.row_count).ok_or_else(|| {
-        SweepError::Input(format!("`{}` is there and no table of runs; choose another file", target.display()))
+        SweepError::Input(format!("`{}` exists and is not a table of runs; choose another file", target.display()))
     })
 }
 
@@ -116,7 +116,7 @@ fn sources(folder: &Path) -> Result<Vec<PathBuf>, SweepError> {
     }
 }
 
-/// A table that is read from its first row to its last.
+/// Reads a table from its first row to its last.
 struct Cursor {
     reader: TableReader,
     names: Vec<String>,
@@ -133,7 +133,7 @@ impl Cursor {
         Ok(cursor)
     }
 
-    /// Reads on, if all rows at hand are behind.
+    /// Reads the next row group, if all rows in memory have been written.
     fn fill(&mut self) -> Result<(), SweepError> {
         while self.row >= self.table.row_count && self.group < self.reader.group_count() {
             self.table = self.reader.group(self.group, &self.names)?;
@@ -162,7 +162,7 @@ impl Cursor {
     }
 }
 
-/// Writes the rows of all tables in the order of their keys. All rows of one key are in one shard, in their order.
+/// Writes the rows of all tables in the order of their keys. All rows of one key are in one shard and keep their order.
 fn merge_tables(
     readers: Vec<TableReader>,
     schema: TableSchema,

@@ -1,7 +1,7 @@
-//! Rows of runs in which a person drove, beside those of a plan.
+//! Rows of runs in which a person drove, in addition to those of a plan.
 //!
-//! They are a journal of their own in the folder of a sweep, and are in its table wherever that is written. Of a person there is
-//! a number and nothing else.
+//! They have a separate journal in the folder of a sweep, and its table includes them whenever it is written. A person is recorded
+//! only as a number.
 
 use std::path::{Path, PathBuf};
 
@@ -17,25 +17,25 @@ use crate::row::SweepRow;
 use crate::sweep::write_again;
 use crate::version::program_version;
 
-/// What a row calls a person.
+/// The name of a person in a row.
 const PERSON: &str = "person";
 
 /// A run in which a person drove.
 #[derive(Debug)]
 pub struct PersonRun<'a> {
-    /// The run of the plan that it began as.
+    /// The run of the plan from which it started.
     pub point: SweepPoint,
     /// The vehicle that the person drove.
     pub seat: &'a str,
     /// The number of the person.
     pub participant: u32,
-    /// How often the run was begun anew.
+    /// Number of restarts.
     pub restarts: u32,
-    /// What was played, as a scenario that repeats it.
+    /// The played run, as a scenario that repeats it.
     pub played: &'a Scenario,
 }
 
-/// The people of a folder of rows. Only one process can have it.
+/// The rows of people in a folder. Only one process can open them.
 pub struct PeopleRows {
     folder: PathBuf,
     journal: Journal,
@@ -46,7 +46,7 @@ impl PeopleRows {
     /// Opens the rows of people in the folder of a sweep.
     ///
     /// # Errors
-    /// [`SweepError::InUse`] if another process has them; files that cannot be read.
+    /// [`SweepError::InUse`] if another process has opened them, or if a file cannot be read.
     pub fn open(folder: &Path) -> Result<PeopleRows, SweepError> {
         let journal = Journal::open(&path_in(folder))?;
         let number = |row: &SweepRow| row.inputs.get(PARTICIPANT).and_then(Json::as_u64);
@@ -60,10 +60,10 @@ impl PeopleRows {
         self.participants
     }
 
-    /// Makes the row of a run by running what was played, and writes the table of the folder again.
+    /// Makes the row of a run by repeating the played run, and writes the table of the folder again.
     ///
     /// # Errors
-    /// Files that cannot be written.
+    /// If a file cannot be written.
     pub fn add(&mut self, plan: &SweepPlan, run: &PersonRun<'_>) -> Result<(), SweepError> {
         let row = measured(plan, run)?;
         self.journal.append(&row)?;
@@ -72,7 +72,7 @@ impl PeopleRows {
     }
 }
 
-/// The row of a run. A person stands in the place of the planner or, as another vehicle than the ego, of the style.
+/// The row of a run. A person takes the place of the planner or, in a vehicle other than the ego, of the style.
 fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepError> {
     let (participant, number) = (run.participant.to_string(), u64::from(run.participant));
     let written = run.played.to_file().to_toml();
@@ -84,7 +84,7 @@ fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepErro
         point.planner = PERSON.to_owned();
     } else {
         point.style = PERSON.to_owned();
-        // Pairs of two planners are of one person.
+        // Pairs of two planners belong to one person.
         point.sample += number * plan.run_count();
     }
     let row = measured_run(key, &point, run.played, None)?;

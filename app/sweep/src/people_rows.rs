@@ -6,12 +6,12 @@ use crate::error::SweepError;
 use crate::journal::read_rows;
 use crate::row::SweepRow;
 
-/// The columns of what is known of a run with a person.
+/// The columns of a run with a person.
 pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];
 pub(crate) const PARTICIPANT: &str = "participant";
 pub(crate) const RESTARTS: &str = "restarts";
 
-/// Where they are.
+/// Their path.
 pub(crate) fn path_in(folder: &Path) -> PathBuf {
     folder.join("people.jsonl")
 }

@@ -8,10 +8,10 @@ use serde_json::Value as Json;
 
 use crate::key::RunKey;
 
-/// One run. Only the last three values differ when it is made again.
+/// One run. Only the last three values differ when the run is repeated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepRow {
-    /// Digest of all that decides the result.
+    /// Digest of all that determines the result.
     pub key: RunKey,
     /// The version of the program.
     pub version: String,
@@ -19,15 +19,15 @@ pub struct SweepRow {
     pub scenario: String,
     /// The scenario's family.
     pub family: String,
-    /// Who drives the other vehicles, as the plan names it.
+    /// The driver of the other vehicles, by its name in the plan.
     pub style: String,
-    /// Who drives the ego, as the plan names it.
+    /// The driver of the ego, by its name in the plan.
     pub planner: String,
-    /// The sample: rows of one scenario, style and sample are a pair for two planners.
+    /// The sample: rows of one scenario, style and sample form a pair for two planners.
     pub sample: u64,
     /// The seed of the run.
     pub seed: u64,
-    /// What varies, by its path.
+    /// The varied inputs, by path.
     pub inputs: BTreeMap<String, Json>,
     /// Why there is no result.
     pub error: Option<String>,
@@ -42,23 +42,23 @@ pub struct SweepRow {
     pub plan_p99_ms: Option<f64>,
 }
 
-/// What a run amounts to.
+/// The result of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     /// Digest of all states, bit for bit.
     pub digest: String,
     /// Simulated time \[s\].
     pub simulated_s: f64,
-    /// Whether every expectation of the scenario held. They are about the drivers that its file states.
+    /// Whether every expectation of the scenario held. Expectations concern the drivers that its file states.
     pub passed: bool,
-    /// What was measured of vehicles, by the names of the columns; none without any.
+    /// Measured values of the vehicles, by column; none without vehicles.
     pub traffic: Option<BTreeMap<String, Json>>,
-    /// What was measured of a building, by the names of the columns; none without one.
+    /// Measured values of the building, by column; none without a building.
     pub building: Option<BTreeMap<String, Json>>,
 }
 
 impl SweepRow {
-    /// The same result as a row of another run of the same key: another plan, or another arm of the plan that changes the same, may
+    /// The same result as a row of another run with the same key: another plan, or another variant of the plan with the same changes, may
     /// have made it.
     #[must_use]
     pub(crate) fn labelled(self, point: SweepPoint) -> SweepRow {
@@ -66,7 +66,7 @@ impl SweepRow {
         SweepRow { scenario, family, style, planner, sample, seed, inputs: inputs.into_iter().collect(), ..self }
     }
 
-    /// Whether the run is worth looking at: it has no result, or the ego did not do its task without contact; without vehicles,
+    /// Whether the run deserves a closer look: it has no result, or the ego did not complete its task without contact; without vehicles,
     /// an expectation failed.
     pub fn is_failure(&self) -> bool {
         self.result.as_ref().is_none_or(|result| match &result.traffic {

@@ -9,7 +9,7 @@ use crate::column::{cells, schema};
 use crate::error::SweepError;
 use crate::row::SweepRow;
 
-/// Writes rows as a table; `inputs` are the columns of what varies, and `registered` metrics that have columns, too.
+/// Writes rows as a table; `inputs` are the columns of the varied inputs, and `registered` metrics add columns.
 pub(crate) fn write_rows(
     target: &Path,
     inputs: &TableSchema,

@@ -1,4 +1,4 @@
-//! Which part of a plan's runs a process makes.
+//! The part of a plan's runs that a process makes.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,39 +7,39 @@ use thiserror::Error;
 
 use crate::key::RunKey;
 
-/// A part of all runs: number `index`, from 1, of `count`. The keys decide, so that shards are alike and every run is in one of
-/// them, however the plan numbers its runs.
+/// A part of all runs: number `index`, from 1, of `count`. The keys assign the runs, so shards have similar sizes and every run is in
+/// exactly one, in whichever order the plan numbers its runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Its number, from 1.
     pub index: u32,
-    /// How many there are.
+    /// Number of shards.
     pub count: u32,
 }
 
-/// Why there is no such shard.
+/// Why a shard is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ShardError {
-    /// The text is none.
-    #[error("`{0}` is no shard; write for example `3/8`, the third of eight")]
+    /// The text is not a shard.
+    #[error("`{0}` is not a shard; write for example `3/8`, the third of eight")]
     Form(String),
     /// The number is beyond the count.
     #[error("there is no shard {index} of {count}: shards have the numbers 1 to {count}")]
     Beyond {
         /// The number.
         index: u64,
-        /// How many there are.
+        /// Number of shards.
         count: u32,
     },
-    /// A variable of the scheduler holds no number.
-    #[error("the variable {variable} is `{value}`, which is no whole number")]
+    /// A variable of the scheduler does not contain a number.
+    #[error("the variable {variable} is `{value}`, which is not a whole number")]
     Variable {
         /// Its name.
         variable: &'static str,
-        /// What it holds.
+        /// Its value.
         value: String,
     },
-    /// Nobody says which shard this is.
+    /// No variable states which shard this is.
     #[error(
         "with `--shards`, the scheduler says which shard this is; none of SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX and \
          HQ_TASK_ID is set. To choose it, write `--shard I/N`"
@@ -62,13 +62,13 @@ impl Shard {
         }
     }
 
-    /// The shard of a task of a scheduler, as `variable` gives the values of environment variables: of a Slurm array, whose size
-    /// is known, or with a `count` of any of Slurm, Kubernetes and HyperQueue. `None` if this is no task of an array.
+    /// The shard of a scheduler's task, from its environment variables as `variable` returns them: of a Slurm array, whose size
+    /// is known, or with a `count` of any of Slurm, Kubernetes and HyperQueue. `None` if this is not a task of an array.
     ///
     /// Slurm counts its tasks from `SLURM_ARRAY_TASK_MIN`, Kubernetes from 0; tasks of HyperQueue must be numbered from 1.
     ///
     /// # Errors
-    /// Variables that hold no number, or a number beyond the count; a count, but no such variable.
+    /// If a variable is not a number or exceeds the count, or if there is a count but no such variable.
     pub fn of_scheduler(
         count: Option<u32>,
         variable: impl Fn(&'static str) -> Option<String>,
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn every_run_is_in_one_shard_and_shards_are_alike() {
+    fn every_run_is_in_one_shard_and_shards_have_similar_sizes() {
         let keys: Vec<RunKey> = (0..8000).map(|run| RunKey::of_parts(&[&run.to_string()])).collect();
         let sizes: Vec<usize> = (1..=8)
             .map(|index| Shard { index, count: 8 })
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn schedulers_say_which_shard_it_is() {
+    fn the_shard_is_read_from_the_variables_of_schedulers() {
         let third = Ok(Some(Shard { index: 3, count: 8 }));
         let slurm = [("SLURM_ARRAY_TASK_ID", "3"), ("SLURM_ARRAY_TASK_COUNT", "8"), ("SLURM_ARRAY_TASK_MIN", "1")];
         assert_eq!(of(None, &slurm), third);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_shard_is_refused() {
+    fn an_invalid_shard_is_refused() {
         assert_eq!(of(Some(8), &[]), Err(ShardError::Unknown));
         assert_eq!(of(Some(8), &[("JOB_COMPLETION_INDEX", "8")]), Err(ShardError::Beyond { index: 9, count: 8 }));
         assert!(matches!(of(Some(8), &[("HQ_TASK_ID", "x")]), Err(ShardError::Variable { .. })));

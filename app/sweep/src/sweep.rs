@@ -21,49 +21,49 @@ use crate::shard::Shard;
 
 /// The file with the rows of a whole plan.
 pub const RUNS_FILE: &str = "runs.parquet";
-/// The file with the plan whose rows a folder has.
+/// The file with the plan of a folder's rows.
 pub(crate) const PLAN_FILE: &str = "plan.toml";
-/// What a file of rows says about the whole: the plan's digest, and which shard it is.
+/// Metadata key of a table: the plan's digest, and the shard.
 pub(crate) const PLAN_NOTE: &str = "interplay.plan";
 pub(crate) const SHARD_NOTE: &str = "interplay.shard";
 
-/// Keeps a recording of a run that is worth looking at. Called from several threads.
+/// Keeps a recording of a run that deserves a closer look. Called from several threads.
 pub type KeepRecording<'a> = &'a (dyn Fn(&SweepRow, &Scenario) -> Result<(), String> + Sync);
 
 /// How a plan is run.
 pub struct SweepOptions<'a> {
-    /// The folder of journals and results; it is made if it is not there.
+    /// The folder of journals and results; it is created if it does not exist.
     pub folder: &'a Path,
-    /// Which part of the plan.
+    /// The part of the plan.
     pub shard: Shard,
-    /// What to do with a run that failed.
+    /// Called for each run that failed.
     pub keep: Option<KeepRecording<'a>>,
-    /// Whether each run that is made leaves what every vehicle did, as `trajectories/KEY.parquet` in the folder.
+    /// Whether each run also writes its trajectories, as `trajectories/KEY.parquet` in the folder.
     pub trajectories: bool,
     /// Called after each run that is checked, from several threads.
     pub checked: &'a (dyn Fn() + Sync),
-    /// Called when the plan is checked, with how many runs are to be made and how many are there.
+    /// Called after the checks, with the number of runs to make and of existing runs.
     pub begin: &'a (dyn Fn(u64, u64) + Sync),
     /// Called after each run, from several threads.
     pub advance: &'a (dyn Fn() + Sync),
 }
 
-/// What became of a sweep.
+/// The outcome of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepOutcome {
-    /// Where the rows are.
+    /// Path of the table.
     pub table: PathBuf,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// How many runs were made now; the others were there.
+    /// Number of runs that were made now; the others existed already.
     pub made: u64,
-    /// How many rows have no result.
+    /// Number of rows without a result.
     pub unfinished: usize,
-    /// Lines of journals that were not as they were written, so that their runs were made again: journal and line, from 1.
+    /// Damaged lines of journals, whose runs were made again: journal and line, from 1.
     pub damaged: Vec<(PathBuf, usize)>,
 }
 
-/// The rows of a shard.
+/// Path of the table of a shard.
 pub(crate) fn table_path(folder: &Path, shard: Shard) -> PathBuf {
     folder.join(match shard {
         Shard::WHOLE => RUNS_FILE.to_owned(),
@@ -71,18 +71,18 @@ pub(crate) fn table_path(folder: &Path, shard: Shard) -> PathBuf {
     })
 }
 
-/// The digest of a plan, which its shards have in common.
+/// The digest of a plan, which all its shards share.
 pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
     RunKey::of_parts(&[plan.text()]).to_string()
 }
 
-/// Runs a plan, or a shard of it, in the threads of the current pool: checks every run, makes those that are in no journal of the
-/// folder, and writes the table.
+/// Runs a plan, or a shard of it, in the threads of the current pool: checks every run, makes the runs that no journal of the
+/// folder contains, and writes the table.
 ///
-/// The runs are not held in memory: of each there are 24 bytes for its key and number, and some 60 for where its row is.
+/// Runs are not held in memory: each takes 24 bytes for its key and number, and about 60 for the location of its row.
 ///
 /// # Errors
-/// Runs that are refused, before any is made; files that cannot be read or written.
+/// If runs are refused, before any is made, or if files cannot be read or written.
 pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcome, SweepError> {
     let (folder, shard) = (options.folder, options.shard);
     refuse_file_in_the_way(folder)?;
@@ -112,18 +112,18 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     Ok(SweepOutcome { table: table_path(folder, shard), rows, made: part.to_make.len() as u64, unfinished, damaged })
 }
 
-/// Checks the runs of a shard as [`sweep`] does before it makes the first, all as if none were there; `checked` is called after
+/// Checks all runs of a shard as [`sweep`] does before it makes the first, as if no rows existed; `checked` is called after
 /// each, from several threads.
 ///
 /// # Errors
-/// Runs that are refused, or a folder that cannot be made.
+/// If runs are refused or the folder cannot be created.
 pub fn check(plan: &SweepPlan, shard: Shard, folder: &Path, checked: &(dyn Fn() + Sync)) -> Result<(), SweepError> {
     refuse_file_in_the_way(folder)?;
     refuse_two_of_a_name(plan)?;
     Part::of(plan, shard, &JournalIndex::empty(), checked).map(|_| ())
 }
 
-/// A folder cannot be made in place of a file or below it.
+/// Refuses a folder whose path, or a parent of it, is a file.
 fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
     match folder.ancestors().find(|above| above.exists()) {
         Some(above) if !above.is_dir() => Err(SweepError::FileInTheWay(above.to_owned())),
@@ -131,7 +131,7 @@ fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
     }
 }
 
-/// A metric of another crate may be called as a column is.
+/// Refuses a metric of another crate that has the name of a column.
 fn refuse_two_of_a_name(plan: &SweepPlan) -> Result<(), SweepError> {
     let columns = schema(&inputs(plan), plan.metrics());
     let mut names = HashSet::new();
@@ -141,24 +141,21 @@ fn refuse_two_of_a_name(plan: &SweepPlan) -> Result<(), SweepError> {
     }
 }
 
-/// The columns of what varies.
 fn inputs(plan: &SweepPlan) -> TableSchema {
     let kind = |is_number: bool| if is_number { ColumnKind::Number } else { ColumnKind::Text };
     plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect()
 }
 
-/// The runs of a shard.
 struct Part {
     /// The keys and numbers of all its runs, sorted.
     runs: Vec<(RunKey, u64)>,
-    /// Those of them that have no row.
     to_make: Vec<(RunKey, u64)>,
-    /// How many have one.
+    /// Number of runs with a row.
     there: u64,
 }
 
 impl Part {
-    /// Finds the runs of a shard, and checks those that have no row.
+    /// Finds the runs of a shard, and checks those without a row.
     fn of(
         plan: &SweepPlan,
         shard: Shard,
@@ -192,14 +189,14 @@ impl Part {
         if !refusals.is_empty() {
             return Err(SweepError::Refused(Box::new(plan.refusal(&refusals))));
         }
-        // Runs of one key are one run: arms that change the same, or a list that states a value twice.
+        // Runs with one key are one run: variants of the plan with the same changes, or a list that states a value twice.
         let mut seen = HashSet::new();
         let first = checked.iter().filter(|(key, _)| seen.insert(*key));
         let to_make: Vec<(RunKey, u64)> = first.filter(|(key, _)| !known.holds(*key)).copied().collect();
         let there = (seen.len() - to_make.len()) as u64;
         let mut runs = checked;
         runs.sort_unstable();
-        // Of the latter there is one row.
+        // A value that is listed twice gives one row.
         let mut arms: (Option<RunKey>, Vec<[String; 3]>) = (None, Vec::new());
         runs.dedup_by(|next, before| {
             if next.0 != before.0 {
@@ -217,13 +214,13 @@ impl Part {
     }
 }
 
-/// The scenario and the drivers of a run, as the plan names them.
+/// The scenario and the drivers of a run, by their names in the plan.
 fn arm_of(plan: &SweepPlan, number: u64) -> [String; 3] {
     let point = plan.point(number);
     [point.scenario, point.style, point.planner]
 }
 
-/// Makes the folder and writes the plan into it.
+/// Creates the folder and writes the plan into it.
 fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
     fs::create_dir_all(folder).map_err(SweepError::file("make the folder", folder))?;
     let path = folder.join(PLAN_FILE);
@@ -240,15 +237,15 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
     interplay_files::write(&path, plan.text().as_bytes()).map_err(SweepError::file("write", &path))
 }
 
-/// Writes the table of a whole plan again: of its runs those that are in journals, and those of people.
+/// Writes the table of a whole plan again, with the runs in the journals and those of people.
 pub(crate) fn write_again(plan: &SweepPlan, folder: &Path) -> Result<(), SweepError> {
     let known = JournalIndex::read(folder)?;
     let part = Part::of(plan, Shard::WHOLE, &known, &|| ())?;
     write_table(plan, Shard::WHOLE, folder, &known, &part.runs).map(|_| ())
 }
 
-/// Writes the rows of some keys, sorted, from the journals, and with those of a whole plan the rows of people. Returns how many there
-/// are, and how many have no result.
+/// Writes the rows of the sorted keys from the journals, and for a whole plan the rows of people. Returns the number of rows
+/// and the number without a result.
 fn write_table(
     plan: &SweepPlan,
     shard: Shard,

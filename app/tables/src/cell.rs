@@ -16,7 +16,7 @@ pub enum ColumnKind {
 /// The name and the type of each column of a table.
 pub type TableSchema = Vec<(String, ColumnKind)>;
 
-/// A value of a row; none where there is nothing to say.
+/// A value of a row; `None` is a missing value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// True or false.

@@ -1,4 +1,4 @@
-//! What detectors count, as a table: a row a detector, lane and interval, and one for all lanes together.
+//! Counts of detectors as a table: one row for each detector, lane and interval, and one for all lanes together.
 
 use interplay_scenarios::{DetectorConfig, DetectorLine, LaneReference, Scenario};
 use interplay_simulation::frame::Frame;
@@ -8,8 +8,8 @@ use crate::cell::{Cell, ColumnKind};
 use crate::error::TableError;
 use crate::row_file::{RowFile, TableFile};
 
-/// The columns. Speeds at a place are averaged over vehicles (`mean_speed_mps`) and harmonically (`space_mean_speed_mps`): the latter is the
-/// speed of the vehicles on the road beside it, and flow over it is their density (Wardrop, 1952).
+/// The columns. Speeds are averaged over vehicles (`mean_speed_mps`) and harmonically (`space_mean_speed_mps`): the latter is the
+/// mean speed of the vehicles on the road, and flow divided by it is their density (Wardrop, 1952).
 const COLUMNS: [(&str, ColumnKind); 11] = [
     ("detector", ColumnKind::Text),
     ("lane", ColumnKind::Text),
@@ -24,21 +24,21 @@ const COLUMNS: [(&str, ColumnKind); 11] = [
     ("waiting_outside", ColumnKind::Count),
 ];
 
-/// What all lanes together are called.
+/// The name of all lanes together.
 const ALL: &str = "all";
-/// An edge of an interval is reached that is nearer than this \[s\].
+/// Tolerance with which the end of an interval counts as reached \[s\].
 const EDGE_TOLERANCE_S: f64 = 1e-9;
-/// A vehicle that hardly moves counts with this speed in a harmonic mean \[m/s\].
+/// Minimum speed of a vehicle in a harmonic mean \[m/s\].
 const SLOWEST_MPS: f64 = 0.01;
 
-/// Counts who passes the detectors of a scenario, and writes a row for every lane and interval.
+/// Counts the vehicles that pass the detectors of a scenario, and writes a row for every lane and interval.
 pub struct DetectorWriter {
     rows: RowFile,
-    /// Where each vehicle was at the last tick \[m\], and its speed there \[m/s\]; none of whoever was not on the road.
+    /// Position \[m\] and speed \[m/s\] of each vehicle at the last tick; none if it was not on the road.
     before: Vec<Option<([f64; 2], f64)>>,
     time_s: f64,
     detectors: Vec<Counting>,
-    /// When each vehicle that has not come yet wants to come \[s\].
+    /// Scheduled entry time of each vehicle that has not entered yet \[s\].
     awaited_s: Vec<Option<f64>>,
 }
 
@@ -47,10 +47,10 @@ struct Counting {
     stated: DetectorConfig,
     lanes: Vec<(String, DetectorLine)>,
     after: Option<usize>,
-    /// Intervals that are over.
+    /// Number of completed intervals.
     over: u32,
     passings: Vec<Passing>,
-    /// When each vehicle passed last \[s\].
+    /// Time at which each vehicle last passed \[s\].
     passed_s: Vec<Option<f64>>,
 }
 
@@ -64,10 +64,10 @@ struct Passing {
 }
 
 impl DetectorWriter {
-    /// Begins a table of what the detectors of a scenario count.
+    /// Begins a table of the detector counts of a scenario.
     ///
     /// # Errors
-    /// For a scenario without detectors, and a file that cannot be written.
+    /// If the scenario has no detectors, or the file cannot be written.
     pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<DetectorWriter, TableError> {
         if scenario.detectors.is_empty() {
             return Err(TableError::Input(
@@ -95,7 +95,7 @@ impl DetectorWriter {
         })
     }
 
-    /// How many wait outside for room.
+    /// Number of vehicles that wait outside for room.
     fn outside(&self, time_s: f64) -> u64 {
         self.awaited_s.iter().flatten().filter(|awaited_s| **awaited_s < time_s).count() as u64
     }
@@ -159,12 +159,12 @@ impl Watcher for DetectorWriter {
 }
 
 impl Counting {
-    /// When the interval began \[s\].
+    /// Start of the interval \[s\].
     fn began_s(&self) -> f64 {
         f64::from(self.over) * self.stated.interval_s
     }
 
-    /// When it ends \[s\].
+    /// End of the interval \[s\].
     fn edge_s(&self) -> f64 {
         f64::from(self.over + 1) * self.stated.interval_s
     }
@@ -222,9 +222,9 @@ mod tests {
 
     use super::*;
 
-    /// Cars that keep 20 m/s at headways of 2 s: 1800 an hour, 25 a kilometre, 5 s for 100 m.
+    /// Cars at 20 m/s with headways of 2 s: 1800 an hour, 25 a kilometre, 5 s for 100 m.
     #[test]
-    fn even_traffic_is_counted_as_it_is() {
+    fn uniform_traffic_gives_its_exact_flow_and_density() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("counts.csv");
         let text = "title = 'even'\nshows = 'even traffic'\nscale = 'full'\nduration_s = 64.0\nstep_s = 0.1\n\
@@ -249,10 +249,10 @@ mod tests {
         near(a[0], 10.0, 1.0);
         near(a[2], 20.0, 1.5);
         near(a[4], a[1] / 3.6 / a[3], 1e-6);
-        assert_eq!(row("a", "1", "20")[0], 0.0, "nobody in the other lane");
+        assert_eq!(row("a", "1", "20")[0], 0.0, "the other lane is empty");
         assert_eq!(row("a", "all", "20")[0], a[0]);
         near(row("b", "0", "0")[5], 5.0, 0.4);
-        // At one place all are counted, whatever the intervals.
+        // At one detector the total does not depend on the intervals.
         let all = |detector: &str| -> f64 {
             let of_lane = rows.iter().filter(|row| row[..2] == [detector, "0"]);
             of_lane.map(|row| row[4].parse::<f64>().unwrap_or(f64::NAN)).sum()

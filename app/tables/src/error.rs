@@ -12,24 +12,24 @@ pub enum TableError {
     /// A file cannot be read or written.
     #[error("cannot {what} `{}`: {reason}", path.display())]
     File {
-        /// What was tried.
+        /// The operation.
         what: &'static str,
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why it failed.
+        /// The reason.
         reason: io::Error,
     },
     /// A table cannot be read or written.
     #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
     Table {
-        /// What was tried.
+        /// The operation.
         what: &'static str,
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why it failed.
+        /// The reason.
         reason: Box<dyn Error + Send + Sync>,
     },
-    /// What the user gave does not fit together.
+    /// The user's inputs are inconsistent.
     #[error("{0}")]
     Input(String),
 }

@@ -1,5 +1,5 @@
-//! Tables of rows, as Parquet or comma-separated values, and the tables that a run writes while it goes on: what vehicles did
-//! ([`TrajectoryWriter`]), what detectors counted ([`DetectorWriter`]), and how the building fared ([`SeriesWriter`]).
+//! Tables of rows, as Parquet or comma-separated values, and the tables that a run writes while it advances: trajectories of vehicles
+//! ([`TrajectoryWriter`]), counts of detectors ([`DetectorWriter`]), and series of the building ([`SeriesWriter`]).
 
 mod cell;
 mod detectors;

@@ -21,14 +21,14 @@ pub enum TableFormat {
     Parquet,
 }
 
-/// A file that a run writes rows to; its ending is its format.
+/// A file to which a run writes rows; its extension states its format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableFile {
     path: PathBuf,
     format: TableFormat,
 }
 
-/// A file whose ending is no format of a table.
+/// A file whose extension is not that of a table.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("`{0}` has no ending of a table; use .csv or .parquet")]
 pub struct TableFormatError(String);
@@ -61,13 +61,12 @@ impl FromStr for TableFile {
     }
 }
 
-/// Rows that are being written. The file appears when all are there; nothing of a run that is given up stays.
+/// Rows that are being written. The file appears when it is complete; an aborted run leaves nothing behind.
 pub(crate) struct RowFile {
     rows: Rows,
     folders: NewFolders,
 }
 
-/// Where rows go.
 enum Rows {
     Csv(PathBuf, BufWriter<WholeFile>),
     Parquet(Box<TableWriter>),
@@ -77,7 +76,7 @@ impl RowFile {
     /// Begins a table with these columns.
     ///
     /// # Errors
-    /// For a file that cannot be written.
+    /// If the file cannot be written.
     pub fn begin(target: &TableFile, columns: &[(&str, ColumnKind)]) -> Result<RowFile, TableError> {
         let path = target.path();
         interplay_files::check(path).map_err(TableError::file("write", path))?;
@@ -97,7 +96,7 @@ impl RowFile {
         Ok(RowFile { rows, folders })
     }
 
-    /// Appends a row, a value for each column in their order.
+    /// Appends a row: one value for each column, in order.
     pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), WatchError> {
         match &mut self.rows {
             Rows::Csv(path, file) => {
@@ -109,7 +108,7 @@ impl RowFile {
         Ok(())
     }
 
-    /// All rows are there.
+    /// Completes the file.
     pub fn finish(self) -> Result<(), WatchError> {
         match self.rows {
             Rows::Csv(path, file) => {
@@ -123,7 +122,7 @@ impl RowFile {
     }
 }
 
-/// A value as comma-separated values have it. Numbers have as many digits as it takes to read the same number again.
+/// A value in CSV. Numbers have as many digits as are needed to read the same number again.
 fn in_csv(cell: &Cell) -> String {
     match cell {
         Cell::Flag(value) => value.map(|value| value.to_string()),
@@ -134,7 +133,7 @@ fn in_csv(cell: &Cell) -> String {
     .unwrap_or_default()
 }
 
-/// A text in quotes, where it would be read as something else without them.
+/// A text, in quotes where CSV needs them.
 fn quoted(text: &str) -> String {
     if text.contains(['"', ',', '\n', '\r']) {
         return format!("\"{}\"", text.replace('"', "\"\""));

@@ -1,7 +1,7 @@
-//! What happened in a building at every step, as a table: a row a step, as CSV or Parquet.
+//! Series of a building as a table, CSV or Parquet: one row for each step.
 //!
-//! The columns are of the building as a whole and then of each zone, as `office.temperature_c`. Temperatures of zones and walls are
-//! those at the start of a step; all else holds during it. A scenario reads such a table as weather (`rows = "mean-from"`), and
+//! The columns of the whole building come first, then those of each zone, such as `office.temperature_c`. Temperatures of zones and walls
+//! are those at the start of a step; all other values hold during it. A scenario reads such a table as weather (`rows = "mean-from"`), and
 //! `interplay identify` as telemetry.
 
 use interplay_scenarios::Scenario;
@@ -24,7 +24,6 @@ const BUILDING_COLUMNS: [(&str, ColumnKind); 8] = [
     ("electric_kw", ColumnKind::Number),
 ];
 
-/// A column of a zone.
 type ZoneColumn = (&'static str, fn(&ZoneFrame) -> Option<f64>);
 
 /// The columns of each zone, after its name and a point.
@@ -39,7 +38,7 @@ const ZONE_COLUMNS: [ZoneColumn; 8] = [
     ("electric_kw", |zone| Some(zone.electric_kw)),
 ];
 
-/// Writes a row for every step of a building. The file appears when the run is over; nothing of a run that is given up stays.
+/// Writes a row for every step of a building. The file appears when the run is over; an aborted run leaves nothing behind.
 pub struct SeriesWriter {
     rows: RowFile,
     step_s: f64,
@@ -50,7 +49,7 @@ impl SeriesWriter {
     /// Begins a table of the building of a scenario.
     ///
     /// # Errors
-    /// For a scenario without a building, and a file that cannot be written.
+    /// If the scenario has no building, or the file cannot be written.
     pub fn begin(target: &TableFile, scenario: &Scenario) -> Result<SeriesWriter, TableError> {
         let network = scenario.building.as_ref().and_then(|building| Some((building, building.network().ok()?)));
         let Some((building, network)) = network else {
@@ -136,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_a_table_that_reads_back_as_its_weather() {
+    fn the_table_of_a_run_reads_back_as_weather() {
         let folder = tempfile::tempdir().expect("a folder");
         let [csv, first] = written(folder.path(), "first", BUILDING);
         let text = std::fs::read_to_string(csv).expect("written");
@@ -150,7 +149,7 @@ mod tests {
         assert_eq!(numbers(&first, "price_per_kwh")[..5], [0.2, 0.2, 0.4, 0.4, 0.2].map(Some));
         assert_eq!((numbers(&first, "a, b.temperature_c")[0], numbers(&first, WALL)[0]), (Some(28.0), Some(28.0)));
         assert!(numbers(&first, "a, b.sun_kw").iter().flatten().any(|kw| *kw > 0.05), "the window lets the sun in");
-        // Under its own recorded weather it is the same outdoors to the last bit.
+        // Under the recorded weather of the first run, the outdoor temperatures are bit-identical.
         let again = format!(
             "{BUILDING}[weather]\nkind = 'csv'\nfile = 'first.csv'\nrows = 'mean-from'\n\
              latitude_deg = 0.0\nlongitude_deg = 103.5\ntime_zone_h = 8.0\n"

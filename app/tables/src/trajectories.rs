@@ -1,6 +1,6 @@
-//! What every vehicle on the road did at every tick, as a table: a row a vehicle and tick, as CSV or Parquet.
+//! Trajectories of all vehicles on the road as a table, CSV or Parquet: one row for each vehicle and tick.
 //!
-//! Rows are written while the run goes on, and the file appears when the run is over.
+//! Rows are written while the run advances, and the file appears when the run is over.
 
 use std::collections::BTreeMap;
 
@@ -27,10 +27,10 @@ const COLUMNS: [(&str, ColumnKind); 12] = [
     ("partner", ColumnKind::Text),
 ];
 
-/// Writes a row for every vehicle on the road and tick. The file appears when the run is over; nothing of a run that is given up stays.
+/// Writes a row for every vehicle on the road at every tick. The file appears when the run is over; an aborted run leaves nothing behind.
 pub struct TrajectoryWriter {
     rows: RowFile,
-    /// With whom each vehicle deals, by its name.
+    /// The partner of each vehicle's planner, by name.
     partners: BTreeMap<String, String>,
 }
 
@@ -38,7 +38,7 @@ impl TrajectoryWriter {
     /// Begins a table.
     ///
     /// # Errors
-    /// For a file that cannot be written.
+    /// If the file cannot be written.
     pub fn begin(target: &TableFile) -> Result<TrajectoryWriter, TableError> {
         Ok(TrajectoryWriter { rows: RowFile::begin(target, &COLUMNS)?, partners: BTreeMap::new() })
     }
@@ -84,7 +84,7 @@ fn cells(frame: &Frame, vehicle: &VehicleFrame, partner: Option<&String>) -> [Ce
     ]
 }
 
-/// Where a plan comes from, in a word.
+/// The name of a plan's origin.
 fn word(origin: Origin) -> &'static str {
     match origin {
         Origin::Planned => "planned",
@@ -120,14 +120,14 @@ mod tests {
     }
 
     #[test]
-    fn a_name_with_a_comma_is_quoted_and_numbers_are_read_as_they_were() {
+    fn names_with_commas_are_quoted_and_numbers_read_back_exactly() {
         let (_folder, path) = written("a.csv", &[frame(3, "a, \"b\"")], true);
         let text = std::fs::read_to_string(path).expect("written");
         assert_eq!(text.lines().nth(1), Some("3,0.30000000000000004,\"a, \"\"b\"\"\",0,0,0,0,0,0,,planned,"));
     }
 
     #[test]
-    fn parquet_has_the_same_rows() {
+    fn parquet_contains_the_same_rows_as_csv() {
         let (_folder, path) = written("a.parquet", &[frame(0, "a"), frame(1, "a")], true);
         let reader = TableReader::open(&path).expect("a table");
         let table = reader.group(0, &COLUMNS.map(|(name, _)| name.to_owned())).expect("readable");
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_is_given_up_leaves_nothing() {
+    fn an_aborted_run_leaves_no_file() {
         for file in ["a.csv", "a.parquet"] {
             let (folder, path) = written(file, &[frame(0, "a")], false);
             assert!(!path.exists() && folder.path().read_dir().expect("there").next().is_none());

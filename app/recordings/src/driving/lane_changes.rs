@@ -1,36 +1,36 @@
-//! Changes of lane: the moment at which the middle of a vehicle crosses the line, and who is ahead and behind in the new lane then.
+//! Lane changes: the time at which the centre of a vehicle crosses the line, and the vehicles ahead and behind in the new lane then.
 
 use interplay_scenarios::RecordedMoment;
 
 use crate::geometry::LaneLine;
 use crate::traffic::{Timeline, Track};
 
-/// A change of lane.
+/// A lane change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LaneChange {
     /// Time gap to the vehicle ahead in the new lane; none without one \[s\].
     pub lead_gap_s: Option<f64>,
     /// Time gap of the vehicle behind in the new lane; none without one \[s\].
     pub lag_gap_s: Option<f64>,
-    /// Hardest braking of that vehicle afterwards \[m/s²\].
+    /// Hardest braking of the vehicle behind after the lane change \[m/s²\].
     pub lag_braking_mps2: Option<f64>,
-    /// How long the vehicle moves sideways; none where its record begins or ends meanwhile \[s\].
+    /// Duration of the lateral motion; none if the record begins or ends during it \[s\].
     pub duration_s: Option<f64>,
 }
 
-/// Slower vehicles do not change lanes but turn \[m/s\].
+/// Below this speed a lateral motion counts as a turn, not as a lane change \[m/s\].
 const MIN_SPEED_MPS: f64 = 3.0;
-/// Others farther away are no gap \[m\].
+/// Vehicles farther away than this do not define a gap \[m\].
 const SIGHT_M: f64 = 100.0;
-/// A vehicle that changes lanes moves sideways faster than this \[m/s\].
+/// Minimum lateral speed during a lane change \[m/s\].
 const SIDEWAYS_MPS: f64 = 0.15;
-/// The time over which that speed is measured, and the one in which the vehicle behind brakes \[s\].
+/// Time window over which that speed is measured, and in which the vehicle behind brakes \[s\].
 const WINDOW_S: f64 = 0.6;
 const AFTER_S: f64 = 3.0;
-/// A line that is beside the old one by this at least is that of another lane \[m\].
+/// Minimum lateral offset of a line that belongs to another lane \[m\].
 const BESIDE_M: f64 = 1.5;
 
-/// The changes of lane in a timeline, without those that repeat others.
+/// The lane changes in a timeline, except those that repeat others.
 pub(super) fn of(timeline: &Timeline) -> Vec<LaneChange> {
     if timeline.map.is_empty() {
         return Vec::new();
@@ -53,7 +53,7 @@ pub(super) fn of(timeline: &Timeline) -> Vec<LaneChange> {
     found
 }
 
-/// Whether a vehicle was in one lane and is in another one beside it a second later.
+/// Whether a vehicle was in one lane and is in an adjacent one a second later.
 fn is_beside(old: &LaneLine, new: &LaneLine, before: &RecordedMoment, after: &RecordedMoment) -> bool {
     let [was, is] = [old.project(before.position), new.project(after.position)];
     let left = old.project(after.position);
@@ -76,7 +76,6 @@ fn change(timeline: &Timeline, number: usize, from: usize, stride: usize, new: &
     let between = &track.moments[from..=from + stride];
     let Some(at) = between.iter().find(crosses) else { return LaneChange::default() };
     let own = new.project(at.position);
-    // Ahead and behind.
     let mut nearest: [Option<(f64, &Track)>; 2] = [None; 2];
     for (index, other) in timeline.tracks.iter().enumerate() {
         let Some(there) = other.at(at.step).filter(|_| index != number) else { continue };
@@ -101,7 +100,7 @@ fn change(timeline: &Timeline, number: usize, from: usize, stride: usize, new: &
     }
 }
 
-/// The hardest braking of a vehicle within a while after a step, over a second \[m/s²\].
+/// The hardest braking of a vehicle in the 3 s after a step, averaged over a second \[m/s²\].
 fn braking_mps2(track: &Track, step: i64, step_s: f64) -> Option<f64> {
     let [second, last] = [1.0, AFTER_S].map(|time_s| (time_s / step_s).round() as i64);
     let pairs = (step..=step + last - second).filter_map(|from| Some([track.at(from)?, track.at(from + second)?]));
@@ -111,7 +110,7 @@ fn braking_mps2(track: &Track, step: i64, step_s: f64) -> Option<f64> {
         .map(|it| it.max(0.0))
 }
 
-/// How long a vehicle moves sideways around a step \[s\].
+/// Duration of the lateral motion around a step \[s\].
 fn duration_s(track: &Track, step: i64, new: &LaneLine, step_s: f64) -> Option<f64> {
     let half = (0.5 * WINDOW_S / step_s).round().max(1.0) as i64;
     let sideways_mps = |at: i64| {

@@ -1,4 +1,4 @@
-//! How recorded vehicles drive: gaps, braking, changes of lane.
+//! Statistics of how recorded vehicles drive: gaps, braking, lane changes.
 
 mod lane_changes;
 
@@ -11,57 +11,56 @@ use crate::start::{PAST_S, known_at};
 use crate::traffic::{Recordings, Timeline};
 use lane_changes::LaneChange;
 
-/// The quantiles at 5, 50 and 95 % of some numbers.
+/// The quantiles at 5, 50 and 95 % of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// How many numbers there are.
+    /// Sample size.
     pub count: usize,
-    /// 5 % are below.
+    /// 5 % of the sample are below.
     pub low: f64,
     /// The median.
     pub median: f64,
-    /// 95 % are below.
+    /// 95 % of the sample are below.
     pub high: f64,
 }
 
-/// How the vehicles of a group of recordings drive; rows that repeat others are left out. What there is none of is none.
+/// Statistics of the vehicles of a group of recordings, without rows that repeat others. A statistic without a sample is none.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrivingStatistics {
     /// Name of the group.
     pub name: String,
-    /// Time gaps between bumpers to vehicles ahead in the lane within 60 m, at each second of those faster than 3 m/s \[s\].
+    /// Time gaps, bumper to bumper, to vehicles ahead in the lane within 60 m, each second, at speeds above 3 m/s \[s\].
     pub time_gap_s: Option<Spread>,
     /// Share of these gaps below 0.5 s.
     pub time_gap_below_half_share: Option<f64>,
-    /// Of each vehicle that follows steadily, the median time gap beyond 3.5 m \[s\].
+    /// Median time gap beyond 3.5 m of each vehicle that follows steadily \[s\].
     pub steady_time_gap_s: Option<Spread>,
-    /// Of the same vehicles, the standard deviation of its logarithm.
+    /// Standard deviation of the logarithm of that time gap, over the same vehicles.
     pub steady_time_gap_deviation: Option<f64>,
     /// The hardest braking of each vehicle, as a slope over 1.2 s \[m/s²\].
     pub peak_braking_mps2: Option<Spread>,
-    /// The change of that slope from one second to the next, without sign \[m/s³\].
+    /// The absolute change of that slope from one second to the next \[m/s³\].
     pub jerk_mps3: Option<Spread>,
-    /// Time gaps to the vehicle ahead in the new lane when a change of lane crosses the line \[s\].
+    /// Time gaps to the vehicle ahead in the new lane when a lane change crosses the line \[s\].
     pub accepted_lead_gap_s: Option<Spread>,
     /// Time gaps of the vehicle behind in the new lane at that moment \[s\].
     pub accepted_lag_gap_s: Option<Spread>,
-    /// The hardest braking of the vehicle behind in the 3 s after it \[m/s²\].
+    /// The hardest braking of the vehicle behind in the following 3 s \[m/s²\].
     pub lag_braking_mps2: Option<Spread>,
-    /// How long a change of lane lasts \[s\].
+    /// Duration of lane changes \[s\].
     pub lane_change_s: Option<Spread>,
 }
 
 /// A vehicle follows another one within this distance \[m\].
 const FOLLOWED_M: f64 = 60.0;
-/// Time gaps of slower vehicles say nothing \[m/s\].
+/// Time gaps are not measured below this speed \[m/s\].
 const MIN_SPEED_MPS: f64 = 3.0;
-/// Gap at standstill of people \[m\].
+/// Standstill gap of human drivers \[m\].
 const STANDSTILL_M: f64 = 3.5;
-/// Who follows steadily differs in speed by less than this \[m/s\], for at least so many seconds.
+/// Steady following: the speeds differ by less than this \[m/s\], for at least [`STEADY_COUNT`] seconds.
 const STEADY_MPS: f64 = 1.0;
 const STEADY_COUNT: usize = 3;
 
-/// What is counted in a timeline.
 #[derive(Default)]
 struct Counted {
     gaps_s: Vec<f64>,
@@ -72,7 +71,7 @@ struct Counted {
 }
 
 impl Recordings {
-    /// How the vehicles of each group drive.
+    /// Statistics of how the vehicles of each group drive.
     pub fn driving(&self) -> Vec<DrivingStatistics> {
         let counted: Vec<Counted> = self.timelines.par_iter().map(counted).collect();
         let group = |(index, name): (usize, &String)| {
@@ -139,7 +138,7 @@ fn counted(timeline: &Timeline) -> Counted {
     all
 }
 
-/// The gap to a vehicle ahead that is followed \[m\], and the speed at which it closes \[m/s\].
+/// The gap to the vehicle ahead that is followed \[m\], and the closing speed \[m/s\].
 fn followed(known: &TrafficMoment) -> Option<(f64, f64)> {
     let leader = known.leaders().first().copied()?;
     let gap_m = known.gap_m(&leader);
@@ -147,14 +146,14 @@ fn followed(known: &TrafficMoment) -> Option<(f64, f64)> {
     is_followed.then_some((gap_m, known.speed_mps - leader.speed_mps))
 }
 
-/// The quantiles of some numbers; none without any.
+/// The quantiles of a sample; none if it is empty.
 fn quantiles(mut numbers: Vec<f64>) -> Option<Spread> {
     numbers.sort_by(f64::total_cmp);
     let at = |share: f64| nearest_rank(&numbers, share);
     (!numbers.is_empty()).then(|| Spread { count: numbers.len(), low: at(0.05), median: at(0.5), high: at(0.95) })
 }
 
-/// The standard deviation of some numbers; none for fewer than two.
+/// The standard deviation of a sample; none for fewer than two values.
 fn deviation(numbers: &[f64]) -> Option<f64> {
     let count = numbers.len() as f64;
     let mean = numbers.iter().sum::<f64>() / count;
@@ -167,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_and_deviations_are_those_of_the_numbers() {
+    fn quantiles_and_deviations_of_a_sample_are_exact() {
         let found = quantiles((0..=100).map(f64::from).collect()).expect("numbers");
         assert_eq!((found.count, found.low, found.median, found.high), (101, 5.0, 50.0, 95.0));
         assert_eq!((quantiles(Vec::new()), deviation(&[1.0])), (None, None));

@@ -1,21 +1,20 @@
-//! The drivers that are tried.
+//! The candidate drivers of a fit.
 
 use interplay_planners::drivers::human::{Settings, Style};
 use interplay_planners::motion_prediction::{LateralMotion, PredictedDriver};
 
-/// By this ratio intervals of time gaps are wider than the bootstrap has them: candidates are discrete. It was chosen on the simulated
-/// drivers of `coverage_of_the_intervals`, of whom 95 % then lie within.
+/// Intervals of time gaps are widened by this ratio, since candidates are discrete. The ratio was chosen on the simulated
+/// drivers of `coverage_of_the_intervals`, so that 95 % of their true values lie within.
 pub(super) const RATIO_STEP: f64 = 1.02;
-/// The same of comforts, by the ratio of two candidates.
+/// The same ratio for comforts, which is that of two neighbouring candidates.
 pub(super) const COMFORT_STEP: f64 = 1.3;
 /// Time gaps, as multiples of the usual one.
 pub(super) const RATIOS: [f64; 13] = [0.4, 0.47, 0.55, 0.64, 0.74, 0.85, 0.97, 1.1, 1.25, 1.42, 1.62, 1.85, 2.1];
 /// Weights of changes of the acceleration \[s⁴/m²\].
 pub(super) const COMFORTS: [f64; 7] = [0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.9];
-/// Wanted speeds, as multiples of the highest one in the record.
+/// Desired speeds, as multiples of the highest one in the record.
 pub(super) const WANTED_RATIOS: [f64; 5] = [0.95, 1.0, 1.08, 1.2, 1.4];
 
-/// A candidate.
 pub(super) fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: f64) -> PredictedDriver {
     PredictedDriver {
         settings: Settings { style: Some(Style::Normal), time_gap_ratio: Some(time_gap_ratio), ..Settings::default() },
@@ -27,14 +26,14 @@ pub(super) fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: 
     }
 }
 
-/// The style whose weight is nearest, on the scale on which weights change time gaps.
+/// The style with the nearest weight, on the scale on which weights change time gaps.
 pub(super) fn style_of(weight: f64) -> &'static str {
     let away = |style: &Style| (libm::log1p(style.safety_weight()) - libm::log1p(weight)).abs();
     let nearest = Style::ALL.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
     nearest.unwrap_or(Style::Normal).name()
 }
 
-/// The candidate with the least sum of errors of starts that count so often, refined between its neighbours by parabolas.
+/// The candidate with the least weighted sum of errors, refined between its neighbours by parabolas. `counts` are the weights.
 pub(super) fn least(grid: &[[usize; 2]], errors: &[Vec<f64>], counts: &[u32]) -> [f64; 2] {
     let total =
         |errors: &Vec<f64>| -> f64 { errors.iter().zip(counts).map(|(error, count)| f64::from(*count) * error).sum() };
@@ -68,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_and_time_gaps_belong_together() {
+    fn weights_convert_to_time_gaps_and_back() {
         for (ratio, weight) in [(0.6, 0.0), (1.4, 50.0), (0.3, 0.0), (2.0, 50.0)] {
             assert!((safety_weight_keeping(ratio) - weight).abs() < 1e-9, "{ratio}");
         }
@@ -76,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_lies_between_the_candidates() {
+    fn the_minimum_is_refined_between_the_candidates() {
         let grid: Vec<[usize; 2]> =
             (0..RATIOS.len()).flat_map(|ratio| (0..COMFORTS.len()).map(move |comfort| [ratio, comfort])).collect();
         let bowl = |place: &[usize; 2]| {

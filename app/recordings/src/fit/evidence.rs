@@ -1,4 +1,4 @@
-//! What a record says of a driver: starts with somebody ahead, and where the vehicle was afterwards.
+//! Evidence of a record about a driver: starts with a vehicle ahead, and later positions.
 
 use interplay_common::random::Random;
 use interplay_planners::motion_prediction::{MotionModel, PredictedDriver, STEP_S, TrafficMoment};
@@ -6,25 +6,24 @@ use interplay_planners::motion_prediction::{MotionModel, PredictedDriver, STEP_S
 use crate::start::{Later, PAST_S, known_at};
 use crate::traffic::Timeline;
 
-/// Who is farther ahead is not followed \[s\].
+/// A vehicle is not followed from beyond this time gap \[s\].
 const FOLLOWED_S: f64 = 6.0;
-/// Nearer than this somebody is followed, however slow \[m\].
+/// A vehicle is followed within this distance at any speed \[m\].
 const FOLLOWED_M: f64 = 20.0;
-/// The most starts: of a long record, evenly from all of it.
+/// Maximum number of starts; those of a long record are spread evenly.
 const MAX_STARTS: usize = 120;
-/// The horizons \[s\], and how much a squared error after each counts: errors grow about with its square.
+/// The horizons \[s\] with the weight of a squared error at each: errors grow roughly with the square of the horizon.
 const HORIZONS: [(f64, f64); 3] = [(1.0, 9.0), (2.0, 1.5), (3.0, 0.5)];
-/// The bootstrap's stream.
 const SEED: u64 = 64;
 
-/// What a record says of a driver.
+/// The evidence of a record about a driver.
 pub(super) struct Evidence {
     pub starts: Vec<EvidenceStart>,
     /// The highest speed in the record \[m/s\].
     pub fastest_mps: f64,
 }
 
-/// A start with somebody ahead, and how far the vehicle came after each horizon \[m\].
+/// A start with a vehicle ahead, and the distance travelled up to each horizon \[m\].
 pub(super) struct EvidenceStart {
     known: TrafficMoment,
     along_m: [f64; HORIZONS.len()],
@@ -82,7 +81,7 @@ impl Evidence {
     }
 }
 
-/// How often each of some starts counts when blocks of them are drawn with replacement.
+/// How often each start is drawn when blocks of starts are drawn with replacement.
 pub(super) fn resampled(starts: usize, block: usize, resample: u64) -> Vec<u32> {
     let mut random = Random::new(SEED, resample);
     let mut counts = vec![0; starts];

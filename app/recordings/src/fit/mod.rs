@@ -1,11 +1,11 @@
-//! A human driver of ours fitted to a recorded trajectory.
+//! Fits a human driver model to a recorded trajectory.
 //!
-//! From each second of the record that has a leader within sight, the driver plans on what is known then, as a candidate would; its plan is
-//! compared with the record 1, 2 and 3 s later. What is fitted: the time gap, the weight of changes of the acceleration (comfort), and, as
-//! a nuisance, the wanted speed. The style is the safety weight of which our humans keep that time gap; how somebody yields is not looked
-//! at.
+//! From each second of the record with a leader in sight, a candidate driver plans on what is known then; its plan is
+//! compared with the record 1, 2 and 3 s later. Fitted are the time gap, the weight of changes of the acceleration (comfort), and, as
+//! a nuisance parameter, the desired speed. The style is the safety weight at which our human keeps that time gap; yielding is not
+//! considered.
 //!
-//! Intervals are those of a bootstrap over blocks of starts that follow one another, since neighbouring errors are alike, widened by the
+//! Intervals come from a bootstrap over blocks of consecutive starts, since neighbouring errors are correlated. They are widened by the
 //! grid of candidates.
 
 mod candidates;
@@ -23,39 +23,38 @@ use crate::traffic::Recordings;
 use candidates::{COMFORTS, RATIOS, WANTED_RATIOS, driver, style_of};
 use evidence::{Evidence, evidence};
 
-/// The time gap of which drivers keep a multiple \[s\].
+/// The time gap of which the candidates' are multiples \[s\].
 fn usual_gap_s() -> f64 {
     ComfortLimits::default().time_gap_s
 }
 
-/// A driver that was fitted to a vehicle.
+/// A driver that is fitted to a vehicle.
 #[derive(Clone, Debug, Serialize)]
 pub struct FittedDriver {
     /// The vehicle.
     pub vehicle: String,
-    /// On how many starts with somebody ahead it was fitted.
+    /// Number of starts with a vehicle ahead on which it was fitted.
     pub starts: usize,
     /// The time gap that it keeps beyond 3.5 m \[s\].
     pub time_gap_s: MeasureInterval,
     /// The weight of changes of its acceleration \[s⁴/m²\].
     pub acceleration_change: MeasureInterval,
-    /// The safety weight of which our humans keep that time gap.
+    /// The safety weight at which our human keeps that time gap.
     pub safety_weight: MeasureInterval,
     /// The style whose weight is nearest to it.
     pub style: &'static str,
-    /// The speed that it wants \[m/s\].
+    /// Its desired speed \[m/s\].
     pub wanted_mps: f64,
     /// Root mean squared error along the road after 3 s \[m\].
     pub along_rmse_m: f64,
-    /// The same of constant velocity \[m\].
+    /// The same for a prediction at constant velocity \[m\].
     pub constant_velocity_rmse_m: f64,
 }
 
-/// The fewest starts with a leader that say anything.
+/// Minimum number of starts with a leader.
 const MIN_STARTS: usize = 10;
-/// Starts of a block: errors within 3 s of one another are alike.
+/// Number of starts in a block: errors within 3 s of one another are correlated.
 const BLOCK: usize = 4;
-/// How often blocks are drawn again.
 const RESAMPLES: u64 = 400;
 
 impl Recordings {
@@ -122,7 +121,7 @@ fn fitted(vehicle: &str, evidence: &Evidence) -> FittedDriver {
     }
 }
 
-/// The wanted speed with the least error, for a driver of the usual comfort and the best of a few time gaps \[m/s\].
+/// The desired speed with the least error, for a driver of usual comfort and the best of a few time gaps \[m/s\].
 fn wanted_mps(evidence: &Evidence) -> f64 {
     let tried: Vec<(f64, f64)> = WANTED_RATIOS
         .into_par_iter()

@@ -1,4 +1,4 @@
-//! Drivers are recovered from what they drove: our human follows a car that changes its speed, with disturbances, and is fitted.
+//! Parameters of drivers are recovered from their trajectories: our human follows a car of varying speed, with disturbances.
 
 use interplay_common::random::Random;
 use interplay_planners::motion_prediction::{MotionModel, NearbyVehicle, STEP_S, TrafficMoment};
@@ -7,12 +7,12 @@ use interplay_scenarios::{RecordedMoment, RecordedTraffic, RecordedVehicle};
 use super::*;
 use crate::traffic::Timeline;
 
-/// Number of steps that are driven: 80 s.
+/// Number of simulated steps: 80 s.
 const STEPS: usize = 400;
-/// Deviation of the disturbances of its acceleration \[m/s²\].
+/// Standard deviation of the disturbances of its acceleration \[m/s²\].
 const DISTURBANCE_MPS2: f64 = 0.15;
 
-/// The record of a driver of ours behind a car that speeds up and slows down.
+/// The record of our human behind a car that speeds up and slows down.
 fn driven(ratio: f64, comfort: f64, seed: u64) -> Recordings {
     let model = MotionModel::Driver(driver(ratio, comfort, 22.0));
     let mut random = Random::new(seed, 1);
@@ -61,33 +61,33 @@ fn driven(ratio: f64, comfort: f64, seed: u64) -> Recordings {
     Recordings::of(vec![Timeline::of(traffic, 0)])
 }
 
-/// Place, speed and acceleration a step later.
+/// Position, speed and acceleration a step later.
 fn moved([along_m, speed_mps, _]: [f64; 3], acceleration_mps2: f64) -> [f64; 3] {
     let next_mps = (speed_mps + STEP_S * acceleration_mps2).max(0.0);
     [along_m + 0.5 * STEP_S * (speed_mps + next_mps), next_mps, (next_mps - speed_mps) / STEP_S]
 }
 
-/// Each with its truth: multiple of the time gap, weight of changes of the acceleration.
+/// True parameters of the drivers: multiple of the time gap, weight of changes of the acceleration.
 const DRIVERS: [[f64; 2]; 3] = [[0.6, 0.1], [0.85, 0.3], [1.4, 0.17]];
 
 #[test]
-fn drivers_are_recovered_from_what_they_drove() {
+fn parameters_of_drivers_are_recovered_from_their_trajectories() {
     let mut covered = 0;
     for (seed, [ratio, comfort]) in DRIVERS.into_iter().enumerate() {
-        let found = fit_driver(&driven(ratio, comfort, seed as u64), "own").expect("it followed somebody");
+        let found = fit_driver(&driven(ratio, comfort, seed as u64), "own").expect("it followed the leader");
         let gap = found.time_gap_s;
         assert!((gap.value / usual_gap_s() / ratio - 1.0).abs() < 0.25, "{ratio}, {comfort}: {found:?}");
         assert!(found.along_rmse_m < found.constant_velocity_rmse_m, "{found:?}");
         covered += usize::from((gap.low..=gap.high).contains(&(usual_gap_s() * ratio)));
     }
-    assert!(covered >= 2, "{covered} of {} intervals have the truth", DRIVERS.len());
+    assert!(covered >= 2, "{covered} of {} intervals contain the true value", DRIVERS.len());
 }
 
 #[test]
-fn who_follows_nobody_cannot_be_fitted() {
+fn a_vehicle_without_a_leader_cannot_be_fitted() {
     let recordings = driven(1.0, 0.1, 9);
     assert!(matches!(fit_driver(&recordings, "leader"), Err(RecordingsError::TooLittleFollowing { starts: 0, .. })));
-    assert!(matches!(fit_driver(&recordings, "nobody"), Err(RecordingsError::UnknownVehicle { .. })));
+    assert!(matches!(fit_driver(&recordings, "missing"), Err(RecordingsError::UnknownVehicle { .. })));
 }
 
 /// Takes minutes: `cargo test --release -p interplay-recordings coverage -- --ignored --nocapture`.
@@ -100,7 +100,7 @@ fn coverage_of_the_intervals() {
     const COUNT: u64 = 40;
     for seed in 0..COUNT {
         let (ratio, comfort) = (random.uniform(0.55, 1.6), libm::exp(random.uniform(libm::log(0.05), libm::log(0.5))));
-        let found = fit_driver(&driven(ratio, comfort, 100 + seed), "own").expect("it followed somebody");
+        let found = fit_driver(&driven(ratio, comfort, 100 + seed), "own").expect("it followed the leader");
         let has = |it: MeasureInterval, truth: f64| u32::from((it.low..=it.high).contains(&truth));
         covered[0] += has(found.time_gap_s, usual_gap_s() * ratio);
         covered[1] += has(found.acceleration_change, comfort);

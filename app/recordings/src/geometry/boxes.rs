@@ -5,7 +5,7 @@ use interplay_planners::plan::certificate::overlap_m;
 /// A rectangle in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Box2 {
-    /// Its middle \[m\].
+    /// Its centre \[m\].
     pub middle: [f64; 2],
     /// The direction of its length \[rad\].
     pub heading_rad: f64,
@@ -36,12 +36,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boxes_overlap_where_no_side_parts_them() {
+    fn boxes_overlap_unless_a_side_separates_them() {
         let at = |x_m: f64, y_m: f64, heading_rad: f64| Box2 { middle: [x_m, y_m], heading_rad, half_m: [2.0, 1.0] };
         let one = at(0.0, 0.0, 0.0);
         assert!(one.overlaps(&at(3.9, 0.0, 0.0)) && !one.overlaps(&at(4.1, 0.0, 0.0)));
         assert!(one.overlaps(&at(2.9, 0.0, std::f64::consts::FRAC_PI_2)));
-        // The corner of a turned box comes near without touching.
+        // The corner of a rotated box comes near without touching.
         assert!(!one.overlaps(&at(3.6, 2.6, std::f64::consts::FRAC_PI_4)));
     }
 }

@@ -1,9 +1,9 @@
-//! The line of a lane: a chain of straight pieces with the width of the lane beside it.
+//! The centre line of a lane: a polyline with the width of the lane at each point.
 
-/// A place relative to a line.
+/// A position relative to a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
-    /// Arc length of the nearest place of the line \[m\].
+    /// Arc length of the nearest point of the line \[m\].
     pub along_m: f64,
     /// Distance from it, positive to the left \[m\].
     pub across_m: f64,
@@ -13,7 +13,7 @@ pub(crate) struct Projection {
     pub width_m: f64,
 }
 
-/// A line of at least two points, which goes on straight at both ends.
+/// A line of at least two points, extended straight at both ends.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LaneLine {
     points: Vec<[f64; 2]>,
@@ -23,11 +23,11 @@ pub(crate) struct LaneLine {
     widths_m: Vec<f64>,
 }
 
-/// Points nearer to one another are one \[m\].
+/// Minimum spacing of points; nearer ones are merged \[m\].
 const MIN_SPACING_M: f64 = 0.05;
 
 impl LaneLine {
-    /// The line through points with the widths beside them; none where fewer than two differ.
+    /// The line through points with the lane's width at each; none unless two points differ.
     pub(crate) fn through(places: impl IntoIterator<Item = ([f64; 2], f64)>) -> Option<LaneLine> {
         let mut line = LaneLine::default();
         for (point, width_m) in places {
@@ -63,17 +63,16 @@ impl LaneLine {
         LaneLine { points: vec![at(-50.0), at(50.0)], along_m: vec![0.0, 100.0], widths_m: vec![width_m; 2] }
     }
 
-    /// The places of the line, each with the width there.
+    /// The points of the line, each with the lane's width there.
     pub(crate) fn places(&self) -> impl DoubleEndedIterator<Item = ([f64; 2], f64)> {
         self.points.iter().copied().zip(self.widths_m.iter().copied())
     }
 
-    /// Its length \[m\].
     pub(crate) fn length_m(&self) -> f64 {
         self.along_m.last().copied().unwrap_or(0.0)
     }
 
-    /// By how much its direction changes from its begin to its end \[rad\].
+    /// Change of its direction from begin to end \[rad\].
     pub(crate) fn turn_rad(&self) -> f64 {
         let [first, last] = [0, self.points.len() - 2].map(|piece| self.heading_rad(piece));
         libm::remainder(last - first, std::f64::consts::TAU)
@@ -85,7 +84,7 @@ impl LaneLine {
         libm::atan2(to[1] - from[1], to[0] - from[0])
     }
 
-    /// The nearest place of the line to a point; its ends go on straight.
+    /// Projects a point onto the line, which is extended straight at both ends.
     pub(crate) fn project(&self, point: [f64; 2]) -> Projection {
         let last = self.points.len() - 2;
         let mut best: Option<(f64, usize, f64, f64)> = None;
@@ -118,7 +117,7 @@ impl LaneLine {
         }
     }
 
-    /// The point beside an arc length, and the direction of the line there.
+    /// The point at an arc length and a lateral offset, and the direction of the line there.
     pub(crate) fn position(&self, along_m: f64, across_m: f64) -> ([f64; 2], f64) {
         let after = self.along_m.partition_point(|at_m| *at_m <= along_m);
         let piece = after.saturating_sub(1).min(self.points.len() - 2);
@@ -143,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn places_and_positions_are_each_other_s_inverse() {
+    fn project_and_position_are_inverse() {
         let line = corner();
         for (along_m, across_m) in [(3.0, 1.0), (15.0, -2.0), (-5.0, 0.5), (26.0, 0.0)] {
             let (point, _) = line.position(along_m, across_m);
@@ -155,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_a_lane_is_halfway_between_its_bounds() {
+    fn the_centre_line_is_halfway_between_the_bounds() {
         let (left, right) = ([[0.0, 4.0], [20.0, 4.0]], [[0.0, 0.0], [7.0, 0.0], [20.0, 0.0]]);
         let line = LaneLine::between(&left, &right).expect("a line");
         let at = line.project([12.0, 2.5]);
@@ -163,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn points_without_a_direction_are_no_line() {
+    fn points_that_coincide_give_no_line() {
         assert_eq!(LaneLine::through([([1.0, 1.0], 3.0), ([1.0, 1.0], 3.0)]), None);
         let straight = LaneLine::straight([5.0, 5.0], 0.0, 3.5);
         assert_eq!(straight.project([5.0, 6.0]).along_m, 50.0);

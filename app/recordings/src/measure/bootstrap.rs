@@ -1,29 +1,38 @@
-//! Intervals by a bootstrap over cars: predictions of one car are alike, those of two cars are not.
+//! Bootstrap intervals over cars: predictions of one car are correlated, those of different cars are not.
 
 use interplay_common::random::Random;
 use rayon::prelude::*;
+use serde::Serialize;
 
-use super::estimate::{MeasureInterval, nearest_rank};
 use super::outcome::Outcome;
 
-/// How often cars are drawn again.
 const RESAMPLES: u64 = 1000;
-/// All intervals are drawn from this seed, so that the same recordings give the same intervals.
+/// Seed of all intervals: the same recordings give the same intervals.
 const SEED: u64 = 46;
 
-/// The cars of each resample: how often each of them was drawn.
+/// A number with its 95 % interval, by a bootstrap over cars.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MeasureInterval {
+    /// The number.
+    pub value: f64,
+    /// The lower bound.
+    pub low: f64,
+    /// The upper bound.
+    pub high: f64,
+}
+
+/// Resamples of the cars, with the number of times that each car was drawn.
 pub(crate) struct Resamples {
     cars: usize,
-    /// The car of each start.
     car_of_start: Vec<usize>,
     counts: Vec<Vec<u32>>,
 }
 
-/// Sums and numbers of values by car.
+/// Sums and counts of values for each car.
 pub(crate) struct Sums(Vec<[f64; 2]>);
 
 impl Sums {
-    /// The sums of a value of outcomes, which are those of the starts in their order.
+    /// Sums a value over outcomes, which are in the order of the starts.
     pub(crate) fn of(resamples: &Resamples, outcomes: &[Outcome], value: &dyn Fn(&Outcome) -> f64) -> Sums {
         let mut sums = vec![[0.0; 2]; resamples.cars];
         for (car, outcome) in resamples.car_of_start.iter().zip(outcomes) {
@@ -33,7 +42,7 @@ impl Sums {
         Sums(sums)
     }
 
-    /// The mean value where cars count so often.
+    /// The mean value, each car weighted by its count.
     fn mean(&self, counts: &[u32]) -> f64 {
         let mut total = [0.0; 2];
         for (sums, count) in self.0.iter().zip(counts) {
@@ -45,10 +54,10 @@ impl Sums {
 }
 
 impl Resamples {
-    /// Resamples of the cars to which starts belong, which have numbers from 0.
+    /// Resamples the cars to which starts belong; cars are numbered from 0.
     pub(crate) fn of(car_of_start: Vec<usize>) -> Resamples {
         let cars = car_of_start.iter().max().map_or(0, |last| last + 1);
-        // Each resample has a stream of its own, so that threads do not change it.
+        // Each resample has its own random stream, so the result does not depend on threads.
         let drawn = |resample: u64| {
             let mut random = Random::new(SEED, resample);
             let mut counts = vec![0; cars];
@@ -60,12 +69,12 @@ impl Resamples {
         Resamples { cars, car_of_start, counts: (0..RESAMPLES).into_par_iter().map(drawn).collect() }
     }
 
-    /// How many cars there are.
+    /// Number of cars.
     pub(crate) fn cars(&self) -> usize {
         self.cars
     }
 
-    /// A function of mean values with its interval.
+    /// A function of mean values, with its interval.
     pub(crate) fn estimate<const N: usize>(
         &self,
         sums: &[Sums; N],
@@ -79,12 +88,17 @@ impl Resamples {
     }
 }
 
+/// The nearest-rank quantile of ascending numbers, which must not be empty.
+pub(crate) fn nearest_rank(ascending: &[f64], share: f64) -> f64 {
+    ascending[(share * (ascending.len() - 1) as f64).round() as usize]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn an_interval_is_that_of_cars_and_not_of_starts() {
+    fn intervals_reflect_the_number_of_cars_and_not_of_starts() {
         // Two kinds of cars, ten starts each: the mean has the standard error of forty cars, 0.5/√40.
         let car_of_start: Vec<usize> = (0..400).map(|start| start / 10).collect();
         let resamples = Resamples::of(car_of_start);

@@ -1,12 +1,10 @@
-//! What predictions are judged by.
+//! Measures of predictions.
 
 mod bootstrap;
-mod estimate;
 mod outcome;
 
-pub(crate) use bootstrap::{Resamples, Sums};
-pub use estimate::MeasureInterval;
-pub(crate) use estimate::nearest_rank;
+pub use bootstrap::MeasureInterval;
+pub(crate) use bootstrap::{Resamples, Sums, nearest_rank};
 pub(crate) use outcome::{Outcome, Scales};
 
 use serde::Serialize;
@@ -22,12 +20,12 @@ pub struct HorizonErrors {
     pub along_rmse_m: MeasureInterval,
     /// Root mean squared error across the road \[m\].
     pub across_rmse_m: MeasureInterval,
-    /// Mean negative log-likelihood of the place under Laplace distributions along and across the road, whose scales are the mean
-    /// errors on the half of the cars that models are fitted on.
+    /// Mean negative log-likelihood of the position under Laplace distributions along and across the road. Their scales are the mean
+    /// errors on the half of the cars on which models are fitted.
     pub negative_log_likelihood: MeasureInterval,
 }
 
-/// How well a model predicts.
+/// Measures of a model's predictions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelMeasures {
     /// Errors after 1 to 5 s.
@@ -38,7 +36,7 @@ pub struct ModelMeasures {
     pub contact_share_3s: MeasureInterval,
     /// The same within 5 s.
     pub contact_share_5s: MeasureInterval,
-    /// Share of the predictions whose middle is on no lane after 3 s; none where there is no map.
+    /// Share of the predictions whose centre is outside all lanes after 3 s; none without a map.
     pub off_road_share: Option<MeasureInterval>,
     /// Error along the road after 3 s as a share of that of constant velocity.
     pub along_ratio_to_constant_velocity: MeasureInterval,
@@ -46,7 +44,7 @@ pub struct ModelMeasures {
     pub along_ratio_to_idm: MeasureInterval,
 }
 
-/// The measures of a model on some outcomes; the outcomes of constant velocity and of the fitted IDM at the same starts stand beside them.
+/// The measures of a model from its outcomes and those of constant velocity and of the fitted IDM at the same starts.
 pub(crate) fn measures(resamples: &Resamples, own: &[Outcome], others: [&[Outcome]; 2]) -> ModelMeasures {
     let mean = |value: &dyn Fn(&Outcome) -> f64| resamples.estimate(&[Sums::of(resamples, own, value)], |it| it[0]);
     let root = |value: &dyn Fn(&Outcome) -> f64| {
@@ -77,5 +75,5 @@ pub(crate) fn measures(resamples: &Resamples, own: &[Outcome], others: [&[Outcom
     }
 }
 
-/// A prediction that is farther off than this misses \[m\].
+/// A prediction with a larger error counts as a miss \[m\].
 const MISS_M: f64 = 2.0;

@@ -1,4 +1,4 @@
-//! What comes of one prediction.
+//! The outcome of one prediction.
 
 use interplay_planners::motion_prediction::{MotionModel, PredictedMotion, STEP_S, STEPS};
 
@@ -6,36 +6,35 @@ use crate::geometry::Box2;
 use crate::start::{HORIZONS_S, Later, Start};
 use crate::traffic::Recordings;
 
-/// Number of horizons.
 const COUNT: usize = HORIZONS_S.len();
 
-/// What comes of one prediction.
+/// The outcome of one prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Outcome {
-    /// Predicted less recorded place along the road at each horizon \[m\].
+    /// Predicted minus recorded position along the road at each horizon \[m\].
     pub along_m: [f64; COUNT],
     /// The same across the road \[m\].
     pub across_m: [f64; COUNT],
-    /// Negative logarithm of the likelihood of the recorded place at each horizon.
+    /// Negative log-likelihood of the recorded position at each horizon.
     pub negative_log_likelihood: [f64; COUNT],
     pub touches_within_3s: bool,
     pub touches_within_5s: bool,
-    /// Whether the middle is on no lane after 3 s; none without a map.
+    /// Whether the centre is outside all lanes after 3 s; none without a map.
     pub is_off_road: Option<bool>,
 }
 
-/// The mean sizes of errors along and across the road at each horizon, on the starts that models are fitted on \[m\].
+/// The mean absolute errors along and across the road at each horizon, on the starts on which models are fitted \[m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Scales {
     along_m: [f64; COUNT],
     across_m: [f64; COUNT],
 }
 
-/// The least scale: records are no more exact \[m\].
+/// Minimum scale: records are not more exact than this \[m\].
 const LEAST_SCALE_M: f64 = 0.01;
-/// Every so many steps of a prediction its body is looked at.
+/// Contacts of a predicted body are checked at every this many steps.
 const STEPS_BETWEEN: usize = 2;
-/// The time of which rates are counted first \[s\].
+/// Contact shares are counted up to this time and up to the last horizon \[s\].
 const FIRST_S: f64 = 3.0;
 
 impl Scales {
@@ -63,7 +62,7 @@ fn errors_m(motion: &PredictedMotion, start: &Start) -> [[f64; COUNT]; 2] {
 }
 
 impl Outcome {
-    /// What comes of the prediction of a model at a start.
+    /// The outcome of a model's prediction at a start.
     pub(crate) fn of(model: &MotionModel, scales: &Scales, start: &Start, recordings: &Recordings) -> Outcome {
         let motion = model.predict(&start.known);
         let [along_m, across_m] = errors_m(&motion, start);
@@ -90,7 +89,7 @@ impl Outcome {
         }
     }
 
-    /// What comes of the record itself, whose contacts and places beside the road are those of its boxes and its map.
+    /// The outcome of the record itself: contacts of its boxes, and positions outside the lanes of its map.
     pub(crate) fn of_record(start: &Start, recordings: &Recordings) -> Outcome {
         let timeline = &recordings.timelines[start.timeline];
         let later = Later { timeline, track: start.track, step: start.step };
@@ -105,7 +104,7 @@ impl Outcome {
     }
 }
 
-/// When a body first overlaps another recorded one \[s\].
+/// Time at which a body first overlaps another recorded one \[s\].
 fn first_contact_s(start: &Start, recordings: &Recordings, body: impl Fn(usize) -> Option<Box2>) -> Option<f64> {
     let later = Later { timeline: &recordings.timelines[start.timeline], track: start.track, step: start.step };
     let others = later.others();

@@ -1,4 +1,4 @@
-//! Each model with the parameters that are fitted.
+//! Each model with its fitted parameters.
 
 use interplay_planners::drivers::{human, idm};
 use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionModel, PredictedDriver, STEP_S};
@@ -6,20 +6,20 @@ use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionM
 use super::search::{self, Parameter};
 use crate::start::Start;
 
-/// Index of the horizon for which models are fitted: 3 s.
+/// Index of the horizon at which models are fitted: 3 s.
 pub(super) const FIT_HORIZON: usize = 2;
-/// The step of a prediction there.
+/// The step of a prediction at that horizon.
 pub(super) const FIT_STEP: usize = 15;
 
 /// A model with parameters.
 pub(super) struct Family {
     pub name: &'static str,
     pub parameters: &'static [Parameter],
-    /// Whether the lateral speed of the start decays in it.
+    /// Whether the lateral speed of the start decays in the model.
     pub decays: bool,
-    /// Whether a prediction of it is a plan, which takes a thousand times as long.
+    /// Whether its prediction is a plan, which takes a thousand times as long.
     pub plans: bool,
-    /// The model with values of the parameters, and the time within which the lateral speed decays \[s\].
+    /// Creates the model from values of the parameters and the decay time of the lateral speed \[s\].
     pub model: fn(&[f64], f64) -> MotionModel,
 }
 
@@ -39,7 +39,7 @@ const DECAY: Parameter =
 const HALF_NOISE: Parameter =
     Parameter { name: "half_noise_mps", values: &[0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.4, 1.0], start: 5 };
 
-/// All models that are compared. The first is what others are compared with.
+/// All models that are compared. The first is the baseline of the others.
 pub(super) const FAMILIES: [Family; 7] = [
     Family {
         name: "constant velocity",
@@ -127,7 +127,7 @@ fn idm_model(values: &[f64], [lag_s, half_noise_mps]: [f64; 2], decay_s: f64) ->
     })
 }
 
-/// Safety weight of the fitted driver. It changes no prediction that is measurable: the time gap is fitted beside it.
+/// Safety weight of the fitted driver. It does not change predictions measurably, since the time gap is fitted too.
 const SAFETY_WEIGHT: f64 = 0.5;
 
 fn human_model(values: &[f64], decay_s: f64) -> MotionModel {
@@ -151,7 +151,7 @@ fn human_model(values: &[f64], decay_s: f64) -> MotionModel {
     })
 }
 
-/// The time within which lateral speeds decay, by the mean squared error across the road after 3 s \[s\].
+/// The decay time of lateral speeds that minimises the mean squared error across the road after 3 s \[s\].
 pub(crate) fn decay_s(starts: &[&Start]) -> f64 {
     let error = |values: &[f64]| {
         let time_s = values[0];

@@ -1,4 +1,4 @@
-//! The models that are compared, with their fits.
+//! The models that are compared, and how they are fitted.
 
 mod families;
 mod search;
@@ -10,24 +10,23 @@ use crate::start::Start;
 pub(crate) use families::decay_s;
 use families::{FAMILIES, Family};
 
-/// The most starts of each group that a model with plans is fitted on; others are fitted on all.
+/// Maximum number of starts of each group on which a planning model is fitted; other models are fitted on all starts.
 const MAX_PLANNED_STARTS: usize = 350;
 
 /// A model with its name.
 #[derive(Clone, Debug, Serialize)]
 pub struct NamedModel {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Its numbers that were fitted, by name with unit.
+    /// Its fitted parameters, by name with unit.
     pub fitted: Vec<(String, f64)>,
-    /// The model itself.
     #[serde(skip)]
     pub model: MotionModel,
 }
 
-/// All models, those with parameters fitted on some starts.
+/// All models; those with parameters are fitted on the given starts.
 pub(crate) fn all(training: &[&Start]) -> Vec<NamedModel> {
-    // How the lateral place goes on is fitted first, for all models that are fitted.
+    // The lateral decay is fitted first, since all fitted models use it.
     let decay_s = decay_s(training);
     FAMILIES.iter().map(|family| family.fitted_on(training, decay_s)).collect()
 }
@@ -38,7 +37,7 @@ impl Family {
         let groups = by_group(training, most);
         let usual: Vec<f64> = groups.iter().map(|starts| along_error(&MotionModel::ConstantVelocity, starts)).collect();
         let model = |values: &[f64]| (self.model)(values, decay_s);
-        // Each group counts the same, whatever its size, its speeds and its noise.
+        // Each group has the same weight, whatever its size, speeds and noise.
         let error = |values: &[f64]| {
             let model = model(values);
             groups.iter().zip(&usual).map(|(starts, usual)| along_error(&model, starts) / usual.max(1e-9)).sum()
@@ -53,13 +52,13 @@ impl Family {
     }
 }
 
-/// At most so many of some starts, evenly from all of them.
+/// At most `most` of the starts, evenly spread.
 pub(crate) fn every<'a>(starts: &[&'a Start], most: usize) -> Vec<&'a Start> {
     let count = starts.len().min(most);
     (0..count).map(|index| starts[index * starts.len() / count]).collect()
 }
 
-/// The starts of each group, at most so many of each.
+/// The starts of each group, at most `most` of each.
 fn by_group<'a>(starts: &[&'a Start], most: usize) -> Vec<Vec<&'a Start>> {
     let groups = starts.iter().map(|start| start.group + 1).max().unwrap_or(0);
     let of_group = |group: usize| -> Vec<&'a Start> { starts.iter().copied().filter(|it| it.group == group).collect() };

@@ -1,21 +1,21 @@
-//! A search over grids: one parameter after the other moves to its neighbours while that helps.
+//! Coordinate search over grids: one parameter after the other moves to a neighbouring value while the error falls.
 
-/// A parameter of a model with the values that are tried.
+/// A parameter of a model with its grid.
 pub(super) struct Parameter {
     /// Its name, with the unit.
     pub name: &'static str,
     /// The values, in order.
     pub values: &'static [f64],
-    /// Index of the value that the search begins with.
+    /// Index of the initial value.
     pub start: usize,
 }
 
-/// How often all parameters are gone through at most.
+/// Maximum number of rounds over all parameters.
 const MAX_ROUNDS: usize = 4;
-/// A step must lower the error by this share: less is noise.
+/// Minimum relative improvement of a step; smaller ones are noise.
 const LEAST_GAIN: f64 = 1e-4;
 
-/// The values with the least error that the search finds. Equal inputs give equal values.
+/// The values with the least error that the search finds. It is deterministic.
 pub(super) fn least(parameters: &[Parameter], error: impl Fn(&[f64]) -> f64) -> Vec<f64> {
     let mut at: Vec<usize> = parameters.iter().map(|parameter| parameter.start).collect();
     let values =
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_least_of_a_bowl_is_found() {
+    fn the_search_finds_the_minimum_of_a_convex_function() {
         const VALUES: &[f64] = &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
         let parameters = [0, 5].map(|start| Parameter { name: "x", values: VALUES, start });
         let bowl = |x: &[f64]| 1.0 + (x[0] - 3.0).powi(2) + (x[1] - 1.0).powi(2) + 0.5 * (x[0] - 3.0) * (x[1] - 1.0);

@@ -1,4 +1,4 @@
-//! What is known of a car at a moment. Nothing here reads what was recorded after it.
+//! What is known of a car at a time. Nothing here reads later records.
 
 use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
 use interplay_scenarios::RecordedMoment;
@@ -7,14 +7,14 @@ use super::times::PAST_S;
 use crate::geometry::LaneLine;
 use crate::traffic::{Timeline, Track};
 
-/// Others farther away are not looked at \[m\].
+/// Vehicles farther away are ignored \[m\].
 const SIGHT_M: f64 = 160.0;
-/// Others farther across are on other roads \[m\].
+/// Vehicles with a larger lateral offset are on other roads \[m\].
 const ACROSS_M: f64 = 15.0;
-/// Who drives against or across the lane is not told: cosine of the largest angle to it.
+/// Vehicles that drive against or across the lane are ignored: minimum cosine of the angle to it.
 const MIN_COS: f64 = 0.5;
 
-/// What is known of a track of a timeline at a step, with the line of its lane and how far along it the car is \[m\].
+/// What is known of a track at a step, with the line of its lane and the car's arc length on it \[m\].
 pub(crate) fn known_at(timeline: &Timeline, track: usize, step: i64) -> Option<(LaneLine, f64, TrafficMoment)> {
     let car = &timeline.tracks[track];
     let at = car.at(step)?;
@@ -44,7 +44,7 @@ pub(crate) fn known_at(timeline: &Timeline, track: usize, step: i64) -> Option<(
     Some((way, place.along_m, known))
 }
 
-/// The moments of the past second or so, the present one last.
+/// The records of the past [`PAST_S`], the present one last.
 fn past(car: &Track, step: i64, step_s: f64) -> &[RecordedMoment] {
     let earliest = step - (PAST_S / step_s).round() as i64;
     let from = car.moments.partition_point(|at| at.step < earliest);
@@ -52,8 +52,8 @@ fn past(car: &Track, step: i64, step_s: f64) -> &[RecordedMoment] {
     &car.moments[from..to]
 }
 
-/// The slope of the straight line through points that misses them least, and by how much it misses them, root mean square; 0 for fewer
-/// than two.
+/// The slope of the least-squares line through points, and its root mean square residual; 0 for fewer
+/// than two points.
 fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
     let count = points.clone().count() as f64;
     let [mean_x, mean_y] = points.clone().fold([0.0; 2], |sum, (x, y)| [sum[0] + x / count, sum[1] + y / count]);
@@ -68,7 +68,7 @@ fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
     (slope, (squares / count).sqrt())
 }
 
-/// Another vehicle in the frame of a lane; none for one that is far away or goes another way.
+/// Another vehicle in the frame of a lane; none if it is far away or drives in another direction.
 fn neighbour(other: &Track, step: i64, from: [f64; 2], way: &LaneLine, along_m: f64) -> Option<NearbyVehicle> {
     let at = other.at(step)?;
     if libm::hypot(at.position[0] - from[0], at.position[1] - from[1]) > SIGHT_M {
@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slopes_are_those_of_straight_lines() {
+    fn the_slope_of_a_straight_line_is_exact() {
         let line = (0..7).map(|t| (0.2 * f64::from(t), 3.0 - 0.5 * 0.2 * f64::from(t)));
         let (found, noise) = slope(line);
         assert!((found + 0.5).abs() < 1e-12 && noise < 1e-12);

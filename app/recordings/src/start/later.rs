@@ -1,4 +1,4 @@
-//! What was recorded after a start: by it alone predictions are judged.
+//! Records after a start, used only to evaluate predictions.
 
 use interplay_scenarios::RecordedMoment;
 
@@ -6,12 +6,12 @@ use super::times::HORIZONS_S;
 use crate::geometry::{Box2, LaneLine};
 use crate::traffic::{Timeline, Track};
 
-/// Where a car was at a horizon.
+/// Position of a car at a horizon.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Truth {
-    /// How far it had come along its lane \[m\].
+    /// Distance along its lane \[m\].
     pub along_m: f64,
-    /// Its place across it \[m\].
+    /// Lateral offset \[m\].
     pub across_m: f64,
 }
 
@@ -24,7 +24,6 @@ pub(crate) struct Later<'a> {
 }
 
 impl<'a> Later<'a> {
-    /// The car itself.
     pub(crate) fn car(&self) -> &'a Track {
         &self.timeline.tracks[self.track]
     }
@@ -33,7 +32,7 @@ impl<'a> Later<'a> {
         self.step + (time_s / self.timeline.step_s).round() as i64
     }
 
-    /// Where the car was at each horizon; none if the record ends before the last.
+    /// The car's position at each horizon; none if the record ends before the last one.
     pub(crate) fn truth(&self, way: &LaneLine, along_m: f64) -> Option<[Truth; HORIZONS_S.len()]> {
         let mut truth = [Truth::default(); HORIZONS_S.len()];
         for (truth, horizon_s) in truth.iter_mut().zip(HORIZONS_S) {
@@ -43,12 +42,12 @@ impl<'a> Later<'a> {
         Some(truth)
     }
 
-    /// The body of the car itself a time after the start.
+    /// The body of the car a given time after the start.
     pub(crate) fn own_box(&self, time_s: f64) -> Option<Box2> {
         self.car().at(self.step_after(time_s)).map(|at| body(self.car(), at))
     }
 
-    /// The others whose bodies do not overlap the car's at the start: some records do.
+    /// The vehicles whose bodies do not overlap the car's at the start; in some records bodies do.
     pub(crate) fn others(&self) -> Vec<&'a Track> {
         let own = self.own_box(0.0);
         let others = self.timeline.tracks.iter().enumerate().filter(|(index, _)| *index != self.track);
@@ -59,14 +58,14 @@ impl<'a> Later<'a> {
         others.map(|(_, other)| other).filter(apart).collect()
     }
 
-    /// Whether a body overlaps any of some others where they were recorded a time after the start.
+    /// Whether a body overlaps any recorded body of `others` a given time after the start.
     pub(crate) fn touches(&self, own: &Box2, others: &[&Track], time_s: f64) -> bool {
         let step = self.step_after(time_s);
         others.iter().any(|other| other.at(step).is_some_and(|at| body(other, at).overlaps(own)))
     }
 }
 
-/// The body of a vehicle at a moment.
+/// The body of a vehicle at a recorded time.
 pub(crate) fn body(track: &Track, at: &RecordedMoment) -> Box2 {
     Box2 { middle: at.position, heading_rad: at.heading_rad, half_m: [0.5 * track.length_m, 0.5 * track.width_m] }
 }

@@ -1,7 +1,7 @@
-//! Starts of predictions: what is known of a recorded car at a second, and what it did afterwards.
+//! Starts of predictions: what is known of a recorded car at a second, and its later positions.
 //!
-//! What is known ([`TrafficMoment`]) is computed from moments up to the start alone: the speed that the file states then, and slopes of
-//! the past [`PAST_S`]. A centred filter would let the future leak in.
+//! What is known ([`TrafficMoment`]) is computed only from records up to the start: the speed that the file states then, and slopes over
+//! the past [`PAST_S`]. A centred filter would use future records.
 
 mod known;
 mod later;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::geometry::LaneLine;
 use crate::traffic::{Recordings, Timeline};
 
-/// Who is slower stands, and where it will be is no question \[m/s\].
+/// Slower vehicles count as standing and are not predicted \[m/s\].
 const MIN_SPEED_MPS: f64 = 1.0;
 
 /// A start of predictions.
@@ -31,17 +31,17 @@ pub(crate) struct Start {
     pub track: usize,
     /// The step of time.
     pub step: i64,
-    /// The line of its lane and those straight on.
+    /// The line of its lane and of those straight on.
     pub way: LaneLine,
-    /// How far along it the car is \[m\].
+    /// The car's arc length on `way` \[m\].
     pub along_m: f64,
     /// What is known.
     pub known: TrafficMoment,
-    /// Where the car was at each horizon.
+    /// The car's position at each horizon.
     pub truth: [Truth; HORIZONS_S.len()],
 }
 
-/// All starts of moving cars, a second apart, with enough of a record before and after them, in the order of the files. Those that repeat
+/// All starts of moving cars, a second apart, with enough records before and after them, in the order of the files. Starts that repeat
 /// another one are left out.
 pub(crate) fn starts(recordings: &Recordings) -> Vec<Start> {
     let timelines: Vec<(usize, &Timeline)> = recordings.timelines.iter().enumerate().collect();

@@ -35,7 +35,7 @@ fn models() -> [MotionModel; 4] {
 }
 
 #[test]
-fn a_change_of_the_record_after_the_start_changes_no_prediction() {
+fn records_after_the_start_do_not_change_predictions() {
     let step = 30;
     let mut changed = traffic();
     for at in changed.vehicles.iter_mut().flat_map(|vehicle| &mut vehicle.moments).filter(|at| at.step > step) {
@@ -49,7 +49,7 @@ fn a_change_of_the_record_after_the_start_changes_no_prediction() {
     for model in models() {
         assert_eq!(model.predict(&known), model.predict(&known_of_changed), "{model:?}");
     }
-    // A change of what was recorded at the start does.
+    // A change of the record at the start changes what is known.
     let mut present = traffic();
     for at in present.vehicles[1].moments.iter_mut().filter(|at| at.step == step) {
         at.speed_mps = 3.0;
@@ -59,7 +59,7 @@ fn a_change_of_the_record_after_the_start_changes_no_prediction() {
 }
 
 #[test]
-fn starts_are_a_second_apart_and_have_enough_around_them() {
+fn starts_are_a_second_apart_with_enough_records_around_them() {
     let recordings = Recordings::of(vec![Timeline::of(traffic(), 0)]);
     let steps: Vec<i64> = starts(&recordings).iter().filter(|it| it.track == 0).map(|it| it.step).collect();
     assert_eq!(steps, [6, 11, 16, 21, 26, 31, 36, 41, 46, 51]);

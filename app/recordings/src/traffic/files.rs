@@ -1,4 +1,4 @@
-//! Which files arguments stand for.
+//! Finds the files that an argument names.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use interplay_scenarios::is_commonroad;
 
 use crate::error::RecordingsError;
 
-/// The recordings that an argument stands for: a file, or those below a folder, sorted.
+/// The recordings that an argument names: a file, or the files below a folder, sorted.
 pub(super) fn found_at(argument: &Path) -> Result<Vec<PathBuf>, RecordingsError> {
     if !argument.is_dir() {
         let is_xml = argument.extension().is_some_and(|it| it.eq_ignore_ascii_case("xml"));
@@ -41,7 +41,7 @@ fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), RecordingsErro
     Ok(())
 }
 
-/// What the group of an argument is called: its last name, without the extension of a file.
+/// The name of an argument's group: its last path component, without the extension of a file.
 pub(super) fn group_name(argument: &Path) -> String {
     let name = if argument.is_dir() { argument.file_name() } else { argument.file_stem() };
     name.map_or_else(|| argument.display().to_string(), |name| name.to_string_lossy().into_owned())

@@ -1,21 +1,21 @@
-//! A map of lanes, and the way straight on from each of them.
+//! A map of lanes, and the way straight on from each lane.
 
 use interplay_scenarios::RecordedLane;
 
 use crate::geometry::LaneLine;
 
-/// How far a way leads on beyond its lane, and begins before it \[m\].
+/// Distances by which a way extends beyond its lane and begins before it \[m\].
 const REACH_M: [f64; 2] = [300.0, 100.0];
-/// The most lanes of a way in one direction.
+/// Maximum number of lanes of a way in one direction.
 const MAX_LANES: usize = 60;
 /// A vehicle is in a lane whose direction differs from its own by at most 60°.
 const MIN_COS: f64 = 0.5;
-/// A vehicle beside all lanes goes along the nearest within this distance \[m\].
+/// Maximum distance from which a vehicle outside all lanes follows the nearest one \[m\].
 const BESIDE_M: f64 = 4.0;
-/// The road is looked for beside a lane in steps of this width, so many times at most \[m\].
+/// The road beside a lane is sampled in steps of this width, at most [`MAX_PROBES`] times \[m\].
 const PROBE_M: f64 = 0.7;
 const MAX_PROBES: usize = 15;
-/// Width of the lane of a vehicle beside all lanes \[m\].
+/// Lane width of a vehicle outside all lanes \[m\].
 const USUAL_WIDTH_M: f64 = 3.5;
 
 /// The lanes of a map.
@@ -27,16 +27,15 @@ pub(crate) struct LaneMap {
 #[derive(Clone, Debug)]
 struct MapLane {
     stated: RecordedLane,
-    /// The box around it: least and greatest coordinates \[m\].
+    /// Its bounding box: least and greatest coordinates \[m\].
     bounds: [[f64; 2]; 2],
-    /// Its own line.
     line: LaneLine,
-    /// Its line with those straight on and behind.
+    /// Its line joined with those of the lanes straight on and behind.
     way: LaneLine,
 }
 
 impl LaneMap {
-    /// The map of some lanes; those without length are left out.
+    /// A map of lanes; those without length are left out.
     pub(crate) fn new(stated: Vec<RecordedLane>) -> LaneMap {
         let lines: Vec<Option<LaneLine>> =
             stated.iter().map(|lane| LaneLine::between(&lane.left, &lane.right)).collect();
@@ -48,7 +47,6 @@ impl LaneMap {
         LaneMap { lanes: lanes.collect() }
     }
 
-    /// Whether it has no lanes.
     pub(crate) fn is_empty(&self) -> bool {
         self.lanes.is_empty()
     }
@@ -58,7 +56,7 @@ impl LaneMap {
         self.lanes.iter().any(|lane| lane.covers(point))
     }
 
-    /// How far the road reaches to the right and to the left of the middle of a lane \[m\].
+    /// Distances from the centre of a lane to the right and left edges of the road \[m\].
     pub(crate) fn road_m(&self, way: &LaneLine, along_m: f64, width_m: f64) -> [f64; 2] {
         let usual_m = 0.5 * width_m;
         [-1.0, 1.0].map(|side| {
@@ -68,8 +66,8 @@ impl LaneMap {
         })
     }
 
-    /// The way straight on of a vehicle at a point with a direction, and the speed limit there: along the lane that it is in, or else
-    /// beside the nearest one, or straight ahead.
+    /// The way straight on for a vehicle at a point with a heading, and the speed limit there: along its lane, or else
+    /// beside the nearest lane, or else straight ahead.
     pub(crate) fn way(&self, point: [f64; 2], heading_rad: f64) -> (LaneLine, Option<f64>) {
         let mut best: Option<(bool, f64, &MapLane)> = None;
         for lane in &self.lanes {
@@ -83,7 +81,7 @@ impl LaneMap {
             if cos < MIN_COS || !is_in && (at.across_m.abs() > BESIDE_M + 0.5 * at.width_m || is_beyond) {
                 continue;
             }
-            // Of lanes over one another, as in junctions, the one in whose direction it drives.
+            // Where lanes overlap, as in junctions, the lane in whose direction the vehicle drives.
             let misfit = (1.0 - cos) * 20.0 + at.across_m.abs();
             let is_better = best.is_none_or(|(best_in, best_misfit, _)| (is_in, -misfit) > (best_in, -best_misfit));
             if is_better {
@@ -121,7 +119,7 @@ fn bounds(lane: &RecordedLane) -> [[f64; 2]; 2] {
     bounds
 }
 
-/// The line of a lane with those of the lanes straight on: of several, the one that turns least.
+/// The line of a lane joined with those of the lanes straight on; of several successors the one that turns least.
 fn way(stated: &[RecordedLane], lines: &[Option<LaneLine>], index: usize) -> Option<LaneLine> {
     lines[index].as_ref()?;
     let mut chain = vec![index];
@@ -132,7 +130,7 @@ fn way(stated: &[RecordedLane], lines: &[Option<LaneLine>], index: usize) -> Opt
     LaneLine::through(chain.into_iter().filter_map(|lane| lines[lane].as_ref()).flat_map(LaneLine::places))
 }
 
-/// The lanes after one, in one direction, until they are long enough.
+/// The lanes that follow a lane in one direction, until they are long enough.
 fn followed<'a>(
     lines: &[Option<LaneLine>],
     first: usize,
@@ -187,11 +185,11 @@ mod tests {
     }
 
     #[test]
-    fn who_is_beside_all_lanes_goes_straight_ahead() {
+    fn the_way_of_a_vehicle_outside_all_lanes_is_straight() {
         let map = LaneMap::new(vec![lane([0.0, 0.0], [50.0, 0.0], &[], &[])]);
         let (way, _) = map.way([20.0, 30.0], 1.0);
         assert!((way.project([20.0, 30.0]).heading_rad - 1.0).abs() < 1e-12);
-        // Against the direction of the lane, too.
+        // So is that of a vehicle that drives against the lane.
         let (way, _) = map.way([20.0, 0.0], 3.0);
         assert!((way.project([20.0, 0.0]).heading_rad - 3.0).abs() < 1e-12);
     }

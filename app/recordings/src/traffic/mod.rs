@@ -1,4 +1,4 @@
-//! Recorded traffic from files: joined where windows follow one another, with the rows marked that repeat others.
+//! Recorded traffic from files: consecutive windows are joined, and rows that repeat others are marked.
 
 mod files;
 mod lane_map;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::error::RecordingsError;
 
-/// Recorded traffic, in groups: one for each file or folder that was named.
+/// Recorded traffic, in groups: one for each named file or folder.
 #[derive(Clone, Debug, Default)]
 pub struct Recordings {
     pub(crate) groups: Vec<String>,
@@ -27,7 +27,7 @@ impl Recordings {
     /// Reads files and folders; each argument is a group of its own.
     ///
     /// # Errors
-    /// [`RecordingsError`] for what cannot be read, with its place.
+    /// [`RecordingsError`] if a file cannot be read, with the place.
     pub fn read(arguments: &[PathBuf]) -> Result<Recordings, RecordingsError> {
         let mut recordings = Recordings::default();
         for (group, argument) in arguments.iter().enumerate() {
@@ -48,18 +48,18 @@ impl Recordings {
         Ok(recordings)
     }
 
-    /// Recordings of some timelines, as one group.
+    /// Recordings from timelines, as one group.
     #[cfg(test)]
     pub(crate) fn of(timelines: Vec<Timeline>) -> Recordings {
         Recordings { groups: vec!["test".to_owned()], timelines, files: 1 }
     }
 
-    /// How many files were read.
+    /// Number of files.
     pub fn files(&self) -> usize {
         self.files
     }
 
-    /// How many tracks of vehicles there are, and of how many real vehicles.
+    /// Number of tracks, and of the distinct vehicles.
     pub fn vehicles(&self) -> [usize; 2] {
         let tracks = || self.timelines.iter().flat_map(|timeline| &timeline.tracks);
         let mut cars: Vec<&str> = tracks().map(|track| track.car.as_str()).collect();
@@ -68,7 +68,7 @@ impl Recordings {
         [tracks().count(), cars.len()]
     }
 
-    /// How many rows were read, and how many of them repeat others.
+    /// Number of rows, and of those that repeat others.
     pub fn rows(&self) -> [usize; 2] {
         let tracks = || self.timelines.iter().flat_map(|timeline| &timeline.tracks);
         let repeated = tracks().flat_map(|track| &track.repeats).filter(|repeats| **repeats).count();

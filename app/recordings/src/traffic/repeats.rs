@@ -1,15 +1,15 @@
-//! Rows that repeat others: published files tell the same cars again and again, with another one taken out as the ego.
+//! Rows that repeat others: published files contain the same cars several times, each time with another one removed as the ego.
 
 use std::collections::BTreeMap;
 
 use super::timeline::Timeline;
 
-/// Who stands or crawls may be where somebody else was, so that its rows prove nothing \[m/s\].
+/// A slower vehicle may be at the former position of another one, so its rows do not identify it \[m/s\].
 const MIN_SPEED_MPS: f64 = 0.5;
-/// Rows that agree to this many parts of a metre and of a metre per second are one.
+/// Rows are equal if they agree to this fraction of a metre and of a metre per second.
 const PARTS: f64 = 1000.0;
 
-/// Marks the rows that an earlier track has told, and gives tracks of one car the same name.
+/// Marks the rows that an earlier track contains, and gives tracks of one car the same name.
 pub(super) fn mark(timelines: &mut [Timeline]) {
     let mut known: BTreeMap<[i64; 3], String> = BTreeMap::new();
     for track in timelines.iter_mut().flat_map(|timeline| &mut timeline.tracks) {
@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_car_that_two_files_tell_is_one_car() {
+    fn a_car_in_two_files_is_one_car() {
         let file = |name: &str, from: i64| {
             let at = |step: i64| RecordedMoment {
                 step: step - from,

@@ -1,38 +1,38 @@
-//! Traffic on one map with one axis of time.
+//! Traffic on one map with one time axis.
 
 use interplay_scenarios::{RecordedMoment, RecordedTraffic, RecordedVehicle};
 
 use super::lane_map::LaneMap;
 
-/// Traffic on one map, with one axis of time.
+/// Traffic on one map with one time axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {
     /// Index of its group.
     pub group: usize,
-    /// Length of a step of time \[s\].
+    /// Time step \[s\].
     pub step_s: f64,
     pub map: LaneMap,
     pub tracks: Vec<Track>,
 }
 
-/// A vehicle with where it was.
+/// A vehicle with its recorded positions.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Track {
     pub id: String,
-    /// What the real car is called: tracks that repeat rows of one another are of one car.
+    /// The name of the real car: tracks that repeat rows of one another belong to one car.
     pub car: String,
     /// Whether it is a car, truck or bus.
     pub is_motor: bool,
     pub length_m: f64,
     pub width_m: f64,
     pub moments: Vec<RecordedMoment>,
-    /// For each moment whether another track has told it before.
+    /// For each recorded time, whether an earlier track contains it.
     pub repeats: Vec<bool>,
 }
 
 /// Kinds of vehicles that drive along lanes.
 const MOTOR_KINDS: [&str; 5] = ["car", "truck", "bus", "taxi", "priorityVehicle"];
-/// A first step that is shorter than this share of speed times step is an artefact of recording.
+/// A first step shorter than this share of speed times time step is an artefact of the recording.
 const FIRST_STEP_SHARE: f64 = 0.8;
 
 impl Timeline {
@@ -68,8 +68,8 @@ impl Timeline {
         (0..self.tracks.len()).filter(|track| self.tracks[*track].is_motor)
     }
 
-    /// The moments of a vehicle a second apart, from the first that has so much of the record before it, each with whether another
-    /// track has told it before \[s\].
+    /// The records of a vehicle a second apart, from the first one with `past_s` of records before it, each with whether an earlier
+    /// track contains it \[s\].
     pub(crate) fn seconds(&self, track: usize, past_s: f64) -> impl Iterator<Item = (&RecordedMoment, bool)> {
         let in_steps = |time_s: f64| (time_s / self.step_s).round().max(1.0) as i64;
         let Track { moments, repeats, .. } = &self.tracks[track];
@@ -80,13 +80,13 @@ impl Timeline {
 }
 
 impl Track {
-    /// Where it was at a step of time, if the record says so.
+    /// Its record at a step; none if there is none.
     pub(crate) fn at(&self, step: i64) -> Option<&RecordedMoment> {
         let index = self.index_at(step)?;
         Some(&self.moments[index])
     }
 
-    /// The index of the moment of a step of time.
+    /// The index of its record at a step.
     pub(crate) fn index_at(&self, step: i64) -> Option<usize> {
         self.moments.binary_search_by_key(&step, |at| at.step).ok()
     }

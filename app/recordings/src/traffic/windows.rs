@@ -1,9 +1,9 @@
-//! Windows of one recording that follow one another, such as `C-DEU_MONAEast-2_80_T-159`, which tells the steps 80 to 159 of
-//! `C-DEU_MONAEast-2`: they become one recording, so that a car that goes from one into the next is one car.
+//! Consecutive windows of one recording, such as `C-DEU_MONAEast-2_80_T-159`, which contains the steps 80 to 159 of
+//! `C-DEU_MONAEast-2`. They are joined to one recording, so that a car in two windows is one car.
 
 use interplay_scenarios::{RecordedTraffic, RecordedVehicle};
 
-/// Joins windows on the same map with the same step of time. Everything else stays as it is, in the order of its first file.
+/// Joins windows with the same map and time step. All other recordings stay as they are, in the order of their first files.
 pub(super) fn joined(traffic: Vec<RecordedTraffic>) -> Vec<RecordedTraffic> {
     let mut found: Vec<RecordedTraffic> = Vec::new();
     let mut heads: Vec<Option<String>> = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn joined(traffic: Vec<RecordedTraffic>) -> Vec<RecordedTraffic> {
     found
 }
 
-/// The recording that a name is a window of, and the step at which it begins: `head_FROM_T-TO` with `FROM` below `TO`.
+/// The recording of which a name is a window, and the step at which it begins: `head_FROM_T-TO` with `FROM` below `TO`.
 fn window_of(name: &str) -> Option<(String, i64)> {
     let (before, to) = name.rsplit_once("_T-")?;
     let (head, from) = before.rsplit_once('_')?;
@@ -37,7 +37,7 @@ fn window_of(name: &str) -> Option<(String, i64)> {
     (from < to).then(|| (head.to_owned(), from))
 }
 
-/// Puts a window whose steps are counted from its own begin on the axis of its recording, which begins with 1 at step 0.
+/// Shifts a window whose steps are counted from its own begin to the axis of its recording, which begins with 1 at step 0.
 fn shift(window: &mut RecordedTraffic, from: i64) {
     let steps = || window.vehicles.iter().filter_map(|vehicle| vehicle.moments.first()).map(|at| at.step);
     let is_counted_anew = steps().min().is_some_and(|first| first < from);
@@ -46,7 +46,7 @@ fn shift(window: &mut RecordedTraffic, from: i64) {
     }
 }
 
-/// Adds what a window tells of a vehicle. What another window has told of it stays.
+/// Adds the records of a vehicle in a window. Records of an earlier window stay.
 fn add(vehicles: &mut Vec<RecordedVehicle>, vehicle: RecordedVehicle) {
     let Some(known) = vehicles.iter_mut().find(|known| known.id == vehicle.id) else {
         vehicles.push(vehicle);
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn windows_become_one_recording() {
+    fn consecutive_windows_become_one_recording() {
         let windows =
             vec![window("A-2_1_T-79", "7", 60..80), window("A-2_80_T-159", "7", 0..5), window("B-1_2_T-1", "7", 0..3)];
         let joined = joined(windows);
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn recordings_on_other_maps_stay_apart() {
+    fn recordings_on_different_maps_are_not_joined() {
         let mut other = window("A-2_80_T-159", "7", 0..5);
         other.step_s = 0.1;
         assert_eq!(joined(vec![window("A-2_1_T-79", "7", 0..5), other]).len(), 2);

@@ -1,4 +1,4 @@
-//! Balance: heat flows, and the temperatures move on by a step.
+//! Balance: computes heat flows and advances the temperatures by a step.
 
 use bevy_ecs::prelude::*;
 use interplay_building::day::Heat;
@@ -8,7 +8,7 @@ use crate::plants::StepInputs;
 use crate::state::components::CurrentFrame;
 use crate::state::frame::{BuildingFrame, ZoneFrame};
 
-/// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller or the plant has
+/// Advances every temperature by a step and records the inputs. Temperatures stay when the controller or the plant has
 /// failed.
 pub fn balance(
     mut nodes: Query<(&Node, &mut Temperature)>,
@@ -26,7 +26,7 @@ pub fn balance(
     }
     let (day, step) = building.date();
     let (mut applied_kw, mut requested_kw) = (vec![0.0; count], vec![0.0; count]);
-    // With the sun on walls, which are no zones.
+    // Gains of the nodes, including those of the sun on walls.
     let mut gains_kw = building.today.gains_kw(&building.model, step).to_vec();
     for (node, equipment, gains) in &zones {
         applied_kw[node.index] = equipment.heat_kw;

@@ -1,4 +1,4 @@
-//! Control: the controller plans at midnight and decides at every step; equipment gives what it can. A day without a plan
+//! Control: the controller plans at midnight and decides at every step; equipment limits the heat. A day without a plan
 //! of its own is an event.
 
 use std::time::Instant;
@@ -11,10 +11,9 @@ use super::{Building, Equipment, Node, Temperature};
 use crate::state::components::CurrentFrame;
 use crate::state::frame::{Event, Level};
 
-/// Source of the log entry.
 const CONTROLLER_SOURCE: &str = "controller";
 
-/// Asks the controller for the heat of every zone.
+/// Obtains the heat of every zone from the controller.
 pub fn control(
     mut zones: Query<(&Node, &Temperature, &mut Equipment)>,
     mut building: ResMut<Building>,
@@ -49,7 +48,7 @@ pub fn control(
     }));
 }
 
-/// Plans at midnight, and asks for the heat of the step. All the controller's time of a day counts as that of its design.
+/// Plans at midnight and computes the heat of the step. All the controller's time of a day counts as design time.
 fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
     let Building { model, controller, targets, today, design_s, handed_in_kw, .. } = building;
     if step == 0 {
@@ -67,7 +66,7 @@ fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<
     Ok(heat)
 }
 
-/// Heat that was decided from outside, in place of the controller for one step.
+/// Heat that was decided from outside, instead of by the controller, for one step.
 #[derive(Debug)]
 struct HandedHeat(Vec<f64>);
 

@@ -1,11 +1,11 @@
-//! Disturb: what the weather and the people do, and what was expected of them.
+//! Disturb: weather and people, and their forecasts.
 
 use bevy_ecs::prelude::*;
 use interplay_building::day::Day;
 
 use super::{Building, Gains, Node, Temperature};
 
-/// Draws and forecasts the day at midnight, and lets people and sun warm the zones at every step.
+/// Draws and forecasts the day at midnight, and applies the heat of people and sun to the zones at every step.
 pub fn disturb(
     temperatures: Query<(&Node, &Temperature)>,
     mut zones: Query<(&Node, &mut Gains)>,

@@ -1,4 +1,4 @@
-//! Learn: at the day's end the controller is shown what happened.
+//! Learn: at the end of a day the controller learns from its record.
 
 use std::time::Instant;
 
@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 
 use super::Building;
 
-/// Lets the controller learn when the day is over, and turns the clock on.
+/// Lets the controller learn when the day is over, and advances the clock.
 pub fn learn(mut building: ResMut<Building>) {
     let (_, step) = building.date();
     if step + 1 == building.steps_per_day() && building.failure.is_none() {

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The systems copy temperatures and heat between the entities and [`interplay_building::day`], which defines the order of
-//! a day. When the day is over, it is handed on to be measured. What the heat acts on is a [plant](crate::plants): the network itself, or
+//! a day. When the day is over, it is measured. The heat acts on a [plant](crate::plants): the network itself, or
 //! another program.
 
 mod balance;
@@ -55,11 +55,10 @@ pub struct Equipment {
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Gains(pub f64);
 
-/// The sun in a step.
 struct SunOfStep {
     /// Global radiation on a horizontal plane \[W/m²\].
     horizontal_w_per_m2: f64,
-    /// Heat that it brings into each node that gets any \[kW\].
+    /// Solar heat of each node that receives any \[kW\].
     nodes_kw: Vec<f64>,
 }
 
@@ -68,18 +67,18 @@ struct SunOfStep {
 pub struct NodeState {
     /// Index of the temperature in the network.
     pub node: Node,
-    /// How warm it is.
+    /// The temperature.
     pub temperature: Temperature,
-    /// What heats it and how much heat it gets otherwise; none of a wall.
+    /// Equipment and heat gains; none for a wall.
     pub zone: Option<(Equipment, Gains)>,
 }
 
-/// The building beside its zones: its physics, its surroundings, its controller.
+/// The building apart from its zones: physics, surroundings and controller.
 #[derive(Resource, Debug)]
 pub struct Building {
     /// The model of the network in steps of time.
     pub model: Model,
-    /// The model of the network that the controller believes.
+    /// The controller's model of the network.
     pub believed: Model,
     /// The simulated building: the network, or another program.
     pub plant: Box<dyn ThermalPlant>,
@@ -97,14 +96,14 @@ pub struct Building {
     pub today: Day,
     /// Wall time of the controller today \[s\]; never part of a digest.
     pub design_s: f64,
-    /// The heat of each zone in the next step, where it is decided from outside \[kW\].
+    /// The heat of each zone in the next step, if it was decided from outside \[kW\].
     pub handed_in_kw: Option<Vec<f64>>,
-    /// The failure because of which the run cannot go on, if there is one.
+    /// The failure because of which the run cannot continue, if there is one.
     pub failure: Option<BuildingFailure>,
 }
 
 impl Building {
-    /// A copy that goes on bit for bit as this building does.
+    /// A copy that continues bit for bit as this building does.
     ///
     /// # Errors
     /// [`NotCopied`] if another program is the plant, or if the controller does not fork.
@@ -134,7 +133,7 @@ impl Building {
         self.targets.steps()
     }
 
-    /// Electricity that heat takes at an outdoor temperature \[kW\].
+    /// Electricity for heat at an outdoor temperature \[kW\].
     fn electric_kw(&self, heat_kw: f64, outdoor_c: f64) -> f64 {
         match &self.targets.supply.heat_pump {
             Some(heat_pump) => heat_kw.abs() / heat_pump.cop(heat_kw > 0.0, outdoor_c),
@@ -147,7 +146,6 @@ impl Building {
         self.targets.supply.price_per_kwh.as_ref().map(|prices| prices[step])
     }
 
-    /// The sun in a step of a day.
     fn sun(&self, day: usize, step: usize) -> SunOfStep {
         let (step_s, steps) = (self.model.step_s(), self.steps_per_day());
         let start_s = (day * steps + step) as f64 * step_s;

@@ -1,4 +1,4 @@
-//! From a scenario to zones.
+//! Builds the zones of a scenario.
 
 use interplay_building::comfort::{Agenda, SetpointsError};
 use interplay_building::control::{ControlError, Disturbance};
@@ -12,14 +12,14 @@ use thiserror::Error;
 use super::{Building, Equipment, Gains, Node, NodeState, Temperature};
 use crate::plants::{BoptestPlant, NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 
-/// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
+/// Bits that are flipped in the seed, so that weather, occupancy and forecasts with one seed are independent.
 const OCCUPANCY_SEED_BIT: u64 = 1 << 40;
 const FORECAST_SEED_BIT: u64 = 2 << 40;
 
-/// Why a scenario gives no building. One that was loaded has been checked for all of this.
+/// Why a building cannot be built. A loaded scenario has been checked for all of these errors.
 #[derive(Debug, Error)]
 pub enum BuildingError {
-    /// Zones and walls make no network.
+    /// Zones and walls do not form a network.
     #[error(transparent)]
     Network(#[from] NetworkError),
     /// The network cannot be simulated at this step.
@@ -28,13 +28,13 @@ pub enum BuildingError {
     /// The setpoints are out of range.
     #[error(transparent)]
     Setpoints(#[from] SetpointsError),
-    /// Schedules contradict one another.
+    /// Schedules are contradictory.
     #[error(transparent)]
     Timetable(#[from] TimetableError),
     /// The controller cannot be started.
     #[error(transparent)]
     Control(#[from] ControlError),
-    /// The program that is the building cannot be reached.
+    /// The program that simulates the building cannot be reached.
     #[error(transparent)]
     Plant(#[from] PlantError),
 }
@@ -52,7 +52,7 @@ impl ClimateState {
     /// The building of a scenario, if it has one.
     ///
     /// # Errors
-    /// [`BuildingError`], for a scenario that was not loaded, or if a plant behind a socket does not answer.
+    /// [`BuildingError`], if the scenario was not loaded, or if a plant behind a socket does not answer.
     pub fn initial(scenario: &Scenario) -> Result<Option<Self>, BuildingError> {
         let Some(described) = &scenario.building else { return Ok(None) };
         let (network, steps) = (described.network()?, described.steps_per_day());
@@ -107,7 +107,7 @@ pub fn surroundings_of(scenario: &Scenario, network: &Network) -> Surroundings {
     }
 }
 
-/// What the heat of the equipment acts on. `models` are the network and what the controller takes it for.
+/// The plant on which the equipment's heat acts. `models` are the network and the controller's model of it.
 fn plant(
     scenario: &Scenario,
     described: &BuildingConfig,
@@ -133,6 +133,6 @@ fn plant(
 /// Returns the people of a scenario with `zones` zones.
 pub fn people(scenario: &Scenario, zones: usize) -> People {
     let people = scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ OCCUPANCY_SEED_BIT);
-    // A scenario whose schedules contradict one another is refused before it is run.
+    // A scenario with contradictory schedules is refused before it runs.
     people.following(scenario.timetable().unwrap_or_default())
 }

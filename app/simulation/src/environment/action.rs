@@ -1,4 +1,4 @@
-//! What an agent decides, as numbers, and what its vehicle does with it.
+//! Actions of an agent, as numbers, and their effect on its vehicle.
 
 use interplay_planners::drivers::lanes::{RoadLanes, towards};
 use interplay_planners::{Agent, Body, Input, Scene};
@@ -7,30 +7,30 @@ use serde::{Deserialize, Serialize};
 
 use crate::state::components::HandedIn;
 
-/// What an agent decides.
+/// The kind of action of an agent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Action {
-    /// Acceleration and steering, each from −1 to 1: of the strongest braking or acceleration, and of the largest steering angle to the
-    /// right or left.
+    /// Acceleration and steering, each from −1 to 1, relative to the strongest braking or acceleration and to the largest steering angle to
+    /// the right or left.
     #[default]
     Continuous,
-    /// One of five: 0 lane left, 1 idle, 2 lane right, 3 faster, 4 slower. The vehicle then steers to the lane and comes to the speed.
+    /// One of five: 0 lane left, 1 idle, 2 lane right, 3 faster, 4 slower. The vehicle then steers to that lane and approaches that speed.
     DiscreteMeta,
-    /// A whole plan, as our planners give it: acceleration and steering for every step of the horizon. The others are told it.
+    /// A whole plan, like those of our planners: acceleration and steering for every step of the horizon. The other vehicles know it.
     Plan,
 }
 
-/// The numbers of an action.
+/// The form of an action's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActionSpace {
-    /// Numbers from −1 to 1: so many rows of acceleration and steering.
+    /// Rows of acceleration and steering from −1 to 1, this many.
     Rows(usize),
-    /// One of so many.
+    /// An integer below this number.
     OneOf(usize),
 }
 
 impl ActionSpace {
-    /// How many numbers an action has.
+    /// Number of numbers of an action.
     pub fn len(self) -> usize {
         match self {
             ActionSpace::Rows(rows) => 2 * rows,
@@ -43,7 +43,7 @@ impl ActionSpace {
         self.len() == 0
     }
 
-    /// What is wrong with an action, if anything.
+    /// The fault of an action, if it has one.
     pub(super) fn fault(self, action: &[f32]) -> Option<String> {
         match self {
             _ if action.len() != self.len() => {
@@ -59,11 +59,11 @@ impl ActionSpace {
     }
 }
 
-/// Meta-actions are kept for this time by a real car unless it is said otherwise \[s\].
+/// Default duration of a meta-action of a real car \[s\].
 const META_S: f64 = 0.5;
 
 impl Action {
-    /// How many plans there are from one decision of a vehicle to the next, if decisions are so far apart as stated \[s\], or as is usual.
+    /// Number of plans from one decision of a vehicle to the next, with decisions at the stated interval \[s\] or at the default one.
     pub fn plans_per_decision(self, decision_s: Option<f64>, body: &Body, plan_s: f64) -> usize {
         let usual_s = match self {
             Action::DiscreteMeta => META_S * body.real_ratio().sqrt(),
@@ -72,7 +72,7 @@ impl Action {
         (decision_s.unwrap_or(usual_s) / plan_s).round().max(1.0) as usize
     }
 
-    /// The numbers of such an action of a vehicle with a horizon.
+    /// The space of an action for a vehicle with a horizon.
     pub fn space(self, horizon: usize) -> ActionSpace {
         match self {
             Action::Continuous => ActionSpace::Rows(1),
@@ -82,26 +82,26 @@ impl Action {
     }
 }
 
-/// A meta-action, with the numbers of HighwayEnv.
+/// A meta-action, numbered as in HighwayEnv.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiscreteMeta {
-    /// To the lane on the left.
+    /// Change to the left lane.
     LaneLeft,
-    /// Lane and speed stay.
+    /// Keep lane and speed.
     Idle,
-    /// To the lane on the right.
+    /// Change to the right lane.
     LaneRight,
-    /// A step faster.
+    /// Increase the desired speed by a step.
     Faster,
-    /// A step slower.
+    /// Decrease the desired speed by a step.
     Slower,
 }
 
 impl DiscreteMeta {
-    /// How many there are.
+    /// Number of meta-actions.
     pub const COUNT: usize = 5;
 
-    /// All, by number.
+    /// All meta-actions, by number.
     pub const ALL: [DiscreteMeta; Self::COUNT] = [
         DiscreteMeta::LaneLeft,
         DiscreteMeta::Idle,
@@ -111,26 +111,26 @@ impl DiscreteMeta {
     ];
 }
 
-/// A step of the wanted speed, as a share of the goal's.
+/// A step of the desired speed, as a share of the goal's.
 const SPEED_STEP: f64 = 0.25;
 
-/// The lane and the speed to which meta-actions have led.
+/// The target lane and speed after the meta-actions so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MetaTarget {
-    /// The middle of the lane, across the route \[m\].
+    /// Lateral position of the lane's centre on the route \[m\].
     pub lane_m: f64,
     pub speed_mps: f64,
 }
 
 impl MetaTarget {
-    /// The lane in which a vehicle is, and its speed.
+    /// The current lane and speed of a vehicle.
     pub fn of(scene: &Scene) -> MetaTarget {
         let lanes = RoadLanes::of_road(scene, None);
         let now_m = scene.ego.route.across(scene.ego.state.position());
         MetaTarget { lane_m: lanes.centre_m(lanes.at(now_m)), speed_mps: scene.ego.state.speed_mps }
     }
 
-    /// The lane and speed after a meta-action; none that cannot be done.
+    /// The lane and speed after a meta-action; none if it is impossible.
     pub fn after(self, action: DiscreteMeta, scene: &Scene) -> Option<MetaTarget> {
         let lanes = RoadLanes::of_road(scene, None);
         let now = lanes.at(self.lane_m);
@@ -153,12 +153,12 @@ impl MetaTarget {
         }
     }
 
-    /// What the vehicle does now.
+    /// The input with which the vehicle approaches the target.
     pub fn input(self, scene: &Scene) -> Input {
         towards(scene, self.lane_m, self.speed_mps)
     }
 
-    /// The meta-action that comes nearest to a motion of a planner: a change of lane if it ends in another one, else of the speed.
+    /// The meta-action nearest to a planned motion: a lane change if the motion ends in another lane, otherwise a change of speed.
     pub fn nearest(self, scene: &Scene, end: &interplay_planners::State) -> DiscreteMeta {
         let lanes = RoadLanes::of_road(scene, None);
         let [now, then] = [self.lane_m, scene.ego.route.across(end.position())].map(|across_m| lanes.at(across_m));
@@ -174,7 +174,7 @@ impl MetaTarget {
     }
 }
 
-/// The input that a row of numbers from −1 to 1 means; numbers beyond are cut off.
+/// The input of a row of numbers, which are clipped to −1 and 1.
 pub(super) fn input_of(row: &[f32], agent: &Agent) -> Input {
     let [acceleration, steering] = [row[0], row[1]].map(|number| f64::from(number).clamp(-1.0, 1.0));
     let limits = &agent.limits;
@@ -182,14 +182,14 @@ pub(super) fn input_of(row: &[f32], agent: &Agent) -> Input {
     Input { acceleration_mps2: acceleration * strongest_mps2, steering_rad: steering * limits.steering_max_rad }
 }
 
-/// The row of numbers that means an input.
+/// The row of numbers of an input.
 pub(super) fn row_of(input: &Input, agent: &Agent) -> [f32; 2] {
     let limits = &agent.limits;
     let acceleration = input.acceleration_mps2;
     [(acceleration / limits.strongest_mps2(acceleration)) as f32, (input.steering_rad / limits.steering_max_rad) as f32]
 }
 
-/// What a row or rows of numbers hand in.
+/// The input or plan of an action's numbers.
 pub(super) fn handed_in(action: Action, numbers: &[f32], agent: &Agent) -> HandedIn {
     match action {
         Action::Plan => HandedIn::Plan(numbers.chunks_exact(2).map(|row| input_of(row, agent)).collect()),

@@ -1,4 +1,4 @@
-//! What stands between an agent and its vehicle: what it sees as numbers, and what its numbers make the vehicle do.
+//! The interface between an agent and its vehicle: observations as numbers, and actions from numbers.
 
 use interplay_planners::perception::belief::{self, DriverBeliefs};
 use interplay_planners::perception::sensing::SensedScene;
@@ -10,23 +10,23 @@ use super::observation::{AgentView, ObservationSpace, Seen};
 use super::{Action, ActionSpace, DiscreteMeta};
 use crate::state::components::HandedIn;
 
-/// What stands between an agent and its vehicle. It remembers what it believes of the others, if that is seen, and to which lane and
-/// speed meta-actions have led.
+/// The interface between an agent and its vehicle. It keeps beliefs about the other drivers, if a view shows them, and the target
+/// of the meta-actions.
 #[derive(Clone, Debug)]
 pub struct AgentInterface {
-    /// Each view, and how many numbers it has.
+    /// Each view with its number of numbers.
     views: Vec<(AgentView, usize)>,
     action: Action,
     horizon: usize,
     beliefs: Option<Box<DriverBeliefs>>,
     estimates: Vec<DriverEstimate>,
     target: Option<MetaTarget>,
-    /// The plan that is followed where decisions are rarer than plans, and how many steps of it have passed.
+    /// The plan that the vehicle follows between decisions, and the number of steps of it that have passed.
     followed: (Vec<f32>, usize),
 }
 
 impl AgentInterface {
-    /// The interface of a vehicle whose plans have so many steps, before its first decision.
+    /// The interface of a vehicle with a planning horizon, before its first decision.
     pub fn new(observations: &[AgentView], action: Action, horizon: usize) -> AgentInterface {
         let infers = observations.iter().any(AgentView::shows_beliefs);
         AgentInterface {
@@ -40,29 +40,29 @@ impl AgentInterface {
         }
     }
 
-    /// What the agent sees, one space after the other.
+    /// The observation spaces of the views, in order.
     pub fn observation_spaces(&self) -> Vec<ObservationSpace> {
         self.views.iter().map(|(view, _)| view.space(self.horizon)).collect()
     }
 
-    /// How many numbers it sees.
+    /// Number of numbers of an observation.
     pub fn observation_len(&self) -> usize {
         self.views.iter().map(|(_, length)| length).sum()
     }
 
-    /// What the agent decides.
+    /// The space of actions.
     pub fn action_space(&self) -> ActionSpace {
         self.action.space(self.horizon)
     }
 
-    /// Looks at the others as they are at a plan; to be called at every one.
+    /// Updates the beliefs from the scene at a plan; must be called at every plan.
     pub fn look(&mut self, sensed: &SensedScene) {
         if let Some(beliefs) = &mut self.beliefs {
             self.estimates = beliefs.infer(sensed).estimates;
         }
     }
 
-    /// Writes what the agent sees; `out` has [`AgentInterface::observation_len`] numbers.
+    /// Writes the observation; `out` has [`AgentInterface::observation_len`] numbers.
     pub fn observe(&self, scene: &Scene, out: &mut [f32]) {
         let seen = Seen { scene, beliefs: &self.estimates };
         let mut rest = out;
@@ -73,7 +73,7 @@ impl AgentInterface {
         }
     }
 
-    /// Takes a decision. Beyond −1 and 1 it is cut off; a meta-action that cannot be done leaves all as it is.
+    /// Takes a decision. Numbers are clipped to −1 and 1; an impossible meta-action changes nothing.
     ///
     /// # Errors
     /// What is wrong with the numbers.
@@ -91,7 +91,7 @@ impl AgentInterface {
         Ok(())
     }
 
-    /// What the vehicle does at this plan, by the last decision. Of a plan that is older than a step, the rest, and then its last row.
+    /// The input at this plan, from the last decision: of an older plan the remaining rows, and after these its last row.
     pub(crate) fn handed_in(&mut self, scene: &Scene) -> HandedIn {
         if let Some(target) = self.target {
             return HandedIn::Input(target.input(scene));
@@ -110,7 +110,7 @@ impl AgentInterface {
         handed_in(self.action, &later, &scene.ego)
     }
 
-    /// Which meta-actions can be done, by number; of other actions nothing is said.
+    /// The possible meta-actions, by number; none for other kinds of action.
     pub fn action_mask(&self, scene: &Scene) -> Option<[bool; DiscreteMeta::COUNT]> {
         (self.action == Action::DiscreteMeta).then(|| {
             let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
@@ -118,7 +118,7 @@ impl AgentInterface {
         })
     }
 
-    /// The numbers that come nearest to a plan: how one of our planners acts through this interface.
+    /// The numbers nearest to a plan, with which one of our planners acts through this interface.
     pub fn numbers_of(&self, scene: &Scene, plan: &Plan) -> Vec<f32> {
         let trajectory = &plan.trajectory;
         match self.action {
@@ -136,7 +136,7 @@ impl AgentInterface {
     }
 }
 
-/// Whoever has decided nothing goes on along the lane, at the present speed.
+/// A vehicle without a decision continues along its lane at its present speed.
 pub(super) fn goes_on(scene: &Scene) -> HandedIn {
     HandedIn::Input(MetaTarget::of(scene).input(scene))
 }

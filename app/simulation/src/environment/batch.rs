@@ -1,53 +1,53 @@
-//! Many worlds that are stepped side by side.
+//! Many environments that are stepped side by side.
 
 use rayon::prelude::*;
 
 use super::reward::TermValues;
 use super::{Ending, Environment, EnvironmentError};
 
-/// What happens in a batch to a world whose episode is over.
+/// What a batch does with a world whose episode is over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Autoreset {
-    /// The next step begins a new episode instead; its action is not looked at, and it is worth 0.
+    /// The next step begins a new episode instead; it ignores the action and has the reward 0.
     #[default]
     NextStep,
-    /// The same step begins a new episode; the last observation of the old one is told beside the first of the new.
+    /// The same step begins a new episode; it returns the last observation of the old episode and the first of the new one.
     SameStep,
-    /// Nothing: whoever steps it resets it.
+    /// Nothing: the caller resets the world.
     Disabled,
 }
 
 /// Environments with one agent each that are stepped in one call, on all cores.
 ///
-/// Each world is what it would be alone: same seeds and actions, same numbers, whatever the number of threads.
+/// Each world behaves as it does alone: the same seeds and actions give the same numbers with any number of threads.
 pub struct EnvironmentBatch {
     environments: Vec<Environment>,
     autoreset: Autoreset,
-    /// Whose episode was over after the last step.
+    /// Whether each world's episode was over after the last step.
     over: Vec<bool>,
 }
 
-/// What a step of all worlds gave, a row a world.
+/// The results of a step of all worlds, one row for each world.
 #[derive(Clone, Debug)]
 pub struct BatchSteps {
-    /// The observations: of a world that began a new episode, the first of that.
+    /// The observations; for a world that began a new episode, the first of that episode.
     pub observations: Vec<f32>,
-    /// The last observations of episodes that ended in this step and began anew; 0 elsewhere.
+    /// The last observations of episodes that ended in this step and were followed by a new one; 0 elsewhere.
     pub last_observations: Vec<f32>,
     /// The rewards.
     pub rewards: Vec<f64>,
-    /// Whose episode ended by what happened,
+    /// Whether the episode ended by an event,
     pub terminated: Vec<bool>,
     /// or because the time is over.
     pub truncated: Vec<bool>,
     /// The terms of the rewards, in the order of [`RewardTerm::ALL`](super::RewardTerm::ALL).
     pub terms: Vec<TermValues>,
-    /// How episodes ended that did.
+    /// How each episode ended, if it did.
     pub endings: Vec<Option<Ending>>,
 }
 
 impl BatchSteps {
-    /// Room for the steps of so many worlds with so many numbers each.
+    /// Room for the steps of `worlds` worlds with `observation_len` numbers each.
     pub fn new(worlds: usize, observation_len: usize) -> BatchSteps {
         BatchSteps {
             observations: vec![0.0; worlds * observation_len],
@@ -60,7 +60,6 @@ impl BatchSteps {
         }
     }
 
-    /// A row for each world.
     fn rows(&mut self) -> Vec<BatchRow<'_>> {
         let length = self.observations.len() / self.rewards.len().max(1);
         let seen = self.observations.chunks_exact_mut(length).zip(self.last_observations.chunks_exact_mut(length));
@@ -74,7 +73,7 @@ impl BatchSteps {
     }
 }
 
-/// Where a step of one world is written.
+/// The row of one world, to be written.
 struct BatchRow<'a> {
     observation: &'a mut [f32],
     last: &'a mut [f32],
@@ -86,10 +85,10 @@ struct BatchRow<'a> {
 }
 
 impl EnvironmentBatch {
-    /// A batch of environments that have the same spaces.
+    /// A batch of environments with equal spaces.
     ///
     /// # Errors
-    /// [`EnvironmentError::Setting`] if they do not, or if one has several agents.
+    /// [`EnvironmentError::Setting`] if the spaces differ, or if an environment has several agents.
     pub fn new(environments: Vec<Environment>, autoreset: Autoreset) -> Result<EnvironmentBatch, EnvironmentError> {
         let fault = |reason: &str| Err(EnvironmentError::Setting { setting: "batch", reason: reason.to_owned() });
         let Some(first) = environments.first() else { return fault("at least one world is needed") };
@@ -104,12 +103,12 @@ impl EnvironmentBatch {
         Ok(EnvironmentBatch { environments, autoreset, over })
     }
 
-    /// The worlds.
+    /// The environments.
     pub fn environments(&self) -> &[Environment] {
         &self.environments
     }
 
-    /// Begins episodes in all worlds for which `which` says so, each with its seed, or with the next of its own sequence.
+    /// Begins episodes in all worlds that `which` selects, each with its seed, or with the next one of its own sequence.
     ///
     /// # Errors
     /// The first error of a world.
@@ -121,10 +120,10 @@ impl EnvironmentBatch {
         })
     }
 
-    /// Steps all worlds by one decision each; numbers of all actions follow one another.
+    /// Steps all worlds by one decision each; `actions` holds the numbers of all worlds one after the other.
     ///
     /// # Errors
-    /// [`EnvironmentError::Length`]; an action that is none, before any world has moved; or the first error of a world.
+    /// [`EnvironmentError::Length`]; an invalid action, before any world has moved; or the first error of a world.
     pub fn step(&mut self, actions: &[f32], steps: &mut BatchSteps) -> Result<(), EnvironmentError> {
         let space = self.environments[0].action_space();
         let wanted = space.len() * self.environments.len();

@@ -1,4 +1,4 @@
-//! How an agent's episode goes, and how it has ended.
+//! The episode of an agent, and how it ended.
 
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
@@ -9,21 +9,21 @@ use crate::measure::{Measures, VehicleMeasures};
 use crate::physics::gap_m;
 use crate::state::frame::Frame;
 
-/// How an episode has ended.
+/// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The goal is reached.
+    /// The vehicle reached its goal.
     Goal,
-    /// It touched somebody.
+    /// The vehicle touched another one.
     Contact,
-    /// A corner is off the road.
+    /// A corner of the vehicle is off the road.
     OffRoad,
     /// The time of the scenario is over.
     Time,
 }
 
 impl Ending {
-    /// The word for it.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Goal => "goal",
@@ -39,15 +39,14 @@ impl Ending {
 pub struct Episode {
     /// The terms of the reward of the last decision, in the order of [`RewardTerm::ALL`].
     pub terms: TermValues,
-    /// How it has ended, if it has.
+    /// How it ended, if it did.
     pub ending: Option<Ending>,
-    /// Decisions so far.
+    /// Number of decisions so far.
     pub decisions: usize,
-    /// What the measures were before the decision.
     before: Counts,
 }
 
-/// What is counted of a vehicle.
+/// Measures of a vehicle that terms of the reward count.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     along_m: f64,
@@ -56,29 +55,28 @@ struct Counts {
 }
 
 impl Episode {
-    /// Whether it has ended.
+    /// Whether the episode has ended.
     pub fn is_over(&self) -> bool {
         self.ending.is_some()
     }
 
-    /// Whether it has ended by what happened, and not because the time is over.
+    /// Whether the episode ended by an event, and not because the time is over.
     pub fn is_terminated(&self) -> bool {
         self.ending.is_some_and(|ending| ending != Ending::Time)
     }
 
-    /// Begins a decision.
     pub(super) fn begin_decision(&mut self) {
         self.terms = TermValues::default();
         self.decisions += 1;
     }
 
-    /// Looks at a vehicle at its start.
+    /// The episode of a vehicle at its start.
     pub(super) fn begin(vehicle: &Vehicle, start: &State) -> Episode {
         let before = Counts { along_m: vehicle.route.along(start.position()), ..Counts::default() };
         Episode { before, ..Episode::default() }
     }
 
-    /// Adds what a tick was worth, and says how it ended, if it did.
+    /// Adds the terms of a tick, and sets the ending, if the episode ended.
     pub(super) fn observe(&mut self, scenario: &Scenario, index: usize, measures: &Measures, frame: &Frame) {
         let (vehicle, measured) = (&scenario.vehicles[index], &measures.vehicles[index]);
         let now = Counts {
@@ -108,13 +106,13 @@ impl Episode {
         };
     }
 
-    /// The time of the scenario is over.
+    /// Ends the episode because the scenario is over.
     pub(super) fn time_is_over(&mut self) {
         self.ending = self.ending.or(Some(Ending::Time));
     }
 }
 
-/// The share of half a length of its body by which a vehicle is too near to the nearest other one.
+/// By how much a vehicle is closer to the nearest other one than half the length of its body, as a share of that length.
 fn closeness(vehicle: &Vehicle, index: usize, measured: &[VehicleMeasures], scenario: &Scenario, frame: &Frame) -> f64 {
     let near_m = 0.5 * (vehicle.body.front_m + vehicle.body.rear_m);
     let own = &measured[index].last;

@@ -1,12 +1,12 @@
-//! A scenario as an environment for learning: episodes, what an agent sees, what it may do, and what it is worth.
+//! A scenario as an environment for reinforcement learning: episodes, observations, actions and rewards.
 //!
 //! ```text
 //! reset(seed) -> observation;   step(actions) -> observation, terms of the reward, terminated, truncated
 //! ```
 //!
 //! An [`Environment`] is a loop over [`Simulation::step`](crate::Simulation::step) in which some vehicles, its agents, are driven from
-//! outside; everybody else has the scenario's drivers. An [`EnvironmentBatch`] steps many of them on all cores. A [`Policy`] closes
-//! the loop the other way round: what learned to act in an environment drives a vehicle of any run ([`PolicyDriver`]).
+//! outside; all other vehicles keep the scenario's drivers. An [`EnvironmentBatch`] steps many of them on all cores. A [`Policy`] works in
+//! the opposite direction: an agent that was trained in an environment drives a vehicle in any run ([`PolicyDriver`]).
 //!
 //! ```
 //! use interplay_simulation::environment::{Environment, EnvironmentSettings};

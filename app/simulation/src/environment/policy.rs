@@ -1,4 +1,4 @@
-//! Whoever acts on what an agent sees, at the wheel of a vehicle of any run.
+//! A policy as the driver of a vehicle in any run.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,12 +12,12 @@ use super::AgentInterface;
 use crate::phases::external;
 use crate::state::components::HandedIn;
 
-/// A function from what an agent sees to what it does, such as a trained network. The same observation gives the same action.
+/// A function from observations to actions, such as a trained network. The same observation gives the same action.
 pub trait Policy: Send + Sync {
     /// The action for an observation: the numbers of the action's space.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why the policy has no action.
     fn act(&self, observation: &[f32]) -> Result<Vec<f32>, PolicyError>;
 }
 
@@ -26,18 +26,18 @@ pub trait Policy: Send + Sync {
 #[error("{0}")]
 pub struct PolicyError(pub String);
 
-/// A driver whose decisions are a policy's.
+/// A driver that applies a policy.
 #[derive(Clone)]
 pub struct PolicyDriver {
     policy: Arc<dyn Policy>,
     interface: AgentInterface,
-    /// Plans from one decision to the next.
+    /// Number of plans from one decision to the next.
     plans_per_decision: usize,
     plans: usize,
 }
 
 impl PolicyDriver {
-    /// A driver who has not decided yet.
+    /// A driver before its first decision.
     pub fn new(policy: Arc<dyn Policy>, interface: AgentInterface, plans_per_decision: usize) -> PolicyDriver {
         PolicyDriver { policy, interface, plans_per_decision, plans: 0 }
     }
@@ -51,7 +51,7 @@ impl fmt::Debug for PolicyDriver {
 
 impl Drive for PolicyDriver {
     /// # Errors
-    /// [`PlanError::BadInput`] if the policy has no action, or one that is none.
+    /// [`PlanError::BadInput`] if the policy has no action, or an invalid one.
     fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         self.interface.look(&SensedScene::perfect(scene));
         if self.plans.is_multiple_of(self.plans_per_decision) {
@@ -71,7 +71,7 @@ impl Drive for PolicyDriver {
     }
 }
 
-/// Straight on with the strongest braking.
+/// A plan of the strongest braking straight ahead.
 pub(super) fn braking(scene: &Scene) -> Plan {
     let input = Input { acceleration_mps2: scene.ego.limits.acceleration_min_mps2, steering_rad: 0.0 };
     external::plan(HandedIn::Plan(vec![input; scene.horizon]), scene).unwrap_or_default()

@@ -1,9 +1,9 @@
-//! What an agent's motion is worth, term by term.
+//! The reward of an agent, term by term.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Names the terms of a reward, and makes the weights of them.
+/// Declares the terms of a reward and their weights.
 macro_rules! reward_terms {
     ($($(#[doc = $doc:literal])* $term:ident $field:ident = $weight:expr,)*) => {
         /// A term of the reward.
@@ -16,7 +16,7 @@ macro_rules! reward_terms {
             /// All terms, in the order in which they are reported.
             pub const ALL: &[RewardTerm] = &[$(RewardTerm::$term),*];
 
-            /// The word for it.
+            /// Its name.
             pub fn name(self) -> &'static str {
                 match self {
                     $(RewardTerm::$term => stringify!($field),)*
@@ -24,7 +24,7 @@ macro_rules! reward_terms {
             }
         }
 
-        /// What each term of the reward weighs; the reward is the sum of the terms, each times its weight.
+        /// The weight of each term of the reward, which is the weighted sum of the terms.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, default)]
         pub struct RewardWeights {
@@ -47,19 +47,19 @@ macro_rules! reward_terms {
 }
 
 reward_terms! {
-    /// Way along the route, as a share of what the wanted speed would be in a second; 1 after a second at that speed.
+    /// Distance along the route, relative to that of a second at the desired speed.
     Progress progress = 0.1,
     /// 1 in the step in which the goal is reached.
     Goal goal = 5.0,
-    /// 1 in the step in which it touches somebody.
+    /// 1 in the step in which it touches another vehicle.
     Contact contact = -5.0,
     /// 1 in the step in which a corner leaves the road.
     OffRoad off_road = -5.0,
-    /// How often it began to brake with more than 4 m/s².
+    /// Number of times that it began to brake with more than 4 m/s².
     HardBraking hard_braking = -0.5,
-    /// Time for which it is nearer to somebody than half the length of its body, each second times the share of that which is missing.
+    /// Time during which it is closer to another vehicle than half the length of its body, weighted by the missing share of that distance.
     Gap gap = -0.5,
-    /// How many rules of the road it broke.
+    /// Number of rules of the road that it broke.
     RuleBroken rule_broken = -1.0,
 }
 

@@ -1,4 +1,4 @@
-//! What is chosen of an environment beside its scenario.
+//! Settings of an environment, in addition to its scenario.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,22 +7,22 @@ use thiserror::Error;
 use super::{Action, AgentView, RewardWeights, StartDraw};
 use crate::simulation::run_error::RunError;
 
-/// What is chosen of an environment beside its scenario.
+/// Settings of an environment, in addition to its scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnvironmentSettings {
-    /// The vehicles that are driven from outside; without any, the ego.
+    /// The vehicles that are driven from outside; if empty, the ego.
     pub agents: Vec<String>,
-    /// What each agent sees, one after the other.
+    /// The views of each agent, in order.
     pub observations: Vec<AgentView>,
-    /// What each agent decides.
+    /// The kind of action of each agent.
     pub action: Action,
-    /// What the reward is made of.
+    /// The weights of the reward.
     pub reward: RewardWeights,
-    /// What is drawn anew for every episode.
+    /// The random draw of each episode's start.
     pub start: StartDraw,
-    /// Time from one decision to the next \[s\], rounded to plans; without it every plan of meta-actions is kept for half a second of a real
-    /// car, and any other is made anew.
+    /// Interval of decisions \[s\], rounded to plans. By default, meta-actions last half a second of a real car, and other actions one
+    /// plan.
     pub decision_s: Option<f64>,
 }
 
@@ -39,10 +39,10 @@ impl Default for EnvironmentSettings {
     }
 }
 
-/// Why there is no such environment, or why it cannot do what it is asked for.
+/// Why an environment cannot be made, or a call to it fails.
 #[derive(Debug, Error)]
 pub enum EnvironmentError {
-    /// A setting does not fit.
+    /// A setting is invalid.
     #[error("`{setting}`: {reason}")]
     Setting {
         /// The setting.
@@ -53,28 +53,28 @@ pub enum EnvironmentError {
     /// The scenario has no vehicles.
     #[error("the scenario has no vehicles; `interplay/Building-v0` is the environment of buildings")]
     NoVehicles,
-    /// An action is not one.
+    /// An action is invalid.
     #[error("the action of `{agent}` {reason}")]
     Action {
-        /// Whose action.
+        /// The agent.
         agent: String,
         /// What is wrong with it, and what would work.
         reason: String,
     },
-    /// A list has not as many entries as needed.
+    /// A list has the wrong length.
     #[error("{what}: {found} numbers, and {wanted} are needed")]
     Length {
         /// What the numbers are.
         what: &'static str,
-        /// How many there are.
+        /// Its length.
         found: usize,
-        /// How many are needed.
+        /// The required length.
         wanted: usize,
     },
-    /// There is no episode that could go on.
+    /// No episode is in progress.
     #[error("the episode is over, or none has begun: call reset")]
     Over,
-    /// The simulation cannot go on.
+    /// The simulation failed.
     #[error(transparent)]
     Run(#[from] RunError),
 }

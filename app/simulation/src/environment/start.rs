@@ -1,4 +1,4 @@
-//! What is drawn anew for every episode.
+//! The random draw of each episode's start.
 
 use interplay_common::random::{Random, SplitMix64};
 use interplay_planners::drivers::human::Style;
@@ -9,30 +9,30 @@ use serde::{Deserialize, Serialize};
 
 use crate::physics::gap_m;
 
-/// The stream of a seed of which styles are drawn.
+/// Random stream of the styles.
 const STYLES: u64 = 0x5374_796C;
-/// What tells the seeds of starts that are drawn again, where two touch, from the first.
+/// Distinguishes the seeds of repeated draws, where two vehicles touch, from the first.
 const STARTS: u64 = 0x5374_6172;
-/// How often starts are drawn until nobody touches anybody; then they are as the scenario has them.
+/// Maximum number of draws until no two vehicles touch; after these, the scenario's own starts are used.
 const MOST_DRAWS: usize = 100;
 
-/// Starts are shifted by at most this, in lengths of a body,
+/// Maximum shift of a start, in lengths of a body,
 const SHIFT_LENGTHS: f64 = 0.25;
-/// and vehicles are faster or slower by at most this share of the speed that the ego starts with.
+/// and maximum change of a speed, as a share of the ego's initial speed.
 const SPEED_SHARE: f64 = 0.1;
 
-/// What is drawn for every episode from its seed: starts, and how nice the others are.
+/// The random draw of each episode from its seed: starts, and styles of the other drivers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartDraw {
-    /// Whether anything is drawn. Without that every episode is the scenario as it is written, but for the seed of its random numbers.
+    /// Whether anything is drawn. Otherwise every episode is the scenario as written, except for the seed of its random numbers.
     pub is_drawn: bool,
     /// Largest shift of each vehicle along its heading \[m\]; without it a quarter of the ego's length.
     pub position_m: Option<f64>,
     /// Largest change of each speed \[m/s\]; without it a tenth of the speed with which the ego starts.
     pub speed_mps: Option<f64>,
-    /// The safety weights of which each human driver gets one; without them those of the styles, from nice (50) to tough (0). With an
-    /// empty list each keeps its own.
+    /// The safety weights from which each human driver's is drawn; by default those of the styles, from nice (50) to tough (0). With an
+    /// empty list each driver keeps its own.
     pub safety_weights: Option<Vec<f64>>,
 }
 
@@ -43,7 +43,7 @@ impl Default for StartDraw {
 }
 
 impl StartDraw {
-    /// The scenario of the episode of a seed, whose agents are driven from outside.
+    /// The scenario of the episode with a seed, whose agents are driven from outside.
     pub(super) fn drawn(&self, scenario: &Scenario, seed: u64) -> Scenario {
         let mut drawn = Scenario { seed, ..scenario.clone() };
         if !self.is_drawn {
@@ -82,7 +82,7 @@ fn length_m(body: &Body) -> f64 {
     body.front_m + body.rear_m
 }
 
-/// Whether any two vehicles touch where they start.
+/// Whether any two vehicles touch at their starts.
 fn touch(scenario: &Scenario) -> bool {
     let starts = scenario.starts();
     let all: Vec<_> = scenario.vehicles.iter().map(|vehicle| &vehicle.body).zip(&starts).collect();
@@ -94,9 +94,9 @@ fn touch(scenario: &Scenario) -> bool {
 mod tests {
     use super::*;
 
-    /// The same seed draws the same, another seed something else, and nobody starts inside somebody else.
+    /// The same seed draws the same start, another seed another one, and no vehicle starts inside another.
     #[test]
-    fn what_is_drawn_is_a_function_of_the_seed() {
+    fn the_drawn_start_is_a_function_of_the_seed() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let draw = StartDraw { position_m: Some(1.0), ..StartDraw::default() };
         let drawn = |seed| draw.drawn(&scenario, seed);
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn every_listed_weight_is_drawn_and_no_other() {
+    fn exactly_the_listed_weights_are_drawn() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let draw = StartDraw { safety_weights: Some(vec![1.0, 4.0]), ..StartDraw::default() };
         let mut seen = Vec::new();

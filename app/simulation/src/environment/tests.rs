@@ -1,4 +1,4 @@
-//! Laws of environments: what is the same alone and in a batch, what ends an episode, what is refused.
+//! Laws of environments: a batch equals its worlds alone, events end episodes, invalid actions are refused.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ fn seen(environment: &Environment) -> Vec<f32> {
     out
 }
 
-/// A sequence of actions that is a function of the step.
+/// A sequence of actions that depends only on the step.
 fn action(step: usize) -> [f32; 2] {
     [((step * 7) % 5) as f32 / 4.0 - 0.4, ((step * 3) % 7) as f32 / 30.0 - 0.1]
 }
@@ -52,7 +52,7 @@ fn every_view_writes_numbers_within_its_bounds() {
 }
 
 #[test]
-fn a_batch_is_its_worlds_alone() {
+fn worlds_in_a_batch_behave_as_they_do_alone() {
     const WORLDS: usize = 5;
     let settings = EnvironmentSettings::default();
     let worlds = || (0..WORLDS).map(|_| environment(&settings)).collect::<Vec<_>>();
@@ -85,7 +85,7 @@ fn a_batch_is_its_worlds_alone() {
 }
 
 #[test]
-fn an_episode_ends_by_what_happens() {
+fn events_end_an_episode() {
     let ending = |agent: &str, seed: u64, numbers: [f32; 2]| {
         let settings = EnvironmentSettings { agents: vec![agent.to_owned()], ..EnvironmentSettings::default() };
         let mut environment = environment(&settings);
@@ -103,7 +103,7 @@ fn an_episode_ends_by_what_happens() {
 }
 
 #[test]
-fn a_planner_of_ours_reaches_the_goal_through_an_interface() {
+fn a_planner_reaches_the_goal_through_the_agent_interface() {
     let scenario = scenario();
     for action in [Action::Continuous, Action::Plan, Action::DiscreteMeta] {
         let mut environment = environment(&EnvironmentSettings { action, ..EnvironmentSettings::default() });
@@ -117,9 +117,9 @@ fn a_planner_of_ours_reaches_the_goal_through_an_interface() {
     }
 }
 
-/// A building beside the road has steps of its own, which are no ticks of the vehicles.
+/// A building beside the road has its own steps, which are not ticks of the vehicles.
 #[test]
-fn a_building_beside_the_road_takes_no_time_of_the_vehicles() {
+fn steps_of_a_building_do_not_count_as_decisions() {
     let mixed = interplay_scenarios::embedded().iter().find(|file| file.name.starts_with("mixed/")).expect("one");
     let scenario = load(mixed.name, &[]).expect("authored");
     let mut environment = Environment::new(&scenario, &EnvironmentSettings::default()).expect("an environment");
@@ -131,7 +131,7 @@ fn a_building_beside_the_road_takes_no_time_of_the_vehicles() {
 }
 
 #[test]
-fn what_is_no_action_is_refused_and_nothing_moves() {
+fn an_invalid_action_is_refused_and_nothing_moves() {
     let mut environment = environment(&EnvironmentSettings::default());
     assert!(environment.step(&[0.0, 0.0]).is_err(), "there is no episode");
     environment.reset(Some(1)).expect("an episode");
@@ -140,7 +140,7 @@ fn what_is_no_action_is_refused_and_nothing_moves() {
         assert!(environment.step(numbers).is_err(), "{numbers:?}");
     }
     assert_eq!(seen(&environment), before);
-    let settings = EnvironmentSettings { agents: vec!["nobody".to_owned()], ..EnvironmentSettings::default() };
+    let settings = EnvironmentSettings { agents: vec!["missing".to_owned()], ..EnvironmentSettings::default() };
     let error = Environment::new(&scenario(), &settings).err().map(|error| error.to_string());
     assert!(error.is_some_and(|text| text.contains("choose from ego, front, rear")));
 }
@@ -154,9 +154,9 @@ impl Policy for Steady {
     }
 }
 
-/// A policy at the wheel of a run drives as the same numbers do from outside.
+/// A policy that drives in a run gives the same motion as its actions from outside.
 #[test]
-fn a_policy_drives_in_any_run() {
+fn a_policy_drives_as_its_actions_do_from_outside() {
     let scenario = scenario();
     let settings = EnvironmentSettings::default();
     let mut environment = environment(&settings);

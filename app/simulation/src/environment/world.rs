@@ -1,4 +1,4 @@
-//! One scenario, one world, some agents.
+//! An environment: one scenario, one world, its agents.
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::drivers::external;
@@ -17,22 +17,20 @@ use crate::report::Report;
 pub struct Environment {
     scenario: Scenario,
     settings: EnvironmentSettings,
-    /// The seeds of episodes.
     seeds: SplitMix64,
-    /// Plans from one decision to the next.
+    /// Number of plans from one decision to the next.
     plans_per_decision: usize,
     seats: Vec<Seat>,
     world: Option<Simulation>,
     time_s: f64,
 }
 
-/// An agent at its vehicle.
+/// An agent and its vehicle.
 struct Seat {
     vehicle: usize,
     name: String,
     interface: AgentInterface,
     episode: Episode,
-    /// What it senses now.
     sensed: Option<SensedScene>,
 }
 
@@ -40,7 +38,7 @@ impl Environment {
     /// The environment of a scenario, before its first episode.
     ///
     /// # Errors
-    /// [`EnvironmentError`] names the setting that does not fit, and what would.
+    /// [`EnvironmentError`] names the invalid setting, and what would work.
     pub fn new(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Environment, EnvironmentError> {
         let mut scenario = scenario.clone().without_counterfactuals();
         let agents = agents(&scenario, settings)?;
@@ -78,32 +76,32 @@ impl Environment {
         &self.scenario
     }
 
-    /// The agents' vehicles.
+    /// The names of the agents' vehicles.
     pub fn agents(&self) -> impl Iterator<Item = &str> {
         self.seats.iter().map(|seat| seat.name.as_str())
     }
 
-    /// Time from one decision to the next \[s\].
+    /// Interval of decisions \[s\].
     pub fn decision_s(&self) -> f64 {
         self.plans_per_decision as f64 * self.scenario.step_s * self.scenario.ticks_per_plan as f64
     }
 
-    /// What each agent sees, one space after the other.
+    /// The observation spaces of each agent, in order.
     pub fn observation_spaces(&self) -> Vec<ObservationSpace> {
         self.seats[0].interface.observation_spaces()
     }
 
-    /// What each agent decides.
+    /// The action space of each agent.
     pub fn action_space(&self) -> ActionSpace {
         self.seats[0].interface.action_space()
     }
 
-    /// How many numbers each agent sees.
+    /// Number of numbers of each agent's observation.
     pub fn observation_len(&self) -> usize {
         self.seats[0].interface.observation_len()
     }
 
-    /// Begins an episode. A seed begins a sequence of episodes, and without one the next of the sequence follows.
+    /// Begins an episode. A seed begins a sequence of episodes; without one, the next of the sequence follows.
     ///
     /// # Errors
     /// [`EnvironmentError::Run`] if the world cannot be built.
@@ -115,7 +113,7 @@ impl Environment {
         self.begin(&drawn)
     }
 
-    /// Begins the episode of the scenario as it is written, with a seed of its random numbers, as `interplay run --seed` does.
+    /// Begins the episode of the scenario as written, with a seed of its random numbers, as `interplay run --seed` does.
     ///
     /// # Errors
     /// As [`Environment::reset`].
@@ -135,7 +133,7 @@ impl Environment {
         self.look()
     }
 
-    /// Every agent looks at the world.
+    /// Updates the sensed scene of every agent.
     fn look(&mut self) -> Result<(), EnvironmentError> {
         let Some(world) = &self.world else { return Err(EnvironmentError::Over) };
         let vehicles: Vec<usize> = self.seats.iter().map(|seat| seat.vehicle).collect();
@@ -147,11 +145,11 @@ impl Environment {
         Ok(())
     }
 
-    /// Moves the world by one decision of every agent. Of agents whose episode is over the numbers are not looked at; their vehicles go on
+    /// Advances the world by one decision of every agent. Numbers of agents whose episode is over are ignored; their vehicles continue
     /// along their lanes.
     ///
     /// # Errors
-    /// [`EnvironmentError`] if there is no episode that could go on, or an action is none; nothing has moved then.
+    /// [`EnvironmentError`] if no episode is in progress or an action is invalid; then nothing has moved.
     pub fn step(&mut self, actions: &[f32]) -> Result<(), EnvironmentError> {
         self.decide(actions)?;
         for _ in 0..self.plans_per_decision {
@@ -202,7 +200,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Steps the world until the vehicles plan anew; whether there is no time left. Steps of a building between them pass, too.
+    /// Steps the world until the vehicles plan again, including steps of a building in between. Returns whether the time is over.
     fn step_to_next_plan(&mut self) -> Result<bool, EnvironmentError> {
         let Some(world) = &mut self.world else { return Err(EnvironmentError::Over) };
         let mut ticks = 0;
@@ -228,7 +226,7 @@ impl Environment {
         self.time_s
     }
 
-    /// Whether any agent's episode goes on.
+    /// Whether any agent's episode is in progress.
     pub fn is_live(&self) -> bool {
         self.world.is_some() && self.seats.iter().any(|seat| !seat.episode.is_over())
     }
@@ -243,7 +241,7 @@ impl Environment {
         self.settings.reward.sum(&self.seats[agent].episode.terms)
     }
 
-    /// Writes what an agent sees now; `out` has [`Environment::observation_len`] numbers.
+    /// Writes the observation of an agent; `out` has [`Environment::observation_len`] numbers.
     ///
     /// # Errors
     /// [`EnvironmentError::Over`] before the first episode; [`EnvironmentError::Length`].
@@ -258,19 +256,19 @@ impl Environment {
         Ok(())
     }
 
-    /// Which meta-actions an agent can do now; none with other actions, or before the first episode.
+    /// The meta-actions that are possible for an agent now; none with other actions, or before the first episode.
     pub fn action_mask(&self, agent: usize) -> Option<[bool; DiscreteMeta::COUNT]> {
         let seat = &self.seats[agent];
         seat.interface.action_mask(&seat.sensed.as_ref()?.scene)
     }
 
-    /// A planner of one of our kinds for an agent: what it senses and infers is as in a run of that driver.
+    /// A planner of one of our kinds for an agent; it senses and infers as in a run with that driver.
     pub fn planner(&self, agent: usize, kind: &dyn DriverKind) -> Planner {
         let stated = &self.scenario.vehicles[self.seats[agent].vehicle];
         Planner::new(kind, &stated.inference.unwrap_or_default())
     }
 
-    /// The action of a planner of ours in place of an agent now. It plans in what the agent senses; where there is no plan it brakes.
+    /// The present action of one of our planners for an agent. It plans in the agent's sensed scene, and brakes if it finds no plan.
     ///
     /// # Errors
     /// [`EnvironmentError::Over`] before the first episode.
@@ -286,16 +284,16 @@ impl Environment {
         self.world.as_ref()
     }
 
-    /// Ends the episode and says what was measured in it; none before the first.
+    /// Ends the episode and returns its report; none before the first.
     ///
     /// # Errors
-    /// [`EnvironmentError::Run`] if a watcher could not keep what it saw.
+    /// [`EnvironmentError::Run`] if a watcher failed.
     pub fn finish(&mut self) -> Result<Option<Report>, EnvironmentError> {
         Ok(self.world.take().map(Simulation::finish).transpose()?)
     }
 }
 
-/// The vehicles of the agents; without any, the ego.
+/// The indices of the agents' vehicles; by default, the ego.
 fn agents(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Vec<usize>, EnvironmentError> {
     let fault = |setting, reason| Err(EnvironmentError::Setting { setting, reason });
     if scenario.vehicles.is_empty() {
@@ -330,7 +328,7 @@ fn agents(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Vec<usi
                 let names: Vec<&str> = names.map(|index| scenario.vehicles[index].name.as_str()).collect();
                 return fault(
                     "agents",
-                    format!("`{name}` is no vehicle that could be driven; choose from {}", names.join(", ")),
+                    format!("`{name}` is not a vehicle that can be driven; choose from {}", names.join(", ")),
                 );
             }
         }

@@ -1,4 +1,4 @@
-//! What a driver believes of the others, and since when.
+//! The beliefs of a driver about the others, with the time since when it holds them.
 
 use interplay_planners::scene::driver_estimate::DriverEstimate;
 
@@ -6,17 +6,17 @@ use interplay_planners::scene::driver_estimate::DriverEstimate;
 #[derive(Clone, Debug, Default)]
 pub struct Beliefs(Vec<HeldBelief>);
 
-/// A belief that is held.
+/// A belief of a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldBelief {
     /// The latest estimate.
     pub estimate: DriverEstimate,
-    /// Since when the other has been taken for this kind of driver \[s\].
+    /// Time since when the other has been classified as this kind of driver \[s\].
     pub since_s: f64,
 }
 
 impl Beliefs {
-    /// Takes the estimates of one tick; about vehicles that are out of sight the last ones stay.
+    /// Takes the estimates of one tick; the last estimates of vehicles that are out of sight stay.
     pub fn observe(&mut self, estimates: &[DriverEstimate], time_s: f64) {
         for estimate in estimates {
             match self.0.iter_mut().find(|held| held.estimate.vehicle == estimate.vehicle) {
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn a_belief_is_held_since_the_kind_of_driver_changed_last() {
+    fn a_belief_is_held_since_the_last_change_of_its_kind() {
         let mut beliefs = Beliefs::default();
         let kinds = [DriverModel::Nice, DriverModel::Nice, DriverModel::Tough, DriverModel::Tough];
         for (tick, kind) in kinds.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How a building does, day by day.
+//! Measures of a building, day by day.
 
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
@@ -23,22 +23,22 @@ use crate::state::worst_zones::WorstZones;
 pub struct Fallback {
     /// The day, from 1.
     pub day: usize,
-    /// What its controller did, and why.
+    /// What its controller did instead, and why.
     pub reason: String,
 }
 
-/// Digests of what each part of the phase Climate produced.
+/// Digests of the results of each part of the phase Climate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct BuildingDigests {
-    /// Of the weather, its forecasts, and the heat of people and sun.
+    /// Digest of the weather, its forecasts, and the heat of people and sun.
     pub disturbance: String,
-    /// Of what the controller asked for.
+    /// Digest of the heat that the controller requested.
     pub control: String,
-    /// Of the heat that was given and all temperatures of zones.
+    /// Digest of the heat that was given and of all temperatures of zones.
     pub balance: String,
 }
 
-/// Everything that is measured of a building.
+/// All measures of a building.
 #[derive(Resource, Clone)]
 pub struct BuildingMeasures {
     /// Every day.
@@ -49,19 +49,19 @@ pub struct BuildingMeasures {
     pub currency: Option<String>,
     /// The days without a plan of their own.
     pub fallbacks: Vec<Fallback>,
-    /// Days whose feedback is certified less well than was asked for.
+    /// Days whose feedback has a weaker certificate than requested.
     pub weaker_feedbacks: Vec<Fallback>,
-    /// How many zones there are.
+    /// Number of zones.
     pub zones: usize,
     /// Their names.
     pub zone_names: Vec<String>,
-    /// The indicators of a benchmark that was the plant, after its last step.
+    /// The indicators of a benchmark as the plant, after its last step.
     pub benchmark: Option<Benchmark>,
-    /// What is allowed and may not have been meant, in words.
+    /// Settings that are allowed but may be unintended, in words.
     pub remarks: Vec<String>,
-    /// The model of a day, if it is small enough for what takes long.
+    /// The model of a day, if it is small enough for expensive computations.
     lifted: Option<Lifted>,
-    /// What the optimum of the whole run needs, with the model; none where another program is the building.
+    /// Inputs of the optimum of the whole run, with the model; none if another program simulates the building.
     whole_run: Option<(Model, RunHistory)>,
     spectral_radius: Option<f64>,
     today: Today,
@@ -71,9 +71,9 @@ pub struct BuildingMeasures {
 }
 
 impl BuildingMeasures {
-    /// Nothing measured yet.
+    /// Measures before the first day.
     pub fn new(building: &Building, controller: &Controller) -> Self {
-        // The convergence of learning takes time in the cube of the inputs, too.
+        // The convergence of learning, too, takes time proportional to the cube of the number of inputs.
         let small = building.targets.reference_c.len() <= MAX_REGRET_INPUTS;
         let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
         let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
@@ -120,7 +120,7 @@ impl BuildingMeasures {
         }
     }
 
-    /// The optimum of all days so far; `None` where it is not known or would take long.
+    /// The optimum of all days so far; `None` if it is unknown or too expensive.
     pub fn whole_run(&self) -> Option<WholeRun> {
         let (model, history) = self.whole_run.as_ref().filter(|(_, history)| history.is_small())?;
         WholeRun::compute(model, history, &self.days)
@@ -129,12 +129,12 @@ impl BuildingMeasures {
     /// The figures of the day that has ended.
     fn day(&self, building: &Building) -> DayFigures {
         let Building { model, targets, today, design_s, .. } = building;
-        // What heat cost is a matter of the real weather, not of its forecast.
+        // The cost of heat depends on the actual weather, not on its forecast.
         let targets = &*targets.under(&today.actual.ambient_c);
         let limits = model.network().limits();
         let figures = KeyFigures::compute(&today.record, targets, limits, model.step_s());
-        // An optimum that is not found is no reason to give up the run: the regret is then unknown.
-        // That of the network is no optimum of another program.
+        // If no optimum is found the run continues, and the regret is unknown.
+        // The optimum of the network does not apply to another program.
         let lifted = self.lifted.as_ref().filter(|_| !building.plant.is_foreign());
         let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
         let regret = lifted.and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
@@ -155,15 +155,15 @@ impl BuildingMeasures {
     }
 }
 
-/// Heat brought in and taken out before the first occupied time; 0 on a day without one \[kWh\].
+/// Heat supplied and removed before the first occupied time; 0 on a day without one \[kWh\].
 fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
-    // Occupation belongs to the ends of steps: the step that ends with it is the last of the early ones.
+    // Occupation belongs to the ends of steps: the step that ends with it is the last early one.
     let steps = targets.any_occupied().iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
     let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
     early_kw * step_s / 3600.0
 }
 
-/// Feeds the step into the digests, and measures the day when it is over.
+/// Adds the step to the digests, and measures the day when it is over.
 pub fn measure_building(
     building: Res<Building>,
     nodes: Query<(&Node, &Temperature)>,

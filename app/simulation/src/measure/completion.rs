@@ -1,36 +1,34 @@
-//! When a vehicle reaches its goal.
+//! The time at which a vehicle reaches its goal.
 
 use std::sync::Arc;
 
 use interplay_planners::{Body, Route, State};
 use interplay_scenarios::{Road, Vehicle};
 
-/// The share of the lane's width by which the centre of the goal may be missed.
+/// Tolerance of the lateral position at the goal, as a share of the lane's width.
 const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 
 /// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
 /// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone; on a network, once its rear
 /// bumper is on the last lane of its route.
 ///
-/// A vehicle that starts there has nothing to complete, nor has one that follows a record.
+/// A vehicle that starts there has no task, and neither has one that follows a record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,
     task: Task,
-    /// Whether it started elsewhere.
     has_task: bool,
-    /// When it was reached first \[s\].
+    /// Time at which the goal was first reached \[s\].
     pub completed_s: Option<f64>,
 }
 
-/// What is to be reached.
 #[derive(Clone, Copy, Debug)]
 enum Task {
     /// A lateral position.
     Lane { lateral_m: f64, tolerance_m: f64 },
-    /// The far side of the other road, with the whole body.
+    /// The far side of the other road, for the whole body.
     Cross { end_m: f64, body: Body },
-    /// The last lane of the route, with the whole body.
+    /// The last lane of the route, for the whole body.
     LastLane { from_m: f64, body: Body },
 }
 
@@ -62,22 +60,22 @@ impl Completion {
         }
     }
 
-    /// How far along its road a position is \[m\].
+    /// The arc length of a position on its road \[m\].
     pub fn along_m(&self, position: [f64; 2]) -> f64 {
         self.route.along(position)
     }
 
-    /// Whether it started elsewhere, so that there is something to complete.
+    /// Whether it started elsewhere and therefore has a task.
     pub fn has_task(&self) -> bool {
         self.has_task
     }
 
-    /// Whether it is the other road that is to be crossed.
+    /// Whether the task is to cross the other road.
     pub fn crosses(&self) -> bool {
         matches!(self.task, Task::Cross { .. })
     }
 
-    /// Looks at one time; returns whether the goal is reached then.
+    /// Takes a state; returns whether the goal is reached for the first time.
     pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
         let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
         if reached {
@@ -102,7 +100,7 @@ mod tests {
         scenario.vehicles.iter().find(|vehicle| vehicle.name == "ego").expect("an ego")
     }
 
-    /// Whether a vehicle completes its task in a state; the first time counts, and none other.
+    /// Whether a vehicle completes its task in a state; only the first time counts.
     fn reaches(vehicle: &Vehicle, road: &Road, state: &State) -> bool {
         let mut completion = Completion::new(vehicle, road);
         assert!(completion.has_task());
@@ -114,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_is_reached_within_a_share_of_its_width() {
+    fn a_lane_is_reached_within_a_tolerance_of_its_width() {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let (ego, road) = (ego(&scenario), &scenario.road);
         let wanted_m = ego.route.across(ego.target(road).position());
@@ -129,9 +127,9 @@ mod tests {
         assert!((nothing.along_m(beside(0.0).position()) - 2.0).abs() < 1e-9);
     }
 
-    /// The rear bumper counts: of the other road, and of the last lane of a route.
+    /// The rear bumper counts: at the other road, and at the last lane of a route.
     #[test]
-    fn a_place_is_left_behind_with_the_whole_body() {
+    fn a_conflict_zone_is_cleared_by_the_rear_bumper() {
         for (name, crosses) in [("intersection/nice", true), ("roundabout/nice", false)] {
             let scenario = load(name, &[]).expect("authored");
             let (ego, road) = (ego(&scenario), &scenario.road);

@@ -1,8 +1,8 @@
-//! Digests of a run, bit for bit and phase by phase.
+//! Digests of a run, exact in every bit, for each phase.
 //!
-//! Every tick feeds on the one before, so once two runs differ anywhere, nearly all digests of the whole runs differ: they
-//! say that the runs differ, not where it began. The digests of single ticks ([`Digest::of_tick`]) say that: of the first
-//! tick that differs, the first phase that differs is the culprit.
+//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ: they
+//! show that the runs differ, not where the difference began. Digests of single ticks ([`Digest::of_tick`]) show where: in the first
+//! tick that differs, the first phase that differs is the cause.
 
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
@@ -10,7 +10,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::state::frame::Frame;
 
-/// Running digests of what each phase produced.
+/// Running digests of the results of each phase.
 #[derive(Clone, Default)]
 pub struct Digest {
     sense: Xxh3,
@@ -23,15 +23,15 @@ pub struct Digest {
 /// The digests in hexadecimal, in the order of the phases.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PhaseDigests {
-    /// Of all states at the beginnings of ticks.
+    /// Digest of all states at the beginnings of ticks.
     pub sense: String,
-    /// Of all predictions, but for those that are plans of the same tick.
+    /// Digest of all predictions, except those that are plans of the same tick.
     pub predict: String,
-    /// Of all plans.
+    /// Digest of all plans.
     pub plan: String,
-    /// Of all applied inputs.
+    /// Digest of all applied inputs.
     pub act: String,
-    /// Of all states, at the beginnings and the ends of ticks: the digest of the run.
+    /// Digest of all states, at the beginnings and the ends of ticks: the digest of the run.
     pub physics: String,
 }
 
@@ -50,18 +50,18 @@ impl std::fmt::Debug for Digest {
 }
 
 impl Digest {
-    /// The digests of a single tick and the states that it led to.
+    /// The digests of a single tick and of the states at its end.
     pub fn of_tick(frame: &Frame, after: &[State]) -> PhaseDigests {
         let mut digest = Digest::default();
         digest.observe(frame, after);
         digest.phases()
     }
 
-    /// Takes one tick and the states that it led to.
+    /// Takes one tick and the states at its end.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());
-            // What is expected of who plans first is its plan: whatever is wrong with that, the phase Plan made it.
+            // The prediction of a vehicle that plans first is its plan, so an error in it comes from the phase Plan.
             if *vehicle.prediction != vehicle.plan.trajectory {
                 trajectory(&mut self.predict, &vehicle.prediction);
             }
@@ -112,7 +112,7 @@ mod tests {
         after: Vec<State>,
     }
 
-    /// A tick of one vehicle that plans in the light of a prediction.
+    /// A tick of one vehicle that plans with a prediction.
     fn tick(speed_mps: f64) -> Recorded {
         let state = State { speed_mps, ..State::default() };
         let trajectory = |speed_mps| Trajectory { states: vec![State { speed_mps, ..state }; 3], inputs: Vec::new() };
@@ -122,7 +122,6 @@ mod tests {
         Recorded { frame, after: vec![State { speed_mps: 3.0, ..state }] }
     }
 
-    /// The names of the phases in which two ticks differ.
     fn differing(a: &Recorded, b: &Recorded) -> Vec<&'static str> {
         let digests = [a, b].map(|Recorded { frame, after }| Digest::of_tick(frame, after));
         let pairs = digests[0].by_name().into_iter().zip(digests[1].by_name());
@@ -130,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_digests_of_a_tick_tell_the_phases_apart() {
+    fn the_digests_of_a_tick_identify_the_phase_that_differs() {
         let one = tick(1.0);
         assert!(differing(&one, &tick(1.0)).is_empty());
         assert_eq!(differing(&one, &tick(1.5)), ["sense", "physics"]);
@@ -145,7 +144,7 @@ mod tests {
         assert_eq!(differing(&one, &other), ["physics"]);
     }
 
-    /// Who plans first is expected to do what it planned; another plan is not laid at Predict's door.
+    /// The prediction of a vehicle that plans first is its plan, so another plan does not change the digest of Predict.
     #[test]
     fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
         let told = |x_m: f64| {

@@ -1,4 +1,4 @@
-//! What a metric is: what is said of it, and how it follows from the ticks of a run.
+//! The interface of a metric: its declaration, and its computation from the ticks of a run.
 
 use std::cell::RefCell;
 use std::fmt::Debug;
@@ -10,33 +10,33 @@ use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
 use super::values::Measured;
 use crate::state::frame::{Frame, VehicleFrame};
 
-/// A metric. It is declared once, here: reports, rows of sweeps, comparisons, expectations and the reference follow.
+/// A metric. It is declared once: reports, rows of sweeps, comparisons, expectations and the reference follow.
 ///
-/// A number that is folded over the ticks of a vehicle, such as a peak or a mean, need not implement this:
+/// A metric that is folded over the ticks of a vehicle, such as a peak or a mean, need not implement this trait:
 /// [`VehicleMetric`](super::VehicleMetric) does.
 pub trait Metric: Debug + Send + Sync {
-    /// What is said of it.
+    /// Its declaration.
     fn declaration(&self) -> MetricDeclaration;
 
-    /// Begins to measure one run, with everybody at the start. `vehicle` is the index of the vehicle that is measured; for a metric
+    /// Begins to measure one run, with all vehicles at their starts. `vehicle` is the index of the measured vehicle; for a metric
     /// of the run, that of the ego.
     fn begin(&self, scenario: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement>;
 
-    /// What tells its values from those of earlier versions: rows of sweeps made with another one are made anew.
+    /// Distinguishes its values from those of earlier versions: rows of sweeps with another version are made again.
     fn version(&self) -> &'static str {
         ""
     }
 }
 
-/// A metric that is being measured in one run.
+/// The measurement of a metric in one run.
 pub trait Measurement: Debug + Send + Sync {
     /// Takes one tick.
     fn observe(&mut self, tick: &ObservedTick<'_>);
 
-    /// What was measured until now.
+    /// The result so far.
     fn measured(&self) -> Measured;
 
-    /// A copy that goes on by itself, for a snapshot of the run.
+    /// An independent copy, for a snapshot of the run.
     fn fork(&self) -> Box<dyn Measurement>;
 }
 
@@ -45,7 +45,7 @@ pub trait Measurement: Debug + Send + Sync {
 pub struct ObservedMoment<'a> {
     /// Simulated time \[s\].
     pub time_s: f64,
-    /// What the scenario says of them.
+    /// The vehicles as the scenario states them.
     pub vehicles: &'a [Vehicle],
     /// Their states.
     pub states: &'a [State],
@@ -53,25 +53,25 @@ pub struct ObservedMoment<'a> {
     pub along_m: &'a [f64],
 }
 
-/// Where everybody is at some times within a tick: computed once for all who ask.
+/// States of all vehicles at several times within a tick, computed once for all metrics.
 #[derive(Debug, Default)]
 pub struct SharedStates(RefCell<Vec<(usize, Arc<[MomentStates]>)>>);
 
-/// The states of everybody at a moment, in the scenario's order; none of whoever is not on the road.
+/// The states of all vehicles at one time, in the scenario's order; none for a vehicle that is not on the road.
 pub type MomentStates = Arc<[Option<State>]>;
 
 /// One tick.
 #[derive(Clone, Copy, Debug)]
 pub struct ObservedTick<'a> {
-    /// How it began, what was decided and who touched whom.
+    /// The start of the tick, the decisions, and the contacts.
     pub frame: &'a Frame,
     /// Its length \[s\].
     pub step_s: f64,
-    /// What metrics of several vehicles have in common in it.
+    /// Values that metrics of several vehicles share in this tick.
     pub shared: &'a SharedStates,
     /// The inputs of the tick before, in the scenario's order; zero in the first.
     pub previous_inputs: &'a [Input],
-    /// How it ended.
+    /// The end of the tick.
     pub end: ObservedMoment<'a>,
 }
 
@@ -80,7 +80,7 @@ pub struct ObservedTick<'a> {
 pub struct VehicleMoment<'a> {
     /// Simulated time \[s\].
     pub time_s: f64,
-    /// What the scenario says of it.
+    /// The vehicle as the scenario states it.
     pub vehicle: &'a Vehicle,
     /// Its state.
     pub state: &'a State,
@@ -97,12 +97,12 @@ pub struct VehicleTick<'a> {
     pub previous_input: Input,
     /// Length of the tick \[s\].
     pub step_s: f64,
-    /// How the tick ended.
+    /// The end of the tick.
     pub end: VehicleMoment<'a>,
 }
 
 impl<'a> ObservedMoment<'a> {
-    /// One of the vehicles.
+    /// One vehicle at this time.
     pub fn of(&self, vehicle: usize) -> VehicleMoment<'a> {
         VehicleMoment {
             time_s: self.time_s,
@@ -114,7 +114,7 @@ impl<'a> ObservedMoment<'a> {
 }
 
 impl<'a> ObservedTick<'a> {
-    /// One of the vehicles.
+    /// One vehicle in this tick.
     pub fn of(&self, vehicle: usize) -> VehicleTick<'a> {
         VehicleTick {
             frame: &self.frame.vehicles[vehicle],
@@ -132,7 +132,7 @@ impl Clone for Box<dyn Measurement> {
 }
 
 impl ObservedTick<'_> {
-    /// Where everybody is at the ends of so many equal parts of the tick, in order.
+    /// The states of all vehicles at the ends of `parts` equal parts of the tick, in order.
     pub(crate) fn states_within(&self, parts: usize) -> Arc<[MomentStates]> {
         let mut known = self.shared.0.borrow_mut();
         if let Some((_, states)) = known.iter().find(|(known, _)| *known == parts) {

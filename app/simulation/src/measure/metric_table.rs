@@ -1,4 +1,4 @@
-//! The page of all metrics, made of their declarations.
+//! The reference page of all metrics, generated from their declarations.
 
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics};
 
@@ -13,7 +13,7 @@ const HEAD: &str = "# Every metric\n\n\
     - *Compared*: what `interplay compare` tells. Of pairs of runs it counts which has the better value where a direction is\n  \
     stated. A metric with *others* has a second column, `others_NAME`: the worst value of the other vehicles.\n\n";
 
-/// The page of all metrics as Markdown.
+/// The reference page of all metrics as Markdown.
 pub fn metric_table(registered: &RegisteredMetrics) -> String {
     let mut page = format!("{HEAD}| name | of | key | unit | compared | what |\n|---|---|---|---|---|---|\n");
     for declaration in metrics_of(registered).map(|metric| metric.declaration()) {

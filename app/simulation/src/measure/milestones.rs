@@ -1,7 +1,7 @@
-//! Events for the log that no planner reports: who brakes, who accepts, who has arrived; heat at its limit,
-//! comfort that was missed.
+//! Log events that no planner reports: braking, acceptance of proposals, arrivals, heat at its limit,
+//! and missed comfort.
 //!
-//! Each is logged when it begins, and again only after it has ended.
+//! Each event is logged when it begins, and again only after it has ended.
 
 use std::collections::BTreeMap;
 
@@ -20,15 +20,14 @@ const MIN_ACCEPTED_PROBABILITY: f64 = 0.8;
 const MAX_REFUSED_PROBABILITY: f64 = 0.2;
 /// At most this many zones are named; the others are counted.
 const MAX_NAMED_ZONES: usize = 3;
-/// Source of the log entry.
 const BUILDING_SOURCE: &str = "building";
 
-/// What vehicles are known to do.
+/// The present milestones of all vehicles.
 #[derive(Clone, Debug)]
 pub struct Milestones {
     limits: Vec<Limits>,
     brakes: Vec<bool>,
-    /// Of each vehicle, whether its last proposal to others was accepted, by their names, once that was clear.
+    /// For each vehicle, whether its last proposal to each other vehicle was accepted, by name, once that is clear.
     accepted: Vec<BTreeMap<String, bool>>,
 }
 
@@ -39,7 +38,7 @@ impl Milestones {
         Milestones { brakes: vec![false; limits.len()], accepted: vec![BTreeMap::new(); limits.len()], limits }
     }
 
-    /// What begins in this tick.
+    /// The events that begin in this tick.
     pub fn observe(&mut self, frame: &Frame) -> Vec<Event> {
         let vehicles = frame.vehicles.iter().enumerate();
         vehicles
@@ -54,7 +53,7 @@ impl Milestones {
         (self.brakes[index] && !braked).then(|| note(&vehicle.name, "brakes"))
     }
 
-    /// How the others take proposals.
+    /// Events of the answers to proposals.
     fn answers(&mut self, index: usize, vehicle: &VehicleFrame) -> Vec<Event> {
         let proposals = &vehicle.plan.proposals;
         let known = &mut self.accepted[index];
@@ -63,7 +62,7 @@ impl Milestones {
     }
 }
 
-/// How the other takes a proposal. One that asks for nothing new counts as accepted and is not logged.
+/// The event of an answer to a proposal. A proposal that requests nothing new counts as accepted and is not logged.
 fn answer(known: &mut BTreeMap<String, bool>, vehicle: &VehicleFrame, proposal: &Proposal) -> Option<Event> {
     let acceptance = proposal.acceptance?;
     let now = if acceptance >= MIN_ACCEPTED_PROBABILITY {
@@ -98,7 +97,7 @@ fn note(vehicle: &str, text: &str) -> Event {
     Event { vehicle: vehicle.to_owned(), level: Level::Note, text: text.to_owned() }
 }
 
-/// What was logged of a building today.
+/// The building's events that were logged today.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Today {
     limited: bool,
@@ -106,8 +105,8 @@ pub struct Today {
 }
 
 impl Today {
-    /// What begins in this step: the first time each day that heat is at its limit, and that comfort is missed while people
-    /// are there.
+    /// The events that begin in this step: the first time each day that heat is at its limit, and that comfort is missed while people
+    /// are present.
     pub fn observe(&mut self, frame: &BuildingFrame, building: &Building) -> Vec<Event> {
         if frame.step == 0 {
             *self = Today::default();
@@ -150,7 +149,7 @@ fn day_and_time(frame: &BuildingFrame, building: &Building) -> String {
     format!("day {}, {}:{:02}", frame.day + 1, minutes / 60, minutes % 60)
 }
 
-/// Some names, and how many more there are.
+/// Up to [`MAX_NAMED_ZONES`] names, and the number of the others.
 fn listed(names: &[&str]) -> String {
     let shown = names[..names.len().min(MAX_NAMED_ZONES)].join(", ");
     let more = names.len().saturating_sub(MAX_NAMED_ZONES);
@@ -189,10 +188,10 @@ mod tests {
     }
 
     #[test]
-    fn braking_is_logged_once_until_it_has_ended() {
+    fn braking_is_logged_once_until_it_ends() {
         let said = logged(&[0.0, -0.5, -0.3, -0.6, 0.0, -0.3, -0.41].map(|a| tick(a, None)));
         assert_eq!(said, [(1, "ego brakes".to_owned()), (6, "ego brakes".to_owned())]);
-        // What counts is the share of the hardest braking that the vehicle is capable of.
+        // The threshold is a share of the vehicle's strongest braking.
         let mut milestones = Milestones::new(&load("lane-change/front-nice", &[]).expect("authored"));
         milestones.limits[0].acceleration_min_mps2 = -4.0;
         let said = logged_of(milestones, &[-1.2, -2.4].map(|a| tick(a, None)));
@@ -200,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn answers_are_logged_when_they_change() {
+    fn answers_to_proposals_are_logged_when_they_change() {
         let said = logged(&[1.0, 0.5, 0.1, 0.15, 0.5, 0.9, 1.0].map(|p| tick(0.0, Some(p))));
         let (refused, accepted) = ("front does not do what ego proposes", "front does what ego proposes");
         assert_eq!(said, [(2, refused.to_owned()), (5, accepted.to_owned())]);
@@ -208,9 +207,9 @@ mod tests {
         assert_eq!(again.len(), 2, "{again:?}");
     }
 
-    /// Each of several vehicles that are asked answers for itself.
+    /// Each vehicle that receives a proposal answers for itself.
     #[test]
-    fn several_answers_are_logged_apart() {
+    fn answers_of_several_vehicles_are_logged_separately() {
         let asked = |of: [(&str, f64); 2]| {
             let mut frame = tick(0.0, None);
             let proposal = |(to, acceptance): (&str, f64)| Proposal {
@@ -232,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn many_zones_are_counted() {
+    fn only_the_first_zones_are_named_and_the_others_counted() {
         assert_eq!(listed(&["a"]), "a");
         assert_eq!(listed(&["a", "b", "c", "d", "e"]), "a, b, c and 2 more");
     }

@@ -1,7 +1,7 @@
-//! Measure: metrics, which are declared once (`metrics`), and what has a form of its own.
+//! Measure: metrics, which are declared once (`metrics`), and measures of other forms.
 //!
-//! No [`Metric`] is what is not one value of a vehicle or a run: the reaching of a goal is an event too, plans are counted and
-//! timed together, who went first is a list of pairs, beliefs and digests are no numbers, and a building is measured day by day.
+//! A [`Metric`] has one value for a vehicle or a run. Other measures do not: reaching a goal is also an event, plans are counted and
+//! timed together, the right of way is a list of pairs, beliefs and digests are not numbers, and a building is measured day by day.
 
 mod beliefs;
 mod building;
@@ -47,39 +47,39 @@ use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
 use crate::state::standing::Standing;
 
-/// Everything that is measured in a run.
+/// All measures of a run.
 #[derive(Resource, Clone, Debug)]
 pub struct Measures {
     /// Contacts, in order.
     pub collisions: Vec<Collision>,
-    /// Who went first where ways cross or merge.
+    /// Which vehicle went first where routes cross or merge.
     pub passages: Passages,
     /// Digest of the run, by phase.
     pub digest: Digest,
-    /// What happens that is worth a line in the log.
+    /// Events for the log.
     pub milestones: Milestones,
-    /// Who stands, why, and who is stuck.
+    /// Stationary vehicles, their reasons, and deadlocks.
     pub waits: Waits,
     /// Metrics of the run.
     pub metrics: Measurements,
     /// Per vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleMeasures>,
-    /// What the scenario says of the vehicles.
+    /// The vehicles as the scenario states them.
     stated: Arc<[Vehicle]>,
-    /// Where they are along their routes \[m\].
+    /// Arc lengths of the vehicles on their routes \[m\].
     along_m: Vec<f64>,
     /// Their inputs of the tick before.
     previous_inputs: Vec<Input>,
 }
 
-/// What is measured of one vehicle.
+/// All measures of one vehicle.
 #[derive(Clone, Debug)]
 pub struct VehicleMeasures {
     /// When it reached its goal.
     pub completion: Completion,
-    /// How its planner did.
+    /// Measures of its planner.
     pub planning: Planning,
-    /// What it believes of the others.
+    /// Its beliefs about the others.
     pub beliefs: Beliefs,
     /// Its metrics.
     pub metrics: Measurements,
@@ -87,12 +87,12 @@ pub struct VehicleMeasures {
     pub last: State,
 }
 
-/// Some metrics while they are measured, in the order in which they are listed.
+/// Metrics that are being measured, in the order in which they are listed.
 #[derive(Clone, Debug)]
 pub struct Measurements(Vec<(MetricDeclaration, Box<dyn Measurement>)>);
 
 impl Measurements {
-    /// Begins to measure a vehicle, or the run.
+    /// Begins to measure a vehicle or the run.
     fn begin(scenario: &Scenario, of: MetricSubject, start: &ObservedMoment<'_>, vehicle: usize) -> Self {
         let of_subject = metrics_of(&scenario.metrics).filter(|metric| metric.declaration().of == of);
         let begun = of_subject.map(|metric| (metric.declaration(), metric.begin(scenario, start, vehicle)));
@@ -103,13 +103,13 @@ impl Measurements {
         self.0.iter_mut().for_each(|(_, measurement)| measurement.observe(tick));
     }
 
-    /// One of the values that were measured until now, as a number; 0 of what is not measured.
+    /// A present value as a number; 0 if it is not measured.
     pub fn number(&self, name: &str) -> f64 {
         let found = self.0.iter().find(|(declaration, _)| declaration.name == name);
         found.and_then(|(_, measurement)| measurement.measured().value).map_or(0.0, |value| value.as_number())
     }
 
-    /// What was measured until now.
+    /// The present values.
     pub fn values(&self) -> MetricValues {
         let measured = |(declaration, measurement): &(MetricDeclaration, Box<dyn Measurement>)| {
             (*declaration, measurement.measured().of_kind(declaration.kind))
@@ -119,7 +119,7 @@ impl Measurements {
 }
 
 impl Measures {
-    /// How far each vehicle is along its route \[m\].
+    /// Arc lengths of the vehicles on their routes \[m\].
     pub fn along_m(&self) -> &[f64] {
         &self.along_m
     }
@@ -160,7 +160,7 @@ impl Measures {
     }
 }
 
-/// Feeds the tick's frame and the states that it led to into every metric.
+/// Adds the tick's frame and the states at its end to every measure.
 pub fn measure(
     traffic: Res<CurrentTraffic>,
     clock: Res<Clock>,

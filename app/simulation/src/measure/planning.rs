@@ -1,4 +1,4 @@
-//! How a planner does: how often it fails and how long it takes.
+//! Measures of a planner: failures and times.
 
 use crate::state::frame::{Origin, VehicleFrame};
 
@@ -6,19 +6,19 @@ use crate::state::frame::{Origin, VehicleFrame};
 #[derive(Clone, Debug, Default)]
 pub struct Planning {
     times_ms: Vec<f64>,
-    /// How long a plan may take, if the scenario says so \[ms\].
+    /// Time budget of a plan, if the scenario states one \[ms\].
     budget_ms: Option<f64>,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
-    /// Plans that are not optimal, because their descent reached the limit of its work: they violate nothing, or are cheaper and no
-    /// less safe than going on with the plan before.
+    /// Plans that are not optimal because the optimiser reached its iteration limit: they violate nothing, or are cheaper and at
+    /// least as safe as continuing the plan before.
     pub unfinished: usize,
-    /// Plans that were driven though they violate something, by their certificates.
+    /// Plans that were driven although they violate a constraint, by their certificates.
     pub violating: usize,
 }
 
 impl Planning {
-    /// No plan yet; with how long one may take \[ms\].
+    /// No plan yet; `budget_ms` is the time budget of a plan \[ms\].
     pub fn new(budget_ms: Option<f64>) -> Self {
         Planning { budget_ms, ..Planning::default() }
     }
@@ -34,18 +34,18 @@ impl Planning {
         self.violating += usize::from(!vehicle.plan.violations.is_empty());
     }
 
-    /// How many plans were made.
+    /// Number of plans.
     pub fn count(&self) -> usize {
         self.times_ms.len()
     }
 
-    /// How many plans took longer than they may, by the clock, if the scenario says how long that is.
+    /// Number of plans that exceeded the time budget, by the clock, if the scenario states one.
     pub fn over_budget(&self) -> Option<usize> {
         let budget_ms = self.budget_ms?;
         Some(self.times_ms.iter().filter(|time_ms| **time_ms > budget_ms).count())
     }
 
-    /// Wall time below which this share of the plans took \[ms\]; 0 without plans.
+    /// Quantile of the wall times of plans \[ms\]; 0 without plans.
     pub fn quantile_ms(&self, share: f64) -> f64 {
         let mut sorted = self.times_ms.clone();
         sorted.sort_by(f64::total_cmp);
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn plans_are_counted_by_what_became_of_them() {
+    fn plans_are_counted_by_their_outcome() {
         let mut planning = Planning::new(Some(2.0));
         assert_eq!((planning.count(), planning.quantile_ms(0.5)), (0, 0.0));
         let times_ms = [5.0, 1.0, 2.0, 3.0, 4.0];

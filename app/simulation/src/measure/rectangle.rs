@@ -1,10 +1,10 @@
-//! Whether footprints overlap, for metrics: plain geometry that shares nothing with planners or the physics engine.
+//! Overlap of footprints, for metrics: plain geometry that shares no code with planners or the physics engine.
 
 use interplay_planners::{Body, State};
 
 /// Whether the footprints of two vehicles overlap or touch.
 ///
-/// By the separating axis theorem: two rectangles are apart exactly if they are apart along the direction of an edge of one of them.
+/// By the separating axis theorem: two rectangles are disjoint exactly if they are disjoint along the direction of an edge of one of them.
 pub(super) fn overlap(body: &Body, state: &State, other_body: &Body, other: &State) -> bool {
     let corners = [body.corners(state), other_body.corners(other)];
     let axes = [state.heading_rad, other.heading_rad].into_iter().flat_map(|heading_rad| {
@@ -17,13 +17,13 @@ pub(super) fn overlap(body: &Body, state: &State, other_body: &Body, other: &Sta
     })
 }
 
-/// From where to where some points reach along an axis.
+/// The interval that points cover along an axis.
 fn extent(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> [f64; 2] {
     let places = corners.map(|corner| corner[0] * x + corner[1] * y);
     places.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place), high.max(place)])
 }
 
-/// No point of a body is further than this from its mass centre \[m\].
+/// Largest distance of a body's points from its mass centre \[m\].
 pub(super) fn half_diagonal_m(body: &Body) -> f64 {
     libm::hypot(body.front_m.max(body.rear_m), 0.5 * body.width_m)
 }
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rectangles_overlap_by_their_corners_and_edges() {
+    fn rectangles_overlap_at_corners_and_edges() {
         let body = Body { front_m: 2.0, rear_m: 2.0, width_m: 2.0, ..Body::default() };
         let at = |x_m: f64, y_m: f64, heading_rad: f64| State { x_m, y_m, heading_rad, speed_mps: 0.0 };
         let origin = at(0.0, 0.0, 0.0);
@@ -42,9 +42,9 @@ mod tests {
         assert!(!meets(at(4.1, 0.0, 0.0)));
         assert!(!meets(at(0.0, 2.1, 0.0)));
         let quarter = std::f64::consts::FRAC_PI_4;
-        // The corner of one that stands askew reaches (2 + 1)/√2 towards the other.
+        // The corner of a rotated one extends (2 + 1)/√2 towards the other.
         assert!(meets(at(4.0, 0.0, quarter)) && !meets(at(4.2, 0.0, quarter)));
-        // Their circles and boxes along the axes overlap, they do not.
+        // Their circles and axis-aligned boxes overlap, but the rectangles do not.
         assert!(!meets(at(3.3, 2.7, quarter)));
     }
 }

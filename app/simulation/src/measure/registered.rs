@@ -1,4 +1,4 @@
-//! Which metrics a run measures: those that Interplay has, and those that a registry brought along.
+//! The metrics of a run: those of Interplay, and those that a registry adds.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use interplay_scenarios::{DeclaredMetric, MetricDeclaration, RegisteredMetrics, 
 use super::metric::Metric;
 use super::metrics;
 
-/// Keys of reports and of their vehicles, and endings of rows, that no metric may have.
+/// Keys of reports and of their vehicles, and suffixes of columns, that no metric may use.
 const TAKEN: [&str; 10] = [
     "scenario",
     "seed",
@@ -22,12 +22,12 @@ const TAKEN: [&str; 10] = [
     "plan_p99_ms",
 ];
 
-/// A metric as a registry knows it; the way back to what computes it is its type.
+/// A metric as a registry stores it; its type leads back to the computation.
 #[derive(Debug)]
 enum KnownMetric {
-    /// One of Interplay.
+    /// A metric of Interplay.
     Own(&'static dyn Metric),
-    /// One of another crate.
+    /// A metric of another crate.
     Foreign(Box<dyn Metric>),
 }
 
@@ -55,15 +55,15 @@ impl DeclaredMetric for KnownMetric {
 
 /// Adds metrics to a registry.
 pub trait RegisterMetrics: Sized {
-    /// The same registry with the metrics of Interplay declared, so that the names that expectations state are checked when a
+    /// The same registry with the metrics of Interplay declared, so that the names in expectations are checked when a
     /// scenario is loaded.
     ///
     /// # Errors
-    /// [`RegistryError::MetricTaken`] if one of them was declared by somebody else.
+    /// [`RegistryError::MetricTaken`] if another crate has declared one of them.
     fn with_own_metrics(self) -> Result<Self, RegistryError>;
 
-    /// The same registry with a metric of another crate beside those of Interplay: `run` reports it, `sweep` has a column for it,
-    /// `compare` tells it, and `[[expect.metric]]` may bound it.
+    /// The same registry with an additional metric of another crate: `run` reports it, `sweep` has a column for it,
+    /// `compare` compares it, and `[[expect.metric]]` may bound it.
     ///
     /// # Errors
     /// [`RegistryError::MetricTaken`] if its name or one of its keys is taken.
@@ -91,7 +91,7 @@ fn own() -> impl Iterator<Item = &'static dyn Metric> {
     metrics::ALL.iter().copied().flatten().copied()
 }
 
-/// All metrics that are measured, in their order: those that Interplay has, and then the registered ones of other crates.
+/// All metrics of a run, in order: those of Interplay, then the registered ones of other crates.
 pub fn metrics_of(registered: &RegisteredMetrics) -> impl Iterator<Item = &dyn Metric> {
     let foreign = registered.0.iter().filter_map(|metric| {
         let any: &dyn Any = &**metric;

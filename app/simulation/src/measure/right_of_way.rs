@@ -1,4 +1,4 @@
-//! Who goes first where the ways of two vehicles cross or merge, and whether the other one yields.
+//! Which of two vehicles goes first where their routes cross or merge, and whether the other one yields.
 
 use interplay_planners::Body;
 use interplay_scenarios::{ConflictZone, Scenario};
@@ -7,30 +7,30 @@ use serde::Serialize;
 use crate::state::components::to_nanosecond;
 use crate::state::standing::STANDING_MPS;
 
-/// Who has become slower by this has slowed down, for a real car \[m/s\].
+/// Speed reduction that counts as slowing down, for a real car \[m/s\].
 const SLOWED_MPS: f64 = 1.0;
-/// Who leaves this time between itself and the other yields without slowing down, for a real car \[s\].
+/// A vehicle that leaves this time margin to the other yields without slowing down, for a real car \[s\].
 const MARGIN_S: f64 = 1.0;
 
-/// Two vehicles in a conflict zone of their ways, of which at least one has entered it: the front bumper has reached it.
+/// Two vehicles in a conflict zone of their routes, of which at least one has entered it: its front bumper has reached it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passage {
-    /// Who entered first.
+    /// The vehicle that entered first.
     pub first: String,
-    /// The other one.
+    /// The other vehicle.
     pub second: String,
     /// When the first entered \[s\].
     pub first_s: f64,
     /// When the second entered \[s\]; none if it never did.
     pub second_s: Option<f64>,
-    /// Time from when the rear of the first left the way of the second until the front of the second came into the way of the
-    /// first \[s\]; 0 if it came before, none if it never came.
+    /// Time from when the rear of the first left the path of the second until the front of the second entered the path of the
+    /// first \[s\]; 0 if it entered before, none if it never entered.
     pub post_encroachment_s: Option<f64>,
     /// Whether the second one yielded: it never entered, slowed down before the first was gone, or left at least 1 s of a real car.
     pub yielded: bool,
 }
 
-/// A place where the ways of two vehicles overlap, and who has entered it.
+/// A zone where the routes of two vehicles overlap, with its entries.
 #[derive(Clone, Debug)]
 struct WatchedZone {
     approaches: [ZoneApproach; 2],
@@ -39,17 +39,16 @@ struct WatchedZone {
 /// One of the two vehicles of a zone.
 #[derive(Clone, Debug)]
 struct ZoneApproach {
-    /// Its index.
     vehicle: usize,
     /// Where the zone begins on its route \[m\].
     from_m: f64,
-    /// Where its front comes into the other's way, and where its rear leaves it \[m\].
+    /// Arc lengths at which its front enters the other's path, and its rear leaves it \[m\].
     way_m: [f64; 2],
-    /// When its front entered the zone \[s\].
+    /// Time at which its front entered the zone \[s\].
     entered_s: Option<f64>,
-    /// When its front came into the other's way \[s\].
+    /// Time at which its front entered the other's path \[s\].
     came_s: Option<f64>,
-    /// When its rear left the other's way \[s\].
+    /// Time at which its rear left the other's path \[s\].
     left_s: Option<f64>,
     /// Its highest speed so far \[m/s\].
     fastest_mps: f64,
@@ -59,19 +58,19 @@ struct ZoneApproach {
 
 /// All conflict zones of a scenario.
 ///
-/// A vehicle that starts in a zone enters it at the start; one that starts behind it never does. The time of an entrance within
-/// a tick is found by linear interpolation.
+/// A vehicle that starts in a zone enters it at the start; one that starts beyond it never does. The time of entry within
+/// a tick is interpolated linearly.
 #[derive(Clone, Debug)]
 pub struct Passages {
     names: Vec<String>,
     bodies: Vec<Body>,
-    /// Arc lengths of the mass centres at the last look \[m\].
+    /// Arc lengths of the mass centres at the last tick \[m\].
     along_m: Vec<f64>,
     zones: Vec<WatchedZone>,
 }
 
 impl Passages {
-    /// The vehicles at their starts, where their mass centres are at these arc lengths of their routes \[m\].
+    /// The zones with the vehicles at their starts; `along_m` are the arc lengths of the mass centres on their routes \[m\].
     pub fn new(scenario: &Scenario, along_m: &[f64]) -> Self {
         let vehicles = &scenario.vehicles;
         let approach = |vehicle: usize, [from_m, to_m]: [f64; 2], way_m: [f64; 2]| {
@@ -126,7 +125,7 @@ impl Passages {
         self.along_m = along_m.to_vec();
     }
 
-    /// Who went first in each zone that somebody entered, pairs in the scenario's order.
+    /// The passages of all zones that a vehicle has entered, pairs in the scenario's order.
     pub fn passages(&self) -> Vec<Passage> {
         let passage = |zone: &WatchedZone| {
             let [a, b] = &zone.approaches;
@@ -156,7 +155,7 @@ impl Passages {
 }
 
 impl ZoneApproach {
-    /// Looks at its speed.
+    /// Updates the speed and whether the vehicle has slowed down.
     fn slow(&mut self, speed_mps: f64, body: &Body, other_is_gone: bool) {
         let ratio = body.real_ratio().sqrt();
         self.fastest_mps = self.fastest_mps.max(speed_mps);
@@ -166,7 +165,7 @@ impl ZoneApproach {
         }
     }
 
-    /// Notes which places it passes within a tick.
+    /// Records the times at which it passes boundaries within a tick.
     fn move_on(&mut self, [before_m, after_m]: [f64; 2], body: &Body, times_s: [f64; 2]) {
         let passes = |place_m: f64| {
             let share = (place_m - before_m) / (after_m - before_m);
@@ -199,7 +198,7 @@ mod tests {
         order(&passages)
     }
 
-    /// Who went first, and when; what else is said of a passage is judged by other tests.
+    /// First, second, and their entry times; other tests check the rest of a passage.
     type Order = Vec<(String, String, f64, Option<f64>)>;
 
     fn order(passages: &Passages) -> Order {
@@ -210,7 +209,7 @@ mod tests {
         vec![(first.to_owned(), second.to_owned(), first_s, second_s)]
     }
 
-    /// The ego crosses first in one second; the other comes then with these places and speeds, a tick of 0.1 s each.
+    /// The ego crosses first in one second; the other arrives then, with these positions and speeds in ticks of 0.1 s.
     fn second(moves: &[[f64; 2]]) -> Passage {
         let scenario = load("intersection/nice", &[]).expect("authored");
         let mut passages = Passages::new(&scenario, &[-1.0, moves[0][0]]);
@@ -222,9 +221,9 @@ mod tests {
         passages.passages().pop().expect("the ego enters")
     }
 
-    /// Order alone is no yielding: it takes slowing down or a margin, of model cars 0.32 s.
+    /// Being second is not yielding: the vehicle must slow down or leave a margin, 0.32 s for model cars.
     #[test]
-    fn who_comes_close_behind_at_full_speed_has_not_yielded() {
+    fn a_vehicle_that_follows_closely_at_full_speed_has_not_yielded() {
         // The zone of the other is from 0 to 0.37 m, its front 0.21 m ahead; the ego's rear leaves at 0.185 + 0.19 m after 0.6875 s.
         let at = |along_m: f64, speed_mps: f64, tick: usize| [along_m + 0.1 * speed_mps * tick as f64, speed_mps];
         let drive = |start_m: f64, speed_mps: f64| -> Vec<[f64; 2]> {
@@ -244,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn who_enters_first_goes_first() {
+    fn the_vehicle_that_enters_first_goes_first() {
         // Fronts of the ego: −0.685, −0.285, −0.085; of the other: −0.29, −0.29, 0.11.
         let both = crossing(&[[-0.895, -0.5], [-0.495, -0.5], [-0.295, -0.1]]);
         assert_eq!(both, passage("ego", "crossing", 1.5, Some(1.725)));
@@ -252,9 +251,9 @@ mod tests {
         assert_eq!(other_first, passage("crossing", "ego", 0.725, Some(1.5)));
     }
 
-    /// Within a tick of half a second the time of entering is found by the share of the way.
+    /// In a tick of half a second the time of entry is interpolated by distance.
     #[test]
-    fn times_are_those_within_a_tick() {
+    fn entry_times_are_interpolated_within_a_tick() {
         let scenario = load("intersection/nice", &[]).expect("authored");
         let mut passages = Passages::new(&scenario, &[-0.495, -0.5]);
         passages.observe(&[-0.295, -0.5], &[1.0; 2], [3.0, 3.5]);
@@ -262,20 +261,20 @@ mod tests {
     }
 
     #[test]
-    fn who_never_enters_has_let_the_other_go() {
+    fn a_vehicle_that_never_enters_has_yielded() {
         assert_eq!(crossing(&[[-2.0, -0.5], [-1.0, -0.1], [-0.6, 0.9]]), passage("crossing", "ego", 0.725, None));
         assert_eq!(crossing(&[[-2.0, -0.5], [-1.0, -0.4], [-0.6, -0.3]]), []);
     }
 
     #[test]
-    fn starts_in_the_zone_count_and_starts_behind_it_do_not() {
+    fn starts_in_the_zone_count_as_entries_and_starts_beyond_it_do_not() {
         assert_eq!(crossing(&[[0.1, -0.5], [0.9, 0.3]]), passage("ego", "crossing", 0.0, Some(0.3625)));
         assert_eq!(crossing(&[[0.5, -0.5], [0.9, 0.3]]), passage("crossing", "ego", 0.3625, None));
     }
 
     /// A side lane joins a main lane after 100 m: the zone begins where the lanes overlap, well before the centre lines meet.
     #[test]
-    fn merging_routes_have_a_zone() {
+    fn merging_routes_have_a_conflict_zone() {
         let line = |start: [f64; 2], heading_rad: f64, length_m: f64| {
             CentreLine::from_pieces(start, heading_rad, &[Piece::Straight { length_m }]).expect("a piece")
         };

@@ -1,16 +1,16 @@
-//! Metrics of a run that are the least of a number at each tick, with whom and when: gaps, and times to collision.
+//! Metrics of a run that are the minimum over ticks, with pair and time: gaps, and times to collision.
 
 use interplay_scenarios::{MetricDeclaration, Scenario};
 
 use super::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use super::values::{Measured, MetricValue};
 
-/// The least of a number that a run has at each tick.
+/// The minimum over ticks of a value of the run.
 #[derive(Clone, Copy, Debug)]
 pub struct LeastOfRun {
-    /// What is said of it.
+    /// Its declaration.
     pub declaration: MetricDeclaration,
-    /// The number of a tick; none where it has none. Only one below the second argument is of interest.
+    /// The value of a tick; none if it has none. Only a value below the second argument is needed.
     pub quantity: fn(&ObservedTick<'_>, f64) -> Option<Measured>,
 }
 
@@ -24,7 +24,7 @@ impl Metric for LeastOfRun {
     }
 }
 
-/// The least one so far, when it was reached first.
+/// The minimum so far, with the time at which it was first reached.
 #[derive(Clone, Debug)]
 struct LeastSoFar {
     metric: LeastOfRun,

@@ -1,4 +1,4 @@
-//! What metrics amount to, and how a report tells it.
+//! Values of metrics, and their form in a report.
 
 use interplay_scenarios::{MetricDeclaration, MetricKind};
 use serde::ser::SerializeMap;
@@ -17,28 +17,28 @@ pub enum MetricValue {
     Number(f64),
 }
 
-/// What a metric amounts to.
+/// The result of a metric.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
-    /// The value; none where there is nothing to measure.
+    /// The value; none if there is nothing to measure.
     pub value: Option<MetricValue>,
-    /// When it was reached; none for what has no time, and for a peak of 0 \[s\].
+    /// The time at which it was reached; none for metrics without time, and for a peak of 0 \[s\].
     pub time_s: Option<f64>,
-    /// The two vehicles that it is about, in the scenario's order, if it is about two.
+    /// The two vehicles that it concerns, in the scenario's order, if it concerns two.
     pub between: Option<[String; 2]>,
     /// Whether it has a time unless it is 0.
     pub is_peak: bool,
 }
 
-/// The values of all metrics of a vehicle, or of a run, in the order in which the metrics are listed.
+/// The results of all metrics of a vehicle, or of a run, in the order in which the metrics are listed.
 ///
-/// As a part of a report, each is told under its key. One about two vehicles is told with them and with its time; the times of
-/// peaks are told together, as `peak_times_s`.
+/// In a report, each value stands under its key. A value of two vehicles stands with them and with its time; the times of
+/// peaks stand together, as `peak_times_s`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MetricValues(pub Vec<(MetricDeclaration, Measured)>);
 
 impl Measured {
-    /// A number without time or place.
+    /// A number without time and vehicles.
     pub fn number(value: Option<f64>) -> Self {
         Measured { value: value.map(MetricValue::Number), ..Measured::default() }
     }
@@ -48,7 +48,7 @@ impl Measured {
         Measured { time_s: Some(time_s), between: Some(between), ..Measured::number(Some(value)) }
     }
 
-    /// The same value in a type that a metric is declared with.
+    /// The same value in the type of a metric's declaration.
     #[must_use]
     pub(super) fn of_kind(self, kind: MetricKind) -> Self {
         let value = self.value.map(|value| match (kind, value.as_number()) {
@@ -59,7 +59,7 @@ impl Measured {
         Measured { value, ..self }
     }
 
-    /// The value as a report tells it.
+    /// The value in the form of a report.
     pub fn to_json(&self, declaration: &MetricDeclaration) -> Json {
         match (&self.between, self.value) {
             (Some(between), Some(value)) => {
@@ -82,7 +82,7 @@ impl MetricValue {
 }
 
 impl MetricValues {
-    /// What the metric of a name amounts to; none if it is not measured.
+    /// The result of the metric with this name; none if it is not measured.
     pub fn get(&self, name: &str) -> Option<(&MetricDeclaration, &Measured)> {
         self.0.iter().find(|(declaration, _)| declaration.name == name).map(|(declaration, one)| (declaration, one))
     }

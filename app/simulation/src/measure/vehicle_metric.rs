@@ -1,45 +1,45 @@
-//! Metrics of a vehicle that are a number at each tick, folded over the run: peaks, extremes, means, and whether something
-//! ever was so.
+//! Metrics of a vehicle that fold a value at each tick over the run: peaks, extremes, means, and
+//! flags.
 
 use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
 
 use super::metric::{Measurement, Metric, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
 use super::values::Measured;
 
-/// A metric of each vehicle: a number at each tick, and how the numbers of all ticks become one.
+/// A metric of each vehicle: a value at each tick, and the fold over all ticks.
 #[derive(Clone, Copy, Debug)]
 pub struct VehicleMetric {
-    /// What is said of it.
+    /// Its declaration.
     pub declaration: MetricDeclaration,
-    /// The number.
+    /// The value at each tick.
     pub quantity: VehicleQuantity,
-    /// How the numbers become one.
+    /// The fold over all ticks.
     pub fold: Fold,
-    /// The vehicles that have a value.
+    /// Whether a vehicle has a value.
     pub applies: fn(&Vehicle) -> bool,
 }
 
-/// A number that a vehicle has at each tick; none where it has none.
+/// The value of a vehicle at each tick; none if it has none.
 #[derive(Clone, Copy, Debug)]
 pub enum VehicleQuantity {
-    /// Of the tick as a whole; its time is the beginning of the tick.
+    /// A value of the tick as a whole; its time is the beginning of the tick.
     OverTick(fn(&VehicleTick<'_>) -> Option<f64>),
-    /// Of the vehicle at the start and after each tick.
+    /// A value of the vehicle at the start and after each tick.
     AtMoment(fn(&VehicleMoment<'_>) -> Option<f64>),
 }
 
-/// How the numbers of all ticks become one.
+/// The fold of the values of all ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fold {
-    /// The largest positive one, with the time at which it was reached first; 0 if none was positive.
+    /// The largest positive value, with the time at which it was first reached; 0 if none was positive.
     Peak,
-    /// The smallest one.
+    /// The smallest value.
     Least,
-    /// The largest one.
+    /// The largest value.
     Largest,
-    /// Their mean; 0 without any.
+    /// The mean; 0 without values.
     Mean,
-    /// How many are not 0; of a flag, whether any is.
+    /// The number of values that are not 0; for a flag, whether any is set.
     Count,
 }
 
@@ -71,18 +71,15 @@ impl Metric for VehicleMetric {
     }
 }
 
-/// The fold so far.
 #[derive(Clone, Copy, Debug)]
 struct FoldedMetric {
     metric: VehicleMetric,
-    /// The index of the vehicle.
     vehicle: usize,
     applies: bool,
-    /// The folded value; of a mean, the sum.
+    /// The folded value; for a mean, the sum.
     value: f64,
-    /// When a peak was reached first \[s\].
+    /// Time at which a peak was first reached \[s\].
     time_s: Option<f64>,
-    /// How many numbers there were.
     count: usize,
 }
 

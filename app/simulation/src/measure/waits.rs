@@ -1,4 +1,4 @@
-//! For whom and how long vehicles stand that want to drive, and who is stuck ([`Standing`]).
+//! How long and for whom vehicles that want to move are stationary, and which are deadlocked ([`Standing`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,53 +10,54 @@ use crate::state::components::to_nanosecond;
 use crate::state::frame::{Event, Frame, Level, VehicleFrame};
 use crate::state::standing::{Standing, StandingReason};
 
-/// Shorter stops are not told, for a real car \[s\].
+/// Shorter stops are not reported, for a real car \[s\].
 const LEAST_S: f64 = 0.5;
-/// Who waits for one another for so long is stuck, for a real car \[s\]: who is let go needs a moment to set off.
+/// Vehicles that wait for one another this long are deadlocked, for a real car \[s\]: setting off takes a moment.
 const CIRCLE_S: f64 = 3.0;
-/// Who stands for so long without a reason that shows is stuck, for a real car \[s\].
+/// A vehicle that stands this long without a visible reason is stuck, for a real car \[s\].
 pub(super) const STUCK_S: f64 = 10.0;
 
-/// Who stands so long after a reason has ended is setting off, for a real car \[s\].
+/// A vehicle that stands at most this long after its reason has ended is setting off, for a real car \[s\].
 const SETTING_OFF_S: f64 = 2.0;
-/// Reasons of who is slower than this are remembered, for a real car \[m/s\].
+/// Reasons are recorded for vehicles below this speed, for a real car \[m/s\].
 const SLOW_MPS: f64 = 2.0;
 
-/// For how long a vehicle stood for one reason, in all.
+/// Total time for which a vehicle stood for one reason.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Wait {
-    /// How long \[s\].
+    /// Duration \[s\].
     pub waited_s: f64,
-    /// For whom; empty where it waited for nobody.
+    /// The vehicles for which it waited; empty if there were none.
     pub waits_for: Vec<String>,
-    /// Why, or why until a moment before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`, `before it passes van`, `no room beside van`,
+    /// The reason, or the last one before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`,
+    /// `before it passes van`, `no room beside van`,
     /// `they wait for each other`, `lets ego pass`, `as its scripted driver is told`, or `no reason that shows`.
     pub reason: String,
 }
 
-/// Vehicles that are stuck.
+/// Vehicles that are deadlocked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Deadlock {
-    /// When that was clear \[s\].
+    /// Time at which the deadlock was detected \[s\].
     pub time_s: f64,
-    /// Who is stuck: all who wait for each other, or who stands without a reason that shows.
+    /// The deadlocked vehicles: all that wait for one another, or one that stands without a visible reason.
     pub vehicles: Vec<String>,
     /// What is wrong, in a few words, as of [`Wait::reason`].
     pub reason: String,
 }
 
-/// What is measured of those who stand.
+/// Measures of stationary vehicles.
 #[derive(Clone, Debug)]
 pub struct Waits {
-    /// The root of the ratio of lengths to those of a real car, of each vehicle: that of times.
+    /// Scale of times of each vehicle relative to a real car: the square root of that of lengths.
     times: Vec<f64>,
-    /// Of each vehicle: how long it stood, by reason.
+    /// For each vehicle, how long it stood, by reason.
     waited: Vec<Vec<Wait>>,
-    /// Of each vehicle: the last reason to stop that showed, and when \[s\].
+    /// For each vehicle, its last visible reason to stop, and when \[s\].
     last: Vec<Option<(StandingReason, f64)>>,
-    /// For how long these have waited for each other \[s\].
+    /// How long each set of vehicles has waited for one another \[s\].
     circles_s: BTreeMap<Vec<usize>, f64>,
-    /// For how long each has stood without a reason that shows \[s\].
+    /// How long each vehicle has stood without a visible reason \[s\].
     unexplained_s: Vec<f64>,
     deadlocks: Vec<Deadlock>,
 }
@@ -85,7 +86,7 @@ impl Deadlock {
 const IN_A_CIRCLE: &str = "they wait for each other";
 const UNEXPLAINED: &str = "no reason that shows";
 
-/// Why a vehicle stands where neither rules nor others ask for it: its driver is told to, or lets somebody pass.
+/// Why a vehicle stands that neither rules nor other vehicles stop: a script, or letting another vehicle pass.
 fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
     if vehicle.driver.goes_first() && !vehicle.driver.can_be_asked() {
         return format!("as its {} driver is told", vehicle.driver.kind());
@@ -95,7 +96,7 @@ fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
     if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
 }
 
-/// For whom and why somebody waits.
+/// The vehicles for which a vehicle waits, and the reason in words.
 fn words(reason: &StandingReason) -> (Vec<String>, String) {
     match reason {
         StandingReason::Sign => (Vec::new(), "sign".to_owned()),
@@ -110,7 +111,7 @@ fn words(reason: &StandingReason) -> (Vec<String>, String) {
 }
 
 impl Waits {
-    /// Nobody has stood yet.
+    /// Measures before the first stop.
     pub fn new(scenario: &Scenario) -> Self {
         let times: Vec<f64> = scenario.vehicles.iter().map(|vehicle| vehicle.body.real_ratio().sqrt()).collect();
         Waits {
@@ -123,7 +124,7 @@ impl Waits {
         }
     }
 
-    /// Takes a tick; returns what begins in it.
+    /// Takes a tick; returns the events that begin in it.
     pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
         let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
         let known = self.deadlocks.len();
@@ -150,7 +151,7 @@ impl Waits {
         self.deadlocks[known..].iter().map(event).collect()
     }
 
-    /// Notes for how long those who wait for each other have done so.
+    /// Updates how long vehicles have waited for one another.
     fn close(&mut self, circles: BTreeSet<Vec<usize>>, frame: &Frame, step_s: f64) {
         self.circles_s.retain(|circle, _| circles.contains(circle));
         for circle in circles {
@@ -162,7 +163,7 @@ impl Waits {
         }
     }
 
-    /// For whom and why somebody waits. Who waits for somebody who is stuck is not stuck itself.
+    /// The vehicles for which a vehicle waits, and why. A vehicle that waits for a deadlocked one is not deadlocked itself.
     fn wait(&self, standing: &Standing<'_>, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
         let setting_off_s = SETTING_OFF_S * self.times[index];
         match &self.last[index] {
@@ -183,19 +184,18 @@ impl Waits {
         }
     }
 
-    /// For what a vehicle stood, in the order in which it began to; short stops are left out.
+    /// The waits of a vehicle, in the order in which they began; short stops are left out.
     pub fn of(&self, vehicle: usize) -> Vec<Wait> {
         let least_s = LEAST_S * self.times[vehicle];
         self.waited[vehicle].iter().filter(|wait| wait.waited_s >= least_s).cloned().collect()
     }
 
-    /// Who was stuck, in order of time.
+    /// All deadlocks, in order of time.
     pub fn deadlocks(&self) -> &[Deadlock] {
         &self.deadlocks
     }
 }
 
-/// Whether a time passes a bound.
 fn passes(before_s: f64, after_s: f64, bound_s: f64) -> bool {
     before_s <= bound_s && after_s > bound_s
 }
@@ -223,7 +223,7 @@ mod tests {
 
     use super::*;
 
-    /// Both vehicles stand at their starts for some ticks of 0.1 s, each before a line at its front for the sake of others.
+    /// Both vehicles stand at their starts for some ticks of 0.1 s, each at a line at its front where it gives way to others.
     fn stood(ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {
         let mut scenario: Scenario = load("t-junction/bayesian-nice", &[]).expect("authored");
         scenario.vehicles.truncate(2);
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn who_waits_for_each_other_is_stuck() {
+    fn vehicles_that_wait_for_each_other_are_deadlocked() {
         let (waits, events) = stood(20, [&["main"], &["ego"]]);
         assert!(events.is_empty() && waits.deadlocks().is_empty(), "after two seconds they may still be let go");
         let (waits, events) = stood(60, [&["main"], &["ego"]]);
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stands_without_a_reason_is_stuck_after_ten_seconds() {
+    fn a_vehicle_that_stands_without_a_reason_is_stuck_after_ten_seconds() {
         let (waits, events) = stood(101, [&["main"], &[]]);
         let [deadlock] = waits.deadlocks() else { panic!("{:?}", waits.deadlocks()) };
         assert_eq!(deadlock.sentence(), "main stands and shows no reason");
@@ -273,9 +273,9 @@ mod tests {
         assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason that shows)");
     }
 
-    /// Nothing is wrong with who waits for somebody who drives.
+    /// A vehicle that waits for a moving one is not deadlocked.
     #[test]
-    fn who_gives_way_says_to_whom() {
+    fn a_wait_names_the_vehicle_with_priority() {
         let reason = StandingReason::GivesWay(vec!["ring".to_owned()]);
         let (waits_for, reason) = words(&reason);
         let wait = Wait { waited_s: 6.41, waits_for, reason };

@@ -1,4 +1,4 @@
-//! Act: the first input of each plan is applied, within the vehicle's limits, and the frame of the tick is made.
+//! Act: applies the first input of each plan, within the vehicle's limits, and makes the frame of the tick.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::Input;
@@ -7,8 +7,8 @@ use interplay_planners::traffic::{RoadUser, applied_input};
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet};
 use crate::state::frame::VehicleFrame;
 
-/// Hands the decided inputs to the plant. Where there are several ticks from one plan to the next, inputs change evenly from the last
-/// one to that of the plan, which they reach with the last of these ticks. Recorded vehicles take their inputs from the record in every
+/// Passes the decided inputs to the plant. With several ticks between plans, inputs change linearly from the last
+/// input to that of the plan, which they reach in the last of these ticks. Recorded vehicles take their inputs from the record in every
 /// tick.
 pub fn act(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>) {
     let ticks_left = clock.ticks_per_plan - clock.ticks_since_plan();
@@ -20,7 +20,7 @@ pub fn act(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>) {
         let recorded = record.as_ref().and_then(|record| record.input(body, limits, &agent.state, times_s));
         let wanted = recorded.unwrap_or_else(|| towards(&last, planned, ticks_left));
         let mut applied = applied_input(&wanted, &agent.state, body, limits, clock.step_s);
-        // When the run begins, wheels stand as the driver wants.
+        // At the start of the run, wheels stand as the driver wants.
         if clock.tick > 0 {
             applied.steering_rad = limits.steering_towards_rad(last.steering_rad, applied.steering_rad, clock.step_s);
         }
@@ -28,7 +28,7 @@ pub fn act(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>) {
     }
 }
 
-/// The next of `ticks_left` inputs that change evenly from one to another.
+/// The next of `ticks_left` inputs that change linearly from one to another.
 fn towards(last: &Input, planned: Input, ticks_left: usize) -> Input {
     if ticks_left == 1 {
         return planned;
@@ -40,7 +40,7 @@ fn towards(last: &Input, planned: Input, ticks_left: usize) -> Input {
     }
 }
 
-/// Writes every vehicle into the frame, for those that watch and measure: its state before it moves, and what it decided.
+/// Writes every vehicle into the frame, for watchers and measures: its state before it moves, and its decision.
 pub fn describe(
     vehicles: Query<&Driving>,
     fleet: Res<Fleet>,

@@ -6,10 +6,10 @@ use interplay_planners::{Input, Plan, PlanError, Scene, Trajectory};
 
 use crate::state::components::HandedIn;
 
-/// Makes a plan of what was handed in: an input, after which the vehicle keeps its speed, or the inputs of a whole plan.
+/// Makes a plan from the caller's input, after which the vehicle keeps its speed, or from the caller's whole plan.
 ///
 /// # Errors
-/// [`PlanError::BadInput`] if nothing was handed in.
+/// [`PlanError::BadInput`] if the caller gave no input.
 pub fn plan(handed_in: HandedIn, scene: &Scene) -> Result<Plan, PlanError> {
     let trajectory = match handed_in {
         HandedIn::Input(input) => then_steadily(&input, scene),
@@ -21,7 +21,7 @@ pub fn plan(handed_in: HandedIn, scene: &Scene) -> Result<Plan, PlanError> {
     Ok(Plan { trajectory, ..Plan::default() })
 }
 
-/// One step with an input, then at a steady speed along the road.
+/// One step with an input, then constant speed along the road.
 fn then_steadily(input: &Input, scene: &Scene) -> Trajectory {
     let ego = &scene.ego;
     let applied = applied_input(input, &ego.state, &ego.body, &ego.limits, scene.step_s);

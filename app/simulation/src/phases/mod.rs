@@ -1,4 +1,4 @@
-//! The loop as one visible list. Each phase is one file here, or a folder beside this one: physics, climate and measure.
+//! The loop as one visible list. Each phase is a file here, or a folder beside this one: physics, climate and measure.
 
 pub mod act;
 pub(crate) mod external;
@@ -14,14 +14,14 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleT
 
 use crate::{climate, measure, physics};
 
-/// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
+/// One tick, phase by phase. Data flows in one direction: no phase depends on later ones.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
-    /// Components become plain values that planners can be given, and sensors measure them.
+    /// Components become plain values for planners, and sensors measure them.
     Sense,
     /// The motion of each vehicle is predicted.
     Predict,
-    /// Every driver decides; failures fall back.
+    /// Every driver decides; on a failure a fallback applies.
     Plan,
     /// The first input of each plan is applied.
     Act,
@@ -29,9 +29,9 @@ pub enum Phase {
     Physics,
     /// The building's heat balance: disturbance, control, temperatures, learning at the day's end.
     Climate,
-    /// What happened is measured.
+    /// The results of the tick are measured.
     Measure,
-    /// What happened is written down.
+    /// Watchers record the tick.
     Record,
 }
 
@@ -49,7 +49,7 @@ impl Phase {
     ];
 }
 
-/// Where systems of one's own run: between two phases. A phase runs after all systems before it, and before all systems after it.
+/// A slot for additional systems between two phases. A phase runs after all systems before it, and before all systems after it.
 ///
 /// [`SimulationBuilder::with_system`](crate::SimulationBuilder::with_system) adds them. They run at every
 /// [`TimePoint`](time_points::TimePoint), of the vehicles and of the building.
@@ -65,7 +65,7 @@ pub enum Slot {
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Tick;
 
-/// The loop: phases in order, one thread inside a world (worlds run side by side), ambiguity an error.
+/// The loop: phases in order, on one thread for each world (worlds run in parallel); ambiguous orders are errors.
 pub fn schedule() -> Schedule {
     use Phase::{Act, Climate, Measure, Physics, Plan, Predict, Record, Sense};
     let mut schedule = Schedule::new(Tick);

@@ -1,5 +1,5 @@
-//! Plan: every driver decides on what it has sensed and is told, in the order and with the fallbacks of
-//! [`interplay_planners::traffic`]; here planning is timed, and failures become events.
+//! Plan: every driver decides from what it has sensed and the plans that it knows, in the order and with the fallbacks of
+//! [`interplay_planners::traffic`]; this phase measures planning times and turns failures into events.
 
 use std::time::Instant;
 
@@ -46,7 +46,7 @@ pub fn plan(
     }
 }
 
-/// Changes the drivers of vehicles that have come near the ego, or are not near it any more.
+/// Switches the drivers of vehicles that have come near the ego, or have moved away from it.
 fn change_detail(
     vehicles: &mut Query<(&mut Driving, &mut HandedIn)>,
     fleet: &Fleet,
@@ -64,7 +64,7 @@ fn change_detail(
     }
 }
 
-/// Notes what a planner reports, or why it found no plan and what happens instead.
+/// Logs a planner's report, or why it found no plan and which fallback applies.
 fn note(decision: &Decision, vehicle: &str, frame: &mut Frame) {
     let event = |level, text| Event { vehicle: vehicle.to_owned(), level, text };
     frame.events.extend(decision.plan.events.iter().map(|happened| event(Level::Note, happened.text.clone())));

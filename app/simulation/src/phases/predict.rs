@@ -1,4 +1,4 @@
-//! Predict: how every vehicle is expected to move on.
+//! Predict: the expected motion of every vehicle.
 
 use bevy_ecs::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Vehicles enter and leave the road at the times that the scenario states, or leave where their routes end.
+//! Vehicles enter and leave the road at the times that the scenario states, or leave at the ends of their routes.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::drivers::recorded::next_to;
@@ -13,7 +13,7 @@ const TIME_TOLERANCE_S: f64 = 1e-9;
 /// A vehicle leaves this far before the end of its route, in lengths of its body.
 const END_LENGTHS: f64 = 0.5;
 
-/// Lets vehicles enter that are due and have room, and others leave. Runs in ticks in which vehicles plan.
+/// Adds vehicles that are due and have room, and removes others. Runs in ticks in which vehicles plan.
 pub fn come_and_go(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>, mut current_frame: ResMut<CurrentFrame>) {
     let traffic = &mut traffic.0;
     for row in 0..traffic.road_users.len() {
@@ -35,7 +35,7 @@ pub fn come_and_go(clock: Res<Clock>, mut traffic: ResMut<CurrentTraffic>, mut c
             });
         }
         if let Some(state) = record.as_ref().and_then(|record| record.state_at(clock.time_s())) {
-            // A recorded vehicle enters where its record is by now.
+            // A recorded vehicle enters at the present position of its record.
             agent.state = State { heading_rad: next_to(state.heading_rad, agent.state.heading_rad), ..state };
         }
     }
@@ -55,7 +55,7 @@ fn presence_now(traffic: &Traffic, row: usize, time_s: f64) -> Presence {
     }
 }
 
-/// Whether a vehicle has come to the end of its route.
+/// Whether a vehicle has reached the end of its route.
 fn is_at_end(Agent { state, body, route, .. }: &Agent) -> bool {
     route.is_in_network() && route.along(state.position()) + END_LENGTHS * (body.front_m + body.rear_m) >= route.end_m()
 }

@@ -1,4 +1,4 @@
-//! Sense: the tick begins, and sensors measure the vehicles.
+//! Sense: begins the tick; sensors measure the vehicles.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::SensedScene;
@@ -28,7 +28,7 @@ pub fn plans_now(clock: Res<Clock>) -> bool {
     clock.ticks_since_plan() == 0
 }
 
-/// Lets every sensor measure the others. The plans that they will tell are joined to what is seen in the phase Plan.
+/// Lets every sensor measure the other vehicles. Their plans are added in the phase Plan.
 pub fn look(mut vehicles: Query<(&TrafficRow, &mut Driving)>, mut traffic: ResMut<CurrentTraffic>) {
     if vehicles.iter().any(|(_, driving)| driving.sensor.is_some()) {
         traffic.0.find_neighbours();
@@ -39,8 +39,8 @@ pub fn look(mut vehicles: Query<(&TrafficRow, &mut Driving)>, mut traffic: ResMu
     }
 }
 
-/// What the drivers of some vehicles would be given at the next tick, before any of them has planned in it; `None` if one of the
-/// vehicles does not exist. Vehicles are rows of [`CurrentTraffic`].
+/// The scenes that the drivers of some vehicles would receive at the next tick, before any of them has planned in it; `None` if a
+/// vehicle does not exist. Vehicles are rows of [`CurrentTraffic`].
 pub fn observed(world: &World, wanted: &[usize]) -> Option<Vec<SensedScene>> {
     let (clock, fleet) = (world.get_resource::<Clock>()?, world.get_resource::<Fleet>()?);
     let mut traffic = world.get_resource::<CurrentTraffic>()?.0.clone();

@@ -1,4 +1,4 @@
-//! Time points: vehicles and building have a clock each, and the loop runs at every time point of either clock.
+//! Time points: vehicles and building each have a clock, and the loop runs at every time point of either clock.
 
 use bevy_ecs::prelude::*;
 use interplay_scenarios::Scenario;
@@ -16,7 +16,7 @@ pub struct TimePoint {
     pub building: bool,
 }
 
-/// The time points of a scenario, in order, from a certain one on.
+/// The remaining time points of a scenario, in order.
 #[derive(Clone, Debug)]
 pub struct TimePoints {
     vehicles: ClockStrikes,
@@ -24,7 +24,7 @@ pub struct TimePoints {
     passed: usize,
 }
 
-/// The times at which one clock strikes.
+/// The times of one clock.
 #[derive(Clone, Copy, Debug)]
 struct ClockStrikes {
     step_s: f64,
@@ -33,7 +33,7 @@ struct ClockStrikes {
 }
 
 impl ClockStrikes {
-    /// The next time \[s\]; none once all are over.
+    /// The next time \[s\]; none after the last.
     fn next_s(&self) -> Option<f64> {
         (self.next < self.count).then(|| to_nanosecond(self.next as f64 * self.step_s))
     }
@@ -64,7 +64,7 @@ impl TimePoints {
         self.passed
     }
 
-    /// The time up to which the slower of both parts has moved \[s\].
+    /// The time up to which the slower clock has advanced \[s\].
     pub fn reached_s(&self) -> f64 {
         self.vehicles.reached_s().max(self.building.reached_s())
     }
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn each_clock_strikes_at_its_own_times_and_both_at_once_where_they_meet() {
+    fn each_clock_has_its_own_times_and_common_times_are_one_time_point() {
         let car = "vehicle = [{ name = 'a', start = { x_m = 0, y_m = 0.2, speed_mps = 0 } }]";
         let (vehicles, building) = (
             time_points_of(&format!("duration_s = 2000\nstep_s = 450\n{car}")),

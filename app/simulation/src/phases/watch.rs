@@ -1,4 +1,4 @@
-//! Record: every tick is shown to whoever watches: a recorder, a progress bar.
+//! Record: passes every tick to the watchers, such as a recorder or a progress bar.
 
 use std::error::Error;
 
@@ -7,21 +7,21 @@ use bevy_ecs::prelude::*;
 use crate::state::components::CurrentFrame;
 use crate::state::frame::Frame;
 
-/// Why a watcher could not keep what it was shown.
+/// Why a watcher could not record a tick.
 pub type WatchError = Box<dyn Error + Send + Sync>;
 
-/// A watcher, which is shown every tick of a run and cannot change it.
+/// A watcher, which receives every tick of a run and cannot change it.
 pub trait Watcher: Send + Sync {
-    /// Looks at one tick.
+    /// Receives one tick.
     ///
     /// # Errors
-    /// Anything, if it cannot be kept; the run goes on and reports the first of them at its end.
+    /// Any error of recording; the run continues and reports the first of them at its end.
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError>;
 
-    /// The run is over.
+    /// Receives the end of the run.
     ///
     /// # Errors
-    /// Anything, if what was seen cannot be kept.
+    /// Any error of recording.
     fn finish(self: Box<Self>) -> Result<(), WatchError>;
 }
 
@@ -38,10 +38,10 @@ impl Watchers {
         Watchers { watchers, failure: None }
     }
 
-    /// Ends the watch and tells every watcher so.
+    /// Ends the run for every watcher.
     ///
     /// # Errors
-    /// The first thing that went wrong.
+    /// The first error of a watcher.
     pub fn finish(self) -> Result<(), WatchError> {
         let mut failure = self.failure;
         for watcher in self.watchers {
@@ -52,7 +52,7 @@ impl Watchers {
     }
 }
 
-/// Shows the tick to everybody.
+/// Passes the tick to all watchers.
 pub fn show(current_frame: Res<CurrentFrame>, mut watchers: ResMut<Watchers>) {
     let Watchers { watchers, failure } = &mut *watchers;
     for watcher in watchers {

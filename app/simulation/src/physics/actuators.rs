@@ -1,12 +1,12 @@
-//! Actuators: what is asked for comes late.
+//! Actuators: commands take effect with a lag and a rate limit.
 //!
-//! An actuator with the value `u`, asked for `w`, obeys `τ u′ = w − u`, and changes by no more than `u′_max` per second. Over
+//! An actuator with the value `u` and the command `w` obeys `τ u′ = w − u`, and changes by no more than `u′_max` per second. Over
 //! a sub-step `h` with constant `w` the lag alone gives `u⁺ = w + (u − w) e^(−h/τ)`, whatever `τ ≥ 0`.
 
 use interplay_planners::Input;
 use interplay_scenarios::Dynamic;
 
-/// What the actuators of a vehicle do now.
+/// The present values of a vehicle's actuators.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Actuators {
     /// Acceleration and steering angle.
@@ -14,7 +14,7 @@ pub(super) struct Actuators {
 }
 
 impl Actuators {
-    /// Lets a sub-step pass in which `wanted` is asked for.
+    /// Advances the actuators by a sub-step with the command `wanted`.
     pub fn follow(&mut self, wanted: &Input, plant: &Dynamic, step_s: f64) {
         let Input { acceleration_mps2, steering_rad } = &mut self.now;
         let (jerk, rate) = (plant.jerk_max_mps3, plant.steering_rate_max_radps);
@@ -24,7 +24,7 @@ impl Actuators {
     }
 }
 
-/// By how much the value changes if this much is missing.
+/// The change of a value that misses its command by `missing`.
 fn change(missing: f64, lag_s: f64, rate_max: f64, step_s: f64) -> f64 {
     let share = if lag_s > 0.0 { 1.0 - libm::exp(-step_s / lag_s) } else { 1.0 };
     let most = rate_max * step_s;
@@ -37,7 +37,7 @@ mod tests {
 
     const SUB_STEP_S: f64 = 1e-3;
 
-    /// The steering angle at the end, if it is asked for from zero on.
+    /// The steering angle after some steps with a constant command, from zero.
     fn steered(wanted_rad: f64, plant: &Dynamic, steps: u32) -> f64 {
         let (mut actuators, wanted) = (Actuators::default(), Input { steering_rad: wanted_rad, ..Input::default() });
         for _ in 0..steps {
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lag_is_exponential_and_no_lag_is_none() {
+    fn the_lag_is_exponential_and_zero_lag_acts_at_once() {
         let plant = Dynamic { steering_lag_s: 0.07, ..Dynamic::default() };
         let expected = 0.1 * (1.0 - libm::exp(-0.05 / 0.07));
         assert!((steered(0.1, &plant, 50) - expected).abs() < 1e-12);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_limit_is_a_ramp() {
+    fn a_rate_limit_gives_a_ramp() {
         let plant = Dynamic { steering_lag_s: 0.0, steering_rate_max_radps: 2.0, ..Dynamic::default() };
         assert!((steered(-0.5, &plant, 100) + 0.2).abs() < 1e-12);
         assert!((steered(-0.5, &plant, 400) + 0.5).abs() < 1e-12);

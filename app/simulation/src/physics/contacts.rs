@@ -1,4 +1,4 @@
-//! From what Rapier says about contacts to collisions.
+//! Turns Rapier's contacts into collisions.
 
 use std::sync::Mutex;
 
@@ -22,12 +22,12 @@ pub(super) struct Touch {
     pub normal: [f64; 2],
 }
 
-/// Collects who begins to touch. Rapier asks for a handler that threads may share.
+/// Collects the pairs that begin to touch. Rapier needs a handler that threads may share.
 #[derive(Default)]
 pub(super) struct Contacts(Mutex<Vec<Touch>>);
 
 impl Contacts {
-    /// Everything collected, in the order of the indices.
+    /// All collected pairs, in the order of the indices.
     pub fn into_touches(self) -> Vec<Touch> {
         let mut touches = self.0.into_inner().unwrap_or_default();
         touches.sort_unstable_by_key(|touch| touch.pair);
@@ -71,8 +71,8 @@ pub(super) fn mass_kg(body: &Body) -> f64 {
     AREAL_DENSITY_KG_PER_M2 * length_m(body) * body.width_m
 }
 
-/// How hard two vehicles meet that have no dynamics \[N s\]. Rapier gives kinematic bodies no mass and so no impulse: it is
-/// the one that would stop their approach without rebound, `m_a m_b/(m_a + m_b)` times the closing speed along the contact's
+/// Impulse of a contact of two vehicles without dynamics \[N s\]. Rapier gives kinematic bodies no mass and thus no impulse. This is
+/// the impulse that stops their approach without rebound, `m_a m_b/(m_a + m_b)` times the closing speed along the contact's
 /// normal, with the mass of passenger cars.
 pub(super) fn impulse_ns(a: (&Body, &State), b: (&Body, &State), normal: [f64; 2]) -> f64 {
     let reduced = mass_kg(a.0) * mass_kg(b.0) / (mass_kg(a.0) + mass_kg(b.0));
@@ -83,7 +83,7 @@ pub(super) fn impulse_ns(a: (&Body, &State), b: (&Body, &State), normal: [f64; 2
     reduced * (towards(a.1) - towards(b.1)).max(0.0)
 }
 
-/// What two dynamic bodies gave one another along the normal of their contact in the last sub-step \[N s\].
+/// Impulse between two dynamic bodies along the normal of their contact in the last sub-step \[N s\].
 pub(super) fn transmitted_ns(world: &PhysicsWorld, pair: [RigidBodyHandle; 2]) -> f64 {
     let [a, b] = pair.map(|handle| world.bodies.get(handle).and_then(|body| body.colliders().first().copied()));
     let contact = a.zip(b).and_then(|(a, b)| world.narrow_phase.contact_pair(a, b));

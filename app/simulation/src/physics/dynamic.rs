@@ -1,8 +1,8 @@
-//! The dynamic plant: Rapier's bodies have mass, tyres push them, and collisions do.
+//! The dynamic plant: Rapier's bodies have mass and move by the impulses of tyres and collisions.
 //!
-//! A tick is cut into sub-steps of at most a millisecond. In each, the actuators follow what is asked for, every vehicle's
-//! tyres give it their impulse, and Rapier resolves contacts and moves the bodies. What is sensed at the tick's end is where
-//! the bodies are: position and heading of the body, and the speed of its mass centre, negative if it goes backwards.
+//! A tick is divided into sub-steps of at most a millisecond. In each, the actuators follow their commands, every vehicle's
+//! tyres apply their impulse, and Rapier resolves contacts and moves the bodies. The state at the end of the tick is that of
+//! the bodies: position and heading of the body, and the speed of its mass centre, negative in reverse.
 
 use interplay_planners::State;
 use interplay_scenarios::{Dynamic, Plant};
@@ -15,13 +15,12 @@ use super::gap::FootprintGaps;
 use super::moving::{Contact, Moving};
 use super::tyres::{Chassis, Planar};
 
-/// What the dynamic plant remembers beside Rapier's bodies.
+/// The state of the dynamic plant in addition to Rapier's bodies.
 #[derive(Clone)]
 pub(super) struct DynamicPlant {
     settings: Dynamic,
-    /// Where Rapier's world has its origin, so that single precision is enough \[m\].
+    /// Origin of Rapier's world, chosen so that single precision suffices \[m\].
     origin: [f64; 2],
-    /// Every vehicle, in the scenario's order.
     vehicles: Vec<Vehicle>,
 }
 
@@ -37,7 +36,7 @@ impl DynamicPlant {
         DynamicPlant { settings, origin, vehicles: Vec::new() }
     }
 
-    /// The body of one more vehicle.
+    /// Adds a vehicle and returns its body.
     pub fn body(&mut self, body: &interplay_planners::Body, state: &State) -> RigidBodyBuilder {
         let chassis = Chassis::new(body, mass_kg(body), &self.settings);
         self.vehicles.push(Vehicle { chassis, actuators: Actuators::default() });
@@ -51,12 +50,12 @@ impl DynamicPlant {
             .can_sleep(false)
     }
 
-    /// Share of the closing speed with which bodies part.
+    /// Coefficient of restitution: the ratio of separating to closing speed.
     pub fn restitution(&self) -> f32 {
         self.settings.restitution as f32
     }
 
-    /// Moves everybody by a tick; their states at its end, and who began to touch.
+    /// Advances all vehicles by a tick; returns their states at its end, and the contacts that began.
     pub fn advance(
         &mut self,
         world: &mut PhysicsWorld,
@@ -106,7 +105,7 @@ impl DynamicPlant {
     }
 }
 
-/// Lets the tyres of a vehicle push its body.
+/// Applies the impulse of a vehicle's tyres to its body.
 fn push(body: &mut RigidBody, vehicle: &Vehicle, step_s: f64) {
     let now = &vehicle.actuators.now;
     let impulse = vehicle.chassis.impulse(&velocity(body), now.acceleration_mps2, now.steering_rad, step_s);

@@ -1,4 +1,4 @@
-//! What tyres and actuators do, against closed forms.
+//! Tyres and actuators agree with closed forms.
 
 use bevy_ecs::prelude::World;
 use bevy_ecs::system::RunSystemOnce;
@@ -13,7 +13,7 @@ use crate::state::frame::Collision;
 
 const STEP_S: f64 = 0.1;
 
-/// Actuators that obey at once.
+/// Actuators without lag and rate limits.
 fn prompt() -> Dynamic {
     Dynamic {
         acceleration_lag_s: 0.0,
@@ -24,7 +24,7 @@ fn prompt() -> Dynamic {
     }
 }
 
-/// Cars of Table 6.1 with limits that allow everything.
+/// Cars of Table 6.1 with limits that are never reached.
 fn scenario(plant: Dynamic, starts: &[State]) -> Scenario {
     let mut text = "title = \"Cars\"\nshows = \"How they move\"\n".to_owned();
     for index in 0..starts.len() {
@@ -39,12 +39,11 @@ fn scenario(plant: Dynamic, starts: &[State]) -> Scenario {
     scenario
 }
 
-/// The state of every vehicle now.
 fn states(world: &World) -> Vec<State> {
     world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
 }
 
-/// The states after every tick in which everybody applies an input of its own, and the collisions.
+/// The states after every tick in which each vehicle applies its own constant input, and the collisions.
 fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (Vec<Vec<State>>, Vec<Collision>) {
     let mut world = WorldState::initial(&scenario(plant, starts)).expect("no building").into_world(Vec::new());
     for (user, input) in world.resource_mut::<CurrentTraffic>().0.road_users.iter_mut().zip(inputs) {
@@ -58,7 +57,6 @@ fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (V
     (all, world.resource::<CurrentFrame>().0.collisions.clone())
 }
 
-/// One car alone.
 fn alone(plant: Dynamic, start: State, input: Input, ticks: usize) -> Vec<State> {
     drive(plant, &[start], &[input], ticks).0.into_iter().flatten().collect()
 }
@@ -80,7 +78,7 @@ fn radius_m(states: &[State]) -> f64 {
 
 /// With the lag `τ` the speed after a step of the acceleration is `a (t − τ (1 − e^(−t/τ)))`.
 #[test]
-fn straight_ahead_the_speed_is_the_lagged_acceleration() {
+fn the_speed_is_the_integral_of_the_lagged_acceleration() {
     let (plant, heading) = (Dynamic { acceleration_lag_s: 0.2, jerk_max_mps3: 1e6, ..prompt() }, 0.7);
     let states = alone(plant, at(0.0, 0.0, heading, 0.5), input(0.8, 0.0), 15);
     for (tick, state) in states.iter().enumerate() {
@@ -91,9 +89,9 @@ fn straight_ahead_the_speed_is_the_lagged_acceleration() {
     }
 }
 
-/// Slowly, tyres hardly slip: the circle is that of the bicycle, `R = √(L_r² + (L/tan δ)²)`, within a percent.
+/// At low speed tyres hardly slip: the circle is that of the bicycle model, `R = √(L_r² + (L/tan δ)²)`, within a percent.
 #[test]
-fn a_slow_circle_is_that_of_the_bicycle() {
+fn a_slow_circle_agrees_with_the_bicycle_model() {
     for steering_rad in [-0.6, -0.2, 0.1, 0.4_f64] {
         let states = alone(prompt(), at(0.0, 0.0, 0.0, 0.3), input(0.0, steering_rad), 8);
         let bicycle_m = steering_rad.signum() * 0.19_f64.hypot(0.4 / steering_rad.tan());
@@ -102,7 +100,7 @@ fn a_slow_circle_is_that_of_the_bicycle() {
     }
 }
 
-/// Faster, the front slips more than the rear: `δ = L/R + (a_y/g)(1/c_f − 1/c_r)` for small angles.
+/// At higher speed the front slips more than the rear: `δ = L/R + (a_y/g)(1/c_f − 1/c_r)` for small angles.
 #[test]
 fn a_fast_circle_is_wider_by_the_understeer_gradient() {
     let plant = Dynamic { front_stiffness_per_rad: 6.0, ..prompt() };
@@ -114,7 +112,7 @@ fn a_fast_circle_is_wider_by_the_understeer_gradient() {
     assert!(radius > 1.05 * 0.4 / 0.06, "{radius}");
 }
 
-/// However much is steered: no more lateral acceleration than `μ g`, and at the limit nearly that.
+/// At any steering angle the lateral acceleration is at most `μ g`, and at the limit nearly that.
 #[test]
 fn friction_limits_the_lateral_acceleration() {
     for friction in [0.3, 0.9] {
@@ -131,9 +129,9 @@ fn friction_limits_the_lateral_acceleration() {
     }
 }
 
-/// With brakes stronger than the tyres: `v²/(2 μ g)`, and then it stands, to the last bit.
+/// With brakes stronger than the tyres the stopping distance is `v²/(2 μ g)`; then the car stands, exactly.
 #[test]
-fn the_shortest_way_to_stop_is_that_of_the_friction() {
+fn friction_determines_the_shortest_stopping_distance() {
     for (friction, speed) in [(0.3, 2.0), (0.9, 5.0)] {
         let plant = Dynamic { friction, ..prompt() };
         let states = alone(plant, at(0.0, 0.0, 0.0, speed), input(-20.0, 0.0), 20);
@@ -144,9 +142,9 @@ fn the_shortest_way_to_stop_is_that_of_the_friction() {
     }
 }
 
-/// Standing with the wheels turned and the brake on, nothing moves; and from standstill a turn begins without a jump.
+/// With turned wheels and the brake on, a standing car does not move; from standstill a turn begins without a jump.
 #[test]
-fn standing_still_is_no_singularity() {
+fn standstill_is_not_a_singularity() {
     let states = alone(prompt(), at(0.0, 0.0, 0.3, 0.0), input(-1.0, 0.9), 10);
     assert!(states.iter().all(|state| state.x_m.abs() < 1e-9 && state.speed_mps.abs() < 1e-9), "{states:?}");
     let states = alone(prompt(), at(0.0, 0.0, 0.0, 0.0), input(0.5, 0.9), 10);
@@ -155,8 +153,8 @@ fn standing_still_is_no_singularity() {
     assert!((states[9].speed_mps - 0.5).abs() < 0.06, "{:?}", states[9]);
 }
 
-/// Straight ahead and without braking tyres transmit nothing: what one loses in a crash the other gains, and the impulse is what
-/// passes between them: `m_1 m_2/(m_1 + m_2) (1 + e) Δv`.
+/// Straight ahead and without braking, tyres transmit nothing: one car gains the momentum that the other loses, and the impulse
+/// between them is `m_1 m_2/(m_1 + m_2) (1 + e) Δv`.
 #[test]
 fn a_crash_from_behind_conserves_momentum() {
     let plant = Dynamic { restitution: 0.2, ..prompt() };
@@ -166,14 +164,14 @@ fn a_crash_from_behind_conserves_momentum() {
     let mass = 185.0 * 0.4 * 0.19;
     let [collision] = collisions.as_slice() else { panic!("{collisions:?}") };
     assert!((speeds[0] + speeds[1] - 2.5).abs() < 1e-4, "{speeds:?}");
-    // Rapier adds what pushes the bodies out of one another.
+    // Rapier adds a velocity that separates overlapping bodies.
     assert!((speeds[1] - speeds[0] - 0.2 * 1.5).abs() < 0.03 * 1.5, "{speeds:?}");
     assert!((collision.impulse_ns - mass * (speeds[1] - 0.5)).abs() < 0.02 * collision.impulse_ns, "{collision:?}");
     assert!((collision.time_s - 0.1 / 1.5).abs() < 2e-3, "{collision:?}");
 }
 
-/// Across: the one that is hit is pushed aside and turned, and both total momentum and that about the origin stay, as far as the
-/// tyres let them: on ice.
+/// In a crash from the side the struck car is pushed aside and rotated; on ice, where tyres transmit little, total linear and angular
+/// momentum are conserved.
 #[test]
 fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     let plant = Dynamic { friction: 1e-6, ..prompt() };

@@ -1,15 +1,15 @@
-//! Footprints as Parry sees them: boxes around the bodies, and the distance between two of them.
+//! Footprints as Parry's shapes: boxes around the bodies, and the distance between two of them.
 
 use interplay_planners::{Body, State};
 use interplay_scenarios::Outline;
 use rapier2d::prelude::{Pose, SharedShape, Vector};
 
-/// The outline of a vehicle or an obstacle: a shape, and where it is, seen from the mass centre.
+/// The outline of a vehicle or an obstacle: a shape, and its pose relative to the mass centre.
 #[derive(Clone)]
 pub(super) struct Footprint {
     /// The shape.
     pub shape: SharedShape,
-    /// Where it is.
+    /// Its pose relative to the mass centre.
     pub centre: Pose,
     /// Distance from the mass centre to the farthest point \[m\].
     pub radius_m: f64,
@@ -65,12 +65,12 @@ pub(crate) fn radius_m(body: &Body) -> f64 {
     (ahead * ahead + aside * aside).sqrt()
 }
 
-/// The box, around its own middle.
+/// The box, centred at its middle.
 pub(super) fn shape(body: &Body) -> SharedShape {
     SharedShape::cuboid((0.5 * length_m(body)) as f32, (0.5 * body.width_m) as f32)
 }
 
-/// Where the middle of the box is, seen from the mass centre.
+/// The centre of the box relative to the mass centre.
 pub(super) fn centre(body: &Body) -> Pose {
     Pose::new(Vector::new((0.5 * (body.front_m - body.rear_m)) as f32, 0.0), 0.0)
 }
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_of_boxes_in_closed_form() {
+    fn gaps_of_boxes_agree_with_closed_forms() {
         let body = Body::default();
         let ahead = gap_m((&body, &at(10.0, 0.2, 0.0)), (&body, &at(11.0, 0.2, 0.0)));
         assert!((ahead - 0.6).abs() < 1e-5, "{ahead}");

@@ -6,12 +6,11 @@ use interplay_scenarios::{Scenario, Vehicle};
 use super::footprint::{Footprint, distance_m};
 use super::near_pairs::{near_pairs, some_distance_m};
 
-/// The smallest distances so far in a tick.
 #[derive(Clone, Debug)]
 pub(super) struct FootprintGaps {
     ego: usize,
     footprints: Vec<Footprint>,
-    /// Who is not on the road in this tick.
+    /// Whether each vehicle is not on the road in this tick.
     absent: Vec<bool>,
     smallest_m: Option<f64>,
     closest: Option<Closest>,
@@ -24,12 +23,12 @@ pub(super) struct Closest {
     pub m: f64,
     /// Their indices, ascending.
     pub pair: [usize; 2],
-    /// Share of the tick that had passed.
+    /// Share of the tick that has passed by then.
     pub share: f64,
 }
 
 impl FootprintGaps {
-    /// Measures of a run that has not begun.
+    /// Measures before the first tick.
     pub fn new(scenario: &Scenario) -> Self {
         let footprint = |vehicle: &Vehicle| Footprint::new(&vehicle.body, vehicle.outline());
         let footprints: Vec<Footprint> = scenario.vehicles.iter().map(footprint).collect();
@@ -42,7 +41,7 @@ impl FootprintGaps {
         &self.footprints
     }
 
-    /// Begins a tick in which some are not on the road; returns the distance of the ego there \[m\], none without other vehicles.
+    /// Begins a tick in which some vehicles are not on the road; returns the ego's distance at its start \[m\], none without others.
     pub fn begin(&mut self, states: &[State], absent: Vec<bool>) -> Option<f64> {
         self.absent = absent;
         (self.smallest_m, self.closest) = (None, None);
@@ -50,7 +49,7 @@ impl FootprintGaps {
         self.smallest_m
     }
 
-    /// Looks at the time when a share of the tick has passed.
+    /// Updates the distances at a time within the tick, given as the share that has passed.
     pub fn observe(&mut self, states: &[State], share: f64) {
         let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
         let present = || {
@@ -81,7 +80,7 @@ impl FootprintGaps {
         }
     }
 
-    /// Notes that two vehicles begin to touch when a share of the tick has passed.
+    /// Records that two vehicles begin to touch at a share of the tick.
     pub fn touch(&mut self, pair: [usize; 2], share: f64) {
         if pair.contains(&self.ego) {
             self.smallest_m = Some(0.0);

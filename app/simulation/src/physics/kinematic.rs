@@ -1,4 +1,4 @@
-//! The kinematic plant: every vehicle follows the bicycle model exactly, or its record, and Rapier only says who touches whom.
+//! The kinematic plant: every vehicle follows the bicycle model exactly, or its record, and Rapier only detects contacts.
 
 use interplay_planners::Bicycle;
 use interplay_planners::State;
@@ -10,12 +10,12 @@ use super::gap::FootprintGaps;
 use super::moving::{Contact, Moving};
 use super::path::{Path, next_look};
 
-/// A body that is put where the model says.
+/// A body whose pose the model sets.
 pub(super) fn body(state: &State) -> RigidBodyBuilder {
     RigidBodyBuilder::kinematic_position_based().pose(pose(state, [0.0; 2]))
 }
 
-/// Moves everybody by a tick; their states at its end, and who began to touch.
+/// Advances all vehicles by a tick; returns their states at its end, and the contacts that began.
 pub(super) fn advance(
     world: &mut PhysicsWorld,
     vehicles: &[Moving],
@@ -46,7 +46,7 @@ pub(super) fn advance(
     (paths.iter().map(|path| path.to).collect(), contacts)
 }
 
-/// Puts the bodies at their places and finds who did not touch at the last ones and does now.
+/// Moves the bodies to their poses and finds the pairs that did not touch at the last check and do now.
 fn look(world: &mut PhysicsWorld, vehicles: &[Moving], states: &[State]) -> Vec<Touch> {
     let origin = states.first().map(State::position).unwrap_or_default();
     for (vehicle, state) in vehicles.iter().zip(states) {

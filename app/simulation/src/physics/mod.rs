@@ -1,10 +1,10 @@
-//! Physics: the one folder that names Rapier and Parry.
+//! Physics: the only folder that depends on Rapier and Parry.
 //!
-//! With the kinematic plant every vehicle follows the bicycle model exactly (`kinematic`). Within a tick the bodies are looked
-//! at as often as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances
-//! between footprints. With the dynamic plant Rapier moves the bodies, pushed by their tyres and by one another (`dynamic`).
-//! Both libraries work in `f32` and the planners in `f64`: the conversion is here, with positions taken relative to a
-//! vehicle, so that precision does not depend on how far along the road one is.
+//! With the kinematic plant every vehicle follows the bicycle model exactly (`kinematic`). Within a tick, contacts are checked
+//! often enough to miss none (`path`); at each check Rapier finds the pairs that begin to touch, and Parry the distances
+//! between footprints. With the dynamic plant Rapier moves the bodies by the impulses of tyres and contacts (`dynamic`).
+//! Both libraries use `f32` and the planners `f64`: this folder converts, with positions relative to a
+//! vehicle, so that precision does not depend on the distance along the road.
 
 mod actuators;
 mod contacts;
@@ -54,7 +54,7 @@ pub struct VehicleBody(pub RigidBodyHandle);
 #[derive(Resource)]
 pub struct Physics {
     world: PhysicsWorld,
-    /// The dynamic plant; without it, bodies follow the bicycle.
+    /// The dynamic plant; without it, bodies follow the bicycle model.
     dynamic: Option<DynamicPlant>,
     gaps: FootprintGaps,
 }
@@ -76,10 +76,10 @@ impl Physics {
         Physics { world, dynamic, gaps: FootprintGaps::new(scenario) }
     }
 
-    /// A copy that goes on bit for bit as this world does.
+    /// A copy that continues bit for bit as this world does.
     ///
-    /// The narrow phase is copied with the rest: without it, bodies that touch would begin to touch again. What is left out is
-    /// Rapier's workspace, which holds nothing from one step to the next.
+    /// The narrow phase is copied too: without it, bodies that touch would begin to touch again. The copy omits
+    /// Rapier's workspace, which holds nothing between steps.
     pub fn fork(&self) -> Self {
         let PhysicsWorld {
             gravity,
@@ -183,7 +183,7 @@ pub fn step(
     clock.tick += 1;
 }
 
-/// Where the record of a vehicle puts it at a time, with a heading by full turns nearest to its present one; `None` without a record
+/// The recorded state of a vehicle at a time, with the heading shifted by full turns to the nearest one; `None` without a record
 /// \[s\].
 fn recorded(user: &RoadUser, time_s: f64) -> Option<State> {
     let state = user.record.as_ref()?.state_at(time_s)?;

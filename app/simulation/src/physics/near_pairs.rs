@@ -1,7 +1,7 @@
-//! Pairs of bodies that are near each other, found by sweeping along the axis on which they are spread most.
+//! Pairs of bodies that are near each other, found by sweeping along the axis of the largest spread.
 
 /// All pairs (indices ascending, in lexicographic order) whose circles, with these centres and radii \[m\], are no further apart than
-/// `window_m` along one axis. Places that are no numbers are near to everybody.
+/// `window_m` along one axis. Circles with non-finite positions are near all others.
 pub(crate) fn near_pairs(circles: &[Option<([f64; 2], f64)>], window_m: f64) -> Vec<[usize; 2]> {
     let axis = wider_axis(circles.iter().flatten().map(|(centre, _)| *centre));
     let mut spans: Vec<(f64, f64, usize)> = Vec::with_capacity(circles.len());
@@ -35,7 +35,7 @@ pub(crate) fn some_distance_m(circles: &[Option<([f64; 2], f64)>]) -> f64 {
     apart.filter(|m| m.is_finite()).fold(f64::INFINITY, f64::min)
 }
 
-/// The axis on which places are spread most.
+/// The axis along which positions are spread most.
 fn wider_axis(places: impl Iterator<Item = [f64; 2]>) -> usize {
     let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     for place in places {
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_pair_is_missed() {
+    fn no_near_pair_is_missed() {
         let mut random = Random::new(1, 0);
         for round in 0..200 {
             let spread = if round % 2 == 0 { [300.0, 10.0] } else { [10.0, 300.0] };

@@ -1,4 +1,4 @@
-//! Contacts in closed form: every one is found, at its time, however fast; and none where nobody touches.
+//! Contacts agree with closed forms: every contact is found, at its time and at any speed, and there is none without touching.
 
 use bevy_ecs::prelude::World;
 use bevy_ecs::system::RunSystemOnce;
@@ -23,12 +23,11 @@ const TWO_CARS: &str = r#"
 "#;
 const STEP_S: f64 = 0.1;
 
-/// The state of every vehicle now.
 fn states(world: &World) -> Vec<State> {
     world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
 }
 
-/// Lets two cars of Table 6.1 roll on without input; the collisions and the smallest gap.
+/// Lets two cars of Table 6.1 roll without input; returns the collisions and the smallest gap.
 fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     let mut scenario = from_text("two.toml", TWO_CARS, &[]).expect("a sound scenario");
     for (vehicle, start) in scenario.vehicles.iter_mut().zip(starts) {
@@ -57,8 +56,8 @@ fn length_m() -> f64 {
     body.front_m + body.rear_m
 }
 
-/// From behind: the gap is closed after `gap / speed`, be that early or late in the last tick that is simulated, and at any
-/// place of the world.
+/// From behind: the gap closes after `gap / speed`, early or late in the last simulated tick, and anywhere in
+/// the world.
 #[test]
 fn a_collision_from_behind_is_timed_to_a_thousandth_of_a_tick() {
     for (gap_m, speed_mps) in [(0.02, 1.0), (0.0998, 1.0), (0.25, 1.0), (0.39, 2.0), (1.999, 20.0), (2.0, 300.0)] {
@@ -77,20 +76,20 @@ fn a_collision_from_behind_is_timed_to_a_thousandth_of_a_tick() {
     }
 }
 
-/// Two cars that touch and go on through one another collide once.
+/// Two cars that touch and move through each other collide once.
 #[test]
-fn a_contact_is_one_collision_until_it_ends() {
+fn a_contact_is_reported_once_until_it_ends() {
     let starts = [at(0.0, 0.185, 0.0, 1.0), at(1.0, 0.185, 0.0, 0.0)];
     assert_eq!(roll(starts, 30).0.len(), 1);
 }
 
-/// Across: `b` comes from below and its front corner meets the rear corner of `a`, which has nearly passed. They cover one
-/// another for a millisecond, or miss one another by a centimetre in each direction.
+/// From the side: `b` comes from below and its front corner meets the rear corner of `a`, which has nearly passed. They overlap
+/// for a millisecond, or miss each other by a centimetre in each direction.
 #[test]
-fn corners_that_meet_for_an_instant_collide_and_corners_that_miss_do_not() {
+fn corners_that_touch_for_an_instant_collide_and_corners_that_miss_do_not() {
     let (body, speed_mps) = (Body::default(), 20.0);
     let (half_m, way_m, quarter_rad) = (0.5 * body.width_m, 0.5 * speed_mps, std::f64::consts::FRAC_PI_2);
-    // After half a second the rear of `a` is at x = −rear. It clears `b` at x = rear + width, and so far below is `b`.
+    // After half a second the rear of `a` is at x = −rear. It clears `b` at x = rear + width; `b` starts that far below.
     let to_clear_m = 2.0 * body.rear_m + body.width_m;
     let starts = |late_m: f64| {
         let below_m = way_m + body.front_m + half_m + to_clear_m + late_m;
@@ -105,18 +104,18 @@ fn corners_that_meet_for_an_instant_collide_and_corners_that_miss_do_not() {
     assert!((nearest_m - 1e-5..1.15 * nearest_m).contains(&smallest_m), "{smallest_m}");
 }
 
-/// Ahair is room enough.
+/// A millimetre is enough room.
 #[test]
-fn a_millimetre_apart_is_not_a_collision() {
+fn a_gap_of_a_millimetre_is_not_a_collision() {
     let beside_m = Body::default().width_m + 0.001;
     let (collisions, smallest_m) = roll([at(0.0, 0.0, 0.0, 1.0), at(0.2, beside_m, 0.0, 1.5)], 20);
     assert!(collisions.is_empty(), "{collisions:?}");
     assert!((smallest_m - 0.001).abs() < 1e-5, "{smallest_m}");
 }
 
-/// A scrape along the side is as hard as the approach across it.
+/// The impulse of a scrape along the side depends on the lateral approach.
 #[test]
-fn the_impulse_counts_the_approach_along_the_normal() {
+fn the_impulse_depends_on_the_approach_along_the_normal() {
     let (slant_rad, speed_mps, body) = (0.05, 2.0, Body::default());
     let starts = [at(0.0, 0.0, 0.0, speed_mps), at(0.0, body.width_m + 0.05, -slant_rad, speed_mps)];
     let (collisions, _) = roll(starts, 10);

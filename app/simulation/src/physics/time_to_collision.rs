@@ -17,7 +17,7 @@ pub struct MovingFootprint<'a> {
     pub velocity_mps: [f64; 2],
 }
 
-/// The time until two footprints would touch if neither changed its velocity nor its heading \[s\]; 0 where they touch already,
+/// The time until two footprints would touch at constant velocities and headings \[s\]; 0 if they touch already,
 /// none if that takes longer than `within_s` or never happens.
 ///
 /// Circles around the footprints decide most pairs; the others are swept by Parry.
@@ -32,12 +32,12 @@ pub fn time_to_collision_s(a: &MovingFootprint<'_>, b: &MovingFootprint<'_>, wit
     let velocity = Vector::new(velocity_mps[0] as f32, velocity_mps[1] as f32);
     let options = ShapeCastOptions::with_max_time_of_impact(within_s as f32);
     let (shape_a, shape_b) = (shape(a.body), shape(b.body));
-    // Parry knows the pair of two boxes.
+    // Parry supports every pair of boxes.
     let hit = cast_shapes(&place(a), Vector::ZERO, &*shape_a, &place(b), velocity, &*shape_b, options).ok().flatten();
     hit.map(|hit| f64::from(hit.time_of_impact))
 }
 
-/// Whether two circles that are `radii_m` in radius together meet within a time; the second moves relative to the first, and is
+/// Whether two circles whose radii sum to `radii_m` meet within a time; the second moves relative to the first, and is
 /// `offset_m` away from it.
 fn may_meet(offset_m: [f64; 2], velocity_mps: [f64; 2], radii_m: f64, within_s: f64) -> bool {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
@@ -74,28 +74,28 @@ mod tests {
     }
 
     #[test]
-    fn times_in_closed_form() {
+    fn times_to_collision_agree_with_closed_forms() {
         let is = |found: Option<f64>, wanted_s: f64| {
             let found_s = found.expect("a collision course");
             assert!((found_s - wanted_s).abs() < 1e-4 * (1.0 + wanted_s), "{found_s} {wanted_s}");
         };
-        // Bumper to bumper, 1.6 m apart, both at any place of the world.
+        // Bumper to bumper, 1.6 m apart, anywhere in the world.
         for far_m in [0.0, 10_000.0] {
             is(time_s(at(far_m, 0.2, 0.0, 1.5), at(far_m + 2.0, 0.2, 0.0, 0.5), 100.0), 1.6);
             is(time_s(at(far_m, 0.2, 0.0, 1.5), at(far_m + 2.0, 0.2, std::f64::consts::PI, 0.5), 100.0), 0.79);
         }
-        // The bumper of one meets the side of the other, which crosses slowly enough to be there.
+        // The bumper of one meets the side of the other, which crosses slowly enough.
         let quarter = std::f64::consts::FRAC_PI_2;
         is(time_s(at(0.0, 0.0, 0.0, 1.0), at(2.0, -0.1, quarter, 0.05), 100.0), 2.0 - 0.21 - 0.095);
         is(time_s(at(0.0, 0.0, 0.0, 1.0), at(0.3, 0.0, 0.0, 0.0), 100.0), 0.0);
         assert_eq!(time_s(at(0.0, 0.0, 0.0, 1.0), at(2.0, 0.0, 0.0, 1.1), 100.0), None, "it drives away");
         assert_eq!(time_s(at(0.0, 0.0, 0.0, 1.0), at(2.0, 0.37, 0.0, 0.0), 100.0), None, "it passes beside it");
-        assert_eq!(time_s(at(0.0, 0.0, 0.0, 1.0), at(2.0, 0.0, 0.0, 0.0), 1.5), None, "later than asked for");
+        assert_eq!(time_s(at(0.0, 0.0, 0.0, 1.0), at(2.0, 0.0, 0.0, 0.0), 1.5), None, "beyond the time limit");
     }
 
-    /// The gap is positive before that time, and gone a moment after it; without a time it stays.
+    /// The gap is positive before that time, and zero just after it; without a time it stays positive.
     #[test]
-    fn the_gap_closes_at_that_time() {
+    fn the_gap_closes_at_the_time_to_collision() {
         let body = Body::default();
         let mut met = 0;
         for case in 0..400 {

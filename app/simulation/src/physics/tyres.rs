@@ -1,7 +1,7 @@
-//! Tyres: the single-track model with forces that friction limits.
+//! Tyres: the single-track model with forces limited by friction.
 //!
-//! Both wheels of an axle are one wheel in the middle, at `ℓ_f = L_f` and `ℓ_r = −L_r` along the vehicle; the front one is
-//! turned by `δ`. With the velocity `(v_x, v_y, r)` in the vehicle's frame a wheel rolls and slips at
+//! Both wheels of an axle are combined into one in the middle, at `ℓ_f = L_f` and `ℓ_r = −L_r` along the vehicle; the front one is
+//! steered by `δ`. With the velocity `(v_x, v_y, r)` in the vehicle's frame a wheel rolls and slips at
 //!
 //! ```text
 //! w =  cos δ v_x + sin δ (v_y + ℓ r),      n = −sin δ v_x + cos δ (v_y + ℓ r),      slip angle  −n/|w|
@@ -15,14 +15,14 @@
 //! both      F_x² + F_y² ≤ (μ F_z)²     the friction circle: F_x first, then what is left for F_y
 //! ```
 //!
-//! The slower a wheel rolls, the stiffer is `n ↦ F_y`, without bound. So the lateral forces are those at the *end* of the
+//! As a wheel rolls more slowly, `n ↦ F_y` becomes arbitrarily stiff. So the lateral forces are those at the *end* of the
 //! sub-step `h` (implicit Euler), as impulses `p = h F_y`:
 //!
 //! ```text
 //! (diag(|w|/(h c F_z)) + J M⁻¹ Jᵀ) p = −n,      |p_i| ≤ h √((μ F_z)² − F_x²)
 //! ```
 //!
-//! with the rows `J` of both `n`. Nothing is divided by a speed. Where `w = 0` this is static friction: no slip as long as
+//! with the rows `J` of both `n`. No term is divided by a speed. At `w = 0` this is static friction: no slip as long as
 //! friction holds, which is the kinematic bicycle.
 
 use interplay_planners::Body;
@@ -30,10 +30,10 @@ use interplay_scenarios::Dynamic;
 
 /// Acceleration of gravity \[m/s²\].
 pub(super) const GRAVITY_MPS2: f64 = 9.81;
-/// Sweeps of Gauss and Seidel over the two lateral impulses; each leaves a fifth of the error or less.
+/// Number of Gauss-Seidel sweeps over the two lateral impulses; each reduces the error to a fifth or less.
 const GAUSS_SEIDEL_SWEEPS: usize = 12;
 
-/// A velocity, or an impulse, along and across the vehicle and about its mass centre.
+/// A velocity or an impulse in the vehicle's frame: along, across, and about its mass centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Planar {
     /// Component along the vehicle \[m/s or N s\].
@@ -67,7 +67,7 @@ pub(super) struct Chassis {
     pub mass_kg: f64,
     /// Moment of inertia about the mass centre \[kg m²\].
     pub inertia_kgm2: f64,
-    /// Where the axles are along the vehicle, front and rear \[m\].
+    /// Positions of the axles along the vehicle, front and rear \[m\].
     axles_m: [f64; 2],
     /// Share of the mass that each axle carries.
     shares: [f64; 2],
@@ -90,7 +90,7 @@ impl Chassis {
         }
     }
 
-    /// The directions in which the wheels roll and slip, as rows over the velocity: front and rear.
+    /// The rolling and slipping directions of the wheels, as rows over the velocity: front and rear.
     fn wheels(&self, steering_rad: f64) -> [[Planar; 2]; 2] {
         let (sin, cos) = libm::sincos(steering_rad);
         let wheel = |at_m: f64, sin: f64, cos: f64| {
@@ -106,7 +106,7 @@ impl Chassis {
         Planar { forward: forward / self.mass_kg, left: left / self.mass_kg, yaw: yaw / self.inertia_kgm2 }
     }
 
-    /// What the tyres transmit during a sub-step that begins with `velocity`, with the actuators at `acceleration_mps2` and
+    /// The impulse of the tyres during a sub-step that begins with `velocity`, with the actuators at `acceleration_mps2` and
     /// `steering_rad` \[N s, N m s\].
     pub fn impulse(&self, velocity: &Planar, acceleration_mps2: f64, steering_rad: f64, step_s: f64) -> Planar {
         let wheels = self.wheels(steering_rad);
@@ -161,7 +161,7 @@ mod tests {
         Chassis::new(&Body::default(), 14.0, &Dynamic { friction: 0.7, ..Dynamic::default() })
     }
 
-    /// Velocities in all directions, fast and slow, with all that actuators may do.
+    /// Checks velocities in all directions, fast and slow, with all inputs of the actuators.
     fn for_all(check: impl Fn(Planar, f64, f64)) {
         for forward in [-2.0, -0.01, 0.0, 1e-9, 0.3, 4.0] {
             for left in [-1.0, 0.0, 0.02] {
@@ -186,7 +186,7 @@ mod tests {
         });
     }
 
-    /// Tyres that do not drive take energy away, or leave it.
+    /// Tyres that do not drive reduce the kinetic energy or keep it.
     #[test]
     fn without_drive_the_kinetic_energy_never_grows() {
         let chassis = chassis();
@@ -202,7 +202,7 @@ mod tests {
 
     /// Sliding sideways at standstill, both axles stop at once if friction suffices.
     #[test]
-    fn a_wheel_that_does_not_roll_does_not_slip() {
+    fn a_wheel_at_standstill_does_not_slip() {
         let (chassis, velocity) = (chassis(), Planar { forward: 0.0, left: 1e-3, yaw: 4e-3 });
         let after = velocity.plus(1.0, &chassis.response(&chassis.impulse(&velocity, 0.0, 0.0, SUB_STEP_S)));
         assert!(after.left.abs() < 1e-9 && after.yaw.abs() < 1e-8, "{after:?}");

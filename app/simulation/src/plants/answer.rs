@@ -1,4 +1,4 @@
-//! What a plant may answer, and what of it is accepted.
+//! Answers of a plant, and their validation.
 
 use serde::Deserialize;
 
@@ -6,7 +6,7 @@ use super::error::{PlantError, TEMPERATURES_C};
 
 /// The version of the protocol.
 pub const PROTOCOL: u32 = 1;
-/// How much of a wrong answer an error shows \[characters\].
+/// Maximum length of an invalid answer in an error \[characters\].
 const MAX_SHOWN_CHARACTERS: usize = 120;
 
 /// A message of the plant; keys that are not listed are ignored.
@@ -17,16 +17,16 @@ enum Answer {
     Ready { protocol: u32, temperatures_c: Vec<f64> },
     /// Answer to `step`: the temperatures of the zones at the end of that step \[°C\].
     State { step: usize, temperatures_c: Vec<f64> },
-    /// Answer to either: the program cannot go on.
+    /// Answer to either: the program cannot continue.
     Error { reason: String },
 }
 
-/// A question, and what an answer to it must have.
+/// A question, with the requirements on its answer.
 #[derive(Clone, Debug)]
 pub struct Question<'a> {
     /// The question in words, for errors.
     pub words: String,
-    /// The step that is asked for; none at the start.
+    /// The requested step; none at the start.
     pub step: Option<usize>,
     /// The names of the zones.
     pub zones: &'a [String],
@@ -36,7 +36,7 @@ impl Question<'_> {
     /// The temperatures of the zones in an answer \[°C\].
     ///
     /// # Errors
-    /// [`PlantError`] if the line is no answer to this question, or if a number cannot be the temperature of a zone.
+    /// [`PlantError`] if the line does not answer this question, or if a number cannot be the temperature of a zone.
     pub fn temperatures_c(&self, line: &str) -> Result<Vec<f64>, PlantError> {
         let question = || self.words.clone();
         let invalid = |reason: String| PlantError::Invalid { question: question(), reason };
@@ -82,7 +82,7 @@ impl Question<'_> {
     }
 }
 
-/// What the reader of JSON says; an answer is one line, so only the column helps.
+/// The message of the JSON parser; an answer is one line, so only the column helps.
 fn without_line(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
@@ -103,14 +103,14 @@ mod tests {
     }
 
     #[test]
-    fn sound_answers_are_taken() {
+    fn valid_answers_are_accepted() {
         let ready = r#"{"message":"ready","protocol":1,"temperatures_c":[20,21.5],"name":"extra keys are ignored"}"#;
         assert_eq!(answered(None, ready), Ok(vec![20.0, 21.5]));
         assert_eq!(answered(Some(3), r#"{"message":"state","step":3,"temperatures_c":[-5,0]}"#), Ok(vec![-5.0, 0.0]));
     }
 
     #[test]
-    fn wrong_answers_are_refused_and_say_what_is_wanted() {
+    fn invalid_answers_are_refused_with_the_expected_one() {
         let wrong = [
             (None, "", "no message"),
             (None, "hello", "in `hello`"),

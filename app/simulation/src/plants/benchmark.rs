@@ -1,23 +1,23 @@
-//! The indicators of a benchmark whose test is over.
+//! The indicators of a completed benchmark test.
 
 use std::collections::BTreeMap;
 
 use interplay_building::benchmark::Indicators;
 use serde::Serialize;
 
-/// The indicators of a test that is over.
+/// The indicators of a completed test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Benchmark {
-    /// What BOPTEST computed, by its names; an indicator that the case does not have is `null`.
+    /// The indicators that BOPTEST computed, by its names; an indicator that the case does not have is `null`.
     pub official: BTreeMap<String, Option<f64>>,
-    /// What we computed from the same measurements; none without `building.plant.indicators`.
+    /// The indicators that we computed from the same measurements; none without `building.plant.indicators`.
     pub ours: Option<Indicators>,
-    /// Mean share of a step that passed between an answer and the next request. By the clock.
+    /// Mean share of a step between an answer and the next request, by the clock.
     pub time_ratio: Option<f64>,
 }
 
 impl Benchmark {
-    /// Puts the indicators together: BOPTEST's by their names, and ours. `control_s` is how long each decision took.
+    /// Combines BOPTEST's indicators, by name, with ours. `control_s` is the duration of each decision.
     pub fn new(
         official: BTreeMap<String, Option<f64>>,
         ours: Option<Indicators>,

@@ -1,4 +1,4 @@
-//! What can go wrong with a plant behind a socket.
+//! Errors of a plant behind a socket.
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -7,22 +7,22 @@ use thiserror::Error;
 
 use crate::plants::boptest::BoptestError;
 
-/// Temperatures of zones that a plant may answer \[°C\].
+/// Plausible temperatures of zones in a plant's answer \[°C\].
 pub const TEMPERATURES_C: RangeInclusive<f64> = -100.0..=200.0;
 
-/// Why a plant that is another program gave no temperatures.
+/// Why a plant in another program gave no temperatures.
 #[derive(Debug, Error)]
 pub enum PlantError {
     /// A server of BOPTEST did not answer as agreed.
     #[error(transparent)]
     Boptest(#[from] BoptestError),
-    /// Nobody listens, or the address is unknown.
+    /// No program listens, or the address is unknown.
     #[error(
         "cannot connect to the plant at {address}: {reason}; start the program that answers there before the run, or \
          change `building.plant.address`"
     )]
     Connect {
-        /// Address at which the program should listen.
+        /// Address of the program.
         address: String,
         /// The system's reason.
         reason: io::Error,
@@ -57,8 +57,8 @@ pub enum PlantError {
         /// The longest answer \[bytes\].
         limit: usize,
     },
-    /// The answer is no message of the protocol.
-    #[error("the plant's answer to {question} is no message of the protocol: {reason}, in `{answer}`")]
+    /// The answer is not a message of the protocol.
+    #[error("the plant's answer to {question} is not a message of the protocol: {reason}, in `{answer}`")]
     NoMessage {
         /// The question that was asked, in words.
         question: String,
@@ -67,7 +67,7 @@ pub enum PlantError {
         /// The beginning of the answer.
         answer: String,
     },
-    /// The answer is a message that is no answer to the question.
+    /// The answer is a message that does not answer the question.
     #[error("the plant's answer to {question} is not valid: {reason}")]
     Invalid {
         /// The question that was asked, in words.
@@ -76,14 +76,14 @@ pub enum PlantError {
         reason: String,
     },
     /// A number of the question is not finite and cannot be sent.
-    #[error("heat or gains of zone `{zone}` at {question} are no finite number, which cannot be sent to the plant")]
+    #[error("heat or gains of zone `{zone}` at {question} are not finite and cannot be sent to the plant")]
     NotFinite {
         /// The question, in words.
         question: String,
         /// The first zone with such a number.
         zone: String,
     },
-    /// The other program says that it cannot go on.
+    /// The other program reports that it cannot continue.
     #[error("the plant reports an error at {question}: {reason}")]
     Reported {
         /// The question that was asked, in words.

@@ -1,4 +1,4 @@
-//! What a plant that is another program knows beforehand of its own run.
+//! What a plant in another program knows in advance about its own run.
 
 use interplay_building::comfort::{Agenda, ComfortBounds};
 use interplay_building::day::Surroundings;
@@ -6,21 +6,21 @@ use interplay_building::energy::Tariff;
 use interplay_building::occupancy::ZoneRecord;
 use interplay_building::weather::Weather;
 
-/// Weather, people, bounds of comfort and prices of a whole run, which take the place of those of the scenario.
+/// Weather, people, comfort bounds and prices of a whole run, which replace those of the scenario.
 #[derive(Clone, Debug)]
 pub struct Foreseen {
     /// The weather from the first midnight on.
     pub weather: Weather,
-    /// Heat of people and machines, for the zones of which it is known.
+    /// Heat of people and machines, for the zones with known values.
     pub people: Vec<ZoneRecord>,
-    /// Bounds of comfort; none leaves the wanted temperatures as they are.
+    /// Comfort bounds; none keeps the scenario's targets.
     pub bounds: Option<ComfortBounds>,
-    /// Prices of electricity; none leaves them as they are.
+    /// Prices of electricity; none keeps the scenario's.
     pub tariff: Option<Tariff>,
 }
 
 impl Foreseen {
-    /// Puts itself in the place of weather and people.
+    /// Replaces the weather and people of the scenario.
     #[must_use]
     pub fn around(&self, surroundings: Surroundings) -> Surroundings {
         let mut surroundings = Surroundings { weather: self.weather.clone(), ..surroundings };
@@ -30,7 +30,7 @@ impl Foreseen {
         surroundings
     }
 
-    /// Puts itself in the place of wanted temperatures and prices.
+    /// Replaces the targets and prices of the scenario.
     #[must_use]
     pub fn wanted(&self, agenda: Agenda) -> Agenda {
         let agenda = match &self.bounds {

@@ -16,7 +16,7 @@ pub struct StepInputs<'a> {
     pub step: usize,
     /// Heat that the equipment gives, negative when it cools \[kW\].
     pub heat_kw: &'a [f64],
-    /// Heat of people, machines and sun, as the network has it \[kW\]: of each zone, and of the walls where the sun falls on one.
+    /// Heat of people, machines and sun, from the network \[kW\]: for each zone, and for the walls on which the sun shines.
     pub gains_kw: &'a [f64],
     /// Outdoor temperature \[°C\].
     pub ambient_c: f64,
@@ -36,15 +36,15 @@ pub trait ThermalPlant: Debug + Send + Sync {
     /// As [`ThermalPlant::start`]; the temperatures are then unchanged.
     fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError>;
 
-    /// Whether another program is the plant: the network is then a model of it, and its walls are estimated.
+    /// Whether another program is the plant: the network is then a model of it, and temperatures of walls are estimated.
     fn is_foreign(&self) -> bool;
 
-    /// What the plant knows beforehand of the whole run, after its start; it takes the place of what the scenario states.
+    /// What the plant knows in advance about the whole run, after its start; it replaces the statements of the scenario.
     fn foreseen(&self) -> Option<&Foreseen> {
         None
     }
 
-    /// What the meter of electricity counted on the last day that is over.
+    /// The reading of the electricity meter on the last completed day.
     fn metered(&self) -> Option<Metered> {
         None
     }

@@ -1,4 +1,4 @@
-//! Lines of text over TCP, each with a deadline and a greatest length.
+//! Lines of text over TCP, each with a deadline and a maximum length.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -10,10 +10,9 @@ use super::error::PlantError;
 #[derive(Debug)]
 pub struct Lines {
     stream: TcpStream,
-    /// What has been received beyond the last line.
+    /// Bytes received after the last line.
     received: Vec<u8>,
     timeout: Duration,
-    /// The longest line \[bytes\].
     limit: usize,
 }
 
@@ -38,10 +37,10 @@ impl Lines {
         Err(failed(last))
     }
 
-    /// Sends a line, and returns the next one that comes. `question` says in words what is asked.
+    /// Sends a line, and returns the next received one. `question` names the question in errors.
     ///
     /// # Errors
-    /// [`PlantError`] if the line cannot be sent, or if no line of an allowed length comes in time.
+    /// [`PlantError`] if the line cannot be sent, or if no line of permitted length arrives in time.
     pub fn ask(&mut self, question: &str, line: &str) -> Result<String, PlantError> {
         self.send(line).map_err(|reason| self.broken(question, reason))?;
         let deadline = Instant::now() + self.timeout;
@@ -57,10 +56,10 @@ impl Lines {
         }
     }
 
-    /// Sends a line and does not wait.
+    /// Sends a line without waiting for an answer.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     pub fn send(&mut self, line: &str) -> io::Result<()> {
         self.stream.write_all(format!("{line}\n").as_bytes())
     }
@@ -87,7 +86,7 @@ impl Lines {
     fn broken(&self, question: &str, reason: io::Error) -> PlantError {
         let question = question.to_owned();
         match reason.kind() {
-            // A socket whose time is over says either, depending on the system.
+            // A socket that times out returns either, depending on the system.
             ErrorKind::TimedOut | ErrorKind::WouldBlock => {
                 PlantError::Timeout { question, timeout_s: self.timeout.as_secs_f64() }
             }

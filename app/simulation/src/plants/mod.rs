@@ -1,4 +1,4 @@
-//! What the heat of the equipment acts on: our own network, or another program.
+//! The plant on which the equipment's heat acts: our own network, or another program.
 //!
 //! ```text
 //! start: temperatures at the first midnight        step: heat, people, weather -> temperatures at the step's end

@@ -1,4 +1,4 @@
-//! A plant that is another program: each step is a line of JSON there and a line back, over TCP.
+//! A plant in another program: each step is a JSON line to it and one back, over TCP.
 //!
 //! `docs/guide/foreign-plants.md` describes the protocol.
 
@@ -16,11 +16,10 @@ use super::lines::Lines;
 use super::walls;
 use crate::state::not_copied::NotCopied;
 
-/// Room of a number and of the rest in an answer \[bytes\].
+/// Space for a number and for the rest of an answer \[bytes\].
 const NUMBER_BYTES: usize = 64;
 const REST_BYTES: usize = 64 * 1024;
 
-/// A message to the plant.
 #[derive(Debug, Serialize)]
 #[serde(tag = "message", rename_all = "kebab-case")]
 enum Request<'a> {
@@ -63,7 +62,7 @@ pub struct SocketPlantStart {
     pub initial_c: f64,
 }
 
-/// A day of what acts on the building besides its equipment.
+/// A day of all influences on the building besides its equipment.
 #[derive(Debug)]
 struct OutsideDay {
     day: usize,
@@ -76,7 +75,7 @@ struct OutsideDay {
 #[derive(Debug)]
 pub struct SocketPlant {
     lines: Lines,
-    /// What the controller takes the building for.
+    /// The controller's model of the building.
     believed: Model,
     surroundings: Surroundings,
     told: SocketPlantStart,
@@ -100,7 +99,7 @@ impl SocketPlant {
         Ok(Self { lines, believed, surroundings, told, today: None })
     }
 
-    /// The outside of a day, drawn once.
+    /// The influences of a day, drawn once.
     fn outside(&mut self, day: usize) -> &OutsideDay {
         let (step_s, steps) = (self.believed.step_s(), self.told.steps_per_day);
         let surroundings = &self.surroundings;
@@ -115,7 +114,7 @@ impl SocketPlant {
         self.today.insert(kept.unwrap_or_else(draw))
     }
 
-    /// Asks for temperatures of the zones.
+    /// Requests the temperatures of the zones.
     fn ask(&mut self, words: String, step: Option<usize>, request: &str) -> Result<Vec<f64>, PlantError> {
         let line = self.lines.ask(&words, request)?;
         Question { words, step, zones: &self.believed.network().names()[..self.zones()] }.temperatures_c(&line)
@@ -126,7 +125,7 @@ impl SocketPlant {
     }
 }
 
-/// A message as a line. Its numbers are finite, so writing it cannot fail; an empty line would be refused by the plant.
+/// A message as a line. Its numbers are finite, so serialisation cannot fail; the plant would refuse an empty line.
 fn text(request: &Request<'_>) -> String {
     serde_json::to_string(request).unwrap_or_default()
 }
@@ -190,7 +189,7 @@ impl ThermalPlant for SocketPlant {
 
 impl Drop for SocketPlant {
     fn drop(&mut self) {
-        // The run is over, whether or not the other side still listens.
+        // The run is over, whether or not the program still listens.
         let _ = self.lines.send(&text(&Request::End));
     }
 }

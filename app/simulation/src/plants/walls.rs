@@ -1,6 +1,6 @@
-//! The temperatures of walls that nobody measures, estimated by a model from those of the zones.
+//! Estimates the temperatures of unmeasured walls by a model from those of the zones.
 //!
-//! Walls follow the model, with the zones as measured at every step. Their errors decay at the rates of the walls between
+//! Walls follow the model, with the zones as measured at every step. Errors of the estimate decay at the rates of the walls between
 //! zones of known temperature, so the estimate converges for every network.
 
 use interplay_building::network::Network;
@@ -29,9 +29,9 @@ mod tests {
 
     use super::*;
 
-    /// A wall at rest has the temperature that its place between both sides gives it, whatever its heat capacity.
+    /// A wall at rest has the temperature of its position between both sides, for any heat capacity.
     #[test]
-    fn walls_at_rest_lie_between_both_sides() {
+    fn temperatures_of_walls_at_rest_lie_between_both_sides() {
         let zones = [Zone::named("office"), Zone::named("store")];
         let outer =
             Wall { mass_position: Some(0.25), ..Wall::new("office", "ambient", 6.0).with_capacity_kj_per_k(15_000.0) };

@@ -1,23 +1,23 @@
-//! What a driver made of another one, for the report.
+//! The belief of a driver about another one, for the report.
 
 use serde::Serialize;
 
 use crate::measure::HeldBelief;
 
-/// What a driver believed of another one in the end.
+/// The final belief of a driver about another one.
 #[derive(Clone, Debug, Serialize)]
 pub struct BeliefReport {
     /// The name of the other vehicle.
     pub about: String,
-    /// The kind of driver for which it was taken: whose plan was its prediction.
+    /// The most probable kind of driver, whose plan was the prediction.
     pub taken_for: String,
     /// The probability of that kind.
     pub probability: f64,
-    /// The fewest kinds that contain the driver with a probability of at least 0.9, the likeliest first.
+    /// The smallest set of kinds that contains the driver with a probability of at least 0.9, the most probable first.
     pub may_be: Vec<&'static str>,
-    /// The probability of all of these.
+    /// The probability of this set.
     pub may_be_probability: f64,
-    /// Since when it had been taken for that kind \[s\].
+    /// Time since when the driver had been classified as that kind \[s\].
     pub since_s: f64,
     /// Mean of the safety weight, if it is a human.
     pub safety_weight: f64,

@@ -1,4 +1,4 @@
-//! Judges bounds on metrics. What fails names the vehicles and the time, where there are any.
+//! Judges bounds on metrics. A failure names the vehicles and the time, if there are any.
 
 use interplay_scenarios::{MetricBound, MetricLimit};
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use super::expectation::Expectation;
 use super::outcome::{Report, VehicleReport};
 use crate::measure::{Measured, MetricValue};
 
-/// Judges a bound; none if it is about a vehicle that is not there.
+/// Judges a bound; none if it concerns a vehicle that does not exist.
 pub(super) fn judge_bound(bound: &MetricBound<'_>, report: &Report) -> Option<Expectation> {
     let MetricBound { metric, limit, .. } = bound;
     let (got, passed) = match (bound.vehicle, report.metrics.get(metric)) {
@@ -18,7 +18,7 @@ pub(super) fn judge_bound(bound: &MetricBound<'_>, report: &Report) -> Option<Ex
     Some(Expectation::new(bound.what.clone(), limit.to_json(), got, passed))
 }
 
-/// Whether a value is within a limit. What has no value keeps every bound, and is neither true nor false.
+/// Whether a value is within a limit. A missing value satisfies every bound, and is neither true nor false.
 fn holds(limit: MetricLimit, measured: &Measured) -> bool {
     let value = measured.value.map(MetricValue::as_number);
     value.map_or(!matches!(limit, MetricLimit::Is(_)), |value| limit.admits(value))
@@ -33,7 +33,7 @@ fn of_vehicle(vehicle: &VehicleReport, metric: &str, limit: MetricLimit) -> (Val
     (got, holds(limit, measured))
 }
 
-/// The vehicle that is worst off decides.
+/// The vehicle with the worst value decides.
 fn of_all(report: &Report, metric: &str, limit: MetricLimit) -> (Value, bool) {
     let all = report.vehicles.iter().filter_map(|vehicle| Some((vehicle, vehicle.metrics.get(metric)?)));
     let valued = all.clone().filter_map(|(vehicle, (declaration, measured))| {

@@ -12,28 +12,28 @@ use crate::state::whole_run::WholeRun;
 /// The outcome for a building.
 #[derive(Clone, Debug, Serialize)]
 pub struct BuildingReport {
-    /// The word for its controller.
+    /// The kind of its controller.
     pub controller: String,
-    /// How many zones there are.
+    /// Number of zones.
     pub zones: usize,
     /// The names of the zones.
     #[serde(skip)]
     pub zone_names: Vec<String>,
-    /// Digests of what each part of the climate produced.
+    /// Digests of the results of each part of the phase Climate.
     pub digests: BuildingDigests,
-    /// What is allowed and may not have been meant, such as zones that exchange heat with nobody.
+    /// Settings that are allowed but may be unintended, such as zones without heat exchange.
     pub remarks: Vec<String>,
     /// The days on which the controller had no plan of its own, and why.
     pub fallbacks: Vec<Fallback>,
-    /// The days whose feedback is certified less well than was asked for, and why.
+    /// The days whose feedback has a weaker certificate than requested, and why.
     pub weaker_feedbacks: Vec<Fallback>,
     /// The currency of costs; none without a tariff.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub currency: Option<String>,
-    /// All days beside the cheapest run with perfect foresight; none where another program is the building, or for large buildings.
+    /// All days compared with the cheapest run with perfect foresight; none for a foreign plant or a large building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whole_run: Option<WholeRun>,
-    /// The indicators of the benchmark that was the plant, its own and ours.
+    /// The indicators of the benchmark as the plant, its own and ours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub benchmark: Option<Benchmark>,
     /// Every day.
@@ -52,7 +52,7 @@ pub struct ZoneOutcome {
 }
 
 impl BuildingReport {
-    /// Puts the measures together.
+    /// Builds the outcome from the measures.
     pub fn new(scenario: &Scenario, measures: &BuildingMeasures) -> Self {
         BuildingReport {
             controller: scenario.controller().kind().to_owned(),

@@ -1,4 +1,4 @@
-//! Whether a counterfactual did what is expected of it, by itself and beside the scenario's own run.
+//! Judges whether a counterfactual fulfils its expectations, by itself and relative to the scenario's own run.
 
 use interplay_scenarios::{CompletionShift, CounterfactualConfig, Scenario};
 use serde_json::json;
@@ -7,7 +7,7 @@ use super::expectation::Expectation;
 use super::judge::judge;
 use super::outcome::{CounterfactualReport, Report};
 
-/// The smallest difference between two times that are not the same \[s\]: times are counted in steps, and far coarser.
+/// Times that differ by less are equal \[s\]: times are multiples of far longer steps.
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 /// Judges a counterfactual of `scenario`: `main` is the scenario's own run, `run` that of the counterfactual.
@@ -42,14 +42,14 @@ fn completed_s(report: &Report, name: &str) -> Option<f64> {
     report.vehicle(name).and_then(|vehicle| vehicle.completed_s)
 }
 
-/// Whether a vehicle that reaches its goal in the scenario's own run does so later in the other one, or never.
+/// Whether a vehicle that reaches its goal in the scenario's own run does so later in the counterfactual, or never.
 fn later(shift: &CompletionShift, main: &Report, run: &Report) -> Expectation {
     let [in_main, here] = [main, run].map(|report| completed_s(report, &shift.vehicle));
     let passed = in_main.is_some_and(|before| here.unwrap_or(f64::INFINITY) - before >= shift.by_s - TIME_TOLERANCE_S);
     compared("later", shift, [in_main, here], passed)
 }
 
-/// Whether a vehicle reaches its goal earlier than in the scenario's own run, where it may never do so.
+/// Whether a vehicle reaches its goal earlier than in the scenario's own run, or only in the counterfactual.
 fn earlier(shift: &CompletionShift, main: &Report, run: &Report) -> Expectation {
     let [in_main, here] = [main, run].map(|report| completed_s(report, &shift.vehicle));
     let passed = here.is_some_and(|time| in_main.unwrap_or(f64::INFINITY) - time >= shift.by_s - TIME_TOLERANCE_S);
@@ -66,7 +66,7 @@ fn compared(key: &str, shift: &CompletionShift, [in_main, here]: [Option<f64>; 2
     }
 }
 
-/// Whether exactly these expectations of the scenario fail in the other run. Those that a flag has removed do not count.
+/// Whether exactly these expectations of the scenario fail in the counterfactual. Those that a flag has removed do not count.
 fn breaks(names: &[String], scenario: &Scenario, run: &Report) -> Expectation {
     let stated = scenario.expect.names();
     let wanted: Vec<&String> = names.iter().filter(|name| stated.contains(*name)).collect();

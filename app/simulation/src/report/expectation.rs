@@ -1,4 +1,4 @@
-//! One expectation of a scenario and what became of it.
+//! One expectation of a scenario and its outcome.
 
 use std::fmt;
 
@@ -6,29 +6,28 @@ use interplay_scenarios::readable;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// One expectation and what became of it.
+/// One expectation and its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Expectation {
     /// The key in the scenario file, with the vehicle where there is one.
     pub what: String,
-    /// What was expected.
+    /// The expected value.
     pub want: Value,
-    /// What happened.
+    /// The actual value.
     pub got: Value,
     /// Whether it held.
     pub passed: bool,
-    /// Where it was worst, of what concerns several days or zones.
+    /// Day or zone of the worst value, if it concerns several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
 }
 
 impl Expectation {
-    /// An expectation of one number, vehicle or run.
     pub(super) fn new(what: impl Into<String>, want: Value, got: Value, passed: bool) -> Self {
         Expectation { what: what.into(), want, got, passed, at: None }
     }
 
-    /// What was expected and what happened, with numbers as a reader needs them.
+    /// The expected and the actual value, with numbers rounded for a reader.
     pub fn shown(&self) -> [Value; 2] {
         [rounded(&self.want, None), rounded(&self.got, self.want.as_f64())]
     }
@@ -42,7 +41,7 @@ impl fmt::Display for Expectation {
     }
 }
 
-/// The value with numbers as a reader needs them. One that rounding would make equal to the bound keeps its digits.
+/// The value with numbers rounded for a reader. A number that rounding would make equal to the bound keeps its digits.
 fn rounded(value: &Value, bound: Option<f64>) -> Value {
     match value {
         Value::Number(number) if number.is_f64() => {

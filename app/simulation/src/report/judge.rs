@@ -1,4 +1,4 @@
-//! Whether a run did what its scenario expects.
+//! Judges whether a run fulfilled the expectations of its scenario.
 
 use std::collections::BTreeSet;
 
@@ -54,12 +54,12 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
     judged
 }
 
-/// Each pair once, whoever is named first.
+/// The distinct pairs, whichever vehicle is named first.
 fn unordered<'a>(pairs: impl Iterator<Item = &'a [String; 2]>) -> BTreeSet<[&'a str; 2]> {
     pairs.map(|[a, b]| if a < b { [a.as_str(), b] } else { [b.as_str(), a] }).collect()
 }
 
-/// Judges whether those who keep the rules broke one; each who did is named with how often.
+/// Judges whether rule-keeping vehicles broke a rule; the actual value names each that did, with the count.
 fn rules_kept(wanted: bool, report: &Report) -> Expectation {
     let keepers = report.vehicles.iter().filter(|vehicle| vehicle.keeps_rules);
     let broken: Map<String, Value> = keepers
@@ -92,7 +92,7 @@ fn completes(window: &Completes, report: &Report) -> Expectation {
     }
 }
 
-/// The limits that are stated; without one, any time will do.
+/// The stated limits; without one, any time fulfils the expectation.
 fn wanted_window(window: &Completes) -> Value {
     let limits = [("after_s", window.after_s), ("before_s", window.before_s)];
     let stated: Map<String, Value> =
@@ -100,8 +100,8 @@ fn wanted_window(window: &Completes) -> Value {
     if stated.is_empty() { json!("any time") } else { Value::Object(stated) }
 }
 
-/// Judges whether one vehicle let another go first wherever their ways meet and one of them came. Of who keeps the rules, order alone
-/// is not enough: it must have yielded.
+/// Judges whether one vehicle let another go first wherever their routes meet and one of them entered. For a rule-keeping vehicle order
+/// alone is not enough: it must have yielded.
 fn yields(expected: &ExpectedYield, report: &Report) -> Expectation {
     let ExpectedYield { vehicle, to } = expected;
     let is_theirs = |passage: &&Passage| {

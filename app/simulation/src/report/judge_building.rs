@@ -1,4 +1,4 @@
-//! Whether a building did what its scenario expects.
+//! Judges whether a building fulfilled the expectations of its scenario.
 
 use interplay_building::day::ZoneFigures;
 use interplay_scenarios::{BuildingExpect, ExpectedZone};
@@ -9,7 +9,7 @@ use super::expectation::Expectation;
 use crate::state::day::DayFigures;
 use crate::state::worst_zones::WorstZones;
 
-/// Judges what is expected of a building; the worst of the days that count.
+/// Judges the expectations of a building, by the worst of the days that count.
 pub(super) fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -> Vec<Expectation> {
     let days = report.iterations.get(expect.after_iterations..).unwrap_or_default();
     let numbered = || days.iter().zip(expect.after_iterations + 1..);
@@ -24,7 +24,7 @@ pub(super) fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -
     let first = report.iterations.first().map_or(f64::NAN, |day| day.figures.cost);
     for (what, most, figure, zone) in upper_bounds(expect) {
         let Some(most) = most else { continue };
-        // What is not known on one of the days is not known to be within the bound.
+        // A value that is unknown on one of the days is not known to be within the bound.
         let each: Option<Vec<_>> = numbered().map(|(day, number)| Some((figure(day, first)?, number, day))).collect();
         let worst = each.and_then(|each| each.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)));
         let at = worst.filter(|(worst, ..)| *worst > 0.0).map(|(_, number, day)| {
@@ -57,7 +57,7 @@ pub(super) fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -
     judged
 }
 
-/// A figure of a day that has an upper bound, given the cost of the first day, and the zone that does most for it.
+/// A bounded figure of a day, given the cost of the first day, and the zone that contributes most to it.
 type Bound = (&'static str, Option<f64>, fn(&DayFigures, f64) -> Option<f64>, fn(&WorstZones) -> Option<usize>);
 
 fn upper_bounds(expect: &BuildingExpect) -> [Bound; 10] {
@@ -106,13 +106,13 @@ fn upper_bounds(expect: &BuildingExpect) -> [Bound; 10] {
     ]
 }
 
-/// By how much the plan of a day is dearer than the centralised one, as a share.
+/// Relative excess of a day's cost over that of the centralised plan.
 fn above_centralised(day: &DayFigures) -> Option<f64> {
     let exchange = day.exchange?;
     Some(exchange.cost / exchange.centralised_cost? - 1.0)
 }
 
-/// Judges what is expected of a zone; the worst of the days after the first `first_days`.
+/// Judges the expectations of a zone, by the worst of the days after the first `first_days`.
 pub(super) fn judge_zone(expect: &ExpectedZone, first_days: usize, report: &BuildingReport) -> Vec<Expectation> {
     let zone = report.zone_figures.iter().find(|zone| zone.zone == expect.zone);
     let days = zone.and_then(|zone| zone.iterations.get(first_days..)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a run amounts to: figures, and whether the scenario's expectations held.
+//! The report of a run: figures, and the verdicts on the scenario's expectations.
 
 mod belief;
 mod bounds;
@@ -22,7 +22,7 @@ use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
 use crate::state::components::to_nanosecond;
 
 impl Report {
-    /// Puts the measures of a run together and judges them. `wall_s` is how long it took; `ended_early_s` where it was ended before
+    /// Builds the report from the measures of a run and judges it. `wall_s` is its duration; `ended_early_s` is set if the run ended before
     /// the scenario was over \[s\].
     pub fn new(
         name: &str,
@@ -64,7 +64,7 @@ impl Report {
         report
     }
 
-    /// Judges the counterfactuals of `scenario` by their runs, which come in the scenario's order.
+    /// Judges the counterfactuals of `scenario` by their runs, in the scenario's order.
     pub fn judge_counterfactuals(&mut self, scenario: &Scenario, runs: Vec<Report>) {
         let counterfactuals = scenario.counterfactuals.iter().zip(runs);
         self.counterfactuals = counterfactuals
@@ -73,13 +73,13 @@ impl Report {
         self.passed &= self.counterfactuals.iter().all(|counterfactual| counterfactual.passed);
     }
 
-    /// The expectations of a scenario as this run fulfils them, whatever was expected of it.
+    /// Judges this run by the expectations of a scenario, independently of its own.
     pub fn judged_by(&self, expect: &Expect) -> Vec<Expectation> {
         judge::judge(expect, self)
     }
 }
 
-/// How long was simulated: until the slower of both clocks is done \[s\].
+/// Simulated duration, up to the end of the slower clock \[s\].
 fn simulated_s(scenario: &Scenario) -> f64 {
     let last = |step_s: f64, count: usize| to_nanosecond(step_s * count as f64);
     let building = scenario.building.as_ref();
@@ -96,10 +96,10 @@ fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&Building
     }
 }
 
-/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone, and
-/// then by how far they still have to go. On a network whose routes all end on one lane, or on lanes side
-/// by side, they are ordered along the ego's; otherwise
-/// vehicles are in the order in which they reached their goals, and then by how far they still have to go.
+/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone, then
+/// by remaining distance. On a network whose routes all end on one lane, or on adjacent lanes,
+/// they are ordered along the ego's; otherwise
+/// in the order in which they reached their goals, then by remaining distance.
 fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     let road = &scenario.road;
     let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
@@ -128,7 +128,7 @@ fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     places.into_iter().map(|(_, name)| name.to_owned()).collect()
 }
 
-/// Whether the routes of all vehicles end on one lane, or on lanes side by side into which one may change.
+/// Whether the routes of all vehicles end on one lane, or on adjacent lanes between which vehicles may change.
 fn end_side_by_side(scenario: &Scenario, network: &RoadNetwork) -> bool {
     let last = |vehicle: &Vehicle| vehicle.route.legs.last().and_then(|leg| network.lane(&leg.lane));
     let mut beside: Vec<&Lane> = scenario.vehicles.first().and_then(last).into_iter().collect();

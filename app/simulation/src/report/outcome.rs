@@ -1,4 +1,4 @@
-//! What a run amounts to, as plain values.
+//! The outcome of a run, as plain values.
 
 use interplay_planners::State;
 use interplay_scenarios::Vehicle;
@@ -10,8 +10,8 @@ use super::expectation::Expectation;
 use crate::measure::{Deadlock, MetricValues, Passage, PhaseDigests, VehicleMeasures, Wait};
 use crate::state::frame::Collision;
 
-/// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
-/// that without vehicles, and `building` without a building.
+/// The outcome of one run; its serialisation is the output contract of `--json`. It omits keys about vehicles if there
+/// are none, and `building` without a building.
 #[derive(Clone, Debug, Serialize)]
 #[serde(remote = "Report")]
 pub struct Report {
@@ -21,28 +21,28 @@ pub struct Report {
     pub passed: bool,
     /// The seed of the run.
     pub seed: u64,
-    /// What of the scenario and its files is allowed and may not have been meant, in words.
+    /// Settings of the scenario and its files that are allowed but may be unintended, in words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
     /// Simulated time \[s\].
     pub simulated_s: f64,
-    /// When the run was ended before the scenario was over \[s\]; expectations are then judged by what happened until then.
+    /// Time at which the run ended before the scenario was over \[s\]; expectations are then judged by the events until then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ended_early_s: Option<f64>,
     /// Wall time \[s\]; not reproducible.
     pub wall_s: f64,
     /// Digest of all states, bit for bit.
     pub digest: String,
-    /// Digests of what each phase produced.
+    /// Digests of the results of each phase.
     pub phase_digests: PhaseDigests,
     /// Contacts.
     pub collisions: Vec<Collision>,
     /// The metrics of the run; none without vehicles.
     #[serde(flatten)]
     pub metrics: MetricValues,
-    /// Who went first in each zone where the ways of two vehicles cross or merge, and that one of them entered.
+    /// Which vehicle went first in each zone where the routes of two vehicles cross or merge and that one of them entered.
     pub right_of_way: Vec<Passage>,
-    /// Who was stuck, and when that was clear.
+    /// The deadlocks, with the times at which they were detected.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub deadlocks: Vec<Deadlock>,
     /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
@@ -52,22 +52,22 @@ pub struct Report {
     /// The building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub building: Option<BuildingReport>,
-    /// What was expected.
+    /// The expectations.
     pub expectations: Vec<Expectation>,
-    /// The runs beside this one in which something was changed; none before they are judged.
+    /// The counterfactual runs; none before they are judged.
     pub counterfactuals: Vec<CounterfactualReport>,
 }
 
 /// The outcome of one counterfactual.
 #[derive(Clone, Debug, Serialize)]
 pub struct CounterfactualReport {
-    /// What it claims.
+    /// Its claim.
     pub name: String,
-    /// Whether every expectation of it held.
+    /// Whether all its expectations held.
     pub passed: bool,
     /// Names from first to last, as in [`Report::order`].
     pub order: Vec<String>,
-    /// What was expected of it.
+    /// Its expectations.
     pub expectations: Vec<Expectation>,
     /// Digest of all states, bit for bit.
     pub digest: String,
@@ -76,7 +76,6 @@ pub struct CounterfactualReport {
     pub run: Box<Report>,
 }
 
-/// Keys of the serialisation that are about vehicles.
 const VEHICLE_KEYS: [&str; 5] = ["phase_digests", "collisions", "right_of_way", "order", "vehicles"];
 
 impl Serialize for Report {
@@ -97,14 +96,14 @@ impl Serialize for Report {
 pub struct VehicleReport {
     /// Its name.
     pub name: String,
-    /// The word for its driver.
+    /// The kind of its driver.
     pub driver: String,
     /// When it reached its goal \[s\].
     pub completed_s: Option<f64>,
-    /// Whether it started elsewhere than at its goal.
+    /// Whether it started away from its goal.
     #[serde(skip)]
     pub has_task: bool,
-    /// Whether nobody drives it.
+    /// Whether it is an obstacle without a driver.
     #[serde(skip)]
     pub is_obstacle: bool,
     /// Whether it keeps all rules of the road.
@@ -116,34 +115,34 @@ pub struct VehicleReport {
     /// Its last state.
     #[serde(rename = "final")]
     pub last: State,
-    /// Its metrics, and as `peak_times_s` when those that are peaks were reached.
+    /// Its metrics, and as `peak_times_s` the times of those that are peaks.
     #[serde(flatten)]
     pub metrics: MetricValues,
-    /// For what it stood although it wanted to drive, and how long.
+    /// The reasons for which it stood although it wanted to drive, with durations.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub standing: Vec<Wait>,
     /// Its planner.
     pub plans: PlansReport,
-    /// What it believed of the others when it planned last, where it infers their plans.
+    /// Its beliefs about the others at its last plan, if it infers their plans.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beliefs: Vec<BeliefReport>,
 }
 
-/// How a planner did. Times are wall times and not reproducible.
+/// Measures of a planner. Times are wall times and not reproducible.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct PlansReport {
     /// Plans made.
     pub count: usize,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
-    /// Plans that are not optimal, because their optimiser reached the limit of its work: they violate nothing, or are cheaper and no
-    /// less safe than going on with the plan before.
+    /// Plans that are not optimal because the optimiser reached its iteration limit: they violate nothing, or are cheaper and at
+    /// least as safe as continuing the plan before.
     pub unfinished: usize,
-    /// Plans that were driven though they violate something: by a certificate of each plan, they touch somebody later on where the
-    /// planner counts on what it asks for or on its next plans. A plan that gives away the last way out is refused, and counts as
+    /// Plans that were driven although they violate a constraint: by a certificate of each plan, they touch another vehicle later on, where
+    /// the planner relies on its proposal or on its next plans. A plan that gives up the last fallback is refused, and counts as
     /// failed.
     pub violating: usize,
-    /// Plans that took longer than `real_time` allows, by the clock; none without it, and of drivers who stand for people.
+    /// Plans that exceeded the time budget of `real_time`, by the clock; none without it, and for drivers that model people.
     pub over_budget: Option<usize>,
     /// Median time \[ms\].
     pub median_ms: f64,
@@ -157,7 +156,7 @@ impl Report {
         self.metrics.number("ego_gap_m")
     }
 
-    /// Names from first to last, without what stands on the road.
+    /// Names from first to last, without obstacles.
     pub fn order_of_driven(&self) -> Vec<&str> {
         let is_driven = |name: &&str| self.vehicle(name).is_none_or(|vehicle| !vehicle.is_obstacle);
         self.order.iter().map(String::as_str).filter(is_driven).collect()
@@ -182,7 +181,7 @@ impl VehicleReport {
         ["min_speed_mps", "max_speed_mps"].map(|name| self.metrics.number(name).unwrap_or(self.last.speed_mps))
     }
 
-    /// Takes over what was measured.
+    /// Builds the outcome from the measures.
     pub(super) fn new(vehicle: &Vehicle, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
         VehicleReport {
             name: vehicle.name.clone(),

@@ -1,4 +1,4 @@
-//! Makes a simulation with systems, state and watchers of the caller.
+//! Builds a simulation with systems, state and watchers of the caller.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,7 +14,7 @@ use crate::phases::watch::Watcher;
 use crate::simulation::run_error::RunError;
 use crate::simulation::world_state::WorldState;
 
-/// Makes a [`Simulation`] to which a caller adds systems, state and watchers.
+/// Builds a [`Simulation`] to which a caller adds systems, state and watchers.
 ///
 /// ```
 /// use bevy_ecs::prelude::*;
@@ -47,7 +47,7 @@ pub struct SimulationBuilder<'a> {
 }
 
 impl Simulation {
-    /// Begins to make a simulation of `scenario`, called by the scenario's title in its report.
+    /// Begins to build a simulation of `scenario`; its report is named after the scenario's title.
     pub fn builder(scenario: &Scenario) -> SimulationBuilder<'_> {
         SimulationBuilder {
             name: scenario.title.clone(),
@@ -60,25 +60,25 @@ impl Simulation {
 }
 
 impl SimulationBuilder<'_> {
-    /// Calls the run `name` in its report.
+    /// Sets the name of the run in its report.
     #[must_use]
     pub fn with_name(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
         self
     }
 
-    /// Shows every tick to these watchers, too.
+    /// Adds watchers that receive every tick.
     #[must_use]
     pub fn with_watchers(mut self, watchers: Vec<Box<dyn Watcher>>) -> Self {
         self.watchers.extend(watchers);
         self
     }
 
-    /// Runs a system between two phases, at every time point.
+    /// Adds a system that runs between two phases, at every time point.
     ///
-    /// Two systems in one slot of which one writes what the other reads or writes are an error: put them into two slots, or make one
-    /// of them by [`pipe`](IntoSystem::pipe). A system keeps its state in resources that [`SimulationBuilder::with_state`] registers;
-    /// a snapshot refuses one that has a [`Local`], and does not see what a closure captures and changes.
+    /// Two systems in one slot are an error if one writes data that the other accesses: put them into two slots, or combine
+    /// them by [`pipe`](IntoSystem::pipe). A system keeps its state in resources that [`SimulationBuilder::with_state`] registers;
+    /// a snapshot refuses a system with a [`Local`], and does not contain state that a closure captures and changes.
     #[must_use]
     pub fn with_system<S, M>(mut self, slot: Slot, system: S) -> Self
     where
@@ -89,7 +89,7 @@ impl SimulationBuilder<'_> {
         self
     }
 
-    /// Adds a resource for systems of one's own; `fork` makes the copy that a snapshot holds.
+    /// Adds a resource for additional systems; `fork` makes the copy that a snapshot holds.
     #[must_use]
     pub fn with_state<T: Resource>(mut self, initial: T, fork: impl Fn(&T) -> T + Send + Sync + 'static) -> Self {
         self.initial.insert_resource(initial);
@@ -97,7 +97,7 @@ impl SimulationBuilder<'_> {
         self
     }
 
-    /// The world before its first tick.
+    /// Builds the world before its first tick.
     ///
     /// # Errors
     /// [`RunError::Building`] if the scenario's building cannot be built; [`RunError::Loop`] if the order of two systems is ambiguous;

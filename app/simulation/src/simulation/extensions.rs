@@ -11,17 +11,14 @@ use crate::phases::Slot;
 use crate::simulation::run_error::RunError;
 use crate::state::not_copied::NotCopied;
 
-/// What Bevy calls a parameter that a system keeps for itself, in the name of the system's type.
+/// Marks a parameter that belongs to a system, in the name of the system's type.
 const LOCAL: &str = "::Local<";
-/// The components that Bevy adds by itself.
+/// Prefix of the components that Bevy itself adds.
 const ENGINE: &str = "bevy_ecs::";
 
-/// Adds a system to a schedule.
 type AddSystem = dyn Fn(&mut Schedule) + Send + Sync;
-/// Copies a resource from one world to another.
 type CopyState = dyn Fn(&World, &mut World) + Send + Sync;
 
-/// A system of a caller.
 #[derive(Clone)]
 struct AddedSystem {
     name: &'static str,
@@ -29,14 +26,13 @@ struct AddedSystem {
     add: Arc<AddSystem>,
 }
 
-/// A resource of a caller.
 #[derive(Clone)]
 struct AddedState {
     id: TypeId,
     copy: Arc<CopyState>,
 }
 
-/// The systems and the state that a caller has added, of which every copy of a simulation has its own.
+/// The systems and the state that a caller has added; every copy of a simulation has its own.
 #[derive(Clone, Default)]
 pub(crate) struct Extensions {
     systems: Vec<AddedSystem>,
@@ -70,7 +66,7 @@ impl Extensions {
         self.systems.first().map(|system| system.name)
     }
 
-    /// Adds the systems to a schedule whose own systems `world` knows.
+    /// Adds the systems to a schedule; `world` contains the simulation's own components.
     ///
     /// # Errors
     /// [`RunError::UnknownState`] if a system names a component or resource that neither the simulation nor the caller has.
@@ -93,7 +89,7 @@ impl Extensions {
         self.states.iter().for_each(|state| (state.copy)(from, to));
     }
 
-    /// Refuses state that [`Extensions::copy_states`] does not copy; `own` is what the simulation itself copies.
+    /// Refuses state that [`Extensions::copy_states`] does not copy; `own` contains the state that the simulation itself copies.
     ///
     /// # Errors
     /// [`NotCopied`] names a system that keeps a `Local`, or a component or resource that was not registered.
@@ -125,7 +121,7 @@ pub(crate) fn initialize(schedule: &mut Schedule, world: &mut World) -> Result<(
     built.map(|_| ()).map_err(|error| RunError::Loop(error.to_string(schedule.graph(), world)))
 }
 
-/// The components, resources among them, of which a world holds at least one.
+/// The components, including resources, that exist in a world.
 fn held(world: &World) -> impl Iterator<Item = &ComponentInfo> {
     let is_held = |component: &&ComponentInfo| {
         let mut archetypes = world.archetypes().iter();

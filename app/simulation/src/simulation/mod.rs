@@ -1,4 +1,4 @@
-//! A world that is stepped from outside.
+//! A world that the caller steps.
 
 mod builder;
 mod extensions;
@@ -40,10 +40,10 @@ use crate::phases::{self, sense};
 use crate::simulation::world_state::WorldState;
 use crate::state::not_copied::NotCopied;
 
-/// A scenario as a world that can be stepped, looked at, steered from outside, copied and resumed.
+/// A scenario as a world that the caller can step, observe, control, copy and resume.
 ///
-/// [`Simulation::step`] is the only thing that moves a world; [`run`](crate::run::run) is a loop over it. What happens depends on
-/// the scenario (its seed included) and on what is handed in, and on nothing else: same inputs, same digest, bit for bit.
+/// Only [`Simulation::step`] advances a world; [`run`](crate::run::run) is a loop over it. The run depends only on
+/// the scenario (its seed included) and on the caller's inputs: the same inputs give the same digest, bit for bit.
 ///
 /// ```
 /// use interplay_simulation::Simulation;
@@ -69,11 +69,10 @@ pub struct Simulation {
     schedule: Schedule,
     time_points: TimePoints,
     has_failed: bool,
-    /// What was handed in, in order.
+    /// The caller's inputs, in order.
     pub(crate) inputs: Vec<HandedInput>,
     /// Vehicles whose driver was replaced by one that the scenario does not name.
     pub(crate) replaced: Vec<String>,
-    /// Systems and state that the caller has added.
     pub(crate) extensions: Extensions,
     /// Wall time of building and stepping the world \[s\].
     wall_s: f64,
@@ -88,7 +87,7 @@ impl Simulation {
         Self::builder(scenario).build()
     }
 
-    /// The world of `scenario` before its first tick, called `name` in its report, and with watchers who see every tick.
+    /// The world of `scenario` before its first tick, called `name` in its report, with watchers that receive every tick.
     ///
     /// # Errors
     /// As [`Simulation::new`].
@@ -125,12 +124,12 @@ impl Simulation {
         &self.scenario
     }
 
-    /// Moves the world by one tick of the vehicles, or one step of the building, whichever comes next. Returns what happened in
-    /// it; none once the scenario is over, and then nothing moves.
+    /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the frame of
+    /// that tick; none once the scenario is over, and then nothing moves.
     ///
     /// # Errors
-    /// [`RunError::NoInput`] if a vehicle that is driven from outside was given no input for this tick; nothing has moved then.
-    /// [`RunError::Climate`] if the building cannot go on. After that every step is [`RunError::Ended`].
+    /// [`RunError::NoInput`] if a vehicle that is driven from outside has no input for this tick; nothing has moved then.
+    /// [`RunError::Climate`] if the building cannot continue. After that every step is [`RunError::Ended`].
     pub fn step(&mut self) -> Result<Option<&Frame>, RunError> {
         let began = Instant::now();
         if self.has_failed {
@@ -158,7 +157,7 @@ impl Simulation {
         Ok(Some(&self.world.resource::<CurrentFrame>().0))
     }
 
-    /// Steps until everything that begins before `time_s` has happened, or the scenario is over. Moves nothing if the world is there
+    /// Steps until all ticks that begin before `time_s` are done, or the scenario is over. Does nothing if the world is there
     /// already.
     ///
     /// # Errors
@@ -171,7 +170,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of ours.
+    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of the simulation.
     pub fn state<T: Resource>(&self) -> Option<&T> {
         self.world.get_resource()
     }
@@ -181,27 +180,27 @@ impl Simulation {
         (self.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
     }
 
-    /// Simulated time up to which the world has moved \[s\].
+    /// Simulated time up to which the world has advanced \[s\].
     pub fn time_s(&self) -> f64 {
         self.time_points.reached_s()
     }
 
-    /// Whether the scenario is over, so that a step moves nothing.
+    /// Whether the scenario is over and a step does nothing.
     pub fn is_over(&self) -> bool {
         self.time_points.clone().next().is_none()
     }
 
-    /// Whether there is a tick of the vehicles left.
+    /// Whether any tick of the vehicles remains.
     pub(crate) fn vehicles_move_again(&self) -> bool {
         self.world.get_resource::<Clock>().is_some_and(|clock| clock.tick < self.scenario.tick_count())
     }
 
-    /// What the driver of a vehicle would be given at the next tick, sensing included: the state of every vehicle that it sees, the
-    /// roads, its own goal. Nothing changes: twice gives the same, and no digest depends on it.
+    /// The scene that the driver of a vehicle would receive at the next tick, sensing included: the state of every visible vehicle, the
+    /// roads, its own goal. The call changes nothing: repeated calls return the same scene, and no digest depends on it.
     ///
-    /// The plans in it are those of the last tick, continued by one step; before the first tick, and of vehicles that are driven from
-    /// outside without a plan, motion at constant velocity. A planner of ours that plans in its turn knows one thing more: the new
-    /// plans of those who go first. A driver who infers plans is told none.
+    /// The plans in it are those of the last tick, continued by one step. Before the first tick, and for vehicles that are driven from
+    /// outside without a plan, they are motion at constant velocity. In a tick, a planner additionally knows the new
+    /// plans of the vehicles that go first. A driver that infers plans receives none.
     ///
     /// # Errors
     /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
@@ -210,17 +209,17 @@ impl Simulation {
         self.observe_all(&[index]).and_then(|mut sensed| sensed.pop()).ok_or_else(|| self.no_vehicle(vehicle))
     }
 
-    /// The same for several vehicles, by their indices in the scenario, which costs little more than one; none if one is not there.
+    /// The same for several vehicles, by their indices in the scenario, at little more cost than for one; none if one does not exist.
     pub(crate) fn observe_all(&self, vehicles: &[usize]) -> Option<Vec<SensedScene>> {
         sense::observed(&self.world, vehicles)
     }
 
-    /// Hands in the input of a vehicle with `driver = { kind = "external" }` for the next tick. The others expect it to keep its
-    /// speed afterwards. What is beyond the limits of the vehicle is cut off at them, as of any plan. The last call before a step
+    /// Sets the input of a vehicle with `driver = { kind = "external" }` for the next tick. The others expect it to keep its
+    /// speed afterwards. Inputs are clipped to the limits of the vehicle, as those of any plan. The last call before a step
     /// counts.
     ///
     /// # Errors
-    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if somebody else drives it; [`RunError::NotFinite`].
+    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives it another driver; [`RunError::NotFinite`].
     pub fn apply(&mut self, vehicle: &str, input: Input) -> Result<(), RunError> {
         if !input.is_finite() {
             return Err(RunError::NotFinite { vehicle: vehicle.to_owned() });
@@ -228,10 +227,10 @@ impl Simulation {
         self.hand_in(vehicle, HandedIn::Input(input))
     }
 
-    /// The same with a plan, whose first input is applied, and which the others are told as the plan of any other driver.
+    /// The same with a plan, whose first input is applied. The others know it like the plan of any other driver.
     ///
     /// # Errors
-    /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if it has not as many steps as the scenario's horizon.
+    /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if its length is not the scenario's horizon.
     pub fn apply_plan(&mut self, vehicle: &str, inputs: &[Input]) -> Result<(), RunError> {
         let steps = self.scenario.horizon_steps;
         if inputs.len() != steps {
@@ -243,8 +242,8 @@ impl Simulation {
         self.hand_in(vehicle, HandedIn::Plan(inputs.to_vec()))
     }
 
-    /// Another driver takes the wheel of a vehicle from the next tick on, one of ours or one of somebody else's. What the vehicle is told
-    /// of the others' plans, and whether it plans before them, stays as its `driver` in the scenario says. A vehicle that was driven
+    /// Replaces the driver of a vehicle from the next tick on, by one of Interplay or of another crate. Which plans of the others the
+    /// vehicle knows, and whether it plans before them, still follows from its `driver` in the scenario. A vehicle that was driven
     /// from outside needs no inputs any more.
     ///
     /// # Errors
@@ -256,8 +255,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// From the next tick on the drivers are those of another form of the scenario, with the same vehicles. Each whose settings differ
-    /// goes on with the new ones and with all that it remembers; one of another kind begins anew.
+    /// Replaces the drivers, from the next tick on, by those of another form of the scenario with the same vehicles. A driver with changed
+    /// settings keeps its memory; one of another kind starts anew.
     pub(crate) fn change_drivers(&mut self, changed: &Scenario) {
         let fleet = self.world.resource::<Fleet>().0.clone();
         for (row, entity) in fleet.into_iter().enumerate() {
@@ -281,8 +280,8 @@ impl Simulation {
     /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.
     ///
     /// # Errors
-    /// [`NotCopied`] names what has no copy: a building behind a socket, a driver of another crate that does not fork, state of an added
-    /// system that was not registered.
+    /// [`NotCopied`] names the part that cannot be copied: a building behind a socket, a driver of another crate that does not fork, state
+    /// of an added system that was not registered.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
         let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
         let Simulation { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
@@ -299,7 +298,7 @@ impl Simulation {
         })
     }
 
-    /// Goes back, or forth, to a snapshot, of this world or of any other. The watchers stay and see the ticks that follow.
+    /// Restores a snapshot, of this world or of any other. The watchers stay and receive the following ticks.
     ///
     /// # Errors
     /// As [`Simulation::snapshot`].
@@ -312,30 +311,30 @@ impl Simulation {
         Ok(())
     }
 
-    /// Ends the run: watchers keep what they saw, and what was measured is judged. It may end before the scenario is over; the report
-    /// then says so in [`Report::ended_early_s`].
+    /// Ends the run: watchers finish, and the measures are judged. The run may end before the scenario is over; the report
+    /// then states it in [`Report::ended_early_s`].
     ///
     /// # Errors
-    /// [`RunError::Watch`] if a watcher could not keep what it saw.
+    /// [`RunError::Watch`] if a watcher failed.
     pub fn finish(mut self) -> Result<Report, RunError> {
         let watchers = self.world.remove_resource::<Watchers>().unwrap_or_default();
         watchers.finish().map_err(RunError::Watch)?;
         Ok(self.report())
     }
 
-    /// What was measured until now, judged as if the run ended here.
+    /// The report of the measures so far, judged as if the run ended here.
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
         let building = self.world.get_resource::<BuildingMeasures>();
         Report::new(&self.name, &self.scenario, self.measures(), building, self.wall_s, ended_early_s)
     }
 
-    /// What is measured.
+    /// The measures so far.
     pub fn measures(&self) -> &Measures {
         self.world.resource::<Measures>()
     }
 
-    /// The state of every vehicle now, in the scenario's order.
+    /// The present state of every vehicle, in the scenario's order.
     pub fn states(&self) -> Vec<State> {
         self.world.resource::<CurrentTraffic>().0.road_users.iter().map(|user| user.agent.state).collect()
     }
@@ -356,7 +355,7 @@ impl Simulation {
         RunError::NoVehicle { vehicle: vehicle.to_owned(), names: names.collect::<Vec<_>>().join(", ") }
     }
 
-    /// Hands in what an external driver decided.
+    /// Sets the decision of an external driver.
     pub(crate) fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
         let step = self.time_points.passed();
@@ -373,7 +372,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// An error if an external driver has not decided.
+    /// Returns an error if an external driver has not decided.
     fn refuse_without_input(&mut self) -> Result<(), RunError> {
         let traffic = &self.world.resource::<CurrentTraffic>().0;
         let waits = |(row, user): &(usize, &RoadUser)| {

@@ -1,4 +1,4 @@
-//! Why a run could not be finished, or a simulation not be asked for something.
+//! Errors of runs and simulations.
 
 use thiserror::Error;
 
@@ -6,16 +6,16 @@ use crate::climate::{BuildingError, BuildingFailure};
 use crate::phases::watch::WatchError;
 use crate::state::not_copied::NotCopied;
 
-/// Why a run could not be finished.
+/// Why a run failed.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// A watcher could not keep what it was shown.
+    /// A watcher failed.
     #[error("{0}")]
     Watch(WatchError),
     /// The building cannot be built.
     #[error("the building cannot be simulated: {0}")]
     Building(#[from] BuildingError),
-    /// The building's controller gave up, or the program that is the building did not answer as agreed.
+    /// The building's controller failed, or the program that simulates the building did not answer as agreed.
     #[error("the run ended on day {day}: {reason}")]
     Climate {
         /// Number of the day, from 1.
@@ -23,7 +23,7 @@ pub enum RunError {
         /// The reason.
         reason: BuildingFailure,
     },
-    /// A run beside the scenario's own could not be finished.
+    /// A counterfactual run failed.
     #[error("the counterfactual \"{name}\" could not be finished: {reason}")]
     Counterfactual {
         /// Claim of the counterfactual.
@@ -36,10 +36,10 @@ pub enum RunError {
     NoVehicle {
         /// The name.
         vehicle: String,
-        /// The names that there are.
+        /// The existing names.
         names: String,
     },
-    /// A vehicle whose driver is external was given no input.
+    /// A vehicle with an external driver has no input.
     #[error("`{vehicle}` is driven from outside, and was given no input for the tick at {time_s} s")]
     NoInput {
         /// The vehicle.
@@ -47,7 +47,7 @@ pub enum RunError {
         /// Time at which the tick begins \[s\].
         time_s: f64,
     },
-    /// An input was handed in for a vehicle that decides for itself.
+    /// The caller gave an input for a vehicle that decides for itself.
     #[error("`{vehicle}` has a driver of its own; `driver = {{ kind = \"external\" }}` lets it be driven from outside")]
     NotExternal {
         /// The vehicle.
@@ -64,20 +64,20 @@ pub enum RunError {
     WrongPlan {
         /// The vehicle.
         vehicle: String,
-        /// The inputs that it has.
+        /// Number of inputs of the plan.
         found: usize,
-        /// The steps of the scenario's horizon.
+        /// Number of steps of the scenario's horizon.
         steps: usize,
     },
     /// The scenario has no building.
     #[error("the scenario has no building")]
     NoBuilding,
-    /// Heat was handed in for another number of zones.
+    /// The caller gave heat for another number of zones.
     #[error("the number of heats handed in is {found}, and that of the building's zones {zones}")]
     WrongHeats {
-        /// The heats that were handed in.
+        /// Number of heats.
         found: usize,
-        /// The zones of the building.
+        /// Number of zones of the building.
         zones: usize,
     },
     /// A part of the world cannot be copied.

@@ -1,8 +1,8 @@
-//! A snapshot as text: the scenario, what was handed in from outside, and how far the run has come.
+//! A snapshot as text: the scenario, the inputs from outside, and the progress of the run.
 //!
-//! A run is a function of its scenario and of what is handed in, bit for bit. So that is all that has to be kept: whoever reads it drives
-//! up to the same step again, and a digest of all states proves that it is the same. It stays small, whatever planners and bodies
-//! remember, and is read by people. It takes the time of the run so far to read.
+//! A run is a function of its scenario and of its inputs, bit for bit. Only these are saved: the reader repeats the run
+//! up to the same step, and a digest of all states proves that it is the same. The text stays small, whatever planners and bodies
+//! remember, and is readable. Reading it takes as long as the run took.
 
 use interplay_planners::Input;
 use interplay_scenarios::{LoadError, Registry};
@@ -15,20 +15,20 @@ use crate::simulation::run_error::RunError;
 use crate::state::components::HandedIn;
 use crate::state::not_copied::NotCopied;
 
-/// The version of the form below.
+/// The version of this format.
 const FORMAT: u32 = 1;
 
-/// What was handed in for a vehicle before a step.
+/// Inputs of a vehicle from outside, before a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HandedInput {
-    /// Number of steps that were done before.
+    /// Number of steps completed before.
     pub step: usize,
     /// The vehicle.
     pub vehicle: String,
     /// One input, or those of a plan.
     pub inputs: Vec<Input>,
-    /// Whether they are a plan, which others are told.
+    /// Whether they are a plan, which the others know.
     pub is_plan: bool,
 }
 
@@ -47,18 +47,18 @@ struct SavedRun {
 /// Why a snapshot cannot be written or read as text.
 #[derive(Debug, Error)]
 pub enum SavedRunError {
-    /// A driver that is no part of the scenario has taken over.
+    /// A driver that is not part of the scenario has taken over.
     #[error(transparent)]
     NotCopied(#[from] NotCopied),
-    /// The text is no snapshot.
-    #[error("this is no snapshot: {0}")]
+    /// The text is not a snapshot.
+    #[error("this is not a snapshot: {0}")]
     Text(#[from] serde_json::Error),
-    /// The text has another form.
+    /// The text has another version of the format.
     #[error(
         "this snapshot has form {found}, and this program reads form {FORMAT}; it was written by Interplay {program}"
     )]
     Format {
-        /// The form that it has.
+        /// Its version.
         found: u32,
         /// The version of the program that wrote it.
         program: String,
@@ -66,10 +66,10 @@ pub enum SavedRunError {
     /// The scenario of the text is refused.
     #[error("the scenario of the snapshot is refused: {0}")]
     Scenario(#[from] LoadError),
-    /// The run of the text cannot be repeated.
+    /// The run of the text fails when it is repeated.
     #[error("the run of the snapshot cannot be repeated: {0}")]
     Run(#[from] RunError),
-    /// The repeated run is another one.
+    /// The repeated run differs.
     #[error(
         "the run of the snapshot goes otherwise in this program: it was written by Interplay {program}, and drivers behave \
          differently since"
@@ -81,7 +81,7 @@ pub enum SavedRunError {
 }
 
 impl HandedInput {
-    /// What was handed in, if it was anything.
+    /// The record of an input from outside, if there was one.
     pub(crate) fn of(step: usize, vehicle: &str, handed_in: &HandedIn) -> Option<Self> {
         let (inputs, is_plan) = match handed_in {
             HandedIn::NotExternal | HandedIn::Awaited => return None,
@@ -93,14 +93,14 @@ impl HandedInput {
 }
 
 impl Snapshot {
-    /// The snapshot as JSON, for a file: [`Snapshot::from_json`] reads it.
+    /// The snapshot as JSON, for a file; [`Snapshot::from_json`] reads it.
     ///
     /// # Errors
-    /// [`SavedRunError::NotCopied`] if a driver has taken over by [`Simulation::drive_with`], which the scenario does not name, or
+    /// [`SavedRunError::NotCopied`] if a driver that the scenario does not name has taken over by [`Simulation::drive_with`], or
     /// if systems were added.
     pub fn to_json(&self) -> Result<String, SavedRunError> {
         if let Some(vehicle) = self.replaced.first() {
-            let why = "it is no part of the scenario; give the vehicle a `driver` of a registered kind".to_owned();
+            let why = "it is not part of the scenario; give the vehicle a `driver` of a registered kind".to_owned();
             return Err(NotCopied { who: format!("the driver that has taken over `{vehicle}`"), why }.into());
         }
         if let Some(system) = self.extensions.first_system() {
@@ -119,11 +119,11 @@ impl Snapshot {
         Ok(serde_json::to_string_pretty(&saved)?)
     }
 
-    /// Reads what [`Snapshot::to_json`] wrote: the run up to there is repeated, which takes as long as it took. `registry` has the kinds
+    /// Reads the text of [`Snapshot::to_json`] and repeats the run up to there, which takes as long as it took. `registry` has the kinds
     /// of drivers that the scenario may name.
     ///
     /// # Errors
-    /// [`SavedRunError`], if the text is no snapshot or this program does not come to the same states.
+    /// [`SavedRunError`], if the text is not a snapshot or the repeated run reaches other states.
     pub fn from_json(text: &str, registry: &Registry) -> Result<Snapshot, SavedRunError> {
         let saved: SavedRun = serde_json::from_str(text)?;
         let program = saved.program;

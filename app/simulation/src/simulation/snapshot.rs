@@ -13,10 +13,10 @@ use crate::phases::time_points::TimePoints;
 use crate::simulation::run_error::RunError;
 use crate::simulation::world_state::WorldState;
 
-/// A copy of all state of a simulation between two of its steps: what the planners remember and believe, the bodies and who touches
-/// whom, the noise of sensors, the building in the middle of its day, what was measured, and what was handed in from outside.
+/// A copy of all state of a simulation between two of its steps: the planners' memory and beliefs, the bodies and their
+/// contacts, the noise of sensors, the building within its day, the measures, and the inputs from outside.
 ///
-/// A world that is resumed from it goes on bit for bit as the one that was copied. It can be resumed any number of times.
+/// A world that is resumed from it continues bit for bit like the one that was copied. It can be resumed any number of times.
 pub struct Snapshot {
     pub(crate) name: String,
     pub(crate) scenario: Arc<Scenario>,
@@ -28,10 +28,10 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// A simulation that goes on from here, without watchers.
+    /// A simulation that continues from here, without watchers.
     ///
     /// # Errors
-    /// [`RunError::NotCopied`]; never, if nothing was added to the copy.
+    /// [`RunError::NotCopied`], only if uncopied state was added to the copy.
     pub fn resume(&self) -> Result<Simulation, RunError> {
         let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
         self.extensions.copy_states(&self.world, &mut world);
@@ -43,14 +43,13 @@ impl Snapshot {
         Ok(simulation)
     }
 
-    /// A digest of all states so far.
     pub(crate) fn digest(&self) -> String {
         let building = self.world.get_resource::<BuildingMeasures>();
         let balance = building.map(|measures| measures.digests().balance).unwrap_or_default();
         self.world.resource::<Measures>().digest.phases().physics + &balance
     }
 
-    /// Simulated time at which it was taken \[s\].
+    /// Simulated time of the snapshot \[s\].
     pub fn time_s(&self) -> f64 {
         self.time_points.reached_s()
     }

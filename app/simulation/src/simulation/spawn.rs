@@ -1,4 +1,4 @@
-//! From a scenario to the rows and components of its vehicles.
+//! Builds the rows and components of a scenario's vehicles.
 
 use std::sync::Arc;
 
@@ -12,22 +12,22 @@ use crate::physics::{Physics, VehicleBody};
 use crate::state::components::{Driving, HandedIn, Identity, TrafficRow};
 use crate::state::detail::LevelOfDetail;
 
-/// All components of a vehicle: its name and row, and the state of what is plugged in. The rest stands in its row.
+/// All components of a vehicle: its name and row, and the state of its plug-ins. All other state is in its row.
 #[derive(Bundle, Debug)]
 pub struct VehicleState {
     /// Name of the vehicle.
     pub identity: Identity,
-    /// Where it stands in the traffic.
+    /// Its row in the traffic.
     pub row: TrafficRow,
-    /// The driver with all that it remembers, and the sensor.
+    /// The driver with its memory, and the sensor.
     pub driving: Driving,
-    /// Inputs or a plan that were handed in from outside for the next tick.
+    /// Input or plan from outside for the next tick.
     pub handed_in: HandedIn,
     /// Body of the vehicle in the physics engine.
     pub body: VehicleBody,
 }
 
-/// Every vehicle of a scenario at its start, in the scenario's order; each gets a body in `physics`.
+/// Every vehicle of a scenario at its start, in the scenario's order; each receives a body in `physics`.
 pub fn vehicles(scenario: &Scenario, physics: &mut Physics) -> Vec<VehicleState> {
     let vehicles = scenario.vehicles.iter().zip(scenario.starts()).enumerate();
     let vehicles = vehicles.map(|(index, (vehicle, state))| VehicleState {

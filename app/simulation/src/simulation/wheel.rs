@@ -1,4 +1,4 @@
-//! Who has the wheel of a vehicle that is driven from outside: whoever hands in inputs, a record of them, or a planner for a while.
+//! Control of a vehicle that is driven from outside: inputs of the caller, a record of them, or temporarily a planner.
 
 use interplay_planners::{Drive, Driver, Input};
 
@@ -7,18 +7,18 @@ use crate::simulation::run_error::RunError;
 use crate::state::components::{Clock, Driving, HandedIn};
 
 impl Simulation {
-    /// From the next plan on a planner has the wheel of a vehicle that is driven from outside, or, without one, whoever hands in inputs
-    /// again. What the vehicle is told of the others' plans, and what they are told of it, stays.
+    /// From the next plan on, a planner controls a vehicle that is driven from outside; without one, the caller's inputs
+    /// control it again. Which plans the vehicle and the others know of each other does not change.
     ///
     /// # Errors
-    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the vehicle has a driver of its own.
+    /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives the vehicle another driver.
     pub fn hand_over(&mut self, vehicle: &str, to: Option<&Driver>) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
         let stated = &self.scenario.vehicles[index].driver;
         if !stated.is_driven_from_outside() {
             return Err(RunError::NotExternal { vehicle: vehicle.to_owned() });
         }
-        // A snapshot as text repeats hand-overs only where the scenario has them.
+        // A snapshot as text repeats hand-overs only if the scenario contains them.
         if stated.inputs().is_none() && !self.replaced.iter().any(|replaced| replaced == vehicle) {
             self.replaced.push(vehicle.to_owned());
         }
@@ -26,7 +26,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// A driver takes the wheel of a vehicle, or, without one, whoever hands in inputs.
+    /// Gives control of a vehicle to a driver or, without one, to the caller's inputs.
     pub(super) fn give_wheel(&mut self, index: usize, to: Option<Box<dyn Drive>>) {
         let entity = self.entity(index);
         let mut vehicles = self.world.query::<(&mut Driving, &mut HandedIn)>();
@@ -38,7 +38,7 @@ impl Simulation {
         }
     }
 
-    /// Hands in what was handed in once for the next plan.
+    /// Applies the recorded inputs for the next plan.
     pub(super) fn repeat_inputs(&mut self) -> Result<(), RunError> {
         let plan = self.world.resource::<Clock>().plans();
         let scenario = std::sync::Arc::clone(&self.scenario);
@@ -52,7 +52,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Hands in an input, unless a planner has the wheel. It is part of the scenario and no input from outside of this run.
+    /// Applies a recorded input, unless a planner is in control. It is part of the scenario and not an input from outside of this run.
     fn repeat(&mut self, row: usize, input: Input) {
         let entity = self.entity(row);
         let handed_in = self.world.get_mut::<HandedIn>(entity);
@@ -71,9 +71,9 @@ mod tests {
 
     use crate::Simulation;
 
-    /// Whoever plays hands in other inputs at every plan and lets a planner drive in between; the record of that is the same run.
+    /// The caller changes inputs at every plan and lets a planner drive in between; the record of these inputs gives the same run.
     #[test]
-    fn a_record_of_inputs_is_the_run_in_which_they_were_handed_in() {
+    fn a_record_of_inputs_repeats_the_run() {
         let outside = Override::Set("vehicle.ego.driver={ kind = 'external' }".to_owned());
         let scenario = load("lane-change/front-nice", &[outside]).expect("authored");
         let mut played = Simulation::new(&scenario).expect("a world");

@@ -1,7 +1,7 @@
-//! All state of a world as one typed list: what a scenario begins with, what a snapshot holds, and what a world is made of.
+//! All state of a world as one typed list: the initial state of a scenario, a snapshot, and the contents of a world.
 //!
-//! A world is only ever made by [`WorldState::into_world`], so whatever a world has is a part of this list, and a snapshot cannot
-//! miss it. Watchers are no state: they stay with the world that runs.
+//! Worlds are made only by [`WorldState::into_world`], so this list contains all state of a world, and a snapshot cannot
+//! miss any. Watchers are not state: they stay with the running world.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::traffic::Traffic;
@@ -16,7 +16,7 @@ use crate::simulation::spawn::{self, VehicleState};
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, Identity, TrafficRow};
 use crate::state::not_copied::NotCopied;
 
-/// All state of a world, watchers apart.
+/// All state of a world, except watchers.
 pub struct WorldState {
     /// Every vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleState>,
@@ -26,7 +26,7 @@ pub struct WorldState {
     pub clock: Clock,
     /// The time point of the last tick.
     pub time_point: TimePoint,
-    /// The traffic: all that the loop keeps of the vehicles.
+    /// The traffic: all state of the vehicles in the loop.
     pub traffic: CurrentTraffic,
     /// The last frame.
     pub current_frame: CurrentFrame,
@@ -34,7 +34,7 @@ pub struct WorldState {
     pub measures: Measures,
     /// The bodies.
     pub physics: Physics,
-    /// The building and what was measured of it; none without one.
+    /// The building and its measures; none without a building.
     pub building: Option<(Building, BuildingMeasures)>,
 }
 
@@ -42,7 +42,7 @@ impl WorldState {
     /// The state in which a run of `scenario` begins.
     ///
     /// # Errors
-    /// [`BuildingError`], for a building that was not checked when it was loaded, or whose plant does not answer.
+    /// [`BuildingError`], if the building was not checked when it was loaded, or its plant does not answer.
     pub fn initial(scenario: &Scenario) -> Result<Self, BuildingError> {
         let mut physics = Physics::new(scenario);
         let vehicles = spawn::vehicles(scenario, &mut physics);
@@ -83,7 +83,7 @@ impl WorldState {
     /// Copies the state out of a world.
     ///
     /// # Errors
-    /// [`NotCopied`] names what has no copy.
+    /// [`NotCopied`] names the part that cannot be copied.
     pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
         for entity in &world.resource::<Fleet>().0 {
@@ -121,7 +121,7 @@ impl WorldState {
         })
     }
 
-    /// The world in this state, seen by `watchers` from now on.
+    /// Builds a world in this state; `watchers` receive its ticks from now on.
     pub fn into_world(self, watchers: Vec<Box<dyn Watcher>>) -> World {
         let mut world = World::new();
         let fleet = world.spawn_batch(self.vehicles).collect();
@@ -147,10 +147,8 @@ impl WorldState {
     }
 }
 
-/// The components of [`NodeState`].
 type NodeParts = (&'static Node, &'static Temperature, Option<(&'static Equipment, &'static Gains)>);
 
-/// The components of [`VehicleState`].
 type VehicleParts = (&'static Identity, &'static TrafficRow, &'static Driving, &'static HandedIn, &'static VehicleBody);
 
 #[cfg(test)]
@@ -163,7 +161,7 @@ mod tests {
     use super::*;
     use crate::simulation::Simulation;
 
-    /// How many entities have each component, by its type. Resources are components of entities of their own.
+    /// Number of entities with each component, by its type. Resources are components of separate entities.
     fn census(world: &World) -> BTreeMap<Option<TypeId>, usize> {
         let components = world.components().iter_registered();
         let held = components.map(|component| {
@@ -173,7 +171,7 @@ mod tests {
         held.filter(|(_, count)| *count > 0).collect()
     }
 
-    /// Of a world with vehicles, a building and sensors that has run for a while, the copy has every component and resource as often.
+    /// After a run with vehicles, a building and sensors, the copy has every component and resource as often as the original.
     #[test]
     fn a_copy_has_every_component() {
         let scenario = load("mixed/garage", &[]).expect("authored");
@@ -181,8 +179,8 @@ mod tests {
         for _ in 0..40 {
             simulation.step().expect("the run goes on");
         }
-        let mut resumed = simulation.snapshot().expect("everything of ours can be copied").resume().expect("a copy");
-        // Both take a step more: what the engine adds when a schedule runs is then in both.
+        let mut resumed = simulation.snapshot().expect("all state can be copied").resume().expect("a copy");
+        // Both take another step, so both contain what the engine adds when a schedule runs.
         for world in [&mut simulation, &mut resumed] {
             world.step().expect("the run goes on");
         }
@@ -194,9 +192,9 @@ mod tests {
         assert_eq!(running, copied);
     }
 
-    /// Vehicles are in the frames of their own ticks only, and in all of these, whether they plan in each of them or follow a plan.
+    /// Frames contain vehicles only in the vehicles' own ticks, and in all of these, with and without a new plan.
     #[test]
-    fn steps_of_the_building_alone_have_no_vehicles() {
+    fn frames_of_building_steps_alone_contain_no_vehicles() {
         for period_s in ["0.1", "0.2"] {
             let changes =
                 [Override::Set("iterations=1".to_owned()), Override::Set(format!("planning_period_s={period_s}"))];

@@ -1,4 +1,4 @@
-//! The zones of a building, looked at and heated from outside.
+//! Observation and control of the zones of a building from outside.
 
 use super::Simulation;
 use crate::climate::{Building, Node, Temperature};
@@ -12,18 +12,18 @@ pub struct ZoneNow {
     pub name: String,
     /// Its temperature \[°C\].
     pub temperature_c: f64,
-    /// The wanted temperature; none where it is free \[°C\].
+    /// The target temperature; none if it is free \[°C\].
     pub reference_c: Option<f64>,
-    /// Deviations from it that are comfortable; none while nobody is there \[K\].
+    /// Half-width of the comfort band; none while the zone is unoccupied \[K\].
     pub band_k: Option<f64>,
-    /// The strongest heating of its equipment \[kW\].
+    /// Maximum heating power of its equipment \[kW\].
     pub heating_kw: f64,
-    /// The strongest cooling of its equipment, at least 0 \[kW\].
+    /// Maximum cooling power of its equipment, at least 0 \[kW\].
     pub cooling_kw: f64,
 }
 
 impl Simulation {
-    /// The zones of the building as they are now, with what is wanted of them in the next step; none without a building.
+    /// The present zones of the building, with the targets of the next step; none without a building.
     pub fn zones(&self) -> Vec<ZoneNow> {
         let (Some(building), Some(measures)) =
             (self.world.get_resource::<Building>(), self.world.get_resource::<BuildingMeasures>())
@@ -55,8 +55,8 @@ impl Simulation {
         found.into_iter().map(|(_, temperature_c)| temperature_c).collect()
     }
 
-    /// Hands in the heat of every zone for the next step of the building, negative for cooling \[kW\]; the scenario's controller is not
-    /// asked in it. What the equipment cannot give is cut off. The last call before a step counts.
+    /// Sets the heat of every zone for the next step of the building, negative for cooling \[kW\], instead of the scenario's
+    /// controller. Heat is limited by the equipment. The last call before a step counts.
     ///
     /// # Errors
     /// [`RunError::NoBuilding`]; [`RunError::WrongHeats`]; [`RunError::NotFinite`].
@@ -71,7 +71,7 @@ impl Simulation {
             return Err(RunError::NotFinite { vehicle: WHO.to_owned() });
         }
         building.handed_in_kw = Some(heat_kw.to_vec());
-        // A snapshot as text repeats what was handed in for vehicles only.
+        // A snapshot as text repeats only inputs of vehicles.
         if !self.replaced.iter().any(|replaced| replaced == WHO) {
             self.replaced.push(WHO.to_owned());
         }
@@ -83,9 +83,9 @@ impl Simulation {
 mod tests {
     use crate::Simulation;
 
-    /// Heat from outside is what the zones get, and no more than their equipment gives.
+    /// Heat from outside acts on the zones, limited by their equipment.
     #[test]
-    fn heat_from_outside_warms_the_zones() {
+    fn heat_from_outside_acts_on_the_zones_within_the_limits() {
         let scenario = interplay_scenarios::load("building/four-room-pid", &[]).expect("authored");
         let temperature_after = |heat: f64| {
             let mut world = Simulation::new(&scenario).expect("a world");

@@ -1,4 +1,4 @@
-//! What the entities carry: components of vehicles, and the resources of a world.
+//! Components of vehicles, and resources of a world.
 
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::{Sensor, Sight};
@@ -16,7 +16,7 @@ pub struct Identity {
     pub name: String,
 }
 
-/// The row of a vehicle in [`CurrentTraffic`], where all that the loop keeps of it stands.
+/// The row of a vehicle in [`CurrentTraffic`], which holds its state in the loop.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TrafficRow(pub usize);
 
@@ -27,23 +27,23 @@ impl TrafficRow {
     }
 }
 
-/// The driver of a vehicle, with all that the planner remembers.
+/// The driver of a vehicle, with the planner's memory.
 #[derive(Component, Debug)]
 pub struct Driving {
     /// The planner.
     pub planner: Planner,
     /// Wall time of the plan of this tick, 0 without one \[ms\].
     pub plan_ms: f64,
-    /// Sensor of the vehicle; `None` for one that sees everybody as it is.
+    /// Sensor of the vehicle; `None` for one that sees all vehicles without error.
     pub sensor: Option<Sensor>,
     /// The vehicles that the sensor sees in this tick.
     pub sight: Option<Sight>,
-    /// Who takes turns at the wheel, near the ego and far from it; none for a vehicle that drives in the same way everywhere.
+    /// The drivers near the ego and far from it; none for a vehicle that always has the same driver.
     pub detail: Option<LevelOfDetail>,
 }
 
 impl Driving {
-    /// A copy that remembers the same, of the driver of a vehicle called `name`.
+    /// A copy with the same memory, of the driver of a vehicle called `name`.
     ///
     /// # Errors
     /// [`NotCopied`] if the driver does not fork.
@@ -58,13 +58,12 @@ impl Driving {
     }
 }
 
-/// Inputs or a plan that were handed in from outside for the next tick.
+/// Input or plan from outside for the next tick.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub enum HandedIn {
-    /// Nothing ever is: the vehicle has a driver of its own.
+    /// The vehicle has its own driver.
     #[default]
     NotExternal,
-    /// Nothing yet.
     Awaited,
     /// An input.
     Input(Input),
@@ -73,12 +72,12 @@ pub enum HandedIn {
 }
 
 impl HandedIn {
-    /// Nothing yet, if the driver is external.
+    /// Awaits an input if the driver is external.
     pub fn awaited_if(is_external: bool) -> Self {
         if is_external { HandedIn::Awaited } else { HandedIn::NotExternal }
     }
 
-    /// Takes what was handed in; none for a vehicle with a driver of its own.
+    /// Takes the input; none for a vehicle with its own driver.
     pub fn take(&mut self) -> Option<Self> {
         match self {
             HandedIn::NotExternal => None,
@@ -96,17 +95,17 @@ pub struct Clock {
     pub step_s: f64,
     /// Number of stages of a plan.
     pub horizon: usize,
-    /// How many ticks there are from one plan to the next.
+    /// Number of ticks from one plan to the next.
     pub ticks_per_plan: usize,
 }
 
 impl Clock {
-    /// How many ticks have passed since vehicles planned: 0 where they plan in this one.
+    /// Number of ticks since vehicles planned: 0 if they plan in this one.
     pub fn ticks_since_plan(&self) -> usize {
         self.tick % self.ticks_per_plan
     }
 
-    /// How often vehicles have planned before this tick.
+    /// Number of plans before this tick.
     pub fn plans(&self) -> usize {
         self.tick.div_ceil(self.ticks_per_plan)
     }
@@ -121,14 +120,14 @@ impl Clock {
         self.within_s(0.0)
     }
 
-    /// Simulated time when a share of this tick has passed, to the nanosecond: 29 ticks of 0.1 s are 2.9 s and not
+    /// Simulated time after a share of this tick, rounded to the nanosecond: 29 ticks of 0.1 s are 2.9 s and not
     /// 2.9000000000000004 s \[s\].
     pub fn within_s(&self, share: f64) -> f64 {
         to_nanosecond(self.step_s * (self.tick as f64 + share))
     }
 }
 
-/// A time without the rounding errors of its making \[s\].
+/// A time without rounding errors below the nanosecond \[s\].
 pub fn to_nanosecond(time_s: f64) -> f64 {
     (time_s * 1e9).round() / 1e9
 }
@@ -150,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_are_what_people_write() {
+    fn times_have_no_rounding_errors() {
         let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30, ticks_per_plan: 1 };
         for tick in 0..100_000_u32 {
             let written = format!("{}.{}", tick / 10, tick % 10);

@@ -1,4 +1,4 @@
-//! How a day of a building turned out: plain values, made by `measure`.
+//! The result of a building's day: plain values, made by `measure`.
 
 use interplay_building::control::Exchange;
 use interplay_building::day::{Day, KeyFigures};
@@ -7,14 +7,14 @@ use serde::Serialize;
 
 use crate::state::worst_zones::WorstZones;
 
-/// What a meter of electricity counted on a day; its serialisation is part of the output contract.
+/// Readings of the electricity meter on a day; their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Metered {
     /// Electricity \[kWh\].
     pub electric_kwh: f64,
     /// Highest electric power, averaged as BOPTEST does \[kW\].
     pub electric_peak_kw: f64,
-    /// What the electricity cost \[currency\].
+    /// Cost of the electricity \[currency\].
     pub electric_cost: f64,
 }
 
@@ -24,32 +24,32 @@ pub struct DayFigures {
     /// The key figures, as defined by BOPTEST.
     #[serde(flatten)]
     pub figures: KeyFigures,
-    /// The zones that did worst.
+    /// The zones with the worst figures.
     #[serde(skip)]
     pub worst_zones: WorstZones,
-    /// Cost of the day minus that of the cheapest day that knows all disturbances beforehand; `None` for large
+    /// Cost of the day minus that of the cheapest day with perfect foresight; `None` for large
     /// buildings.
     pub regret: Option<f64>,
-    /// Heat brought in and taken out before the first occupied time of the day \[kWh\].
+    /// Heat supplied and removed before the first occupied time of the day \[kWh\].
     pub early_kwh: f64,
-    /// Spectral radius where it is known: of the learning from day to day, or of a designed feedback's closed loop.
+    /// Spectral radius, if it is known: of the learning from day to day, or of a designed feedback's closed loop.
     pub spectral_radius: Option<f64>,
     /// Whether the controller had no plan of its own and repeated the day before.
     pub fallback: bool,
-    /// How well the day was known beforehand, where another program is the building.
+    /// Accuracy of the predictions of the day, if another program simulates the building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub day_ahead: Option<DayAheadErrors>,
-    /// What the meter of electricity counted, where another program is the building and has one.
+    /// Readings of the electricity meter, if another program simulates the building and has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub metered: Option<Metered>,
-    /// How zones that plan together came to their plan.
+    /// The exchange of zones that plan together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exchange: Option<ExchangeFigures>,
     /// Wall time of the controller: of planning at midnight and at every step, and of learning \[s\]; not reproducible.
     pub design_s: f64,
 }
 
-/// How zones came to a common plan; its serialisation is part of the output contract.
+/// The exchange that led zones to a common plan; its serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ExchangeFigures {
     /// Number of rounds of messages.
@@ -58,21 +58,21 @@ pub struct ExchangeFigures {
     pub messages: usize,
     /// Messages that did not arrive in their round.
     pub undelivered: usize,
-    /// Cost that the plan was expected to have before the first round.
+    /// Predicted cost of the plan before the first round.
     pub first_cost: f64,
-    /// Cost that the plan was expected to have after the last round.
+    /// Predicted cost of the plan after the last round.
     pub cost: f64,
-    /// Whether no round made it dearer, but for rounding.
+    /// Whether no round increased the cost, up to rounding.
     pub never_rises: bool,
-    /// Cost that the centralised plan would have had, if it was computed for comparison.
+    /// Cost of the centralised plan, if it was computed for comparison.
     pub centralised_cost: Option<f64>,
 }
 
 impl ExchangeFigures {
-    /// A rise by less than this share is rounding.
+    /// Relative increases below this are rounding errors.
     const COST_ROUNDING_SHARE: f64 = 1e-9;
 
-    /// Sums an exchange up; `None` if not even the first guess has a cost.
+    /// Summarises an exchange; `None` if even the first guess has no cost.
     pub fn sum_up(exchange: &Exchange) -> Option<Self> {
         let costs = &exchange.costs;
         Some(Self {
@@ -87,22 +87,22 @@ impl ExchangeFigures {
     }
 }
 
-/// Differences between what was predicted at midnight for the day and what happened: roots of the mean squares over zones and
+/// Prediction errors: differences between the prediction at midnight and the day, as root mean squares over zones and
 /// steps \[K\]. Their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DayAheadErrors {
-    /// Of the controller's model, from the temperatures at midnight, with the heat that was given and the forecast. Nothing that
-    /// was learned or measured during the day enters.
+    /// Error of the controller's model, from the temperatures at midnight, with the given heat and the forecast. It ignores
+    /// learning and measurements during the day.
     pub model_rmse_c: f64,
-    /// The same with what the controller had learned before that day: its planned temperatures, plus what its model says of the
-    /// difference between the given heat and the planned one. None without a plan.
+    /// The same with the controller's learning before that day: its planned temperatures, plus the response of its model to
+    /// the difference between the given and the planned heat. None without a plan.
     pub learned_rmse_c: Option<f64>,
-    /// Of the temperatures that the controller planned; none without a plan. The feedback of the day keeps them near the plan.
+    /// Error of the temperatures that the controller planned; none without a plan. The feedback of the day keeps them near the plan.
     pub plan_rmse_c: Option<f64>,
 }
 
 impl DayAheadErrors {
-    /// The errors of a day that is over. `believed` is the controller's model.
+    /// The errors of a completed day. `believed` is the controller's model.
     pub fn compute(today: &Day, believed: &Model) -> Self {
         let (record, design) = (&today.record, &today.record.design);
         let rmse_c = |predicted_c: &[f64]| {

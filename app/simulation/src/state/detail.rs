@@ -1,4 +1,4 @@
-//! Level of detail: humans who are far from the ego follow the intelligent driver model, and are humans again when they come near.
+//! Level of detail: human drivers far from the ego are replaced by the intelligent driver model until they come near.
 
 use interplay_planners::drivers::idm;
 use interplay_planners::{Driver, Planner, State};
@@ -6,26 +6,24 @@ use interplay_scenarios::Scenario;
 
 use crate::state::not_copied::NotCopied;
 
-/// Who is near stays near up to this many times the distance within which everybody is, so that nobody changes to and fro.
+/// A near vehicle stays near up to this multiple of the distance, so that drivers do not alternate.
 const STAYS_NEAR: f64 = 1.1;
 
-/// The two drivers of a vehicle that is simulated closely near the ego only.
+/// The two drivers of a vehicle that is simulated in detail only near the ego.
 #[derive(Debug)]
 pub struct LevelOfDetail {
-    /// Index of the ego.
     ego: usize,
-    /// So near to the ego it drives as its scenario says \[m\].
+    /// Distance to the ego within which it drives as its scenario states \[m\].
     within_m: f64,
-    /// Who drives near the ego, and has not planned yet.
+    /// The driver near the ego, before its first plan.
     near: Planner,
-    /// Who drives far from it, and has not planned yet.
+    /// The driver far from the ego, before its first plan.
     far: Planner,
-    /// Whether it is far.
     is_far: bool,
 }
 
 impl LevelOfDetail {
-    /// That of a vehicle of a scenario; none for whoever drives in the same way everywhere.
+    /// The drivers of a scenario's vehicle; none for one that always has the same driver.
     pub fn of(scenario: &Scenario, index: usize) -> Option<Self> {
         let (detail, vehicle) = (scenario.detail_of(index)?, &scenario.vehicles[index]);
         let far = Driver::Idm(idm::Settings::literature().scaled(vehicle.body.real_ratio()));
@@ -38,8 +36,8 @@ impl LevelOfDetail {
         })
     }
 
-    /// The driver who takes over, if the vehicle has come near or is near no more, and that in words. `states` are those of everybody
-    /// who is there.
+    /// The driver that takes over, if the vehicle has come near or gone far, with a description. `states` are those of all vehicles
+    /// on the road.
     pub fn successor(&mut self, index: usize, states: &[Option<State>]) -> Option<(Planner, String)> {
         let own = states[index]?;
         let from_ego_m = states[self.ego].map_or(f64::INFINITY, |ego| distance_m(&own, &ego));
@@ -56,7 +54,7 @@ impl LevelOfDetail {
         Some((successor.fork()?, text.to_owned()))
     }
 
-    /// A copy that remembers the same, for the vehicle called `name`.
+    /// A copy with the same memory, for the vehicle called `name`.
     ///
     /// # Errors
     /// [`NotCopied`] if one of its drivers does not fork.
@@ -76,7 +74,7 @@ mod tests {
 
     use crate::Simulation;
 
-    /// The ego comes up behind three slower people on another lane, 100 to 300 m ahead.
+    /// The ego approaches three slower human drivers in another lane, 100 to 300 m ahead.
     fn street(detail: &str) -> Scenario {
         let car = |name: &str, lane: u8, along_m: f64, speed_mps: f64| {
             let start = format!("{{ along_m = {along_m}, lane = {lane}, speed_mps = {speed_mps} }}");
@@ -91,7 +89,7 @@ mod tests {
         from_text("street.toml", &text, &[]).expect("a scenario")
     }
 
-    /// For each vehicle the time at which it first plans with a problem, which the intelligent driver model never does.
+    /// For each vehicle the time of its first plan with an optimisation problem, which the intelligent driver model does not have.
     fn human_from_s(scenario: &Scenario) -> (Vec<Option<f64>>, String) {
         let mut simulation = Simulation::new(scenario).expect("a world");
         let mut from_s = vec![None; scenario.vehicles.len()];
@@ -106,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn people_far_from_the_ego_follow_a_model_until_it_comes_near() {
+    fn human_drivers_far_from_the_ego_follow_idm_until_it_comes_near() {
         let (from_s, digest) = human_from_s(&street("detail = { within_m = 60.0 }"));
         let [Some(ego_s), Some(a_s), Some(b_s), None] = from_s[..] else { panic!("{from_s:?}") };
         assert_eq!(ego_s, 0.0);
@@ -115,13 +113,13 @@ mod tests {
     }
 
     #[test]
-    fn a_level_of_detail_that_reaches_everybody_changes_nothing() {
+    fn a_level_of_detail_that_includes_all_vehicles_changes_nothing() {
         assert_eq!(human_from_s(&street("detail = { within_m = 1000.0 }")), human_from_s(&street("")));
     }
 
-    /// A run goes on from a snapshot with whoever has the wheel then.
+    /// A resumed run continues with the driver in control at the snapshot.
     #[test]
-    fn a_snapshot_knows_who_has_the_wheel() {
+    fn a_snapshot_keeps_the_driver_in_control() {
         let mut simulation = Simulation::new(&street("detail = { within_m = 60.0 }")).expect("a world");
         for _ in 0..40 {
             simulation.step().expect("a step");

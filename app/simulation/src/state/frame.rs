@@ -1,4 +1,4 @@
-//! What one tick looked like: plain values, handed from the world to whoever watches it.
+//! Frames: one tick as plain values, which watchers receive.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use crate::state::day::DayFigures;
 
-/// One tick of a run as plain values: all that metrics, recorders and tests see of it.
+/// One tick of a run as plain values, the input of metrics, recorders and tests.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Ticks before this one; of a building alone, its steps.
+    /// Number of earlier ticks; for a building alone, number of its steps.
     pub tick: usize,
     /// Simulated time at which the plans were made and the states hold \[s\].
     pub time_s: f64,
@@ -69,9 +69,9 @@ pub struct ZoneFrame {
     pub temperature_c: f64,
     /// Temperature at its end \[°C\].
     pub next_c: f64,
-    /// The wanted temperature at its start \[°C\]; none where it is free.
+    /// The target temperature at its start \[°C\]; none if it is free.
     pub reference_c: Option<f64>,
-    /// Deviations from it that are comfortable \[K\]; none while nobody is there.
+    /// Half-width of the comfort band \[K\]; none while the zone is unoccupied.
     pub band_k: Option<f64>,
     /// Heat that the controller requested \[kW\].
     pub requested_kw: f64,
@@ -79,9 +79,9 @@ pub struct ZoneFrame {
     pub heat_kw: f64,
     /// Heat from people, sun and machines \[kW\].
     pub gains_kw: f64,
-    /// The part of it that is the sun's \[kW\].
+    /// Solar part of these gains \[kW\].
     pub sun_kw: f64,
-    /// Electricity that its heat takes \[kW\].
+    /// Electricity for its heat \[kW\].
     pub electric_kw: f64,
 }
 
@@ -90,7 +90,7 @@ pub struct ZoneFrame {
 pub struct VehicleFrame {
     /// Name of the vehicle.
     pub name: String,
-    /// Whether it is not on the road: it has not come yet, or has left. Then the rest means nothing.
+    /// Whether it is not on the road: it has not entered yet, or has left. Then the other fields have no meaning.
     pub is_absent: bool,
     /// State of the vehicle when it planned.
     pub state: State,
@@ -100,19 +100,19 @@ pub struct VehicleFrame {
     pub plan: Arc<Plan>,
     /// Where the plan comes from.
     pub origin: Origin,
-    /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
-    /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
+    /// The motion that the others expected when they planned: the plan itself if it plans first, otherwise the continuation of its last
+    /// plan. Vehicles ahead of it that also plan first had planned before it and knew only its last plan.
     pub prediction: Arc<Trajectory>,
-    /// What the rules of the road ask of it.
+    /// Requirements of the rules of the road.
     pub rules: RoadRules,
-    /// How many times harder than is comfortable it had to brake when it planned; 1 where comfort was enough.
+    /// Factor by which its required braking exceeded comfortable braking when it planned; 1 if comfortable braking sufficed.
     pub urgency: f64,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
 }
 
 impl VehicleFrame {
-    /// A vehicle after it decided and before it moves; `plan_ms` is the wall time of its plan \[ms\].
+    /// A vehicle after its decision and before it moves; `plan_ms` is the wall time of its plan \[ms\].
     pub(crate) fn of(user: &RoadUser, plan_ms: f64) -> Self {
         let agent = &user.agent;
         VehicleFrame {
@@ -129,12 +129,12 @@ impl VehicleFrame {
         }
     }
 
-    /// The cost of the plan; none of a plan that no cost chose.
+    /// The cost of the plan; none for a plan that was not chosen by cost.
     pub fn plan_cost(&self) -> Option<f64> {
         self.plan.value_of(&diagnostic::COST)
     }
 
-    /// With whom its planner deals from this tick on, or that it deals with nobody; none where that has not changed.
+    /// The new partner of its planner, or the end of the partnership; none if that has not changed in this tick.
     pub fn new_partner(&self) -> Option<Option<&str>> {
         self.plan.events.iter().rev().find_map(|event| match &event.kind {
             PlanEventKind::Partner(partner) => Some(partner.as_deref()),
@@ -165,7 +165,7 @@ pub struct Collision {
     pub impulse_ns: f64,
 }
 
-/// An event of a run: something that is worth a line in its log.
+/// An event of a run, for its log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
     /// The source of the event: a vehicle, or `controller` for that of the building.
@@ -179,7 +179,7 @@ pub struct Event {
 /// How serious an event is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Worth knowing.
+    /// For information.
     Note,
     /// A planner failed or a filter intervened.
     Warning,

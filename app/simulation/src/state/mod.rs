@@ -1,4 +1,4 @@
-//! What a world holds and what a tick looked like: components, resources, and the plain values that are handed out.
+//! The state of a world and its frames: components, resources, and plain values for watchers.
 
 pub mod components;
 pub mod day;

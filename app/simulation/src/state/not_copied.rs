@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{who} cannot be copied: {why}")]
 pub struct NotCopied {
-    /// Which part of the world it is.
+    /// The part of the world.
     pub who: String,
     /// Why the piece of state has no copy.
     pub why: String,

@@ -1,4 +1,4 @@
-//! Why somebody stands who wants to drive, as far as that shows: from where everybody is and from what the rules ask.
+//! Classifies why a vehicle that wants to move is stationary, from positions and traffic rules.
 
 use interplay_planners::road::network::LightColour;
 use interplay_planners::{Driver, Route, State};
@@ -6,43 +6,43 @@ use interplay_scenarios::Vehicle;
 
 use crate::state::frame::Frame;
 
-/// Slower than this a real car stands \[m/s\].
+/// A slower real car is stationary \[m/s\].
 pub(crate) const STANDING_MPS: f64 = 0.3;
-/// Who stops at a light is at most so far before it, of a real car \[m\].
+/// Maximum distance from a traffic light at which a vehicle stops for it, for a real car \[m\].
 const LIGHT_M: f64 = 5.0;
-/// Who wants to drive no faster than this does not want to drive, of a real car \[m/s\].
+/// A vehicle with a desired speed up to this does not want to move, for a real car \[m/s\].
 const LEAST_WANTED_MPS: f64 = 0.5;
-/// A line or a vehicle that somebody waits at is within this distance of its front, for a real car \[m\].
+/// Maximum distance from a vehicle's front to the line or vehicle at which it waits, for a real car \[m\].
 const NEAR_M: f64 = 15.0;
-/// Who comes the other way keeps a real car from passing an obstacle from this distance on \[m\].
+/// Distance up to which oncoming traffic prevents a real car from passing an obstacle \[m\].
 const ONCOMING_M: f64 = 150.0;
-/// Space that passing takes beside both bodies, for a real car \[m\].
+/// Lateral clearance needed for passing, beside both bodies, for a real car \[m\].
 const ASIDE_M: f64 = 0.7;
 
-/// Why somebody stands.
+/// Why a vehicle is stationary.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StandingReason {
-    /// A sign asks for it.
+    /// It stops at a stop sign.
     Sign,
-    /// A traffic light asks for it.
+    /// It stops at a traffic light.
     Light,
     /// It gives way to these vehicles.
     GivesWay(Vec<String>),
-    /// Somebody stands or drives ahead of it.
+    /// It waits behind another vehicle.
     Behind(String),
-    /// It waits for somebody before it passes an obstacle.
+    /// It waits for another vehicle before it passes an obstacle.
     Passing {
-        /// For whom.
+        /// The vehicle for which it waits.
         waits_for: String,
-        /// What stands in the way.
+        /// The obstacle.
         obstacle: String,
     },
-    /// There is no room beside an obstacle.
+    /// There is not enough room to pass an obstacle.
     NoRoom(String),
 }
 
 impl StandingReason {
-    /// Those whom it names, for whom somebody waits.
+    /// The vehicles that the reason names, for which a vehicle waits.
     fn waits_for(&self) -> Vec<&str> {
         match self {
             StandingReason::Sign | StandingReason::Light | StandingReason::NoRoom(_) => Vec::new(),
@@ -67,7 +67,7 @@ impl std::fmt::Display for StandingReason {
     }
 }
 
-/// All vehicles of a moment, of whom some may stand.
+/// All vehicles at one time, some of which may be stationary.
 #[derive(Clone, Copy, Debug)]
 pub struct Standing<'a> {
     vehicles: &'a [Vehicle],
@@ -85,7 +85,7 @@ impl<'a> Standing<'a> {
         &self.vehicles[index]
     }
 
-    /// Whether a vehicle stands although it wants to drive.
+    /// Whether a vehicle is stationary although it wants to move.
     pub fn stands(&self, index: usize) -> bool {
         let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());
         self.wants_to_drive(index)
@@ -94,12 +94,12 @@ impl<'a> Standing<'a> {
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
 
-    /// Why a vehicle stands; none where nothing says so, or where those who wait for one another wait in a circle.
+    /// Why a vehicle is stationary; none if no reason is visible, or if vehicles wait for one another in a cycle.
     pub fn reason(&self, index: usize) -> Option<StandingReason> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
-    /// All who stand and wait for one another together with a vehicle, itself among them, in ascending order; nobody where they do not.
+    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty if there is no cycle.
     pub fn circle(&self, index: usize) -> Vec<usize> {
         let together = |other: &usize| self.reaches(*other).contains(&index);
         let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();
@@ -107,7 +107,7 @@ impl<'a> Standing<'a> {
         circle
     }
 
-    /// Those who stand and for whom a vehicle waits, or for whom those wait, and so on.
+    /// The stationary vehicles for which a vehicle waits, directly or through other vehicles.
     fn reaches(&self, index: usize) -> Vec<usize> {
         let mut found: Vec<usize> = Vec::new();
         let mut next = vec![index];
@@ -122,7 +122,7 @@ impl<'a> Standing<'a> {
         found
     }
 
-    /// Whether whoever is waited for moves, or waits for somebody who does.
+    /// Whether the vehicle that is waited for moves, or waits for one that does.
     fn ends(&self, reason: &StandingReason, passed: &mut Vec<usize>) -> bool {
         let names = reason.waits_for();
         let indices = names.iter().filter_map(|name| self.vehicles.iter().position(|vehicle| vehicle.name == *name));
@@ -136,7 +136,7 @@ impl<'a> Standing<'a> {
             })
     }
 
-    /// Why a vehicle stands, whatever those do for whom it waits.
+    /// Why a vehicle is stationary, independently of the vehicles for which it waits.
     pub fn plain_reason(&self, index: usize) -> Option<StandingReason> {
         let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
         let front_m = self.along_m(index) + vehicle.body.front_m;
@@ -157,7 +157,7 @@ impl<'a> Standing<'a> {
         })
     }
 
-    /// Whether a traffic light that is not green stands right behind a line \[m\].
+    /// Whether a traffic light that is not green is just beyond a line \[m\].
     fn is_lit(&self, index: usize, line_m: f64) -> bool {
         let near_m = LIGHT_M * self.scale(index);
         self.vehicles[index].route.legs.iter().any(|leg| {
@@ -167,7 +167,7 @@ impl<'a> Standing<'a> {
         })
     }
 
-    /// Why an obstacle is not passed.
+    /// Why a vehicle does not pass an obstacle.
     fn before_passing(&self, index: usize, obstacle: usize) -> Option<StandingReason> {
         let (own, other) = (&self.vehicles[index], &self.vehicles[obstacle]);
         let at = own.route.locate(self.state(obstacle).position(), None);
@@ -205,7 +205,7 @@ impl<'a> Standing<'a> {
         others.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
     }
 
-    /// Those who are on the road besides a vehicle.
+    /// The other vehicles on the road.
     fn others(&self, index: usize) -> impl Iterator<Item = usize> {
         (0..self.vehicles.len()).filter(move |other| *other != index && !self.is_absent(*other))
     }
@@ -216,7 +216,7 @@ impl<'a> Standing<'a> {
 
     fn wants_to_drive(&self, index: usize) -> bool {
         let vehicle = &self.vehicles[index];
-        // Who is on foot may stand.
+        // A pedestrian may stand.
         if matches!(vehicle.driver, Driver::Walker(_)) {
             return false;
         }

@@ -1,4 +1,4 @@
-//! The optimum of a whole run of a building, beside what the run cost.
+//! The cost of a building's whole run compared with the optimum.
 
 use interplay_building::day::RunHistory;
 use interplay_building::discretise::Model;
@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use crate::state::day::DayFigures;
 
-/// A run beside the cheapest one with perfect foresight of all days, the true model and the same end; its serialisation is part of the
-/// output contract.
+/// A run compared with the cheapest one with perfect foresight of all days, the true model and the same final state; its serialisation
+/// is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WholeRun {
     /// Cost J of the run.
@@ -18,19 +18,19 @@ pub struct WholeRun {
     pub regret: f64,
     /// Discomfort of the run \[K·h per zone\].
     pub discomfort_k_h: f64,
-    /// What the electricity of the run cost \[currency\]; none without a tariff. Without the demand charge.
+    /// Cost of the run's electricity \[currency\]; none without a tariff. Without the demand charge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cost: Option<f64>,
-    /// The least that the electricity can cost without discomfort \[currency\]; none without a tariff or with a demand charge.
+    /// Least cost of electricity without discomfort \[currency\]; none without a tariff or with a demand charge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_energy_cost: Option<f64>,
-    /// Discomfort that not even that run can prevent \[K·h per zone\].
+    /// Unavoidable discomfort, which remains even in that run \[K·h per zone\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_discomfort_k_h: Option<f64>,
 }
 
 impl WholeRun {
-    /// Compares the days of a run; `None` if an optimum is not found.
+    /// Computes the comparison from the days of a run; `None` if no optimum is found.
     pub fn compute(model: &Model, history: &RunHistory, days: &[DayFigures]) -> Option<Self> {
         if days.is_empty() {
             return None;

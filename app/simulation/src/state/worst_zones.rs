@@ -1,22 +1,22 @@
-//! The zones that do worst on a day, by number.
+//! The zones with the worst figures of a day, by number.
 
 use interplay_building::comfort::Targets;
 use interplay_building::control::DayRecord;
 use interplay_building::day::ZoneFigures;
 use interplay_building::network::PowerLimits;
 
-/// The zones with the largest share in each key figure of a day; none where the figure is 0.
+/// The zones with the largest share in each key figure of a day; none if the figure is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorstZones {
     /// The zone with the largest sum of squared errors over occupied steps.
     pub tracking: Option<usize>,
     /// The zone with the largest deviation beyond the comfort band, summed over occupied steps.
     pub discomfort: Option<usize>,
-    /// The zone with the most heat in and out.
+    /// The zone with the largest amount of heat, heating and cooling together.
     pub energy: Option<usize>,
-    /// The zone with the most electricity.
+    /// The zone with the largest consumption of electricity.
     pub electricity: Option<usize>,
-    /// The zone with the dearest electricity.
+    /// The zone with the highest cost of electricity.
     pub energy_cost: Option<usize>,
     /// The zone with the largest excess of a requested input over its limit.
     pub input_violation: Option<usize>,
@@ -41,7 +41,7 @@ impl WorstZones {
             let requested_kw = record.requested_kw.iter().skip(zone).step_by(zones);
             requested_kw.map(|kw| limits.excess_kw(zone, *kw)).fold(0.0, f64::max)
         };
-        // Which zone has the most does not depend on the length of a step.
+        // The largest share does not depend on the length of a step.
         let figures = ZoneFigures::of_all(record, targets, 3600.0);
         WorstZones {
             tracking: largest(&|zone| errors_k(zone).map(|error_k| error_k * error_k).sum()),

@@ -1,4 +1,4 @@
-//! What a planner means for a building: energy, electricity, its price, and discomfort.
+//! Effects of a planner on a building: energy, electricity, its price, and discomfort.
 
 use serde::Serialize;
 
@@ -6,19 +6,19 @@ use super::estimate::Estimate;
 use super::records::RunRecord;
 use super::split::Split;
 
-/// The intervals of buildings have streams of their own, from here on.
+/// First random stream of the intervals of buildings, which have streams of their own.
 const FIRST_STREAM: u64 = 1 << 48;
-/// How many intervals a planner has of its own, and versus the baseline.
+/// Number of intervals of a planner, its own and those versus the baseline.
 const INTERVALS: u64 = 8;
-/// Two bills, or two amounts of electricity, that differ by a smaller share are equal.
+/// Relative difference below which two bills, or two amounts of electricity, are equal.
 const EQUAL_SHARE: f64 = 1e-9;
 
-/// What became of the buildings of some runs: means over the runs of what all days of a run amount to.
+/// Results of the buildings of several runs: means over the runs of the totals over all days.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BuildingFigures {
     /// Heat brought in and taken out \[kWh\].
     pub energy_kwh: Estimate,
-    /// Electricity that the equipment took for it \[kWh\]; none where it is the heat itself in all runs, without a heat pump.
+    /// Electricity of the equipment \[kWh\]; none if it equals the heat in all runs, without a heat pump.
     pub electricity_kwh: Option<Estimate>,
     /// What the electricity cost \[currency\]; none without a tariff.
     pub bill: Option<Estimate>,
@@ -28,21 +28,21 @@ pub struct BuildingFigures {
     pub discomfort_k_h: Estimate,
 }
 
-/// What is different for a building with one of two, under the same conditions.
+/// Differences for a building between two planners under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BuildingDifference {
-    /// Whose bill is lower; without tariffs, who takes less electricity.
+    /// Pairs by the lower bill; without tariffs, by the lower consumption of electricity.
     pub cheaper: Split,
-    /// How much more electricity the first takes \[kWh\]: mean over the pairs.
+    /// Additional electricity of the first \[kWh\]: mean over the pairs.
     pub electricity_kwh: Option<Estimate>,
-    /// How much more it costs \[currency\]: mean over the pairs with one currency.
+    /// Additional cost of the first \[currency\]: mean over the pairs with one currency.
     pub bill: Option<Estimate>,
-    /// How much more discomfort there is \[K·h per zone\]: mean over the pairs.
+    /// Additional discomfort of the first \[K·h per zone\]: mean over the pairs.
     pub discomfort_k_h: Option<Estimate>,
 }
 
 impl BuildingFigures {
-    /// The figures of some runs; none without buildings.
+    /// The figures of several runs; none without buildings.
     pub(super) fn of(records: &[&RunRecord], stream: u64) -> Option<BuildingFigures> {
         let buildings: Vec<&RunRecord> = records.iter().copied().filter(|record| has_building(record)).collect();
         let currency = buildings.first()?.text("currency");
@@ -92,12 +92,11 @@ impl BuildingDifference {
     }
 }
 
-/// Whether a run has a building.
 fn has_building(record: &RunRecord) -> bool {
     record.number("energy_kwh").is_some() && record.number("discomfort_k_h").is_some()
 }
 
-/// Whether two sums are equal but for the order in which they were added.
+/// Whether two sums are equal up to the order of their terms.
 fn is_equal(one: f64, other: f64) -> bool {
     (one - other).abs() <= EQUAL_SHARE * (1.0 + one.abs().max(other.abs()))
 }

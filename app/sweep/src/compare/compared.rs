@@ -1,37 +1,37 @@
-//! What of the rows is compared: a list of columns, each with how its values of many runs become one figure.
+//! The columns that are compared, each with the aggregation of its values over many runs.
 //!
-//! The metrics of runs are on the list by their own declarations.
+//! Metrics of runs are compared by their own declarations.
 
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, RegisteredMetrics};
 use interplay_simulation::measure::metrics_of;
 
 use super::records::RunRecord;
 
-/// All that is compared.
+/// All columns that are compared.
 pub(super) struct ComparedColumns {
     pub figures: Vec<FigureColumn>,
     pub splits: Vec<SplitColumn>,
 }
 
-/// A figure of a planner.
+/// A figure of a planner, computed from a column.
 pub(super) struct FigureColumn {
     /// Its key.
     pub key: String,
-    /// What it is, in words with the unit.
+    /// Its name, in words with the unit.
     pub title: String,
     pub how: FigureKind,
-    /// The column of rows that it is made of.
+    /// The column from which it is computed.
     pub column: String,
     /// The value of a row; flags are 0 and 1.
     of: fn(&RunRecord, &str) -> Option<f64>,
 }
 
-/// How the values of many runs become one.
+/// The aggregation of the values of many runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FigureKind {
-    /// The share of those that are not 0.
+    /// The share of the values that are not 0.
     Share,
-    /// How many are not 0.
+    /// The number of values that are not 0.
     Runs,
     Sum,
     Mean,
@@ -43,17 +43,17 @@ pub(super) enum FigureKind {
 pub(super) struct SplitColumn {
     /// Its key.
     pub key: &'static str,
-    /// What it is, in words.
+    /// Its name, in words.
     pub title: String,
     column: &'static str,
     better: Better,
 }
 
-/// A figure that is no metric: its key, how it is made, the column, and the value of a row.
+/// A figure that is not a metric: its key, its aggregation, the column, and the value of a row.
 type FixedFigure = (&'static str, FigureKind, &'static str, fn(&RunRecord, &str) -> Option<f64>);
 
 const FIGURES: [FixedFigure; 13] = [
-    // Runs in which the ego did its task and touched nobody; without vehicles, those that passed.
+    // Runs in which the ego completed its task without contact; without vehicles, those that passed.
     ("success", FigureKind::Share, "success", |record, _| Some(f64::from(succeeds(record)))),
     // Of runs that succeeded.
     ("completed_s", FigureKind::Mean, "completed_s", |record, name| record.number(name).filter(|_| succeeds(record))),
@@ -63,27 +63,27 @@ const FIGURES: [FixedFigure; 13] = [
     ("yields", FigureKind::Share, "ego_yields", |record, name| Some(f64::from(record.flag(name) == Some(true)))),
     // Runs in which the ego went before another in a conflict zone.
     ("others_yield", FigureKind::Share, "others_yield", RunRecord::number),
-    // Runs in which the order is that of the scenario's file and nobody touched anybody, of those whose file states one.
+    // Runs with the order that the scenario's file states and without contact, of those whose file states one.
     ("order_kept", FigureKind::Share, "order_kept", RunRecord::number),
-    // Runs in which the ego never did its task, though nobody touched anybody.
+    // Runs in which the ego never completed its task, though no vehicle touched another.
     ("deadlocks", FigureKind::Runs, "deadlock", RunRecord::number),
-    // Runs in which the ego touched somebody.
+    // Runs in which the ego touched another vehicle.
     ("contacts", FigureKind::Runs, "ego_contact", RunRecord::number),
-    // Those of them in which it moved towards the other at least as fast as the other towards it.
+    // Runs of these in which the ego approached the other at least as fast as the other approached it.
     ("contacts_by_ego", FigureKind::Runs, "contact_by_ego", RunRecord::number),
-    // Runs in which anybody touched anybody.
+    // Runs in which any two vehicles touched.
     ("touched", FigureKind::Runs, "contacts", RunRecord::number),
     ("plans_failed", FigureKind::Sum, "plans_failed", RunRecord::number),
-    // Medians over the runs of times of plans, which are not reproducible.
+    // Medians over the runs of planning times, which are not reproducible.
     ("plan_median_ms", FigureKind::Median, "plan_median_ms", RunRecord::number),
     ("plan_p99_ms", FigureKind::Median, "plan_p99_ms", RunRecord::number),
 ];
 
-/// Columns that are read besides those of figures and splits.
+/// Columns that are read in addition to those of figures and splits.
 const MORE_COLUMNS: [&str; 6] = ["passed", "energy_kwh", "electricity_kwh", "bill", "currency", "discomfort_k_h"];
 
 impl ComparedColumns {
-    /// What Interplay compares, with the metrics of others that are registered.
+    /// The columns that Interplay compares, with the registered metrics of other crates.
     pub fn new(registered: &RegisteredMetrics) -> Self {
         let fixed = FIGURES.map(|(key, how, column, of)| FigureColumn {
             key: key.to_owned(),
@@ -151,7 +151,7 @@ impl SplitColumn {
     }
 }
 
-/// Whether the ego did its task and touched nobody; without vehicles, whether the run passed.
+/// Whether the ego completed its task without contact; without vehicles, whether the run passed.
 pub(super) fn succeeds(record: &RunRecord) -> bool {
     record.flag("success").or_else(|| record.flag("passed")).unwrap_or(false)
 }

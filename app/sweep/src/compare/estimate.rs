@@ -1,28 +1,28 @@
-//! Shares, means and quantiles of what runs amount to.
+//! Shares, means and quantiles over runs.
 
 use serde::Serialize;
 
 use crate::statistics::{mean_interval, quantile, wilson_interval};
 
-/// A share with Wilson's interval at 95 %.
+/// A share with its 95 % Wilson interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// How many.
+    /// The number of runs that count.
     pub count: usize,
-    /// Of how many.
+    /// The number of all runs.
     pub of: usize,
     /// Lower and upper bound.
     pub interval: [f64; 2],
 }
 
-/// A mean with its bootstrap interval at 95 %.
+/// A mean with its 95 % bootstrap interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The mean.
     pub mean: f64,
     /// Lower and upper bound.
     pub interval: [f64; 2],
-    /// Of how many numbers.
+    /// Sample size.
     pub of: usize,
 }
 
@@ -44,21 +44,21 @@ impl Share {
         Share { count, of, interval: wilson_interval(count, of) }
     }
 
-    /// The share itself; none of none.
+    /// The share itself; none if `of` is zero.
     pub fn share(&self) -> Option<f64> {
         (self.of > 0).then(|| self.count as f64 / self.of as f64)
     }
 }
 
 impl Estimate {
-    /// The mean of some numbers; none without any. `stream` tells the draws of one interval from another's.
+    /// The mean of numbers; none if there are none. `stream` separates the random draws of intervals.
     pub(super) fn of(numbers: &[f64], stream: u64) -> Option<Estimate> {
         mean_interval(numbers, stream).map(|(mean, interval)| Estimate { mean, interval, of: numbers.len() })
     }
 }
 
 impl Quantiles {
-    /// The quantiles of numbers in any order; none without any.
+    /// The quantiles of unsorted numbers; none if there are none.
     pub(super) fn of(mut numbers: Vec<f64>) -> Option<Quantiles> {
         numbers.sort_by(f64::total_cmp);
         let at = |share| quantile(&numbers, share);

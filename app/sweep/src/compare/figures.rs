@@ -15,22 +15,22 @@ use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
 
-/// What the rows of a folder say of the planners.
+/// Comparison of the planners from the rows of a folder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// How many rows there are.
+    /// Number of rows.
     pub runs: usize,
-    /// How many of them have no result.
+    /// Number of rows without a result.
     pub unfinished: usize,
     /// The versions of the program that made them.
     pub versions: Vec<String>,
-    /// The planner that the others are compared with.
+    /// The planner with which the others are compared.
     pub baseline: String,
     /// The groups: each family or scenario with each style, then all of them with each style, then all.
     pub groups: Vec<GroupFigures>,
 }
 
-/// The planners under some conditions.
+/// The planners under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupFigures {
     /// The family or scenario; none for all.
@@ -43,21 +43,21 @@ pub struct GroupFigures {
     pub planners: Vec<PlannerFigures>,
 }
 
-/// What a planner did.
+/// Results of a planner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlannerFigures {
     /// Its name.
     pub planner: String,
-    /// How many runs have a result.
+    /// Number of runs with a result.
     pub runs: usize,
-    /// How many have none.
+    /// Number of runs without a result.
     pub unfinished: usize,
-    /// Its figures: shares, counts, means and quantiles of what rows have, by their keys.
+    /// Its figures by key: shares, counts, means and quantiles over the rows.
     #[serde(flatten)]
     pub figures: Figures,
-    /// What became of the building; none without one.
+    /// Results for the building; none without one.
     pub building: Option<BuildingFigures>,
-    /// What is different from the baseline under the same conditions; none for the baseline itself.
+    /// Differences from the baseline under the same conditions; none for the baseline itself.
     pub versus_baseline: Option<PairedDifference>,
 }
 
@@ -65,22 +65,22 @@ pub struct PlannerFigures {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figures(pub Vec<NamedFigure>);
 
-/// A figure with what it is called.
+/// A figure with its title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedFigure {
     /// Its key.
     pub key: String,
-    /// What it is, in words with the unit.
+    /// Its name, in words with the unit.
     pub title: String,
     /// The figure.
     pub figure: Figure,
 }
 
-/// What the values of many runs amount to; none where no run has a value.
+/// Aggregate of the values of many runs; none if no run has a value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Figure {
-    /// In how many runs something is so, of those of which it is known.
+    /// Share of the runs in which a flag is set, among those where it is known.
     Share(Share),
     /// A number of runs, or a sum of counts.
     Count(u64),
@@ -98,12 +98,12 @@ impl Figures {
         self.0.iter().find(|named| named.key == key).map(|named| &named.figure)
     }
 
-    /// A share; none if that figure is none.
+    /// A share; none if the figure is not a share.
     pub fn share(&self, key: &str) -> Option<&Share> {
         if let Some(Figure::Share(share)) = self.get(key) { Some(share) } else { None }
     }
 
-    /// A count; 0 if that figure is none.
+    /// A count; 0 if the figure is not a count.
     pub fn count(&self, key: &str) -> u64 {
         if let Some(Figure::Count(count)) = self.get(key) { *count } else { 0 }
     }
@@ -130,7 +130,7 @@ impl Serialize for Figures {
     }
 }
 
-/// What rows are grouped by besides the style.
+/// The grouping of rows, in addition to the style.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GroupBy {
     /// The family of the scenario.
@@ -140,11 +140,11 @@ pub enum GroupBy {
     Scenario,
 }
 
-/// The place of the time to the goal on the list of what is compared.
+/// The index of the time to the goal in the list of compared columns.
 const TIME_TO_GOAL: usize = 1;
-/// Intervals of means of metrics have streams of their own, from here on.
+/// First random stream of the intervals of means of metrics.
 const FIRST_STREAM: u64 = 1 << 56;
-/// At most this many figures have streams of a planner's own.
+/// Maximum number of figures of a planner with a random stream of their own.
 const MAX_FIGURES: u64 = 1 << 12;
 
 /// The name of the driver that a scenario's file states.
@@ -154,7 +154,7 @@ const AS_WRITTEN: &str = "as-written";
 /// there, otherwise with the first by name. `registered` metrics are compared, too.
 ///
 /// # Errors
-/// Files that cannot be read or are no table of runs; a baseline that has no row.
+/// If a file cannot be read or is not a table of runs, or if the baseline has no row.
 pub fn compare(
     path: &Path,
     baseline: Option<&str>,
@@ -196,8 +196,8 @@ pub fn compare(
 /// A group: its family or scenario, and its style; none for all.
 type GroupName<'a> = (Option<&'a str>, Option<&'a str>);
 
-/// The groups, with all of one style after those of one family, and all of all at the end. Groups that say the same twice are
-/// left out.
+/// The groups: after those of each family, one for each style over all families, and one for all rows. Groups with the same rows are
+/// listed once.
 fn grouped(all: &[RunRecord], by: GroupBy) -> Vec<(GroupName<'_>, Vec<&RunRecord>)> {
     let mut groups: BTreeMap<(u8, GroupName<'_>), Vec<&RunRecord>> = BTreeMap::new();
     let family = |record: &'_ RunRecord| match by {
@@ -252,8 +252,8 @@ fn planner_figures(
     figures.collect()
 }
 
-/// Leaves out planners that were run in some of the scenarios only, such as counterfactuals of one of them, where others were run in
-/// all: their means would be those of other encounters.
+/// Leaves out planners that ran only in some of the scenarios, such as counterfactuals of one of them, if others ran in all: their
+/// means would be over different encounters.
 fn leave_out_those_of_some_scenarios(by_planner: &mut BTreeMap<&str, Vec<&RunRecord>>) {
     let count =
         |records: &[&RunRecord]| records.iter().map(|record| &*record.scenario).collect::<BTreeSet<&str>>().len();
@@ -280,12 +280,12 @@ fn figures_of(planner: &str, records: &[&RunRecord], compared: &ComparedColumns,
     }
 }
 
-/// The interval of the time to the goal has the planner's own stream, the others one each from [`FIRST_STREAM`] on.
+/// The random stream of a mean's interval: the planner's own for the time to the goal, and one each from [`FIRST_STREAM`] on for others.
 fn stream_of(index: usize, stream: u64) -> u64 {
     if index == TIME_TO_GOAL { stream } else { FIRST_STREAM + MAX_FIGURES * stream + index as u64 }
 }
 
-/// A figure of some runs; `stream` tells the draws of one interval from another's.
+/// A figure of several runs; `stream` separates the random draws of intervals.
 fn figure(column: &FigureColumn, records: &[&RunRecord], stream: u64) -> Figure {
     let values = column.values(records);
     match column.how {

@@ -1,4 +1,4 @@
-//! What the rows of a sweep say of the planners, and what two versions of the program do differently.
+//! Compares planners from the rows of a sweep, and two versions of the program.
 
 mod building;
 mod compared;

@@ -1,4 +1,4 @@
-//! Two runs under the same conditions, many times.
+//! Pairs of runs under the same conditions.
 
 use serde::{Serialize, Serializer};
 
@@ -8,34 +8,34 @@ use super::records::RunRecord;
 use super::split::Split;
 use crate::statistics::{holm, mean_interval, median};
 
-/// Times of completion that differ by less count as equal: half a tick of 1/10 scale cars \[s\].
+/// Completion times that differ by less count as equal: half a tick of 1/10 scale cars \[s\].
 const MIN_DELAY_S: f64 = 0.05;
 
-/// What is different with one of two, under the same conditions.
+/// Differences between two planners under the same conditions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PairedDifference {
-    /// Pairs in which both runs were finished.
+    /// Number of pairs in which both runs finished.
     pub pairs: usize,
-    /// Who succeeds where the other does not.
+    /// Pairs in which one succeeds and the other does not.
     pub success: Split,
-    /// Who has the better place: touches nobody where the other does, or is nearer to the front. Going first where that is
-    /// possible is no failure, and going second is none either.
+    /// Pairs by the better place: without contact where the other has one, or nearer to the front. Going first where that is
+    /// possible is not a failure, and neither is going second.
     pub place: Split,
-    /// Who reaches the goal sooner; who never reaches it is later than whoever does.
+    /// Pairs by the earlier completion; a vehicle that never reaches its goal is later than one that does.
     pub time: Split,
-    /// Pairs in which one alone reaches the goal: they count for `time`, and have no delay.
+    /// Pairs in which only one reaches the goal: they count for `time`, but have no delay.
     pub censored: usize,
-    /// How much later the first reaches its goal \[s\]: mean over these pairs; none without any.
+    /// Delay of the first relative to the second \[s\]: mean over the pairs in which both reach the goal; none without any.
     pub delay_s: Option<f64>,
     /// Its bootstrap interval at 95 % \[s\].
     pub delay_interval_s: Option<[f64; 2]>,
     /// The median over these pairs \[s\].
     pub delay_median_s: Option<f64>,
-    /// Who has the better value of each metric of which one value is better, by their keys: of `hard_braking`, who does not brake
+    /// Pairs by the better value of each metric that has one, by key: for `hard_braking`, the one that does not brake
     /// hard where the other does.
     #[serde(flatten)]
     pub metrics: MetricSplits,
-    /// What is different for the building; none without one.
+    /// Differences for the building; none without one.
     pub building: Option<BuildingDifference>,
 }
 
@@ -43,12 +43,12 @@ pub struct PairedDifference {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MetricSplits(pub Vec<MetricSplit>);
 
-/// Who has the better value of a metric.
+/// A split by the better value of a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetricSplit {
     /// The key of the metric.
     pub key: &'static str,
-    /// What it is, in words.
+    /// Its name, in words.
     pub title: String,
     /// The split.
     pub split: Split,
@@ -68,7 +68,7 @@ impl Serialize for MetricSplits {
 }
 
 impl PairedDifference {
-    /// Compares the first of each pair with the second; `stream` tells the draws of one interval from another's.
+    /// Compares the first of each pair with the second; `stream` separates the random draws of intervals.
     pub(super) fn of(pairs: &[(&RunRecord, &RunRecord)], compared: &ComparedColumns, stream: u64) -> PairedDifference {
         let pairs: Vec<_> = pairs.iter().filter(|(one, other)| one.is_finished() && other.is_finished()).collect();
         let split = |is_better: &dyn Fn(&RunRecord, &RunRecord) -> bool| {
@@ -106,14 +106,14 @@ impl PairedDifference {
     }
 }
 
-/// All splits of a difference, kind by kind in an order that all differences have in common.
+/// All splits of a difference, kind by kind, in the order common to all differences.
 fn splits(difference: &mut PairedDifference) -> Vec<Option<&mut Split>> {
     let PairedDifference { success, place, time, metrics, building, .. } = difference;
     let of_vehicles = [success, place, time].into_iter().chain(metrics.0.iter_mut().map(|metric| &mut metric.split));
     of_vehicles.map(Some).chain([building.as_mut().map(|building| &mut building.cheaper)]).collect()
 }
 
-/// Corrects the probabilities of all differences of a comparison together, those of each kind by themselves.
+/// Corrects the probabilities of all differences of a comparison together, separately for each kind.
 pub(super) fn correct(differences: &mut [&mut PairedDifference]) {
     let mut kinds: Vec<Vec<&mut Split>> = Vec::new();
     for difference in differences {

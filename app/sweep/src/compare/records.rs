@@ -9,7 +9,7 @@ use interplay_tables::{RowTable, TableColumn};
 use crate::error::SweepError;
 use crate::sweep::RUNS_FILE;
 
-/// The columns that every table of runs has, whichever version made it.
+/// The columns that tables of all versions have.
 const TEXTS: [&str; 6] = ["version", "scenario", "family", "style", "planner", "digest"];
 const COUNTS: [&str; 2] = ["sample", "seed"];
 
@@ -22,9 +22,9 @@ pub(super) struct RunRecord {
     pub planner: Arc<str>,
     pub sample: u64,
     pub seed: u64,
-    /// Empty for a run that was not finished.
+    /// Empty for an unfinished run.
     pub digest: String,
-    /// The table, and its row in it.
+    /// The table that holds it, and its index.
     table: Arc<RowTable>,
     row: usize,
 }
@@ -40,8 +40,8 @@ impl RunRecord {
         self.number("contacts").is_some()
     }
 
-    /// The value in a column that is no text, flags as 0 and 1; none where there is nothing to say, and of a column that the table
-    /// does not have: those of older versions have fewer.
+    /// The value in a column of numbers, flags as 0 and 1; none if it is missing or the table does not have the column, as tables
+    /// of older versions.
     pub fn number(&self, column: &str) -> Option<f64> {
         match self.table.column(column)? {
             TableColumn::Flags(all) => all[self.row].map(f64::from),
@@ -64,7 +64,7 @@ impl RunRecord {
         }
     }
 
-    /// The other conditions of the run, which its pair has in common: scenario, style, sample and seed.
+    /// The conditions of the run apart from the planner, which identify its pair: scenario, style, sample and seed.
     pub fn conditions(&self) -> Conditions {
         (Arc::clone(&self.scenario), Arc::clone(&self.style), self.sample, self.seed)
     }
@@ -80,7 +80,7 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// Reads the rows of a folder, or of a file: what tells them apart, and these columns.
+    /// Reads the rows of a folder or a file: the columns that identify rows, and these columns.
     pub fn read<'a>(path: &Path, columns: impl Iterator<Item = &'a str>) -> Result<Records, SweepError> {
         let file = if path.is_dir() { path.join(RUNS_FILE) } else { path.to_owned() };
         if !file.is_file() {
@@ -92,11 +92,11 @@ impl Records {
         let names: Vec<String> = TEXTS.into_iter().chain(COUNTS).chain(columns).map(str::to_owned).collect();
         let table = RowTable::read(&file, &names)?;
         Records::of(table).map_err(|column| {
-            SweepError::Input(format!("`{}` is no table of runs: it has no column `{column}`", file.display()))
+            SweepError::Input(format!("`{}` is not a table of runs: it has no column `{column}`", file.display()))
         })
     }
 
-    /// The rows of a table; the name of a column that is missing.
+    /// The rows of a table; the error is the name of a missing column.
     fn of(table: RowTable) -> Result<Records, &'static str> {
         let missing_text = |name: &&str| !matches!(table.column(name), Some(TableColumn::Texts(_)));
         let missing_count = |name: &&str| !matches!(table.column(name), Some(TableColumn::Counts(_)));
@@ -137,7 +137,7 @@ impl Records {
     }
 }
 
-/// Texts that many rows have in common.
+/// Deduplicates texts that many rows share.
 #[derive(Default)]
 struct Words(HashMap<String, Arc<str>>);
 

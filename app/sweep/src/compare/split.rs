@@ -1,10 +1,10 @@
-//! Who did better how often, and whether that is chance.
+//! How often each of two planners did better, and whether the difference is significant.
 
 use serde::Serialize;
 
 use crate::statistics::sign_test;
 
-/// How often each of two did better, and whether that is chance.
+/// How often each of two planners did better, with the significance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Split {
     /// Pairs in which the first did better.
@@ -13,7 +13,7 @@ pub struct Split {
     pub losses: usize,
     /// The probability of a split at least as uneven if both were equally good (McNemar's exact test).
     pub p: f64,
-    /// The same after Holm's correction for all splits of this kind in the comparison.
+    /// The same after Holm's correction over all splits of this kind in the comparison.
     pub p_holm: f64,
 }
 

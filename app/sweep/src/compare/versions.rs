@@ -1,4 +1,4 @@
-//! What two sweeps of one plan do differently: two versions of the program, or of a planner.
+//! Differences between two sweeps of one plan: of two versions of the program, or of a planner.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -12,16 +12,16 @@ use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
 
-/// What the second of two folders does differently from the first.
+/// Differences of the second folder from the first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionComparison {
     /// The versions of the program, of the first folder and of the second.
     pub versions: [Vec<String>; 2],
-    /// How many rows have no pair: of the first folder and of the second.
+    /// Number of rows without a pair, in the first folder and in the second.
     pub unpaired: [usize; 2],
-    /// Pairs of runs, and how many of them differ in any bit of any state.
+    /// Number of pairs of runs.
     pub pairs: usize,
-    /// How many of them differ.
+    /// Number of pairs that differ in any bit of any state.
     pub changed: usize,
     /// Whether there are vehicles in any run.
     pub has_vehicles: bool,
@@ -29,7 +29,7 @@ pub struct VersionComparison {
     pub groups: Vec<VersionGroup>,
 }
 
-/// A planner under some conditions.
+/// A planner under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionGroup {
     /// The family.
@@ -38,16 +38,16 @@ pub struct VersionGroup {
     pub style: String,
     /// The planner.
     pub planner: String,
-    /// Pairs that differ in any bit of any state.
+    /// Number of pairs that differ in any bit of any state.
     pub changed: usize,
-    /// The second folder beside the first: wins are those of the second.
+    /// The second folder relative to the first: wins are those of the second.
     pub difference: PairedDifference,
 }
 
 /// Compares the rows of two folders or files: pairs have the same scenario, style, planner, sample and seed. `registered` metrics are compared, too.
 ///
 /// # Errors
-/// Files that cannot be read or are no table of runs, or that have no pair.
+/// If a file cannot be read or is not a table of runs, or if no runs form a pair.
 pub fn compare_versions(
     first: &Path,
     second: &Path,

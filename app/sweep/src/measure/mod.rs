@@ -1,4 +1,4 @@
-//! From the report of a run to a row.
+//! Turns the report of a run into a row.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
@@ -15,10 +15,10 @@ use crate::key::RunKey;
 use crate::row::{RunResult, SweepRow};
 use crate::version::program_version;
 
-/// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.
+/// Makes a run and its row. If the run fails or panics, the row contains the reason.
 ///
 /// # Errors
-/// For a file of trajectories that cannot be written.
+/// If the file of trajectories cannot be written.
 pub(crate) fn measured_run(
     key: RunKey,
     point: &SweepPoint,
@@ -55,7 +55,6 @@ pub(crate) fn measured_run(
     })
 }
 
-/// The words of a panic.
 fn message(panic: &(dyn std::any::Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a message")

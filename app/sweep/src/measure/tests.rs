@@ -1,4 +1,4 @@
-//! A row says of a run what its report says.
+//! A row agrees with the report of its run.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -18,7 +18,7 @@ const CONSERVATIVE: &str = "vehicle.ego.driver={kind='conservative'}";
 
 type Outcome = Result<(), Box<dyn Error>>;
 
-/// A scenario of the binary and a run of its first tick, whose report the tests change.
+/// A built-in scenario and a run of its first tick, whose report the tests change.
 fn short(name: &str, changes: &[&str]) -> Result<(Scenario, Report), Box<dyn Error>> {
     let changes: Vec<Override> = changes.iter().map(|change| Override::Set((*change).to_owned())).collect();
     let scenario = load(name, &changes)?;
@@ -26,7 +26,7 @@ fn short(name: &str, changes: &[&str]) -> Result<(Scenario, Report), Box<dyn Err
     Ok((scenario, report))
 }
 
-/// Three vehicles on two lanes: the ego, which changes its lane, and two others, which keep theirs.
+/// Three vehicles on two lanes: the ego, which changes its lane, and two others that keep theirs.
 fn three_vehicles() -> Result<(Scenario, Report), Box<dyn Error>> {
     short("lane-change/front-nice", &["duration_s=0.1", "expect.completes=[]", CONSERVATIVE])
 }
@@ -37,7 +37,7 @@ fn measured(scenario: &Scenario, report: &Report) -> Result<Values, &'static str
     result(scenario, report).traffic.ok_or("there is an ego")
 }
 
-/// Holds a row to values of some of its columns.
+/// Compares some columns of a row with expected values.
 #[track_caller]
 fn has(row: &Values, values: Json) {
     for (name, value) in values.as_object().into_iter().flatten() {
@@ -45,7 +45,7 @@ fn has(row: &Values, values: Json) {
     }
 }
 
-/// Lets a vehicle have had another value of a metric.
+/// Replaces the value of a vehicle's metric.
 fn set(vehicle: &mut VehicleReport, name: &str, value: MetricValue) {
     for (_, measured) in vehicle.metrics.0.iter_mut().filter(|(declaration, _)| declaration.name == name) {
         measured.value = Some(value);
@@ -61,7 +61,7 @@ fn expectation(what: &str, passed: bool) -> Expectation {
 }
 
 #[test]
-fn the_words_of_a_panic() {
+fn the_message_of_a_panic_is_kept() {
     let words = |panic: fn()| catch_unwind(panic).map_err(|panic| message(&*panic).to_owned());
     let said = std::hint::black_box("made of parts");
     assert_eq!(message(&said.to_owned()), said);
@@ -71,7 +71,7 @@ fn the_words_of_a_panic() {
 }
 
 #[test]
-fn success_is_a_task_done_without_contact_of_the_ego() -> Outcome {
+fn success_is_a_completed_task_without_contact_of_the_ego() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let of = |report: &Report| {
         measured(&scenario, report).map(|row| (row["success"] == json!(true), row["deadlock"] == json!(true)))
@@ -92,9 +92,9 @@ fn success_is_a_task_done_without_contact_of_the_ego() -> Outcome {
     Ok(())
 }
 
-/// Who keeps no rules of the road is not judged by them.
+/// A vehicle that keeps no rules of the road is not judged by them.
 #[test]
-fn success_of_who_keeps_the_rules_needs_more_than_its_task() -> Outcome {
+fn success_of_a_rule_keeping_ego_needs_more_than_its_task() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     report.vehicles[0].completed_s = Some(2.0);
     report.vehicles[0].scale = 1.0;
@@ -117,7 +117,7 @@ fn success_of_who_keeps_the_rules_needs_more_than_its_task() -> Outcome {
 }
 
 #[test]
-fn contacts_of_the_ego_and_of_others() -> Outcome {
+fn contacts_of_the_ego_are_counted_apart_from_all_contacts() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let none = measured(&scenario, &report)?;
     has(&none, json!({ "contacts": 0, "ego_contact": false, "ego_contact_s": null, "impulse_ns": null }));
@@ -129,7 +129,7 @@ fn contacts_of_the_ego_and_of_others() -> Outcome {
 }
 
 #[test]
-fn what_the_others_do_is_not_what_the_ego_does() -> Outcome {
+fn columns_of_the_others_are_separate_from_those_of_the_ego() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     for (index, vehicle) in report.vehicles.iter_mut().enumerate() {
         vehicle.has_task = true;
@@ -147,13 +147,13 @@ fn what_the_others_do_is_not_what_the_ego_does() -> Outcome {
     has(&row, json!({ "others_peak_braking_mps2": 0.1 * 3.0, "others_hard_braking": true }));
     report.vehicles[2].has_task = false;
     let row = measured(&scenario, &report)?;
-    // Who has no task completes none.
+    // A vehicle without a task does not complete one.
     has(&row, json!({ "others_with_task": 1, "others_completed": 0 }));
     Ok(())
 }
 
 #[test]
-fn order_is_kept_if_all_of_it_is_and_nobody_touches() -> Outcome {
+fn order_is_kept_if_every_order_expectation_holds_without_contact() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let mut kept = |expectations: &[(&str, bool)], contact: bool| {
         report.expectations = expectations.iter().map(|(what, passed)| expectation(what, *passed)).collect();
@@ -161,7 +161,7 @@ fn order_is_kept_if_all_of_it_is_and_nobody_touches() -> Outcome {
         measured(&scenario, &report).map(|row| row["order_kept"].as_bool())
     };
     assert_eq!(kept(&[], false)?, None);
-    assert_eq!(kept(&[("min_gap_m", true), ("completes.ego", false)], true)?, None, "nothing is said of order");
+    assert_eq!(kept(&[("min_gap_m", true), ("completes.ego", false)], true)?, None, "no expectation of order");
     for what in ["order", "yields.ego.to.front"] {
         assert_eq!(kept(&[(what, true), ("min_gap_m", false)], false)?, Some(true), "{what}: others do not count");
         assert_eq!(kept(&[("min_gap_m", true), (what, false)], false)?, Some(false), "{what}");
@@ -172,7 +172,7 @@ fn order_is_kept_if_all_of_it_is_and_nobody_touches() -> Outcome {
 }
 
 #[test]
-fn the_place_on_a_road_is_that_in_the_order() -> Outcome {
+fn the_place_on_a_road_is_the_index_in_the_order() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     for (order, place) in [(vec!["ego", "front"], 1), (vec!["front", "rear", "ego"], 3), (vec!["front"], 0)] {
         report.order = order.into_iter().map(str::to_owned).collect();
@@ -183,7 +183,7 @@ fn the_place_on_a_road_is_that_in_the_order() -> Outcome {
 }
 
 #[test]
-fn the_place_on_a_network_counts_those_who_went_first() -> Outcome {
+fn the_place_on_a_network_counts_the_vehicles_that_went_first() -> Outcome {
     let changes = ["duration_s=0.4", "expect.completes=[]", CONSERVATIVE];
     let (scenario, mut report) = short("t-junction/bayesian-nice", &changes)?;
     assert!(scenario.network.is_some());
@@ -206,7 +206,7 @@ fn the_place_on_a_network_counts_those_who_went_first() -> Outcome {
 }
 
 #[test]
-fn a_building_has_the_sums_of_its_days() -> Outcome {
+fn the_row_of_a_building_has_the_sums_of_its_days() -> Outcome {
     let (scenario, mut whole) = short("building/four-room-pid", &["iterations=3"])?;
     let report = whole.building.as_mut().ok_or("it has a building")?;
     for (index, day) in report.iterations.iter_mut().enumerate() {

@@ -1,13 +1,9 @@
-//! What can be said of numbers that were drawn.
+//! Statistics of samples.
 
-mod bootstrap;
-mod holm;
+mod intervals;
 mod quantile;
-mod sign_test;
-mod wilson;
+mod significance;
 
-pub(crate) use bootstrap::mean_interval;
-pub(crate) use holm::holm;
+pub(crate) use intervals::{mean_interval, wilson_interval};
 pub(crate) use quantile::{median, quantile};
-pub(crate) use sign_test::sign_test;
-pub(crate) use wilson::wilson_interval;
+pub(crate) use significance::{holm, sign_test};

@@ -1,15 +1,15 @@
-//! Checksums of the columns of a table, which the file says about itself: a flipped bit may leave a file that can be read.
+//! Checksums of the columns of a table, stored in the file's metadata: a file with a flipped bit may still be readable.
 //!
-//! One of the names of all columns, and one for each column of each row group, in their order. Tables of other programs have none.
+//! There is one for the names of all columns, and one for each column of each row group, in order. Tables of other programs have none.
 
 use parquet::file::metadata::FileMetaData;
 
 use super::TableColumn;
 use crate::cell::TableSchema;
 
-/// Under this key the file has its checksums, eight hexadecimal digits each.
+/// The metadata key of the checksums, eight hexadecimal digits each.
 pub(super) const NOTE: &str = "interplay:checksums";
-/// How the name of the program that writes them begins. Another program that writes the rows again may keep the note.
+/// Prefix of the name of the program that writes them. Another program that rewrites the rows may keep the checksums.
 pub(super) const WRITER: &str = "interplay ";
 const DIGITS: usize = 8;
 
@@ -23,7 +23,7 @@ pub(super) fn of_column(column: &TableColumn) -> String {
     }
 }
 
-/// The checksum of values as bytes, of which some may be missing.
+/// The checksum of values as bytes, some of which may be missing.
 fn of_values<B: AsRef<[u8]>>(values: impl Iterator<Item = Option<B>>) -> String {
     let mut hasher = crc32fast::Hasher::new();
     for value in values {
@@ -35,12 +35,12 @@ fn of_values<B: AsRef<[u8]>>(values: impl Iterator<Item = Option<B>>) -> String 
     format!("{:0DIGITS$x}", hasher.finalize())
 }
 
-/// The checksum of the names of the columns: one that is not found by its name would count as never stated.
+/// The checksum of the column names: without it, a column with a damaged name would count as missing.
 pub(super) fn of_names(schema: &TableSchema) -> String {
     of_values(schema.iter().map(|(name, _)| Some(name)))
 }
 
-/// The checksums that a file has.
+/// The checksums of a file.
 pub(super) struct Checksums(Option<String>);
 
 impl Checksums {
@@ -50,14 +50,14 @@ impl Checksums {
         Checksums(notes.and_then(|notes| notes.iter().find(|note| note.key == NOTE)?.value.clone()))
     }
 
-    /// Whether a column is as it was written: number `index` of all columns of all row groups. Without checksums it is taken as it is.
+    /// Whether a column is as it was written; `index` counts all columns of all row groups. True if the file has no checksums.
     pub fn agree(&self, index: usize, column: &TableColumn) -> bool {
         let Some(all) = &self.0 else { return true };
         let start = (index + 1) * DIGITS;
         all.get(start..start + DIGITS).is_some_and(|stated| stated == of_column(column))
     }
 
-    /// Whether the columns have the names that were written.
+    /// Whether the column names are as they were written.
     pub fn agree_on_names(&self, schema: &TableSchema) -> bool {
         self.0.as_ref().is_none_or(|all| all.get(..DIGITS).is_some_and(|stated| stated == of_names(schema)))
     }
@@ -71,7 +71,7 @@ mod tests {
     use crate::cell::{Cell, ColumnKind};
 
     #[test]
-    fn no_flipped_bit_in_a_name_hides_a_column() {
+    fn a_flipped_bit_in_a_name_never_hides_a_column() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("runs.parquet");
         let schema = vec![("ego_yields".to_owned(), ColumnKind::Flag), ("gap_m".to_owned(), ColumnKind::Number)];
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn no_flipped_bit_in_the_values_makes_another_row() {
+    fn a_flipped_bit_in_the_values_never_changes_a_row() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("runs.parquet");
         let kinds = [ColumnKind::Flag, ColumnKind::Count, ColumnKind::Number, ColumnKind::Text];

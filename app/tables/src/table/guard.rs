@@ -1,17 +1,17 @@
-//! Decoding of tables that may be damaged: the library that does it panics at some of them.
+//! Decodes tables that may be damaged: the Parquet library panics on some of them.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// Whether this thread decodes a table.
+    /// Whether this thread is decoding a table.
     static DECODES: Cell<bool> = const { Cell::new(false) };
 }
-/// A panic is reported by one hook for the whole process; ours hands on whatever does not come from a table.
+/// One hook of the process reports panics; ours forwards those that do not come from decoding.
 static HOOK: Once = Once::new();
 
-/// What `decode` makes, or nothing if it panics; of such a panic nothing is printed.
+/// The result of `decode`, or `None` if it panics; such a panic prints nothing.
 pub(super) fn guarded<T>(decode: impl FnOnce() -> T) -> Option<T> {
     HOOK.call_once(|| {
         let report = panic::take_hook();
@@ -22,7 +22,7 @@ pub(super) fn guarded<T>(decode: impl FnOnce() -> T) -> Option<T> {
         }));
     });
     DECODES.set(true);
-    // What is left of a table after a panic is not used any more.
+    // The table is not used after a panic.
     let decoded = panic::catch_unwind(AssertUnwindSafe(decode));
     DECODES.set(false);
     decoded.ok()

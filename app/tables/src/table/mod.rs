@@ -1,4 +1,4 @@
-//! Tables of rows as Parquet files. Only this module names Parquet.
+//! Tables of rows as Parquet files. Only this module depends on Parquet.
 
 mod checksums;
 mod guard;
@@ -14,10 +14,10 @@ pub use write::TableWriter;
 
 use crate::cell::{Cell, ColumnKind};
 
-/// How many rows a row group has: what a reader has in memory at a time.
+/// Number of rows of a row group, which a reader holds in memory at a time.
 pub(crate) const ROWS_PER_GROUP: usize = 10_000;
 
-/// Some values of one column, one for each row; none where a row has nothing to say.
+/// Values of one column, one for each row; `None` is a missing value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableColumn {
     /// True or false.
@@ -31,7 +31,7 @@ pub enum TableColumn {
 }
 
 impl TableColumn {
-    /// A column of a type without values.
+    /// An empty column of a type.
     pub fn empty(kind: ColumnKind) -> TableColumn {
         match kind {
             ColumnKind::Flag => TableColumn::Flags(Vec::new()),
@@ -41,7 +41,7 @@ impl TableColumn {
         }
     }
 
-    /// Appends a value; one of another type counts as none.
+    /// Appends a value; a value of another type counts as missing.
     pub fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (TableColumn::Flags(all), Cell::Flag(value)) => all.push(value),
@@ -71,7 +71,7 @@ impl TableColumn {
 pub struct RowTable {
     /// The columns by name.
     pub columns: Vec<(String, TableColumn)>,
-    /// How many rows there are.
+    /// Number of rows.
     pub row_count: usize,
 }
 

@@ -16,7 +16,7 @@ use super::{RowTable, TableColumn};
 use crate::cell::{ColumnKind, TableSchema};
 use crate::error::TableError;
 
-/// A table that is open.
+/// An open table.
 pub struct TableReader {
     path: PathBuf,
     reader: SerializedFileReader<File>,
@@ -35,7 +35,7 @@ impl TableReader {
         if is_sound { Ok(reader) } else { Err(strange(path, DAMAGED)) }
     }
 
-    /// Whether all columns have a place and a size: the library ends the process at a damaged file where they are negative.
+    /// Whether all columns have a nonnegative position and size: on a damaged file with negative ones the library aborts the process.
     fn has_places(&self) -> bool {
         let groups = self.reader.metadata().row_groups().iter();
         groups.flat_map(|group| group.columns()).all(|column| {
@@ -47,12 +47,12 @@ impl TableReader {
     /// The columns.
     ///
     /// # Errors
-    /// One of a type that no table of rows has.
+    /// If a column has a type that tables of rows do not have.
     pub fn schema(&self) -> Result<TableSchema, TableError> {
         let columns = self.reader.metadata().file_metadata().schema_descr().columns();
         let kinds = columns.iter().map(|column| {
             let kind = match column.physical_type() {
-                // A column in which nothing was ever stated: other programs give it this type.
+                // Other programs give this type to a column without values.
                 PhysicalType::INT32 if is_null(column) => ColumnKind::Text,
                 PhysicalType::BOOLEAN => ColumnKind::Flag,
                 PhysicalType::INT64 => ColumnKind::Count,
@@ -70,18 +70,18 @@ impl TableReader {
         kinds.collect()
     }
 
-    /// What the file says about the whole.
+    /// The value of a metadata key of the file.
     pub fn about(&self, key: &str) -> Option<String> {
         let all = self.reader.metadata().file_metadata().key_value_metadata()?;
         all.iter().find(|entry| entry.key == key)?.value.clone()
     }
 
-    /// How many row groups there are.
+    /// Number of row groups.
     pub fn group_count(&self) -> usize {
         self.reader.num_row_groups()
     }
 
-    /// One row group: the columns of these names, in their order; a column that is not there is left out.
+    /// One row group: the columns of these names, in this order; missing columns are left out.
     pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, TableError> {
         guarded(|| self.decoded(group, names)).ok_or_else(|| strange(&self.path, DAMAGED))?
     }
@@ -108,14 +108,14 @@ impl TableReader {
     }
 }
 
-/// What is said of a table that cannot be decoded.
+/// The message for a table that cannot be decoded.
 const DAMAGED: &str = "it is damaged";
 
 fn strange(path: &Path, what: &str) -> TableError {
-    TableError::Input(format!("`{}` is no table of runs: {what}", path.display()))
+    TableError::Input(format!("`{}` is not a table of runs: {what}", path.display()))
 }
 
-/// Whether a column holds nothing but missing values by its type.
+/// Whether the type of a column allows only missing values.
 fn is_null(column: &ColumnDescriptor) -> bool {
     column.logical_type_ref() == Some(&LogicalType::Unknown)
 }
@@ -153,7 +153,7 @@ fn values<D: DataType, T>(
         }
         let mut found = found.drain(..);
         if levels.is_empty() {
-            // A column in which every row must have a value has no levels.
+            // A column of required values has no levels.
             all.extend(found.map(|value| Some(convert(value))));
         } else {
             all.extend(levels.iter().map(|level| if *level > 0 { found.next().map(&convert) } else { None }));
@@ -166,7 +166,7 @@ impl RowTable {
     /// Reads the columns of these names of a whole file.
     ///
     /// # Errors
-    /// What cannot be read, or is no table of rows.
+    /// If the file cannot be read or is not a table of rows.
     pub fn read(path: &Path, names: &[String]) -> Result<RowTable, TableError> {
         let reader = TableReader::open(path)?;
         let mut whole = RowTable::default();
@@ -197,7 +197,7 @@ impl TableColumn {
             (TableColumn::Counts(all), TableColumn::Counts(more)) => all.extend(more),
             (TableColumn::Numbers(all), TableColumn::Numbers(more)) => all.extend(more),
             (TableColumn::Texts(all), TableColumn::Texts(more)) => all.extend(more),
-            // The columns of one file have one type in all of its groups.
+            // A column has one type in all row groups of a file.
             _ => {}
         }
     }

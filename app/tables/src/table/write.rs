@@ -16,27 +16,27 @@ use super::{ROWS_PER_GROUP, TableColumn, checksums, column_type};
 use crate::cell::{Cell, TableSchema};
 use crate::error::TableError;
 
-/// A table that is being written. It appears at its place when it is whole.
+/// A table that is being written. It appears at its path when it is complete.
 pub struct TableWriter {
     target: PathBuf,
     writer: SerializedFileWriter<WholeFile>,
     schema: TableSchema,
     group: Vec<TableColumn>,
     rows: usize,
-    /// Of the names, and of all columns of all groups that are written.
+    /// Checksums of the names and of all columns of all written groups.
     checksums: String,
 }
 
 impl TableWriter {
-    /// Begins a table with these columns and with these words about the whole.
+    /// Begins a table with these columns and this metadata.
     pub fn new(target: &Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter, TableError> {
         let file = WholeFile::begin(target).map_err(TableError::file("write", target))?;
         let failed = TableError::table::<ParquetError>("write", target);
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
         let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
-        // Nothing in the file depends on when or where it is written. LZ4 of this kind asks for memory as all of Rust does, so
-        // that a process which gets none ends with exit code 3; the C library of zstd makes its binding panic.
+        // The file does not depend on when or where it is written. This kind of LZ4 allocates through Rust, so a process without
+        // memory ends with exit code 3; the binding of the C library of zstd would panic.
         let properties = WriterProperties::builder()
             .set_created_by(format!("{}{}", checksums::WRITER, env!("CARGO_PKG_VERSION")))
             .set_compression(Compression::LZ4_RAW)
@@ -48,7 +48,7 @@ impl TableWriter {
         Ok(TableWriter { target: target.to_owned(), writer, schema, group, rows: 0, checksums })
     }
 
-    /// Appends a row, a value for each column in their order.
+    /// Appends a row: one value for each column, in order.
     pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), TableError> {
         for (column, cell) in self.group.iter_mut().zip(cells) {
             column.push(cell);
@@ -79,7 +79,7 @@ impl TableWriter {
         Ok(())
     }
 
-    /// Ends the table and gives it its place.
+    /// Completes the table and moves it to its path.
     pub fn finish(mut self) -> Result<(), TableError> {
         self.end_group()?;
         self.writer.append_key_value_metadata(KeyValue::new(checksums::NOTE.to_owned(), self.checksums));

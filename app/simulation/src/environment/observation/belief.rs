@@ -1,4 +1,4 @@
-//! How nice the nearest others are, as our inference learns it from their motion.
+//! View of the beliefs about the nearest drivers, which our inference updates from their motion.
 
 use interplay_planners::scene::driver_estimate::DriverModel;
 use schemars::JsonSchema;
@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::view::{ObservationSpace, Seen, names, nearest_first};
 
-/// The probabilities of the kinds of driver that each of the nearest others may be: tough, normal, nice, IDM, none of these. Rows of
-/// nobody are 0.
+/// The probabilities of the kinds of driver of each of the nearest vehicles: tough, normal, nice, IDM, none of these. Empty rows
+/// are 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BeliefView {
-    /// How many rows there are.
+    /// Number of rows.
     pub count: usize,
 }
 

@@ -10,24 +10,24 @@ use super::view::ObservationSpace;
 
 /// A view of a scene that another crate provides.
 pub trait ObservationKind: fmt::Debug + Send + Sync {
-    /// The numbers of the view of a vehicle with a horizon.
+    /// The space of the view for a vehicle with a horizon.
     fn space(&self, horizon: usize) -> ObservationSpace;
 
-    /// What is wrong with the settings, if anything.
+    /// The fault of the settings, if there is one.
     fn fault(&self) -> Option<String> {
         None
     }
 
-    /// Whether it shows what is believed of the other drivers, which is then inferred.
+    /// Whether the view shows beliefs about the other drivers, which must then be inferred.
     fn shows_beliefs(&self) -> bool {
         false
     }
 
-    /// Writes the numbers of a scene, as many as its space has; `beliefs` is empty unless it shows them.
+    /// Writes the view of a scene, as many numbers as its space has; `beliefs` is empty unless the view shows them.
     fn write(&self, scene: &Scene, beliefs: &[DriverEstimate], out: &mut [f32]);
 }
 
-/// A view of another crate, as one of the views of an agent. It is stated in code: settings that are read from a text do not name it.
+/// A view of another crate among the views of an agent. It is stated only in code: settings read from a text do not name it.
 #[derive(Clone, Debug)]
 pub struct ForeignView(Arc<dyn ObservationKind>);
 
@@ -42,7 +42,7 @@ impl ForeignView {
     }
 }
 
-/// A view is the same as its copies alone.
+/// A view equals only its own copies.
 impl PartialEq for ForeignView {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)

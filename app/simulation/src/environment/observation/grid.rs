@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use super::view::{ObservationSpace, Scales, Seen, names, share};
 
-/// A grid around the agent, along its road and across it: in each cell whether somebody is there, how fast compared with the agent, and
-/// whether there is road. The agent itself is in no cell.
+/// A grid around the agent, along and across its road: for each cell whether a vehicle is in it, its speed relative to the agent, and
+/// whether the cell is road. The agent itself is not entered.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OccupancyGrid {
-    /// How many cells there are along and across.
+    /// Number of cells along and across.
     pub cells: [usize; 2],
-    /// How long a cell is along and across, in lengths and widths of the agent's body.
+    /// Length and width of a cell, in lengths and widths of the agent's body.
     pub cell_bodies: [f64; 2],
 }
 
@@ -24,7 +24,7 @@ impl Default for OccupancyGrid {
 }
 
 const FEATURES: [&str; 4] = ["presence", "vx", "vy", "on_road"];
-/// Most cells along an axis.
+/// Maximum number of cells along an axis.
 const MOST_CELLS: usize = 128;
 
 impl OccupancyGrid {
@@ -68,14 +68,14 @@ impl OccupancyGrid {
         [self.cell_bodies[0] * (body.front_m + body.rear_m), self.cell_bodies[1] * body.width_m]
     }
 
-    /// Where the middle of a cell is, ahead of the agent and to its left \[m\].
+    /// Position of a cell's centre, ahead of the agent and to its left \[m\].
     fn centre_m(&self, scene: &Scene, cell: usize) -> [f64; 2] {
         let at = [cell / self.cells[1], cell % self.cells[1]];
         let size_m = self.cell_m(scene);
         std::array::from_fn(|axis| (at[axis] as f64 - 0.5 * (self.cells[axis] as f64 - 1.0)) * size_m[axis])
     }
 
-    /// The cells whose middle is in the footprint of a vehicle, and the one in which its centre is.
+    /// The cells whose centres are in the footprint of a vehicle, and the one that contains its centre.
     fn covered(&self, scene: &Scene, other: &Agent) -> Vec<usize> {
         let route = &scene.ego.route;
         let [own, there] = [&scene.ego, other].map(|agent| route.locate(agent.state.position(), None));
@@ -95,7 +95,7 @@ impl OccupancyGrid {
     }
 }
 
-/// How fast somebody moves along the agent's road and across it, compared with the agent.
+/// Velocity of another vehicle along and across the agent's road, relative to the agent.
 fn relative_velocity(scene: &Scene, other: &Agent) -> [f32; 2] {
     let scales = Scales::of_ego(scene);
     let heading_rad = scene.ego.route.heading_at(scene.ego.state.position());

@@ -1,4 +1,4 @@
-//! The nearest vehicles: where they are and how they move.
+//! View of the positions and velocities of the nearest vehicles.
 
 use interplay_planners::{Agent, State};
 use schemars::JsonSchema;
@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::view::{ObservationSpace, Scales, Seen, names, nearest_first, share};
 
-/// The agent and the nearest others, a row each: presence, x, y, vx, vy, cos h, sin h, in the axes of the world. Rows of nobody are 0.
+/// The agent and the nearest vehicles, one row each: presence, x, y, vx, vy, cos h, sin h, in world axes. Empty rows are 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Kinematics {
-    /// How many rows there are, the agent's own included.
+    /// Number of rows, the agent's own included.
     pub count: usize,
-    /// Whether positions and speeds of the others are those in the world, and not relative to the agent, whose own row always is.
+    /// Whether positions and velocities of the other vehicles are absolute instead of relative to the agent, whose own row always is.
     pub absolute: bool,
-    /// Whether positions are divided by what the agent drives in five seconds of a real car at its largest speed, and speeds by that
-    /// speed, and all is cut off at −1 and 1.
+    /// Whether positions are divided by the agent's distance in five seconds of a real car at its largest speed, velocities by that
+    /// speed, and all numbers clipped to −1 and 1.
     pub normalize: bool,
 }
 
@@ -60,7 +60,6 @@ impl Kinematics {
     }
 }
 
-/// Position \[m\] and velocity \[m/s\].
 fn motion(state: &State) -> [f64; 4] {
     let (sin, cos) = libm::sincos(state.heading_rad);
     [state.x_m, state.y_m, state.speed_mps * cos, state.speed_mps * sin]

@@ -1,4 +1,4 @@
-//! The own lane, the lanes beside it, and who is ahead and behind in each of them.
+//! View of the own lane, the adjacent lanes, and the leader and follower in each.
 
 use interplay_planners::Scene;
 use interplay_planners::drivers::lanes::{RoadLanes, follower, leader};
@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::view::{ObservationSpace, Scales, Seen, names, share};
 
-/// The agent beside its route (Frenet frame) and the traffic by lane, as one row of numbers from −1 to 1.
+/// The agent in the Frenet frame of its route and the traffic by lane, as one row of numbers from −1 to 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LaneView {}
 
-/// What is said of the agent itself.
+/// The entries of the agent itself.
 const OWN: [&str; 11] = [
     "goal_across",
     "lane_across",
@@ -26,11 +26,11 @@ const OWN: [&str; 11] = [
     "curvature_in_2_s",
     "stop_line_gap",
 ];
-/// What is said of each lane.
+/// The entries of each lane.
 const LANE: [&str; 5] = ["exists", "leader_gap", "leader_speed", "follower_gap", "follower_speed"];
 const LANES: [&str; 3] = ["right", "own", "left"];
 
-/// The times after which the curvature of the road is told, for a real car \[s\].
+/// Preview times of the road's curvature, for a real car \[s\].
 const PREVIEW_S: [f64; 3] = [0.0, 1.0, 2.0];
 
 impl LaneView {
@@ -53,7 +53,7 @@ impl LaneView {
     }
 }
 
-/// The agent's own place and motion.
+/// The agent's own position and motion.
 fn itself(scene: &Scene, lanes: &RoadLanes, now: usize) -> [f32; OWN.len()] {
     let (ego, scales) = (&scene.ego, Scales::of_ego(scene));
     let at = ego.route.locate(ego.state.position(), None);
@@ -82,7 +82,7 @@ fn itself(scene: &Scene, lanes: &RoadLanes, now: usize) -> [f32; OWN.len()] {
     ]
 }
 
-/// Who is ahead and behind in a lane; gaps of nobody are 1 and speeds 0, gaps beside the agent are negative.
+/// Leader and follower in a lane; missing ones have the gap 1 and the speed 0, gaps beside the agent are negative.
 fn traffic(scene: &Scene, lanes: &RoadLanes, lane: usize) -> [f32; LANE.len()] {
     let (ego, scales) = (&scene.ego, Scales::of_ego(scene));
     let faster = |speed_mps: f64| share(speed_mps - ego.state.speed_mps, scales.speed_mps);

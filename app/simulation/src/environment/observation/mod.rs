@@ -1,4 +1,4 @@
-//! What an agent sees, as numbers: one view a file.
+//! Observations of an agent, as numbers: one view in each file.
 
 mod belief;
 mod foreign;
@@ -22,19 +22,19 @@ use serde::{Deserialize, Serialize};
 
 use view::MOST_SEEN;
 
-/// A view of a scene, with the names that users of HighwayEnv know.
+/// A view of a scene, by the names that HighwayEnv uses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind")]
 pub enum AgentView {
-    /// The nearest vehicles: where they are and how they move.
+    /// Positions and velocities of the nearest vehicles.
     Kinematics(Kinematics),
-    /// The own lane, the lanes beside it, and who is ahead and behind in each of them.
+    /// The own lane, the adjacent lanes, and the leader and follower in each.
     Lane(LaneView),
     /// A grid around the agent.
     OccupancyGrid(OccupancyGrid),
-    /// What the nearest others announced that they will do.
+    /// The announced plans of the nearest vehicles.
     Plan(PlanView),
-    /// How nice the nearest others are, as our inference learns it from their motion.
+    /// The beliefs about the nearest drivers, which our inference updates from their motion.
     Belief(BeliefView),
     /// A view of another crate.
     #[serde(skip)]
@@ -42,7 +42,7 @@ pub enum AgentView {
 }
 
 impl AgentView {
-    /// The numbers of the view of a vehicle with a horizon.
+    /// The space of the view for a vehicle with a horizon.
     pub fn space(&self, horizon: usize) -> ObservationSpace {
         match self {
             AgentView::Kinematics(view) => view.space(),
@@ -54,7 +54,7 @@ impl AgentView {
         }
     }
 
-    /// What is wrong with the settings, if anything.
+    /// The fault of the settings, if there is one.
     pub(super) fn fault(&self) -> Option<String> {
         match self {
             AgentView::OccupancyGrid(view) => view.fault(),
@@ -68,7 +68,7 @@ impl AgentView {
         }
     }
 
-    /// Whether it shows what is believed of the other drivers.
+    /// Whether the view shows beliefs about the other drivers.
     pub(super) fn shows_beliefs(&self) -> bool {
         match self {
             AgentView::Belief(_) => true,

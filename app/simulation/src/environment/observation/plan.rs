@@ -1,4 +1,4 @@
-//! What the nearest others announced that they will do.
+//! View of the announced plans of the nearest vehicles.
 
 use interplay_planners::Trajectory;
 use schemars::JsonSchema;
@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use super::view::{ObservationSpace, Scales, Seen, names, nearest_first, share};
 
-/// Where the agent and the nearest others will be: a row a vehicle, its positions from now to the end of the horizon, relative to where
-/// the agent is now along the axes of the world. Of who announces nothing it is motion at constant velocity. The agent's own row is its
-/// last plan.
+/// Planned positions of the agent and the nearest vehicles: one row for each vehicle, from now to the end of the horizon, relative to
+/// the agent's present position in world axes. Vehicles that announce no plan are extrapolated at constant velocity. The agent's own row
+/// is its last plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlanView {
-    /// How many rows there are, the agent's own included.
+    /// Number of rows, the agent's own included.
     pub count: usize,
-    /// Whether positions are divided by what the agent drives in five seconds of a real car at its largest speed, and cut off at
+    /// Whether positions are divided by the agent's distance in five seconds of a real car at its largest speed, and clipped to
     /// −1 and 1.
     pub normalize: bool,
 }

@@ -1,25 +1,25 @@
-//! What all views have in common: their spaces, what they are made of, and by what numbers are divided.
+//! Common parts of all views: spaces, inputs and scales.
 
 use interplay_planners::scene::driver_estimate::DriverEstimate;
 use interplay_planners::{Agent, Body, Limits, Scene};
 
-/// The numbers of a view: its shape, what its last axis is called, and between which values they lie.
+/// The space of a view: its shape, the names on its last axis, and its bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObservationSpace {
     /// The view.
     pub kind: &'static str,
     /// Its shape; numbers follow one another with the last axis fastest.
     pub shape: Vec<usize>,
-    /// What the entries of the last axis are; empty where that is a number of a step or cell.
+    /// The names of the entries on the last axis; empty if that axis is an index of steps or cells.
     pub names: Vec<String>,
-    /// No number is below it.
+    /// Lower bound of all numbers.
     pub low: f32,
-    /// No number is above it.
+    /// Upper bound of all numbers.
     pub high: f32,
 }
 
 impl ObservationSpace {
-    /// How many numbers there are.
+    /// Number of numbers.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
@@ -29,37 +29,37 @@ impl ObservationSpace {
         self.len() == 0
     }
 
-    /// Numbers from −1 to 1, or any where they are not normalised.
+    /// A space with the bounds −1 and 1, or without bounds if it is not normalised.
     pub(super) fn normalised(kind: &'static str, shape: Vec<usize>, names: Vec<String>, is_normalised: bool) -> Self {
         let high = if is_normalised { 1.0 } else { f32::INFINITY };
         ObservationSpace { kind, shape, names, low: -high, high }
     }
 }
 
-/// What a view is made of.
+/// The inputs of a view.
 pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
-    /// What is believed of the others; empty unless a view shows it.
+    /// Beliefs about the other drivers; empty unless a view shows them.
     pub beliefs: &'a [DriverEstimate],
 }
 
-/// Most vehicles of a view.
+/// Maximum number of vehicles of a view.
 pub(super) const MOST_SEEN: usize = 64;
 
-/// What numbers of a vehicle's view are divided by: what is 1 afterwards.
+/// Scales of a vehicle's view: the values that become 1.
 #[derive(Clone, Copy)]
 pub(super) struct Scales {
-    /// Speeds: the agent's largest \[m/s\].
+    /// Scale of speeds: the agent's largest \[m/s\].
     pub speed_mps: f64,
-    /// Distances along the road: what it drives in five seconds of a real car at that speed \[m\].
+    /// Scale of distances along the road: the agent's distance in five seconds of a real car at that speed \[m\].
     pub along_m: f64,
-    /// Distances across the road: three lanes of a real road \[m\].
+    /// Scale of distances across the road: three lanes of a real road \[m\].
     pub across_m: f64,
 }
 
-/// Distances along the road that are seen, in time at the largest speed of a real car \[s\].
+/// Range along the road, in time at the largest speed of a real car \[s\].
 const SIGHT_S: f64 = 5.0;
-/// Distances across a real road that are seen \[m\].
+/// Range across a real road \[m\].
 const ACROSS_M: f64 = 11.1;
 
 impl Scales {
@@ -74,7 +74,7 @@ impl Scales {
     }
 }
 
-/// The others, the nearest first; equally near ones as the scenario has them.
+/// The other vehicles, the nearest first; equally near ones in the scenario's order.
 pub(super) fn nearest_first(scene: &Scene) -> Vec<&Agent> {
     let away = |other: &Agent| {
         let [x, y] = other.state.position();
@@ -85,7 +85,7 @@ pub(super) fn nearest_first(scene: &Scene) -> Vec<&Agent> {
     others
 }
 
-/// A number that is 1 at a scale, cut off there.
+/// A value relative to a scale, clipped to −1 and 1.
 pub(super) fn share(value: f64, scale: f64) -> f32 {
     (value / scale).clamp(-1.0, 1.0) as f32
 }

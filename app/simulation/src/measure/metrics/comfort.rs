@@ -1,7 +1,7 @@
-//! How smoothly a vehicle drives: means and peaks of its accelerations and of its jerk.
+//! Comfort: means and peaks of a vehicle's accelerations and of its jerk.
 //!
-//! Longitudinal acceleration is that of the inputs; jerk is its change from one tick to the next over a tick, and a vehicle
-//! begins without acceleration. Lateral acceleration is the mean speed of a tick times the yaw rate in it.
+//! Longitudinal acceleration is the input; jerk is its change from one tick to the next, divided by the length of a tick; a vehicle
+//! starts with zero acceleration. Lateral acceleration is the mean speed times the yaw rate of a tick.
 
 use interplay_scenarios::MetricKind::{Flag, Number};
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration};
@@ -9,7 +9,7 @@ use interplay_scenarios::{Better, MetricComparison, MetricDeclaration};
 use crate::measure::metric::{Metric, VehicleTick};
 use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 
-/// The share of a vehicle's strongest braking from which on it brakes hard.
+/// Braking is hard from this share of a vehicle's strongest braking on.
 const HARD_BRAKING_SHARE: f64 = 0.75;
 
 pub(super) const METRICS: &[&dyn Metric] = &[
@@ -89,12 +89,10 @@ const PEAK_LATERAL_ACCELERATION: VehicleMetric = VehicleMetric::new(
     VehicleQuantity::OverTick(lateral_acceleration),
 );
 
-/// Longitudinal acceleration \[m/s²\].
 fn acceleration(tick: &VehicleTick<'_>) -> f64 {
     tick.frame.input.acceleration_mps2
 }
 
-/// Magnitude of the jerk \[m/s³\].
 fn jerk(tick: &VehicleTick<'_>) -> Option<f64> {
     Some((acceleration(tick) - tick.previous_input.acceleration_mps2).abs() / tick.step_s)
 }
@@ -126,9 +124,9 @@ mod tests {
         over_ticks(&metric, &accelerations_mps2.iter().map(|one| (input(one), STILL)).collect::<Vec<_>>())
     }
 
-    /// A tick of a tenth of a second each second.
+    /// A run of one tick of 0.1 s each second.
     #[test]
-    fn means_and_peaks_of_a_pulse() {
+    fn means_and_peaks_of_a_pulse_are_exact() {
         let of = |metric| pulse(metric, &[0.0, 1.0, -2.0, 0.0]);
         let number = |metric| of(metric).value.map_or(f64::NAN, MetricValue::as_number);
         assert!((number(MEAN_ACCELERATION) - 0.75).abs() < 1e-12);
@@ -140,9 +138,9 @@ mod tests {
         assert_eq!([faster(PEAK_ACCELERATION), faster(PEAK_BRAKING)], [peak(1.5, Some(0.0)), peak(0.0, None)]);
     }
 
-    /// Hard is a share of what the vehicle is capable of, and the limit itself is hard.
+    /// Hard braking is defined relative to the vehicle's strongest braking, limit included.
     #[test]
-    fn hard_braking_is_a_share_of_the_strongest() {
+    fn hard_braking_is_relative_to_the_strongest_braking() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let strongest_mps2 = -scenario.vehicles[0].limits.acceleration_min_mps2;
         for (share, is_hard) in [(0.74, false), (0.75, true), (1.0, true)] {
@@ -155,7 +153,7 @@ mod tests {
 
     /// On a circle, lateral acceleration is the speed squared over the radius, in both directions.
     #[test]
-    fn lateral_acceleration_on_a_circle() {
+    fn lateral_acceleration_on_a_circle_is_speed_squared_over_radius() {
         let (speed_mps, radius_m, step_s) = (12.0, 40.0, 0.1);
         for sign in [1.0, -1.0] {
             let turn_rad = sign * speed_mps * step_s / radius_m;

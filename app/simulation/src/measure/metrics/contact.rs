@@ -1,11 +1,11 @@
-//! Who causes the first contact of the ego.
+//! Fault in the first contact of the ego.
 //!
-//! On the lanes of a network somebody has right of way, and whoever takes it is at fault. In this order:
+//! On the lanes of a network, the right of way decides. The rules apply in this order:
 //!
-//! - who has stood for a second of a real car is run into;
-//! - in a conflict of the two routes whoever has to let the other go is at fault; where the first to arrive goes first, the later one;
-//! - of two who meet head-on the one who is out of its lane, if the other is in its own;
-//! - otherwise, and on roads without rules, who moves towards the other at least as fast as the other towards it.
+//! - a vehicle that has stood for a second of a real car is not at fault;
+//! - in a conflict of the two routes, the vehicle that must yield is at fault; where the first to arrive goes first, the later one;
+//! - of two vehicles that meet head-on, the one outside its lane is at fault, if the other is in its own;
+//! - otherwise, and on roads without rules, the vehicle that approaches the other at least as fast as the other approaches it.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 use crate::state::standing::STANDING_MPS;
 
-/// Who has stood for so long is run into, for a real car \[s\].
+/// A vehicle that has stood for this time is not at fault, for a real car \[s\].
 const STOOD_S: f64 = 1.0;
-/// A body is out of its lane from so far beyond the line on, in its widths.
+/// A body is out of its lane if it is beyond the line by this share of its width.
 const OUT_WIDTHS: f64 = 0.1;
 
 const DOC: &str = "Whether the ego is at fault in its first contact: it took the right of way of the other, came out of its lane \
@@ -31,7 +31,6 @@ const DOC: &str = "Whether the ego is at fault in its first contact: it took the
 
 pub(super) const METRICS: &[&dyn Metric] = &[&ContactByEgo];
 
-/// Whether the ego is at fault in its first contact.
 #[derive(Clone, Copy, Debug)]
 struct ContactByEgo;
 
@@ -45,19 +44,18 @@ impl Metric for ContactByEgo {
     }
 }
 
-/// The first contact of the ego, and what has to be known of the time before it.
+/// The first contact of the ego, and the state that its rules need.
 #[derive(Clone, Debug)]
 struct FirstContact {
-    /// The index of the ego.
     ego: usize,
     /// Whether the ego caused it; none before there is one.
     by_ego: Option<bool>,
     users: Vec<RoadUser>,
-    /// Where the route of the ego meets those of others.
+    /// Conflicts of the ego's route with other routes.
     encounters: Vec<Encounter>,
 }
 
-/// A vehicle, and for how long it has stood \[s\].
+/// A vehicle, with the time for which it has stood \[s\].
 #[derive(Clone, Debug)]
 struct RoadUser {
     body: Body,
@@ -65,7 +63,7 @@ struct RoadUser {
     stood_s: f64,
 }
 
-/// A conflict of the route of the ego with that of another vehicle, and when the front of each passed its line there \[s\].
+/// A conflict of the ego's route with that of another vehicle, and the times at which both fronts passed their lines \[s\].
 #[derive(Clone, Debug)]
 struct Encounter {
     other: usize,
@@ -91,7 +89,7 @@ impl FirstContact {
         }
     }
 
-    /// Remembers who stands and who has arrived, at the beginning of a tick.
+    /// Updates standing and arrival times at the beginning of a tick.
     fn remember(&mut self, tick: &ObservedTick<'_>) {
         let vehicles = &tick.frame.vehicles;
         for (user, vehicle) in self.users.iter_mut().zip(vehicles) {
@@ -111,7 +109,7 @@ impl FirstContact {
         }
     }
 
-    /// Whether the ego is at fault in a contact with another vehicle, as far as rules say so.
+    /// Whether the ego is at fault in a contact with another vehicle; none if no rule decides.
     fn by_rule(&self, other: usize, states: [&State; 2]) -> Option<bool> {
         let [own, theirs] = [self.users.get(self.ego)?, self.users.get(other)?];
         if !(own.route.is_in_network() && theirs.route.is_in_network()) {
@@ -125,7 +123,7 @@ impl FirstContact {
         self.by_precedence(other, states).or_else(|| by_lane([own, theirs], states))
     }
 
-    /// Whether the ego had to let the other go, in a conflict in which both are.
+    /// Whether the ego had to yield, in a conflict that both vehicles have entered.
     fn by_precedence(&self, other: usize, states: [&State; 2]) -> Option<bool> {
         let [own, theirs] = [&self.users[self.ego], &self.users[other]];
         let near_m = own.body.front_m + own.body.rear_m;
@@ -165,7 +163,7 @@ impl RoadUser {
     }
 }
 
-/// Of two who meet head-on, whether the first is out of its lane and the second in its own, or the other way round.
+/// Of two vehicles that meet head-on, whether the first is outside its lane and the second inside its own, or the reverse.
 fn by_lane([own, theirs]: [&RoadUser; 2], states: [&State; 2]) -> Option<bool> {
     let is_head_on = libm::cos(states[0].heading_rad - states[1].heading_rad) < -FRAC_1_SQRT_2;
     match [own.is_out_of_lane(states[0]), theirs.is_out_of_lane(states[1])] {
@@ -212,8 +210,8 @@ mod tests {
     }
 
     #[test]
-    fn the_first_contact_of_the_ego_says_who_drives_into_whom() {
-        // The ego between one behind and one ahead of it, with its speed; one of the others touches it.
+    fn the_vehicle_that_closes_in_is_at_fault_in_the_first_contact() {
+        // The ego between two others, at the given speed; one of the others touches it.
         let frame = |ego_mps: f64, between: [&str; 2]| Frame {
             vehicles: vec![at("behind", -1.0, 1.0), at("ego", 0.0, ego_mps), at("ahead", 1.0, 0.5)],
             collisions: vec![Collision { time_s: 0.0, between: between.map(str::to_owned), impulse_ns: 1.0 }],
@@ -283,9 +281,9 @@ mod tests {
         [conflict.own_m, conflict.their_m].map(|[from_m, to_m]| 0.5 * (from_m + to_m))
     }
 
-    /// The ego comes from the minor road. Whoever drives into the other, it is the ego that had to wait, unless the other stood.
+    /// The ego comes from the minor road. In a collision it had to wait, unless the other vehicle stood.
     #[test]
-    fn who_takes_the_right_of_way_is_at_fault() {
+    fn the_vehicle_that_must_yield_is_at_fault() {
         let name = "t-junction/bayesian-nice";
         let [ego_m, main_m] = meeting_m(name, ["ego", "main"]);
         for [ego_mps, main_mps] in [[2.0, 10.0], [10.0, 2.0]] {
@@ -298,9 +296,9 @@ mod tests {
         assert!(by_ego(name, [main, ego]), "the other has stood");
     }
 
-    /// Of two who meet head-on the one in the other's lane is at fault, whoever is faster.
+    /// Of two vehicles that meet head-on, the one in the other's lane is at fault at any speed.
     #[test]
-    fn who_is_in_the_lane_of_the_other_is_at_fault() {
+    fn the_vehicle_in_the_lane_of_the_other_is_at_fault() {
         let name = "overtaking/oncoming";
         let scenario = interplay_scenarios::load(name, &[]).expect("authored");
         let length_m = scenario.vehicle("oncoming").expect("authored").route.end_m();

@@ -1,4 +1,4 @@
-//! How often a vehicle brakes harder than people do unless they must.
+//! How often a vehicle brakes harder than drivers do without an emergency.
 
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
@@ -6,11 +6,11 @@ use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario}
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 
-/// Harder braking is that of an emergency; by Froude's law accelerations are the same at every size \[m/s²\].
+/// Emergency braking exceeds this; by Froude's law accelerations are the same at every scale \[m/s²\].
 const EMERGENCY_MPS2: f64 = 4.0;
 /// An emergency is over when the braking is below this \[m/s²\].
 const OVER_MPS2: f64 = 3.0;
-/// Rounding of a deceleration that is worked out from speeds \[m/s²\].
+/// Rounding error of a deceleration computed from speeds \[m/s²\].
 const ROUNDING_MPS2: f64 = 1e-6;
 
 const DOC: &str = "How often it brakes with more than 4 m/s²; once until it brakes with less than 3 m/s² again";
@@ -67,7 +67,7 @@ mod tests {
     use crate::measure::metrics::tests::over_ticks;
 
     #[test]
-    fn each_emergency_counts_once() {
+    fn each_emergency_is_counted_once() {
         let count = |brakings_mps2: &[f64]| {
             let mut speed_mps = 20.0;
             let ticks = brakings_mps2.iter().map(|braking_mps2| {

@@ -38,7 +38,7 @@ mod tests {
     use crate::state::frame::{Frame, PairGap};
 
     #[test]
-    fn the_first_of_the_smallest_gaps_counts() {
+    fn the_earliest_of_equal_smallest_gaps_is_reported() {
         let names = |pair: [&str; 2]| pair.map(str::to_owned);
         let seen = [(0.3, ["a", "b"], 0.0), (0.1, ["b", "c"], 0.13), (0.1, ["a", "c"], 0.2), (0.2, ["a", "b"], 0.3)];
         let frames = seen.map(|(m, between, time_s)| {
@@ -47,6 +47,6 @@ mod tests {
         });
         let wanted = Measured::between(0.1, names(["b", "c"]), 0.13);
         assert_eq!(of_frames(&SMALLEST_GAP, &frames), wanted);
-        assert_eq!(of_frames(&EGO_GAP, &frames), Measured::default(), "no tick said anything of the ego");
+        assert_eq!(of_frames(&EGO_GAP, &frames), Measured::default(), "no tick has a gap of the ego");
     }
 }

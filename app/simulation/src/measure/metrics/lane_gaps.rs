@@ -1,9 +1,9 @@
-//! The gaps that a vehicle accepts when it changes its lane, and how hard the vehicle behind brakes for it.
+//! The gaps that a vehicle accepts when it changes lanes, and the braking of the vehicle behind that follows.
 //!
-//! A vehicle changes its lane when its centre crosses a lane line, and comes at least 5 % of the lane's width beyond it. In the new lane
-//! somebody within 90 m of a real car who drives in the same direction is ahead or behind. The lead gap is the distance to the one
-//! ahead over the vehicle's own speed, the lag gap the distance of the one behind over the speed of that one, both at the crossing and
-//! between bumpers along the vehicle's route. Of several changes of a run the worst one counts.
+//! A vehicle changes lanes when its centre crosses a lane line and then reaches at least 5 % of the lane's width beyond it. The leader
+//! and the follower are the nearest vehicles in the new lane within 90 m of a real car that drive in the same direction. The lead gap is
+//! the distance to the leader over the vehicle's own speed, the lag gap the follower's distance over the follower's speed, both at the
+//! crossing and between bumpers along the vehicle's route. Of several lane changes in a run the worst one counts.
 
 use interplay_planners::{Route, State};
 use interplay_scenarios::MetricKind::{Flag, Number};
@@ -13,23 +13,23 @@ use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::Measured;
 use crate::state::standing::STANDING_MPS;
 
-/// Who is further away than this is neither ahead nor behind, for a real car \[m\].
+/// Maximum distance of a leader or follower, for a real car \[m\].
 const NEAR_M: f64 = 90.0;
-/// A line is crossed for good by who comes this far beyond it, in lane widths.
+/// A lane change is complete when the centre is this far beyond the line, in lane widths.
 const BEYOND_LANES: f64 = 0.05;
-/// For so long after a change the one behind brakes because of it, for a real car \[s\].
+/// Time after a lane change during which braking of the follower is attributed to it, for a real car \[s\].
 const ANSWERED_S: f64 = 4.0;
-/// Braking beyond this is felt by the one behind \[m/s²\].
+/// The follower brakes if its deceleration exceeds this \[m/s²\].
 const FELT_MPS2: f64 = 1.0;
 
 const DOC_LEAD: &str = "Shortest time gap to the vehicle ahead in the new lane when it changes its lane: the distance between bumpers \
-                        over its own speed; none without a change, or with nobody ahead";
+                        over its own speed; none without a change, or without a vehicle ahead";
 const DOC_LAG: &str = "Shortest time gap of the vehicle behind in the new lane when it changes its lane: the distance between bumpers \
-                       over the speed of the one behind; none without a change, or with nobody behind who moves";
+                       over the speed of the one behind; none without a change, or without a moving vehicle behind";
 const DOC_BRAKING: &str = "Hardest braking of the vehicle behind in the new lane within 4 s, of a real car, after it changed its lane; \
-                           none without a change, or with nobody behind";
+                           none without a change, or without a vehicle behind";
 const DOC_BRAKES: &str = "Whether the vehicle behind brakes with more than 1 m/s² within 4 s, of a real car, after it changed its lane; \
-                          none without a change, or with nobody behind";
+                          none without a change, or without a vehicle behind";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
     &LaneChangeMetric {
@@ -58,26 +58,23 @@ pub(super) const METRICS: &[&dyn Metric] = &[
     },
 ];
 
-/// A metric of all lane changes of a vehicle.
 #[derive(Clone, Copy, Debug)]
 struct LaneChangeMetric {
     declaration: MetricDeclaration,
-    /// The number, of the changes in order; none where there is none.
+    /// The value, from the lane changes in order; none if there is none.
     fold: fn(&[LaneChange]) -> Option<f64>,
 }
 
-/// A change of lane.
 #[derive(Clone, Copy, Debug)]
 struct LaneChange {
-    /// When the centre crossed the line \[s\].
+    /// Time at which the centre crossed the line \[s\].
     at_s: f64,
-    /// The lane that it leads to.
+    /// The new lane.
     to: i64,
-    /// Time gap to the one ahead \[s\].
+    /// Time gap to the leader \[s\].
     lead_s: Option<f64>,
-    /// Time gap of the one behind \[s\].
+    /// Time gap of the follower \[s\].
     lag_s: Option<f64>,
-    /// The index of the one behind.
     follower: Option<usize>,
     /// Its hardest braking so far \[m/s²\].
     braking_mps2: f64,
@@ -104,7 +101,7 @@ impl Metric for LaneChangeMetric {
     }
 }
 
-/// The lanes beside a route: as wide as its own where nothing else is stated.
+/// The lanes of a route, all as wide as its own unless stated otherwise.
 #[derive(Clone, Copy, Debug)]
 struct Lanes {
     /// Lateral coordinate of the centre of lane 0 \[m\].
@@ -113,13 +110,13 @@ struct Lanes {
     width_m: Option<f64>,
 }
 
-/// A place among lanes.
+/// A position among lanes.
 #[derive(Clone, Copy, Debug)]
 struct PlaceInLanes {
     along_m: f64,
     /// The lane, counted from the right.
     lane: i64,
-    /// How far the centre is inside of its lane, in lane widths.
+    /// Distance of the centre from the nearer line of its lane, in lane widths.
     inside: f64,
     /// Lateral coordinate of the centre of the lane \[m\].
     centre_m: f64,
@@ -153,9 +150,8 @@ struct LaneChanges {
     fold: fn(&[LaneChange]) -> Option<f64>,
     vehicle: usize,
     lanes: Lanes,
-    /// The lane that it is in.
     lane: i64,
-    /// The line was crossed, but not yet for good.
+    /// A lane change whose line was crossed, but which is not complete.
     begun: Option<LaneChange>,
     changes: Vec<LaneChange>,
 }
@@ -198,7 +194,7 @@ impl Measurement for LaneChanges {
 }
 
 impl LaneChanges {
-    /// A change that begins at this moment, with who is ahead and behind in the new lane.
+    /// A lane change that begins now, with leader and follower in the new lane.
     fn change(&self, tick: &ObservedTick<'_>, place: &PlaceInLanes) -> LaneChange {
         let moment = &tick.end;
         let (own, own_mps) = (&moment.vehicles[self.vehicle], moment.states[self.vehicle].speed_mps);
@@ -232,7 +228,7 @@ impl LaneChanges {
     }
 }
 
-/// The deceleration of a vehicle in a tick, by its speeds \[m/s²\].
+/// The deceleration of a vehicle in a tick, from its speeds \[m/s²\].
 fn braking_mps2(tick: &ObservedTick<'_>, vehicle: usize) -> f64 {
     (tick.frame.vehicles[vehicle].state.speed_mps - tick.end.states[vehicle].speed_mps) / tick.step_s
 }
@@ -244,7 +240,7 @@ mod tests {
     use crate::state::frame::{Frame, VehicleFrame};
     use interplay_scenarios::load;
 
-    /// Seconds, states before and after a tick of three vehicles: the ego, one in the new lane ahead of it and one behind it.
+    /// Measures the ego, one tick each second, with states before and after the tick of ego, leader and follower in the new lane.
     fn measured(metric: &dyn Metric, moments: &[[State; 3]]) -> Option<f64> {
         let mut scenario = load("full-size/lane-change", &[]).expect("authored");
         let mut template = scenario.vehicles[0].clone();
@@ -269,8 +265,8 @@ mod tests {
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }
 
-    /// Across the line after a second, wholly in the new lane after two; the one behind brakes by 2 m/s² in the third second, and by 5
-    /// after the fourth.
+    /// Crosses the line after a second and is completely in the new lane after two; the follower brakes by 2 m/s² in the third second, and
+    /// by 5 after the fourth.
     fn cut_in() -> Vec<[State; 3]> {
         let scenario = load("full-size/lane-change", &[]).expect("authored");
         let (vehicle, width_m) = (&scenario.vehicles[0], scenario.road.lane_width_m());
@@ -288,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_those_at_the_crossing_and_braking_is_that_of_the_next_seconds() {
+    fn gaps_are_taken_at_the_crossing_and_braking_in_the_seconds_after() {
         let body = load("full-size/lane-change", &[]).expect("authored").vehicles[0].body;
         let moments = cut_in();
         let length_m = body.front_m + body.rear_m;
@@ -300,9 +296,9 @@ mod tests {
         close(measured(METRICS[3], &moments), 1.0);
     }
 
-    /// A vehicle that touches the line and comes back has changed no lane, and neither has one that stays.
+    /// A vehicle that touches the line and returns has not changed lanes, and neither has one that stays.
     #[test]
-    fn nobody_changes_a_lane_who_comes_back() {
+    fn a_vehicle_that_returns_has_not_changed_lanes() {
         let moments = cut_in();
         let back = [moments[0], moments[1], moments[0], moments[0]];
         let stays = [moments[2], moments[3]];

@@ -1,13 +1,13 @@
-//! Every metric, a file each or a few that are computed alike. To add one is to write its file and to name it here.
+//! Every metric, one file for each or for a few with similar computations. To add a metric, write its file and name it here.
 
 use super::metric::Metric;
 
-/// Declares the files, and lists what they hold, in the order of the columns in rows of sweeps.
+/// Declares the files, and lists their metrics in the order of the columns in rows of sweeps.
 macro_rules! metrics {
     ($(mod $file:ident;)*) => {
         $(mod $file;)*
 
-        /// All metrics that Interplay has, by file.
+        /// All metrics of Interplay, by file.
         pub(super) const ALL: &[&[&dyn Metric]] = &[$($file::METRICS),*];
     };
 }
@@ -31,7 +31,7 @@ metrics! {
 
 #[cfg(test)]
 mod tests {
-    //! Measures what tests make up.
+    //! Measures constructed frames for tests.
 
     use crate::measure::metric::SharedStates;
     use interplay_planners::{Input, State};
@@ -46,7 +46,7 @@ mod tests {
         Measured { time_s, is_peak: true, ..Measured::number(Some(value)) }
     }
 
-    /// Measures a vehicle that is seen at some times, in some states and at these arc lengths.
+    /// Measures a vehicle with these states and arc lengths at these times.
     pub(super) fn at_moments(metric: &dyn Metric, vehicle: &Vehicle, seen: &[(f64, State, f64)]) -> Measured {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let vehicles = std::slice::from_ref(vehicle);
@@ -91,7 +91,7 @@ mod tests {
         measurement.measured()
     }
 
-    /// Measures a run by its frames alone.
+    /// Measures a run from its frames alone.
     pub(super) fn of_frames(metric: &dyn Metric, frames: &[Frame]) -> Measured {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let end = ObservedMoment { time_s: 0.0, vehicles: &[], states: &[], along_m: &[] };
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn names_and_keys_are_told_apart() {
+    fn names_and_keys_are_unique() {
         let declarations: Vec<_> = ALL.iter().copied().flatten().map(|metric| metric.declaration()).collect();
         let names: Vec<&str> = declarations.iter().map(|one| one.name).collect();
         let report_keys = declarations.iter().map(|one| one.report_key.unwrap_or(one.name)).collect();

@@ -1,4 +1,4 @@
-//! How far a vehicle leaves its road.
+//! The distance by which a vehicle leaves its road.
 
 use interplay_scenarios::MetricKind::{Flag, Number};
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
@@ -6,10 +6,10 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration};
 use crate::measure::metric::{Metric, VehicleMoment};
 use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 
-/// Shorter distances beyond an edge are treated as zero: planners that drive along the edge keep to it by some micrometres, and no
-/// road is marked to a millimetre \[m\].
+/// Distances beyond an edge below this are treated as zero: planners that follow the edge keep to it within micrometres, and no
+/// road is marked to the millimetre \[m\].
 const ROUNDING_M: f64 = 1e-3;
-/// A vehicle leaves the road if a corner of it comes this far beyond an edge, in widths of its body: 5 cm of a car.
+/// A vehicle is off the road if a corner is this far beyond an edge, in widths of its body: 5 cm for a car.
 const OFF_ROAD_WIDTHS: f64 = 0.03;
 
 const OFF_ROAD_DOC: &str = "Largest distance of a corner of the footprint beyond the edge of the road beside it; 0 if it never left \
@@ -34,11 +34,11 @@ const LEAVES_ROAD: VehicleMetric = VehicleMetric::new(
     VehicleQuantity::AtMoment(leaves_road),
 );
 
-/// The largest distance of a corner beyond the edge of the route's strip that is beside the corner; 0 if none is beyond it \[m\].
+/// The largest distance of a corner beyond the nearest edge of the route's strip; 0 if no corner is beyond one \[m\].
 fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
     let VehicleMoment { vehicle, state, along_m, .. } = moment;
     if vehicle.obstacle.is_some() {
-        // A parked car at the kerb breaks no rule.
+        // A car parked at the kerb breaks no rule.
         return Some(0.0);
     }
     let (sin, cos) = libm::sincos(state.heading_rad);
@@ -80,7 +80,7 @@ mod tests {
         beyond_of(&scenario.vehicles[0], [along_m, across_m], turn_rad)
     }
 
-    /// Across a straight road of 0.74 m, the footprint is 0.19 m wide and reaches 0.21 m ahead.
+    /// On a straight road of 0.74 m; the footprint is 0.19 m wide and extends 0.21 m ahead.
     #[test]
     fn distances_beyond_a_straight_edge_are_exact() {
         let at = |across_m: f64, turn_rad: f64| beyond("lane-change/front-nice", 3.0, across_m, turn_rad);
@@ -98,9 +98,9 @@ mod tests {
         }
     }
 
-    /// Corners turn with the vehicle, on a road in any direction: with its centre on an edge a front or rear corner is beyond it.
+    /// Corners rotate with the vehicle, on a road in any direction: with the centre on an edge, a front or rear corner is beyond it.
     #[test]
-    fn corners_are_those_of_the_body() {
+    fn corners_rotate_with_the_body() {
         let scenario = load("intersection/nice", &[]).expect("authored");
         for vehicle in &scenario.vehicles {
             let (route, body) = (&vehicle.route, vehicle.body);
@@ -116,9 +116,9 @@ mod tests {
         }
     }
 
-    /// Where lane 0 has ended, who stands in it is off the road, and who is before its end is not.
+    /// A vehicle that stands beyond the end of lane 0 is off the road; one before its end is not.
     #[test]
-    fn the_end_of_a_ramp_is_an_edge() {
+    fn the_end_of_a_ramp_is_an_edge_of_the_road() {
         assert_eq!(beyond("ramp-merge/front-tough", -20.0, 0.185, 0.0).1, 0.0);
         let (_, past) = beyond("ramp-merge/front-tough", 20.0, 0.185, 0.0);
         assert!((past - (0.37 - 0.09)).abs() < 1e-6, "{past}");

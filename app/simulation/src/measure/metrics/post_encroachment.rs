@@ -1,8 +1,8 @@
-//! How much time passes between two vehicles at a place where their paths cross.
+//! The post-encroachment time of two vehicles whose paths cross.
 //!
-//! The post-encroachment time of a vehicle with another one is the shortest time from the moment at which the footprint of one leaves
-//! a place until that of the other covers it (Allen, Shin and Cooper, 1978). It is found from the driven footprints, between ticks by
-//! interpolation in steps of at most 0.05 s of a real car. Of vehicles that follow each other in one direction time gaps say it.
+//! The post-encroachment time of a vehicle with another one is the shortest time from when the footprint of one leaves
+//! a point until the footprint of the other covers it (Allen, Shin and Cooper, 1978). It is computed from the driven footprints, between
+//! ticks by interpolation in steps of at most 0.05 s of a real car. Vehicles that follow each other have time gaps instead.
 
 use std::collections::VecDeque;
 
@@ -14,7 +14,7 @@ use crate::measure::metric::{Measurement, Metric, MomentStates, ObservedMoment, 
 use crate::measure::rectangle::{half_diagonal_m, overlap};
 use crate::measure::values::Measured;
 
-/// Longer times are no encounter, for a real car \[s\].
+/// Longer times do not count as encounters, for a real car \[s\].
 const LONGEST_S: f64 = 5.0;
 /// Longest step between two footprints that are compared, for a real car \[s\].
 const STEP_S: f64 = 0.05;
@@ -41,7 +41,7 @@ impl Metric for PostEncroachment {
     }
 }
 
-/// Where everybody was at a time \[s\].
+/// The states of all vehicles at a time \[s\].
 #[derive(Clone, Debug)]
 struct PastMoment {
     time_s: f64,
@@ -52,11 +52,11 @@ struct PastMoment {
 #[derive(Clone, Debug)]
 struct Encounters {
     vehicle: usize,
-    /// No point of a body is further than this from its mass centre, in the scenario's order \[m\].
+    /// Largest distance of a body's points from its mass centre, in the scenario's order \[m\].
     reach_m: Vec<f64>,
-    /// Between which headings each vehicle has driven so far \[rad\].
+    /// Range of headings in which each vehicle has driven so far \[rad\].
     headings_rad: Vec<[f64; 2]>,
-    /// The moments that still count, oldest first.
+    /// The past states that may still matter, oldest first.
     past: VecDeque<PastMoment>,
     least_s: Option<f64>,
 }
@@ -94,13 +94,13 @@ impl Measurement for Encounters {
 }
 
 impl Encounters {
-    /// Whether another vehicle has ever driven in another direction than this one may have.
+    /// Whether another vehicle has ever driven in a direction different from this one's.
     fn may_cross(&self, other: usize) -> bool {
         let [own, theirs] = [self.vehicle, other].map(|vehicle| self.headings_rad[vehicle]);
         other != self.vehicle && (own[1] - theirs[0]).max(theirs[1] - own[0]) >= ALONG_RAD
     }
 
-    /// Compares the last footprints with those before, the latest first.
+    /// Compares the last footprints with earlier ones, the latest first.
     fn compare_last(&mut self, bodies: &[&Body]) {
         let Some(now) = self.past.back() else { return };
         let others: Vec<usize> = (0..bodies.len()).filter(|other| self.may_cross(*other)).collect();
@@ -127,15 +127,15 @@ impl Encounters {
     }
 }
 
-/// Headings that differ by less are one direction, by any rounding of [`is_along`] \[rad\].
+/// Headings that differ by less are the same direction, below any rounding of [`is_along`] \[rad\].
 const ALONG_RAD: f64 = 0.785;
 
-/// Whether two vehicles drive in one direction.
+/// Whether two vehicles drive in the same direction.
 fn is_along(one: &State, other: &State) -> bool {
     libm::cos(one.heading_rad - other.heading_rad) > std::f64::consts::FRAC_1_SQRT_2
 }
 
-/// Whether two vehicles are within a reach \[m\], so that they may overlap.
+/// Whether two vehicles are close enough to overlap \[m\].
 fn is_near(one: &State, other: &State, reach_m: f64) -> bool {
     let [x_m, y_m] = [one.x_m - other.x_m, one.y_m - other.y_m];
     x_m * x_m + y_m * y_m <= reach_m * reach_m
@@ -181,9 +181,9 @@ mod tests {
         measurement.measured().value.map(crate::measure::values::MetricValue::as_number)
     }
 
-    /// The first leaves the square where both paths cross when its rear does; the second comes there with its front.
+    /// The first vehicle leaves the square where both paths cross with its rear; the second enters it with its front.
     #[test]
-    fn it_is_the_time_between_leaving_and_coming() {
+    fn post_encroachment_is_the_time_from_leaving_to_entering() {
         let body = load("full-size/lane-change", &[]).expect("authored").vehicles[0].body;
         let across = std::f64::consts::FRAC_PI_2;
         for (ego_s, other_s) in [(3.0, 5.0), (5.0, 3.0)] {

@@ -1,10 +1,10 @@
-//! Rules of the road that a vehicle breaks, as its driven motion shows: nothing of this is known to planners.
+//! Rules of the road that a vehicle breaks, determined from its driven motion, independently of planners.
 //!
 //! - **Stop signs**: it drives past the line of a stop sign without having stood within a car's length of it.
 //! - **Traffic lights**: its front passes the line of a red light.
-//! - **Right of way**: somebody who goes first comes to a conflict less than a second of a real car after the vehicle has left it, or is
-//!   in it together with the vehicle, although the vehicle was not in it when the other could still have been let through.
-//! - **Speed limits**: it is more than 0.5 m/s of a real car faster than its lane permits and has not been so since the start.
+//! - **Right of way**: a vehicle with priority reaches a conflict less than a second of a real car after the vehicle has left it, or is
+//!   in it together with the vehicle, although the vehicle was not in it while it could still have yielded.
+//! - **Speed limits**: it exceeds the limit of its lane by more than 0.5 m/s of a real car, and has not done so since the start.
 
 use std::sync::Arc;
 
@@ -18,13 +18,13 @@ use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 use crate::state::standing::STANDING_MPS;
 
-/// Above a limit by this a real car speeds \[m/s\].
+/// A real car is speeding if it exceeds a limit by this \[m/s\].
 const SPEEDING_MPS: f64 = 0.5;
-/// Least time between leaving a conflict and the arrival of who goes first, for a real car \[s\].
+/// Minimum time between leaving a conflict and the arrival of the vehicle with priority, for a real car \[s\].
 const SPARE_S: f64 = 1.0;
 
-const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, takes somebody's right of way, or \
-                   exceeds a speed limit";
+const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, \
+                   takes another vehicle's right of way, or exceeds a speed limit";
 
 pub(super) const METRICS: &[&dyn Metric] = &[&RulesBroken];
 
@@ -57,7 +57,7 @@ impl Metric for RulesBroken {
             signs: signs.collect(),
             lights: lights(stated, start.along_m[vehicle]),
             crossings: taken.collect(),
-            // Who starts too fast, or past a line, is not blamed for the start.
+            // Violations that exist at the start, by speed or position, are not counted.
             is_speeding: speeding_mps(stated, start.along_m[vehicle], start.states[vehicle].speed_mps) > 0.0,
             count: 0,
         };
@@ -71,32 +71,31 @@ impl Metric for RulesBroken {
     }
 }
 
-/// The traffic lights on a vehicle's way that are ahead of it.
+/// The traffic lights ahead on a vehicle's route.
 fn lights(vehicle: &Vehicle, along_m: f64) -> Vec<LightAhead> {
     let front_m = along_m + vehicle.body.front_m;
     let lit = vehicle.route.legs.iter().filter_map(|leg| Some((leg.to_m, leg.light.clone()?)));
     lit.filter(|(line_m, _)| *line_m > front_m).map(|(line_m, cycle)| LightAhead { line_m, cycle }).collect()
 }
 
-/// The lines of stop signs on a vehicle's way \[m\].
+/// The lines of stop signs on a vehicle's route \[m\].
 fn stop_signs(vehicle: &Vehicle) -> Vec<f64> {
     let is_signed =
         |leg: &&RouteLeg| leg.light.is_none() && matches!(leg.right_of_way, RightOfWay::Stop | RightOfWay::AllWayStop);
     vehicle.route.legs.iter().filter(is_signed).map(|leg| leg.to_m).collect()
 }
 
-/// Whether the other one goes first at a conflict in which both cannot be.
+/// Whether the other vehicle has priority at a conflict that only one can occupy.
 fn is_theirs(conflict: &RouteConflict) -> bool {
     conflict.precedence == Precedence::Other && conflict.kind != ConflictKind::Diverging
 }
 
-/// How far above the limit of its lane a speed is; negative below it and where there is none \[m/s\].
+/// By how much a speed exceeds the limit of its lane; negative below the limit and without one \[m/s\].
 fn speeding_mps(vehicle: &Vehicle, along_m: f64, speed_mps: f64) -> f64 {
     let limit_mps = vehicle.route.leg(along_m).and_then(|leg| leg.speed_limit_mps);
     limit_mps.map_or(f64::NEG_INFINITY, |limit_mps| speed_mps - limit_mps)
 }
 
-/// The line of a stop sign.
 #[derive(Clone, Copy, Debug)]
 struct Sign {
     line_m: f64,
@@ -111,20 +110,20 @@ struct LightAhead {
     cycle: Arc<LightCycle>,
 }
 
-/// A conflict at which another vehicle goes first.
+/// A conflict at which another vehicle has priority.
 #[derive(Clone, Debug)]
 struct Crossing {
     other: usize,
     conflict: RouteConflict,
-    /// Whether the vehicle was in it before.
+    /// Whether the vehicle had entered it before.
     was_entered: bool,
-    /// When the vehicle's rear left it; where routes merge, when its front came to it \[s\].
+    /// Time at which the vehicle's rear left it; for merging routes, at which its front reached it \[s\].
     left_s: Option<f64>,
-    /// Nothing can be broken any more.
+    /// Whether a violation is no longer possible.
     is_settled: bool,
 }
 
-/// What one vehicle has broken so far.
+/// The violations of one vehicle so far.
 #[derive(Clone, Debug)]
 struct Broken {
     vehicle: usize,
@@ -175,7 +174,7 @@ impl Measurement for Broken {
 }
 
 impl Crossing {
-    /// Whether the vehicle has now taken the other's right of way.
+    /// Whether the vehicle has violated the other's right of way by now.
     fn is_taken(&mut self, moment: &ObservedMoment<'_>, vehicle: usize, spare_s: f64) -> bool {
         let ends_m = |vehicle: usize| {
             let (along_m, body) = (moment.along_m[vehicle], &moment.vehicles[vehicle].body);
@@ -193,7 +192,7 @@ impl Crossing {
         }
         let within_s = self.left_s.map_or(0.0, |left_s| moment.time_s - left_s);
         let is_there = their_front_m > their_m[0];
-        // Whoever was there before the vehicle was let go.
+        // A vehicle that entered before this one had its right of way respected.
         let was_there = !self.was_entered && is_there;
         self.was_entered = true;
         self.is_settled = was_there || is_there || within_s >= spare_s;

@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_road_need_not_have_limits() {
+    fn a_route_without_limits_has_no_value() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let without = at_moments(&SPEEDING, &scenario.vehicles[0], &[moment(0.0, 1.0, 50.0)]);
         assert_eq!(without.value, None);

@@ -1,4 +1,4 @@
-//! How long a vehicle stands that wants to drive, without a reason that shows ([`Standing`]).
+//! How long a vehicle that wants to move is stationary without a visible reason ([`Standing`]).
 
 use interplay_scenarios::MetricKind::{Count, Number};
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
@@ -9,7 +9,7 @@ use crate::measure::waits::STUCK_S;
 use crate::state::standing::Standing;
 
 const DOC_LONGEST: &str =
-    "Longest time for which it stands although it wants to drive, and nothing shows that it waits for";
+    "Longest time for which it stands although it wants to drive, without a visible reason to wait";
 const DOC_DEADLOCKS: &str = "How often it stands so for more than 10 s, of a real car";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
@@ -18,7 +18,7 @@ pub(super) const METRICS: &[&dyn Metric] = &[
         value: |standing| MetricValue::Number(standing.longest_s),
     },
     &StandingMetric {
-        // Comparisons call "deadlocks" the runs in which the ego never did its task.
+        // Comparisons use "deadlocks" for runs in which the ego never completed its task.
         declaration: MetricDeclaration {
             comparison_key: Some("stuck"),
             ..MetricDeclaration::of_vehicle("deadlocks", Count, DOC_DEADLOCKS)
@@ -47,7 +47,7 @@ impl Metric for StandingMetric {
     }
 }
 
-/// How long one vehicle has stood.
+/// The standing time of one vehicle.
 #[derive(Clone, Copy, Debug)]
 struct StandingSoFar {
     value: fn(&StandingSoFar) -> MetricValue,

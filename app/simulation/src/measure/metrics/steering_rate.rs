@@ -1,4 +1,4 @@
-//! How fast a vehicle turns its wheels: `|δ_k − δ_{k−1}| / T` of its steering angles δ over a tick of length T.
+//! Steering rate: `|δ_k − δ_{k−1}| / T` of the steering angles δ over a tick of length T.
 
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
@@ -14,7 +14,7 @@ pub(super) const METRICS: &[&dyn Metric] = &[&VehicleMetric::new(
     VehicleQuantity::OverTick(steering_rate_radps),
 )];
 
-/// The wheels of a vehicle point straight ahead before its first tick.
+/// Wheels point straight ahead before the first tick.
 fn steering_rate_radps(tick: &VehicleTick<'_>) -> Option<f64> {
     Some((tick.frame.input.steering_rad - tick.previous_input.steering_rad).abs() / tick.step_s)
 }

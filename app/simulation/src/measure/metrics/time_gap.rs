@@ -1,4 +1,4 @@
-//! How much time a vehicle keeps to the one ahead: the gap between bumpers, along its route, over its speed.
+//! Time gap of a vehicle to its leader: the gap between bumpers along its route, over its speed.
 
 use interplay_planners::{Body, Route, State};
 use interplay_scenarios::MetricKind::Number;
@@ -7,15 +7,15 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::Measured;
 
-/// Who is further ahead than this is not followed, for a real car \[m\].
+/// Maximum distance of a leader, for a real car \[m\].
 const FOLLOWED_M: f64 = 90.0;
-/// Who drives more slowly than this queues and does not follow, for a real car \[m/s\].
+/// Below this speed a vehicle is queueing and not following, for a real car \[m/s\].
 const SLOWEST_MPS: f64 = 2.0;
-/// A gap below this is short, for a real car \[s\].
+/// Time gaps below this are short, for a real car \[s\].
 const SHORT_S: f64 = 0.5;
 
-const DOC_SHORT: &str = "Share of the time behind somebody during which the time gap is below 0.5 s, of a real car; none for who \
-                         follows nobody";
+const DOC_SHORT: &str = "Share of the time behind a leader with a time gap below 0.5 s, of a real car; none for a vehicle that \
+                         follows no leader";
 const DOC_MEDIAN: &str = "Median of its time gaps to the vehicle ahead";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
@@ -27,11 +27,11 @@ pub(super) const METRICS: &[&dyn Metric] = &[
     },
 ];
 
-/// A metric of all time gaps of a vehicle.
+/// A metric over all time gaps of a vehicle.
 #[derive(Clone, Copy, Debug)]
 struct TimeGap {
     declaration: MetricDeclaration,
-    /// The number, of the gaps in ascending order as times of a real car \[s\], none of which is missing, and of the ratio of times.
+    /// The value, from the ascending gaps as times of a real car \[s\], none of which is missing, and from the ratio of times.
     fold: fn(&[f64], f64) -> f64,
 }
 
@@ -45,14 +45,13 @@ impl Metric for TimeGap {
     }
 }
 
-/// The gaps of one vehicle so far.
 #[derive(Clone, Debug)]
 struct TimeGaps {
     fold: fn(&[f64], f64) -> f64,
     vehicle: usize,
     /// Ratio of its times to those of a real car.
     ratio: f64,
-    /// As times of a real car \[s\].
+    /// Time gaps, as times of a real car \[s\].
     gaps_s: Vec<f64>,
 }
 
@@ -82,7 +81,7 @@ fn median(sorted_s: &[f64], ratio: f64) -> f64 {
     ratio * sorted_s[sorted_s.len() / 2]
 }
 
-/// The gap to the nearest vehicle ahead in the same lane and direction, over the speed \[s\]; none without one, or for who is slow.
+/// The gap to the nearest vehicle ahead in the same lane and direction, over the speed \[s\]; none without a leader, or at low speed.
 fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64> {
     let (stated, states) = (&tick.end.vehicles[vehicle], tick.end.states);
     let (own, own_m) = (&states[vehicle], tick.end.along_m[vehicle]);
@@ -92,7 +91,7 @@ fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64
     let own_across_m = stated.route.across(own.position());
     let others = tick.end.vehicles.iter().zip(states).enumerate();
     let others = others.filter(|(index, _)| *index != vehicle && !tick.frame.vehicles[*index].is_absent);
-    // Along a road it is hardly nearer than straight on.
+    // The distance along the road is hardly shorter than the straight one.
     let is_near = |body: &Body, state: &State| {
         let [x_m, y_m] = [state.x_m - own.x_m, state.y_m - own.y_m];
         let most_m = 1.5 * FOLLOWED_M * scale + stated.body.front_m + body.rear_m;
@@ -108,7 +107,7 @@ fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64
     gaps.min_by(f64::total_cmp).map(|gap_m| gap_m / own.speed_mps)
 }
 
-/// How far a vehicle is ahead along a route and where it is across it, if it drives in its direction \[m\].
+/// Distance ahead along a route and lateral offset of a vehicle that drives in the route's direction \[m\].
 fn ahead(route: &Route, own_m: f64, state: &State) -> Option<(f64, f64)> {
     let at = route.locate(state.position(), None);
     let is_along = libm::cos(state.heading_rad - at.heading_rad) > std::f64::consts::FRAC_1_SQRT_2;

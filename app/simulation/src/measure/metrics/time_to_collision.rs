@@ -8,7 +8,7 @@ use crate::measure::run_metric::LeastOfRun;
 use crate::measure::values::Measured;
 use crate::physics::{MovingFootprint, near_pairs, radius_m, time_to_collision_s};
 
-/// Who touches only after a longer time than this is not on a collision course \[s\].
+/// Vehicles with a longer time to collision are not on a collision course \[s\].
 const MAX_TIME_TO_COLLISION_S: f64 = 100.0;
 
 const DOC: &str = "Shortest time until two footprints would touch if both vehicles kept their velocities; none if no two vehicles were \
@@ -24,9 +24,9 @@ const TIME_TO_COLLISION: LeastOfRun = LeastOfRun {
     quantity: shortest,
 };
 
-/// The shortest time of any two, at the beginning of the tick: the time until two footprints would touch if both vehicles kept the
-/// velocity of the tick; 0 where they touch already. The velocity of a tick is the displacement of the mass centre in it over its
-/// length; headings stay. Only a time below `below_s` is of interest, which keeps the search small.
+/// The shortest time of any two vehicles, at the beginning of the tick: the time until two footprints would touch if both vehicles kept
+/// the velocity of the tick; 0 if they touch already. The velocity of a tick is the displacement of the mass centre over the tick's
+/// length; headings stay constant. Only times below `below_s` are needed, which limits the search.
 fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
     let vehicles = tick.frame.vehicles.iter().zip(tick.end.states).zip(tick.end.vehicles).enumerate();
     let moving =
@@ -51,7 +51,7 @@ fn shortest(tick: &ObservedTick<'_>, below_s: f64) -> Option<Measured> {
     found
 }
 
-/// No two vehicles come nearer to each other along an axis than with this \[m/s\].
+/// Upper bound of the closing speed of any two vehicles along an axis \[m/s\].
 fn fastest_approach_mps(moving: &[(usize, MovingFootprint<'_>)]) -> f64 {
     let spread = |axis: usize| {
         let along = || moving.iter().map(|(_, one)| one.velocity_mps[axis]);
@@ -72,14 +72,14 @@ mod tests {
     use crate::measure::values::MetricValue;
     use crate::state::frame::{Frame, VehicleFrame};
 
-    /// The ego behind and beside the others, seen once a second; only the front car is in its way.
+    /// The ego is behind and beside the others, one tick each second; only the front car is in its way.
     #[test]
-    fn the_shortest_time_is_kept_with_its_pair() {
+    fn the_shortest_time_is_reported_with_its_pair() {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let end = ObservedMoment { time_s: 0.0, vehicles: &[], states: &[], along_m: &[] };
         let mut measure = TIME_TO_COLLISION.begin(&scenario, &end, 0);
         let state = |x_m, y_m, speed_mps| State { x_m, y_m, heading_rad: 0.0, speed_mps };
-        // Closing speed and distance of bumpers of ego and front: 1 s, 0.5 s, 2 s, and parting.
+        // Closing speed and distance of the bumpers of ego and front: 1 s, 0.5 s, 2 s, and separating.
         for (time_s, ahead_m, speed_mps) in [(0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, 2.0, 1.0), (3.0, 0.1, -1.0)] {
             let states = [state(5.0, 0.2, 1.0 + speed_mps), state(ahead_m + 5.4, 0.2, 1.0), state(2.0, 0.55, 1.0)];
             let vehicles = scenario.vehicles.iter().zip(states);

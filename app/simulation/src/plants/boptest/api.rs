@@ -1,4 +1,4 @@
-//! A server of BOPTEST: its requests over HTTP.
+//! Client of a BOPTEST server, over HTTP.
 
 use std::time::Duration;
 
@@ -8,19 +8,19 @@ use super::bench::{Bench, Signals};
 use super::http::Server;
 use crate::plants::boptest::boptest_error::BoptestError;
 
-/// How much of a message of the server an error shows \[characters\].
+/// Maximum length of a server's message in an error \[characters\].
 const MAX_SHOWN_CHARACTERS: usize = 300;
 
 /// A test at a server.
 #[derive(Debug)]
 pub struct Test {
     server: Server,
-    /// `/` and the identifier of the test; empty where the server has one case only.
+    /// `/` and the identifier of the test; empty if the server has only one case.
     suffix: String,
 }
 
 impl Test {
-    /// Begins a test: of the case of that name, or of the only one at the server.
+    /// Begins a test: of the named case, or of the server's only one.
     ///
     /// # Errors
     /// [`BoptestError`] if the server does not answer as agreed.
@@ -45,7 +45,7 @@ impl Test {
         Ok(test)
     }
 
-    /// The payload of an answer: what stands in `payload`, or all of it.
+    /// The payload of an answer: the value of `payload`, or the whole answer.
     fn call(&self, method: &str, path: &str, body: Option<&Value>) -> Result<Value, BoptestError> {
         let request = || format!("{method} {path}");
         let answer = self.server.request(method, path, body.map(Value::to_string).as_deref())?;
@@ -64,7 +64,7 @@ impl Test {
                 None => Ok(Value::Object(object)),
             },
             Some(value) => Ok(value),
-            None => Err(BoptestError::Invalid { request: request(), reason: "it is no JSON".to_owned() }),
+            None => Err(BoptestError::Invalid { request: request(), reason: "it is not JSON".to_owned() }),
         }
     }
 }
@@ -81,10 +81,10 @@ impl Bench for Test {
         }
     }
 
-    /// Only servers of several cases know of this: it lets the server serve another one.
+    /// Only servers of several cases support this: the server can then serve another test.
     fn stop(&mut self) {
         if !self.suffix.is_empty() {
-            // The run is over, whatever the server says.
+            // The run is over, so the answer does not matter.
             let _ = self.call("PUT", &format!("/stop{}", self.suffix), None);
         }
     }

@@ -1,4 +1,4 @@
-//! Where a test case runs: the requests that a plant makes of it.
+//! The interface of a running test case.
 
 use std::fmt::Debug;
 
@@ -10,9 +10,9 @@ use crate::plants::error::TEMPERATURES_C;
 /// Numbers by name.
 pub type Signals = Map<String, Value>;
 
-/// A test case that answers the requests of BOPTEST's interface: a server, or an FMU of ours to run.
+/// A test case that answers the requests of BOPTEST's interface: a server, or an FMU that we run.
 pub trait Bench: Debug + Send + Sync {
-    /// Asks the test. `name` is the first part of the path, such as `advance`.
+    /// Sends a request to the test. `name` is the first part of the path, such as `advance`.
     ///
     /// # Errors
     /// [`BoptestError`] if the test does not answer as agreed.
@@ -22,7 +22,7 @@ pub trait Bench: Debug + Send + Sync {
     fn stop(&mut self) {}
 }
 
-/// A finite number of some signals.
+/// A finite number among signals.
 ///
 /// # Errors
 /// [`BoptestError::Invalid`].
@@ -37,10 +37,10 @@ pub fn number(request: &str, signals: &Signals, name: &str) -> Result<f64, Bopte
 /// 0 °C \[K\].
 pub const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// A temperature in kelvin, which an answer calls `name`, in °C.
+/// The temperature named `name` in an answer, converted from kelvin to °C.
 ///
 /// # Errors
-/// [`BoptestError::Invalid`] for one that no case has: plans and indicators would trust it.
+/// [`BoptestError::Invalid`] for an implausible temperature, which plans and indicators would trust.
 pub fn celsius(request: &str, name: &str, kelvin: f64) -> Result<f64, BoptestError> {
     let value_c = kelvin - ZERO_CELSIUS_K;
     if TEMPERATURES_C.contains(&value_c) {
@@ -51,7 +51,7 @@ pub fn celsius(request: &str, name: &str, kelvin: f64) -> Result<f64, BoptestErr
     Err(BoptestError::Invalid { request: request.to_owned(), reason })
 }
 
-/// A list of finite numbers of some signals.
+/// A list of finite numbers among signals.
 ///
 /// # Errors
 /// [`BoptestError::Invalid`].

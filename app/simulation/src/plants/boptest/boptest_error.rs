@@ -1,28 +1,28 @@
-//! What can go wrong with a test case of BOPTEST.
+//! Errors of a BOPTEST test case.
 
 use std::io;
 
 use interplay_fmu_host::HostError;
 use thiserror::Error;
 
-/// Why BOPTEST gave no answer that can be used. `request` is a method and a path.
+/// Why BOPTEST gave no usable answer. `request` is a method and a path.
 #[derive(Debug, Error)]
 pub enum BoptestError {
     /// The case is an FMU, and its process or its files failed.
     #[error(transparent)]
     Unit(#[from] HostError),
-    /// The case is an FMU that does not have what is asked for.
+    /// The case is an FMU that lacks requested data.
     #[error("the FMU does not serve as a test case: {reason}")]
     Case {
         /// What is missing or wrong.
         reason: String,
     },
-    /// Nobody listens, or the host is unknown.
+    /// No server listens, or the host is unknown.
     #[error(
         "cannot connect to BOPTEST at {url}: {reason}; start its server before the run, or change `building.plant.url`"
     )]
     Connect {
-        /// Where the server should be.
+        /// Address of the server.
         url: String,
         /// The system's reason.
         reason: io::Error,
@@ -51,7 +51,7 @@ pub enum BoptestError {
         /// The longest answer \[bytes\].
         limit: usize,
     },
-    /// The answer is not one of this interface.
+    /// The answer does not follow the interface.
     #[error("BOPTEST's answer to `{request}` is not valid: {reason}")]
     Invalid {
         /// The request.
@@ -66,10 +66,10 @@ pub enum BoptestError {
         request: String,
         /// The status of HTTP, or the one in the answer.
         status: u16,
-        /// What the server says.
+        /// The server's message.
         message: String,
     },
-    /// A name of the scenario is not one of the case.
+    /// A name in the scenario does not exist in the case.
     #[error("the case has no {what} `{name}`, which `{key}` names; it has {known}")]
     UnknownName {
         /// What kind of name.
@@ -78,7 +78,7 @@ pub enum BoptestError {
         name: String,
         /// The key of the scenario.
         key: String,
-        /// Some of the names that there are.
+        /// Some of the existing names.
         known: String,
     },
 }

@@ -1,4 +1,4 @@
-//! What the case foretells: series at equal intervals, and what they mean to a run.
+//! Forecasts of the case: series at equal intervals, and their use in a run.
 
 use std::collections::BTreeMap;
 
@@ -14,14 +14,13 @@ use super::bench::{Bench, ZERO_CELSIUS_K, celsius, series};
 use crate::plants::boptest::boptest_error::BoptestError;
 use crate::plants::foreseen::Foreseen;
 
-/// Interval at which series are asked for \[s\]; those of BOPTEST's cases change at these times at the earliest.
+/// Interval of requested series \[s\]; those of BOPTEST's cases change at these times at the earliest.
 pub const INTERVAL_S: f64 = 900.0;
-/// Intervals of an hour.
 const PER_HOUR: usize = 4;
 const W_PER_KW: f64 = 1000.0;
 const REQUEST: &str = "PUT /forecast";
 
-/// Series of a test from now on, each value of which holds until the next time.
+/// Series of a test from now on; each value holds until the next time.
 #[derive(Debug)]
 pub struct KnownSeries {
     /// The times \[s\].
@@ -31,10 +30,10 @@ pub struct KnownSeries {
 }
 
 impl KnownSeries {
-    /// Asks for the series of these names over `horizon_s` from now on.
+    /// Requests the series of these names over `horizon_s` from now on.
     ///
     /// # Errors
-    /// [`BoptestError`], also where a series does not have a value for each time.
+    /// [`BoptestError`], also if a series does not have a value for each time.
     pub fn ask(test: &mut dyn Bench, names: Vec<String>, horizon_s: f64) -> Result<Self, BoptestError> {
         let body = json!({ "point_names": names, "horizon": horizon_s, "interval": INTERVAL_S });
         let answer = test.ask("PUT", "forecast", Some(&body))?;
@@ -51,7 +50,7 @@ impl KnownSeries {
         Ok(Self { times_s, by_name })
     }
 
-    /// Refuses series of temperatures that no case has.
+    /// Refuses series of implausible temperatures.
     ///
     /// # Errors
     /// [`BoptestError::Invalid`].
@@ -62,13 +61,13 @@ impl KnownSeries {
         Ok(())
     }
 
-    /// The values of a series; none of one that was not asked for.
+    /// The values of a series; empty if it was not requested.
     fn values(&self, name: &str) -> &[f64] {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }
 }
 
-/// What the settings ask of the forecasts over `horizon_s` from the first midnight on, which is now.
+/// The forecasts that the settings request, over `horizon_s` from the first midnight on, which is now.
 ///
 /// # Errors
 /// [`BoptestError`].
@@ -109,7 +108,7 @@ pub fn foresee(
 
 const EMISSIONS: &str = "EmissionsElectricPower";
 
-/// The series of the bounds of all zones that are judged: the others have no name.
+/// The series of the bounds of all judged zones; other zones have no name.
 pub fn all_bounds(zones: &[String]) -> impl Iterator<Item = String> {
     zones.iter().filter(|zone| !zone.is_empty()).flat_map(|zone| bounds_of(zone))
 }

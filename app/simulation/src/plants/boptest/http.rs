@@ -1,4 +1,4 @@
-//! Requests over HTTP, one connection each, with a deadline and a greatest length.
+//! HTTP requests, one connection each, with a deadline and a maximum length.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -9,14 +9,14 @@ use crate::plants::boptest::boptest_error::BoptestError;
 /// The longest answer \[bytes\]: the results of a year in steps of 30 s take about a tenth.
 const MAX_ANSWER_BYTES: usize = 512 * 1024 * 1024;
 
-/// A server, and how long it may take.
+/// A server, with a time-out.
 #[derive(Clone, Debug)]
 pub struct Server {
     /// Host and port.
     pub authority: String,
-    /// What stands before every path, without a slash at its end.
+    /// Prefix of every path, without a trailing slash.
     pub prefix: String,
-    /// The longest that a request may take.
+    /// Time-out of a request.
     pub timeout: Duration,
 }
 
@@ -27,7 +27,7 @@ pub struct Answer {
     pub status: u16,
     /// The body.
     pub body: Vec<u8>,
-    /// Whether the head stated how long the body is, and so long it is.
+    /// Whether the head stated the length of the body, and the body has that length.
     is_whole: bool,
 }
 
@@ -35,13 +35,13 @@ impl Server {
     /// Sends a request and waits for its answer. `body` is JSON.
     ///
     /// # Errors
-    /// [`BoptestError`] if there is no answer of HTTP in time.
+    /// [`BoptestError`] if no HTTP answer arrives in time.
     pub fn request(&self, method: &str, path: &str, body: Option<&str>) -> Result<Answer, BoptestError> {
         let request = format!("{method} {path}");
         let deadline = Instant::now() + self.timeout;
         let mut stream = self.connect()?;
         let body = body.unwrap_or_default();
-        // Version 1.0 keeps the server from cutting its answer into chunks.
+        // Version 1.0 prevents the server from sending its answer in chunks.
         let head = format!(
             "{method} {}{path} HTTP/1.0\r\nHost: {}\r\nContent-Type: application/json\r\nAccept: application/json\r\n\
              Content-Length: {}\r\nConnection: close\r\n\r\n",
@@ -85,7 +85,7 @@ impl Server {
     }
 }
 
-/// Everything until the stated length or until the server closes the connection, or one byte more than is allowed.
+/// Everything until the stated length or until the server closes the connection, or one byte more than allowed.
 fn receive(stream: &mut TcpStream, deadline: Instant) -> io::Result<Vec<u8>> {
     let mut received = Vec::new();
     let mut buffer = [0; 64 * 1024];
@@ -99,7 +99,7 @@ fn receive(stream: &mut TcpStream, deadline: Instant) -> io::Result<Vec<u8>> {
             Ok(0) => break,
             Ok(count) => {
                 received.extend_from_slice(&buffer[..count]);
-                // A server may keep the connection although it is asked not to.
+                // A server may keep the connection open although the request says not to.
                 if parse(&received).is_ok_and(|answer| answer.is_whole) {
                     break;
                 }
@@ -111,24 +111,24 @@ fn receive(stream: &mut TcpStream, deadline: Instant) -> io::Result<Vec<u8>> {
     Ok(received)
 }
 
-/// Status and body of what a server sent; otherwise what is wrong with it.
+/// Status and body of a server's answer, or what is wrong with it.
 fn parse(received: &[u8]) -> Result<Answer, &'static str> {
-    let end = received.windows(4).position(|bytes| bytes == b"\r\n\r\n").ok_or("it is no answer of HTTP")?;
-    let head = std::str::from_utf8(&received[..end]).map_err(|_| "its head is no text")?;
+    let end = received.windows(4).position(|bytes| bytes == b"\r\n\r\n").ok_or("it is not an HTTP answer")?;
+    let head = std::str::from_utf8(&received[..end]).map_err(|_| "its head is not text")?;
     let mut lines = head.lines();
     let status = lines.next().and_then(|line| {
         let (version, rest) = line.split_once(' ')?;
         let status = rest.get(..3)?.parse().ok()?;
         version.starts_with("HTTP/1.").then_some(status)
     });
-    let status = status.ok_or("it is no answer of HTTP")?;
+    let status = status.ok_or("it is not an HTTP answer")?;
     let body = received[end + 4..].to_vec();
     let lengths = lines.filter_map(|line| line.split_once(':'));
     let mut lengths = lengths.filter(|(name, _)| name.eq_ignore_ascii_case("content-length"));
     let stated = lengths.next();
     let is_whole = stated.is_some();
     if let Some((_, length)) = stated {
-        let length: usize = length.trim().parse().map_err(|_| "its length is no number")?;
+        let length: usize = length.trim().parse().map_err(|_| "its length is not a number")?;
         if body.len() != length {
             return Err("it ends before its stated length, or goes on after it");
         }
@@ -141,22 +141,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sound_answers_are_taken() {
+    fn valid_answers_are_accepted() {
         let answer = |text: &str| parse(text.as_bytes()).map(|answer| (answer.status, answer.body));
         assert_eq!(answer("HTTP/1.0 200 OK\r\n\r\n{}"), Ok((200, b"{}".to_vec())));
         assert_eq!(answer("HTTP/1.1 404\r\ncontent-length: 2\r\n\r\n{}"), Ok((404, b"{}".to_vec())));
     }
 
     #[test]
-    fn what_is_no_answer_of_http_is_refused() {
+    fn an_answer_that_is_not_http_is_refused() {
         for (text, said) in [
-            ("", "no answer of HTTP"),
-            ("hello\r\n\r\n", "no answer of HTTP"),
-            ("SMTP/1.0 200 OK\r\n\r\n", "no answer of HTTP"),
-            ("HTTP/1.0 2\r\n\r\n", "no answer of HTTP"),
+            ("", "not an HTTP answer"),
+            ("hello\r\n\r\n", "not an HTTP answer"),
+            ("SMTP/1.0 200 OK\r\n\r\n", "not an HTTP answer"),
+            ("HTTP/1.0 2\r\n\r\n", "not an HTTP answer"),
             ("HTTP/1.0 200 OK\r\nContent-Length: 3\r\n\r\n{}", "stated length"),
             ("HTTP/1.0 200 OK\r\nContent-Length: 1\r\n\r\n{}", "stated length"),
-            ("HTTP/1.0 200 OK\r\nContent-Length: x\r\n\r\n{}", "no number"),
+            ("HTTP/1.0 200 OK\r\nContent-Length: x\r\n\r\n{}", "not a number"),
         ] {
             let error = parse(text.as_bytes()).expect_err(text);
             assert!(error.contains(said), "{text:?}: {error}");

@@ -1,4 +1,4 @@
-//! The indicators of a test: BOPTEST's own, and ours from what it measured.
+//! The indicators of a test: BOPTEST's own, and ours from its measurements.
 
 use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun, PowerSignal, ThermalZone};
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
@@ -11,7 +11,7 @@ use crate::state::day::Metered;
 
 const RESULTS: &str = "PUT /results";
 
-/// Prices, emission factors and limits of a test, which its forecast knows without error. Each is held until the next time.
+/// Prices, emission factors and limits of a test, from its error-free forecast. Each value holds until the next time.
 #[derive(Debug)]
 pub struct Known {
     start_s: f64,
@@ -21,7 +21,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Asks for them at the beginning of a test: its first time and its length \[s\].
+    /// Requests them at the beginning of a test, for its whole duration: first time and length \[s\].
     ///
     /// # Errors
     /// [`BoptestError`].
@@ -50,7 +50,7 @@ impl Known {
         Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
     }
 
-    /// What the meter of electricity counted from one time to another \[s\]; none where no electricity is measured.
+    /// The reading of the electricity meter between two times \[s\]; none if no electricity is measured.
     ///
     /// # Errors
     /// [`BoptestError`].
@@ -75,7 +75,7 @@ impl Known {
             Ok(PowerSignal { carrier: Carrier::Electricity, power_w, price_per_kwh, emission_kg_per_kwh })
         };
         let powers = listed.electricity.iter().map(power).collect::<Result<_, BoptestError>>()?;
-        // Of a square metre, so that figures per area are those of the building.
+        // For one square metre, so that figures per area are those of the building.
         let measured = MeasuredRun { area_m2: 1.0, powers, times_s, ..MeasuredRun::default() };
         let figures = Indicators::compute(&measured).map_err(|error| invalid(&error.to_string()))?;
         Ok(Some(Metered {
@@ -100,7 +100,7 @@ impl Known {
         let times_s = results("time")?;
         let judged = config.zones.iter().zip(&listed.zones).filter(|(_, name)| !name.is_empty());
         let zones = judged.map(|(zone, name)| {
-            // Both the temperature and its limits are in kelvin; only differences count.
+            // Both the temperature and its limits are in kelvin; only differences matter.
             Ok(ThermalZone {
                 temperature_c: results(&zone.temperature)?,
                 lower_c: self.held(&format!("LowerSetp[{name}]"), &times_s),
@@ -134,7 +134,7 @@ impl Known {
         Indicators::compute(&measured).map_err(|error| invalid(&error.to_string()))
     }
 
-    /// A series at some times; before its first time and without any it is its first value, or zero.
+    /// A series at given times; before its first time it has its first value, and without values zero.
     fn held(&self, name: &str, times_s: &[f64]) -> Vec<f64> {
         let Some(values) = self.series.by_name.get(name) else { return vec![0.0; times_s.len()] };
         let at = |time_s: &f64| {

@@ -1,4 +1,4 @@
-//! A test case of BOPTEST as the plant: at a server, through its interface over HTTP, or as an FMU that is run here.
+//! A BOPTEST test case as the plant: on a server, through its HTTP interface, or as an FMU that runs locally.
 //!
 //! ```text
 //! select -> step -> scenario | initialize -> measurements        forecast -> Foreseen

@@ -23,7 +23,7 @@ use crate::state::day::Metered;
 use crate::state::not_copied::NotCopied;
 
 const DAY_S: f64 = 86_400.0;
-/// How many names of the case an error lists.
+/// Maximum number of the case's names that an error lists.
 const SHOWN_NAMES: usize = 12;
 
 /// A test case of BOPTEST as the plant. The temperatures of walls are estimated with the controller's model.
@@ -34,24 +34,24 @@ pub struct BoptestPlant {
     /// Number of steps of the run.
     steps: usize,
     steps_per_day: usize,
-    /// Mean outdoor temperature of the first day, for walls that nobody measures \[°C\].
+    /// Mean outdoor temperature of the first day, for unmeasured walls \[°C\].
     mean_outdoor_c: f64,
     test: Option<Box<dyn Bench>>,
     known: Option<Known>,
     foreseen: Option<Foreseen>,
-    /// When the first step begins \[s\].
+    /// Start time of the first step \[s\].
     start_s: f64,
     metered: Option<Metered>,
-    /// When the last answer came, and how long the decisions after each of them took \[s\].
+    /// Time of the last answer, and the durations of the decisions after each \[s\].
     answered: Option<Instant>,
     control_s: Vec<f64>,
     benchmark: Option<Benchmark>,
-    /// What each input with `least_on` has been held back so far, zone after zone \[unit of the input\].
+    /// Accumulated heat that each input with `least_on` has held back, zone after zone \[unit of the input\].
     held_back: Vec<f64>,
 }
 
 impl BoptestPlant {
-    /// A plant that connects when the run begins and has `steps` steps. `outdoor_c` is that of the first day \[°C\].
+    /// A plant with `steps` steps that connects when the run begins. `outdoor_c` is the temperature of the first day \[°C\].
     pub fn new(config: &BoptestPlantConfig, believed: Model, steps: usize, outdoor_c: &[f64]) -> Self {
         let mean_outdoor_c = outdoor_c.iter().sum::<f64>() / outdoor_c.len().max(1) as f64;
         let steps_per_day = ((DAY_S / believed.step_s()).round() as usize).max(1);
@@ -74,7 +74,7 @@ impl BoptestPlant {
         }
     }
 
-    /// Where the case runs: at a server, or as an FMU on this machine.
+    /// The running case: on a server, or as a local FMU.
     fn bench(&self) -> Result<Box<dyn Bench>, BoptestError> {
         if let Some(fmu) = &self.config.fmu {
             return Ok(Box::new(FmuBench::start(Path::new(fmu), &self.config, &HostProgram::default())?));
@@ -84,7 +84,7 @@ impl BoptestPlant {
         Ok(Box::new(Test::select(url, self.config.case.as_deref(), timeout)?))
     }
 
-    /// Begins the test: the measurements at the first midnight.
+    /// Begins the test; returns the measurements at the first midnight.
     fn begin(&self, test: &mut dyn Bench) -> Result<(&'static str, Signals), BoptestError> {
         let step_s = self.believed.step_s();
         test.ask("PUT", "step", Some(&json!({ "step": step_s })))?;
@@ -107,7 +107,7 @@ impl BoptestPlant {
         }
     }
 
-    /// Refuses names of the scenario that the case does not have.
+    /// Refuses names in the scenario that the case does not have.
     fn check_names(&self, test: &mut dyn Bench) -> Result<(), BoptestError> {
         let (inputs, measurements) = (test.ask("GET", "inputs", None)?, test.ask("GET", "measurements", None)?);
         let found = |what, names: &Signals, name: &str, key: String| {
@@ -143,7 +143,7 @@ impl BoptestPlant {
         self.config.zones.iter().map(zone_c).collect()
     }
 
-    /// The body of `advance` for some heat.
+    /// The body of an `advance` request for the heat of all zones.
     fn overwritten(&mut self, heat_kw: &[f64]) -> Value {
         let mut held_back = self.held_back.iter_mut();
         let mut body = serde_json::Map::new();
@@ -172,7 +172,7 @@ impl BoptestPlant {
         if step + 1 == self.steps { self.finish(test) } else { Ok(()) }
     }
 
-    /// Reads the indicators of the test that is over.
+    /// Reads the indicators of the completed test.
     fn finish(&mut self, test: &mut dyn Bench) -> Result<(), BoptestError> {
         let official = test.ask("GET", "kpi", None)?;
         let ours = match &self.known {
@@ -197,8 +197,8 @@ fn input_value(input: &BoptestInput, heat_kw: f64) -> f64 {
     (input.at_zero + input.per_kw * heat_kw).max(input.min).min(input.max)
 }
 
-/// What is given of a wanted value where `least_on` holds: nothing, or at least that. `held_back` is the sum of what was wanted and not
-/// given, at most one pulse either way.
+/// The applied value with `least_on`: zero, or at least that. `held_back` accumulates the difference to the wanted
+/// value, at most one pulse either way.
 fn in_pulses(input: &BoptestInput, wanted: f64, held_back: &mut f64) -> f64 {
     let Some(least) = input.least_on else { return wanted };
     let (pulse, excess) = (least - input.at_zero, wanted - input.at_zero);
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn pulses_have_the_wanted_mean_and_no_part_load() {
+    fn pulses_have_the_wanted_mean_without_part_load() {
         for wanted in [0.05, 0.3, 0.55, 0.79] {
             let (mut held_back, mut sum) = (0.0, 0.0);
             for _ in 0..1000 {

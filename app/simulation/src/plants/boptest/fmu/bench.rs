@@ -13,10 +13,10 @@ use crate::plants::boptest::bench::{Bench, Signals, ZERO_CELSIUS_K};
 use crate::plants::boptest::boptest_error::BoptestError;
 
 const DAY_S: f64 = 86_400.0;
-/// A period of BOPTEST begins so long before its middle day, and is warmed up as long \[d\].
+/// A period of BOPTEST begins this long before its middle day, and has a warm-up of the same length \[d\].
 const DAYS_BEFORE: f64 = 7.0;
 
-/// A test case in a process of its own.
+/// A test case in a separate process.
 #[derive(Debug)]
 pub struct FmuBench {
     host: Host,
@@ -26,10 +26,9 @@ pub struct FmuBench {
     inputs: Vec<UnitVariable>,
     /// Measurements: numbers first, then booleans.
     outputs: Vec<UnitVariable>,
-    /// How often measurements are taken \[s\].
+    /// Interval of measurements \[s\].
     sampling_s: f64,
     step_s: f64,
-    /// Now \[s\].
     time_s: f64,
     /// Times \[s\] and measurements since the start of the test.
     times_s: Vec<f64>,
@@ -70,7 +69,7 @@ impl FmuBench {
         self.outputs.iter().filter(|variable| variable.kind == kind).map(|variable| variable.reference).collect()
     }
 
-    /// Warms the case up, and begins the test at `start_s`.
+    /// Simulates the warm-up, and begins the test at `start_s`.
     fn begin(&mut self, start_s: f64, warmup_s: f64) -> Result<Signals, BoptestError> {
         if self.is_initialized {
             self.host.ask(&Request::Reset)?;
@@ -89,7 +88,7 @@ impl FmuBench {
         self.now()
     }
 
-    /// Simulates for so long, and keeps what is measured.
+    /// Simulates for a duration, and records the measurements.
     fn steps(&mut self, duration_s: f64) -> Result<(), BoptestError> {
         let count = (duration_s / self.sampling_s).round().max(1.0) as usize;
         let step_s = duration_s / count as f64;
@@ -106,7 +105,7 @@ impl FmuBench {
             rows.len() == times_s.len() && rows.iter().all(|row| row.len() == self.outputs.len())
         };
         let rows = rows.filter(sound).ok_or_else(|| BoptestError::Case {
-            reason: format!("a measurement before {} s is no finite number", self.time_s),
+            reason: format!("a measurement before {} s is not a finite number", self.time_s),
         })?;
         let in_kelvin = |row: Vec<f64>| {
             let values = row.into_iter().zip(&self.outputs);
@@ -117,7 +116,7 @@ impl FmuBench {
         Ok(())
     }
 
-    /// The measurements now, with the time.
+    /// The present measurements, with the time.
     fn now(&self) -> Result<Signals, BoptestError> {
         let row = self.rows.last().map(Vec::as_slice).unwrap_or_default();
         let mut signals: Signals =
@@ -126,7 +125,7 @@ impl FmuBench {
         Ok(signals)
     }
 
-    /// Sets the inputs that a request has, and leaves the others to the case's own controller.
+    /// Sets the inputs of a request, and leaves the others to the case's own controller.
     fn overwrite(&mut self, body: &Map<String, Value>) -> Result<(), BoptestError> {
         let (mut reals, mut booleans) = (Vec::new(), Vec::new());
         for input in &self.inputs {
@@ -143,7 +142,7 @@ impl FmuBench {
         Ok(())
     }
 
-    /// The first day of a period, as the resources say.
+    /// The first day of a period, from the resources.
     fn period_start_s(&self, period: &str) -> Result<f64, BoptestError> {
         let text = fs::read_to_string(self.unit.resources().join("days.json")).unwrap_or_default();
         let days: Map<String, Value> = serde_json::from_str(&text).unwrap_or_default();
@@ -158,7 +157,7 @@ impl FmuBench {
         variables.iter().map(|variable| (variable.name.clone(), json!({}))).collect()
     }
 
-    /// The series that are asked for, from now on.
+    /// The requested series, from now on.
     fn forecast(&self, body: &Value) -> Result<Signals, BoptestError> {
         let interval_s = wanted(body, "interval")?;
         let count = (wanted(body, "horizon")? / interval_s + 1e-6).floor() as usize;
@@ -171,7 +170,7 @@ impl FmuBench {
         Ok(signals)
     }
 
-    /// What was measured between two times.
+    /// The measurements between two times.
     fn results(&self, body: &Value) -> Result<Signals, BoptestError> {
         let (from_s, to_s) = (wanted(body, "start_time")?, wanted(body, "final_time")?);
         let first = self.times_s.partition_point(|time_s| *time_s < from_s - 1e-6);
@@ -222,7 +221,7 @@ impl Bench for FmuBench {
     }
 
     fn stop(&mut self) {
-        // The run is over, whatever the unit says.
+        // The run is over, so the answer does not matter.
         let _ = self.host.ask(&Request::End);
     }
 }

@@ -6,12 +6,11 @@ use std::path::Path;
 
 use crate::plants::boptest::boptest_error::BoptestError;
 
-/// A year, after which the data begin anew \[s\].
+/// A year, after which the data repeat \[s\].
 const YEAR_S: f64 = 365.0 * 86_400.0;
-/// The table of weather, whose values are linear in between; those of other tables hold until the next.
+/// The table of the weather, whose values are interpolated linearly; those of other tables hold until the next time.
 const WEATHER: &str = "weather.csv";
 
-/// Series of a year.
 #[derive(Debug, Default)]
 pub struct CaseData {
     series: BTreeMap<String, Series>,
@@ -25,10 +24,10 @@ struct Series {
 }
 
 impl CaseData {
-    /// Reads all tables of a folder that have a column `time`; a folder that is not there has none.
+    /// Reads all tables of a folder that have a column `time`; a missing folder has none.
     ///
     /// # Errors
-    /// [`BoptestError::Case`] for a table that cannot be read.
+    /// [`BoptestError::Case`] if a table cannot be read.
     pub fn read(folder: &Path) -> Result<Self, BoptestError> {
         let mut data = Self::default();
         let Ok(entries) = fs::read_dir(folder) else { return Ok(data) };
@@ -52,7 +51,7 @@ impl CaseData {
         for (row, line) in lines.enumerate() {
             let values: Result<Vec<f64>, _> = line.split(',').map(|value| value.trim().parse::<f64>()).collect();
             let values = values.ok().filter(|values| values.len() == titles.len());
-            let values = values.ok_or_else(|| format!("row {} is no row of {} numbers", row + 1, titles.len()))?;
+            let values = values.ok_or_else(|| format!("row {} does not have {} numbers", row + 1, titles.len()))?;
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         }
         let times_s = columns[time].clone();
@@ -69,7 +68,7 @@ impl CaseData {
     /// The values of a series at some times of the year \[s\].
     ///
     /// # Errors
-    /// [`BoptestError::Case`] if there is no such series.
+    /// [`BoptestError::Case`] if the series does not exist.
     pub fn at(&self, name: &str, times_s: &[f64]) -> Result<Vec<f64>, BoptestError> {
         let series = self.series.get(name).ok_or_else(|| BoptestError::Case {
             reason: format!("its resources have no series `{name}` for forecasts and indicators"),
@@ -97,11 +96,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weather_is_linear_and_prices_hold() {
+    fn weather_is_interpolated_and_prices_are_held() {
         let mut data = CaseData::default();
         data.add("# a note\ntime,TDryBul\n0,270\n3600,274\n", true).expect("weather");
         data.add("time,Price\n0.0,1\n900.0,2\n", false).expect("prices");
-        data.add("name,value\na,b\n", false).expect("a table without times is none of ours");
+        data.add("name,value\na,b\n", false).expect("a table without times is skipped");
         assert_eq!(
             data.at("TDryBul", &[-1.0, 900.0, 5000.0, YEAR_S + 1800.0]).expect("known"),
             [270.0, 271.0, 274.0, 272.0]
