@@ -3,7 +3,7 @@
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
 //! - many runs from one plan: [`sweeps`]; what vehicles did as tables: [`trajectories`]; as scenarios of others: [`exports`]
-//! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
+//! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
@@ -15,7 +15,7 @@
 //!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
 //!   and for other programs: [`fmu`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`], [`python_package`]
+//! - how the workspace is built: [`architecture`], [`modules`], [`lines`]; how it is written: [`plain_words`]; what its packages say: [`packages`], [`python_package`]
 
 mod animations;
 mod architecture;
@@ -44,12 +44,14 @@ mod identified_houses;
 mod laws;
 mod learning;
 mod limits;
+mod lines;
 mod measures;
 mod modules;
 mod mutation;
 mod output;
 mod own;
 mod packages;
+mod plain_words;
 mod plants;
 mod played;
 mod predictions;
