@@ -110,7 +110,7 @@ class Scenario:
 
     @property
     def obstacles(self) -> list[str]:
-        """The names of those in whom nobody drives: parked cars, cones, walls."""
+        """The names of the obstacles: parked cars, cones, walls."""
 
     @property
     def default_agents(self) -> list[str]:

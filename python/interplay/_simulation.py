@@ -19,7 +19,7 @@ class Zone(NamedTuple):
     temperature_c: float
     #: The wanted temperature; none where it is free.
     reference_c: float | None
-    #: Deviations from it that are comfortable; none while nobody is there.
+    #: Deviations from it that are comfortable; none while the zone is unoccupied.
     band_k: float | None
     #: The strongest heating.
     heating_kw: float

@@ -112,7 +112,7 @@ pub fn of_environment(error: EnvironmentError) -> PyErr {
 
 /// What was to be JSON of ours, and is not.
 pub fn bad_json(what: &str, error: &serde_json::Error) -> PyErr {
-    // The text was made by the package: its lines and columns tell nobody anything.
+    // The text was made by the package: its lines and columns mean nothing to the caller.
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     PyValueError::new_err(format!("{what}: {message}"))

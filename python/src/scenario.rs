@@ -132,7 +132,7 @@ impl PyScenario {
         self.scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect()
     }
 
-    /// The names of those in whom nobody drives: parked cars, cones, walls.
+    /// The names of the obstacles: parked cars, cones, walls.
     #[getter]
     fn obstacles(&self) -> Vec<&str> {
         let obstacles = self.scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_some());

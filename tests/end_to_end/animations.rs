@@ -134,5 +134,5 @@ fn a_suite_animates_what_failed_and_nothing_else() {
     fs::write(folder.join("taken"), "mine").expect("writes");
     let outcome = interplay(&folder, &["suite", "mine", "--animate-failures", "taken"]);
     assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("is no folder"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("is not a folder"), "{}", outcome.stderr);
 }

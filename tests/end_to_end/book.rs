@@ -335,7 +335,7 @@ fn the_errata_name_tests_that_exist() {
     }
     for test in &named {
         let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}(")));
-        assert!(found, "the errata name `{test}`, which is no test");
+        assert!(found, "the errata name `{test}`, which is not a test");
     }
     assert!(named.len() > 30, "{named:?}");
 }

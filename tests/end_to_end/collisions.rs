@@ -1,4 +1,4 @@
-//! A collision: when, between whom, how hard. And none where nobody touches.
+//! A collision is reported with its time, its vehicles and its impact, and only where vehicles touch.
 
 use std::fs;
 
@@ -87,7 +87,7 @@ fn a_car_that_can_stop_does_not_collide() {
     assert!((0.25..0.5).contains(&gap_m) && speed_mps < 1e-3, "{gap_m} {speed_mps}");
 }
 
-/// Side by side with 5 mm between them, at the same speed: near, but nobody touches.
+/// Side by side with 5 mm between them, at the same speed: near, but without contact.
 #[test]
 fn near_is_not_a_collision() {
     let text = r#"

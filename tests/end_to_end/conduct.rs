@@ -92,7 +92,7 @@ fn the_command_says_it_in_words_and_as_values() {
     let report = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]).json();
     assert_eq!(report["deadlocks"][0]["vehicles"], json!(["idle"]));
     assert_eq!(report["vehicles"][1]["standing"][0]["reason"], "as its scripted driver is told");
-    // 8 m before the line nobody stops from 10 m/s.
+    // 8 m before the line no vehicle can stop from 10 m/s.
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "140.0")).expect("a scratch file can be written");
     let broken = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]);
     assert_eq!(broken.code, Some(1), "{}", broken.stdout);
@@ -103,9 +103,9 @@ fn the_command_says_it_in_words_and_as_values() {
     assert_eq!(expectations, wanted);
 }
 
-/// A driver who waits for an oncoming car before it passes a van says for whom.
+/// A driver that waits for an oncoming car before it passes a van names that car.
 #[test]
-fn who_waits_for_somebody_names_it() {
+fn a_waiting_vehicle_names_the_vehicle_that_it_waits_for() {
     let text = include_str!("../cases/streets/d-parked.toml").replace("negotiation", "human");
     let film = film("parked", from_text("parked.toml", &format!("conduct = 'people'\n{text}"), &[]).expect("sound"));
     let standing = &film.report.vehicle("ego").expect("an ego").standing;

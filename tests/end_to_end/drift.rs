@@ -122,7 +122,7 @@ fn quoted_output_is_what_the_command_says() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "whoever reads what the test says is told which tables are old")]
+#[expect(clippy::print_stderr, reason = "the output of the test names the tables that are old")]
 fn tables_are_those_that_were_made() {
     let path = root().join("docs/made.txt");
     let written = fs::read_to_string(&path).unwrap_or_default();

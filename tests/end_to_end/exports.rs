@@ -119,9 +119,9 @@ fn scenarios_of_ours_become_scenarios_of_commonroad() {
     }
 }
 
-/// Who is not on the road has no row and no state: nobody stands where somebody comes later.
+/// A vehicle that has not entered the road yet has no row and no state.
 #[test]
-fn whoever_comes_later_is_written_from_then_on() {
+fn a_vehicle_is_written_from_its_entry_on() {
     let folder = scratch("export-later");
     run(&folder, "people/high-street", &["--set", "duration_s=10.0", "--trajectories", "driven.csv"]);
     let table = columns(&folder.join("driven.csv"));

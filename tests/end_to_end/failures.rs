@@ -58,7 +58,7 @@ fn a_failed_plan_is_continued_then_braked_told_and_counted() {
         assert_eq!(front.name, "front");
         let warnings: Vec<_> = frame.events.iter().filter(|event| event.level == Level::Warning).collect();
         let others = [0, 2].map(|index| frame.vehicles[index].origin);
-        assert_eq!(others, [Origin::Planned; 2], "one failure is not everybody's");
+        assert_eq!(others, [Origin::Planned; 2], "one planner's failure leaves the others planned");
         if !SPOILT.contains(&tick) {
             assert_eq!((front.origin, warnings.len()), (Origin::Planned, 0), "tick {tick}");
             continue;

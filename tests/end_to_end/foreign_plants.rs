@@ -106,8 +106,8 @@ fn the_same_network_behind_a_socket_gives_the_same_run() {
     }
 }
 
-/// Nobody measures walls. Their estimate begins at rest, which is wrong here by many kelvins, and forgets it within days: then the
-/// model predicts the day to the last digits, since forecast and model are exact.
+/// The temperatures of walls are not measured. Their estimate starts at rest, which is wrong here by many kelvins, and converges within
+/// days: then the model predicts the day to the last digits, since forecast and model are exact.
 #[test]
 fn the_estimate_of_walls_comes_to_the_truth() {
     let name = "../assets/telemetry/cabin-scenario.toml";

@@ -1,4 +1,4 @@
-//! A world that is stepped from outside, copied and resumed goes on bit for bit as one that nobody touched.
+//! A world that is stepped from outside, copied and resumed is bit-identical with one that runs undisturbed.
 
 use interplay_planners::Input;
 use interplay_scenarios::{Registry, Scenario, embedded};
@@ -34,7 +34,7 @@ fn forget_wall_times(value: &mut Value) {
 
 fn finished(mut simulation: Simulation) -> Report {
     while simulation.step().expect("the run can go on").is_some() {}
-    simulation.finish().expect("nobody watches")
+    simulation.finish().expect("a run without observers finishes")
 }
 
 /// Where a run is copied: pseudo-random steps of the whole run, other ones for other scenarios.
@@ -66,7 +66,7 @@ fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize
         assert!(simulation.step().expect("the run can go on").is_some(), "{name}: step {step} of {steps}");
     }
     assert!(simulation.step().expect("the run is over").is_none());
-    let wanted = outcome(&simulation.finish().expect("nobody watches"));
+    let wanted = outcome(&simulation.finish().expect("a run without observers finishes"));
     for (step, fork) in &forks {
         let resumed = finished(fork.resume().expect("a copy can be copied"));
         assert_eq!(outcome(&resumed), wanted, "{name}, resumed after {step} steps");
@@ -179,9 +179,9 @@ fn to_observe_has_no_side_effect() {
         }
     }
     assert_eq!(shifted, scenario.tick_count() + 1, "predictions begin where the others are");
-    assert_eq!(outcome(&simulation.finish().expect("nobody watches")), outcome(&alone));
+    assert_eq!(outcome(&simulation.finish().expect("a run without observers finishes")), outcome(&alone));
     let simulation = Simulation::new(&scenario).expect("a world");
-    assert!(matches!(simulation.observe("nobody"), Err(RunError::NoVehicle { .. })));
+    assert!(matches!(simulation.observe("stranger"), Err(RunError::NoVehicle { .. })));
 }
 
 /// A run from outside with the inputs that a planner gave is the planner's own run, as far as the plant is concerned.
@@ -205,7 +205,7 @@ fn a_vehicle_is_driven_from_outside() {
         }
     }
     assert!(simulation.step().expect("the scenario is over").is_none());
-    assert_eq!(simulation.finish().expect("nobody watches").order, own.report.order);
+    assert_eq!(simulation.finish().expect("a run without observers finishes").order, own.report.order);
 }
 
 /// Who hands in an input only is expected to keep its speed.
@@ -261,7 +261,7 @@ fn a_building_ends_early() {
     for _ in 0..30 {
         simulation.step().expect("the run can go on");
     }
-    let report = simulation.finish().expect("nobody watches");
+    let report = simulation.finish().expect("a run without observers finishes");
     let days = report.building.map(|building| building.iterations.len());
     assert!(report.ended_early_s.is_some_and(|time_s| time_s > 0.0) && days == Some(0), "{days:?}");
 }
@@ -297,7 +297,7 @@ fn a_snapshot_is_written_and_read() {
             simulation.apply("ego", Input::default()).expect("the ego is external");
             simulation.step().expect("it has its input");
         }
-        outcome(&simulation.finish().expect("nobody watches"))
+        outcome(&simulation.finish().expect("a run without observers finishes"))
     });
     assert_eq!(ends[0], ends[1]);
     let other_run = text.replacen("0.002", "0.003", 1);

@@ -62,7 +62,7 @@ fn the_limits_name_tests_that_exist() {
     for row in rows {
         let cell = row.trim_end_matches(" |").rsplit("| ").next().unwrap_or_default();
         if let Some(test) = cell.strip_prefix('`').and_then(|rest| rest.strip_suffix('`')) {
-            assert!(tests.contains(test), "there is no test `{test}`");
+            assert!(tests.contains(test), "the test `{test}` does not exist");
             count += 1;
         } else {
             assert!(cell.contains("](../evidence/"), "neither a test nor evidence: {row}");

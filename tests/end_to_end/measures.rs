@@ -52,7 +52,7 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
     for film in FILMS.iter().filter(|film| film.report.collisions.is_empty()) {
         let places = film.report.vehicles.iter().enumerate().map(|(index, vehicle)| {
             let place = match film.scenario.road {
-                Road::Intersection(_) => reached(film, index).expect("everybody crosses") as f64,
+                Road::Intersection(_) => reached(film, index).expect("every vehicle crosses") as f64,
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
                 // Towards different goals, the order is that of arrival, and then by what is left of the way.
                 _ if is_junction(film) => {

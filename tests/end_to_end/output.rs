@@ -37,7 +37,7 @@ fn the_report_has_the_keys_of_the_contract() {
     has_keys(&report["phase_digests"], "sense predict plan act physics");
     has_keys(&report["smallest_gap"], "m between time_s");
     has_keys(&report["shortest_time_to_collision"], "s between time_s");
-    assert_eq!(report["right_of_way"], serde_json::json!([]), "on one road, nobody's way crosses another's");
+    assert_eq!(report["right_of_way"], serde_json::json!([]), "on one road, no paths cross");
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
@@ -61,7 +61,7 @@ fn the_report_has_the_keys_of_the_contract() {
     }
 }
 
-/// Nobody wants to read 0.30000000000000004.
+/// Times are rounded: not 0.30000000000000004.
 #[test]
 fn times_are_round() {
     let folder = scratch("times");

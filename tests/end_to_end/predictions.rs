@@ -92,7 +92,7 @@ fn what_is_no_recording_is_refused_with_its_place() {
         (&["predict", "empty"], "empty"),
         (&["predict", "notes.txt"], "notes.txt"),
         (&["predict", "queue.csv", "--starts", "0"], "whole number"),
-        (&["fit", "queue.csv", "--vehicle", "nobody"], "nobody"),
+        (&["fit", "queue.csv", "--vehicle", "stranger"], "stranger"),
         (&["fit", "queue.csv", "--vehicle", "car-0"], "car-0"),
         (&["fit", "bad.csv"], "bad.csv:2"),
     ] {

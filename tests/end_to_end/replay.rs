@@ -1,4 +1,4 @@
-//! Planning is a function of plain values: whoever is given what was seen decides the same, bit for bit.
+//! Planning is a function of plain values: the same scene gives the same plan, bit for bit.
 //!
 //! The test rebuilds every scene of a run from its frames and asks planners of its own. That holds the loop to its order
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
@@ -15,7 +15,7 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
 use crate::film::{FILMS, Film, authored, film};
 
-/// Everybody at the start of a tick, expected to go on as they planned.
+/// All vehicles at the start of a tick, each expected to follow its last plan.
 fn agents(film: &Film, tick: usize) -> Vec<Agent> {
     let Film { scenario, frames, .. } = film;
     let before = tick.checked_sub(1).map(|before| &frames[before]);
@@ -121,7 +121,7 @@ fn the_prediction_of_a_human_is_its_plan() {
     }
 }
 
-/// Of everybody else one expects the last plan to go on, and constant velocity before the first.
+/// The prediction of another planner is its last plan, and constant velocity before its first.
 #[test]
 fn the_prediction_of_a_planner_is_its_last_plan() {
     for film in FILMS.iter() {
@@ -137,7 +137,7 @@ fn the_prediction_of_a_planner_is_its_last_plan() {
     }
 }
 
-/// Among those who do not plan first nobody has an advantage: it does not matter who is listed first.
+/// Among vehicles that do not plan first, the order in which they are listed gives no advantage.
 #[test]
 fn two_planners_meet_on_equal_terms() {
     let changes = ["duration_s=3", "vehicle.front.driver.kind=\"conservative\"", "expect.completes=[]"];

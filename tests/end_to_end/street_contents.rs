@@ -47,7 +47,7 @@ fn a_street_with_everything_is_driven_lawfully() {
     for vehicle in &film.report.vehicles {
         assert_eq!(vehicle.metrics.number("rules_broken").unwrap_or(0.0), 0.0, "{}", vehicle.name);
     }
-    // The walker is on the crossing while the ego waits for it, and everybody has gone on.
+    // The walker is on the crossing while the ego waits for it, and all vehicles go on afterwards.
     let walker = states(&film, "walker");
     let crosses_s: Vec<f64> =
         walker.iter().filter(|(_, state)| (-3.5..3.5).contains(&state.y_m)).map(|(time_s, _)| *time_s).collect();
@@ -56,12 +56,12 @@ fn a_street_with_everything_is_driven_lawfully() {
     let nearest_m = ego.iter().filter(|(time_s, _)| (begins_s..=ends_s).contains(time_s)).map(|(_, state)| state.x_m);
     assert!(
         nearest_m.fold(f64::NEG_INFINITY, f64::max) + 2.2 < 0.0,
-        "the ego is before the crossing while somebody is on it"
+        "the ego is before the crossing while the walker is on it"
     );
     assert!(ego[ego.len() - 1].1.x_m > 60.0 && walker[walker.len() - 1].1.y_m > 10.0);
 }
 
-/// With lights that are off, nobody waits for them: they are what holds the ego.
+/// The ego waits for lights that are on, and does not wait for lights that are off.
 #[test]
 fn the_light_is_what_the_ego_waits_for() {
     let lit = high_street(&[]);
@@ -97,7 +97,7 @@ fn contacts_are_those_of_the_outline() {
     assert_eq!(wider.report.collisions.len(), 1, "its tip reaches 0.1 m into the way of the ego");
 }
 
-/// A driver who keeps the rules passes a parked car, and one that nobody parked is not missed.
+/// A driver that keeps the rules passes a parked car; without the car the road is free.
 #[test]
 fn obstacles_are_passed() {
     let car = "[[obstacle]]\nname = \"parked\"\nlane = \"east\"\nalong_m = 120.0\nlateral_offset_m = -0.6\n";
@@ -114,7 +114,7 @@ fn obstacles_are_passed() {
     }
 }
 
-/// A vehicle comes once there is room, and leaves where its route ends; meanwhile it is in nobody's scene.
+/// A vehicle comes once there is room, and leaves where its route ends; outside that interval it is in no scene.
 #[test]
 fn vehicles_come_and_go() {
     let film = film(
@@ -130,7 +130,7 @@ fn vehicles_come_and_go() {
     );
     let [comes, goes] = ["comes", "goes"].map(|name| states(&film, name));
     let came_s = comes[0].0;
-    assert!((9.5..16.0).contains(&came_s), "there is no room before the other one has left: {came_s} s");
+    assert!((9.5..16.0).contains(&came_s), "it enters only after the other one has left: {came_s} s");
     let (_, last) = comes[comes.len() - 1];
     assert!(last.x_m > 140.0 && comes[comes.len() - 1].0 < 49.0, "it leaves where its route ends: {last:?}");
     let (left_s, _) = goes[goes.len() - 1];
@@ -143,12 +143,12 @@ fn vehicles_come_and_go() {
     assert!(!film.frames.iter().filter(|frame| (6.5..9.0).contains(&frame.time_s)).any(knows));
 }
 
-/// Somebody on foot lets cars go at the kerb where they go first, and is let go on a zebra crossing.
+/// A pedestrian waits at the kerb where cars have priority, and goes first on a zebra crossing.
 #[test]
 fn people_on_foot_wait_at_the_kerb_or_go_first() {
     let street = |crossing: &str| {
         let text = format!(
-            "title = \"Kerb\"\nshows = \"Somebody crosses\"\nduration_s = 25.0\ndefaults = {{ class = \"car\" }}\n[road]\nkind = \"network\"\n\
+            "title = \"Kerb\"\nshows = \"A pedestrian crosses\"\nduration_s = 25.0\ndefaults = {{ class = \"car\" }}\n[road]\nkind = \"network\"\n\
              lane = [{{ name = \"street\", points = [[-100, 0], [100, 0]], width_m = 3.5 }},\n\
              {{ name = \"pavement\", points = [[0, -10], [0, -3]], width_m = 2.5, users = [\"pedestrian\"], successors = [\"over\"], right_of_way = \"{}\" }},\n\
              {{ name = \"over\", points = [[0, -3], [0, 9]], width_m = 2.5, users = [\"pedestrian\"]{} }}]\n\
@@ -170,7 +170,7 @@ fn people_on_foot_wait_at_the_kerb_or_go_first() {
     }
 }
 
-/// A lane for buses is in nobody's way who drives a car, and a bus drives on it.
+/// Cars do not use a lane for buses, and a bus does.
 #[test]
 fn lanes_are_for_some() {
     let road = "[road]\nkind = \"network\"\nlane = [\n\
@@ -209,7 +209,7 @@ fn contradictions_are_located() {
         (script("{ from_s = 1.0, speed_mps = 1.0 }, { from_s = 1.0, speed_mps = 2.0 }"), "begin at one time"),
         (
             script(
-                "{ when = { vehicle = \"nobody\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }",
+                "{ when = { vehicle = \"stranger\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }",
             ),
             "no vehicle",
         ),

@@ -81,9 +81,9 @@ fn scenarios_that_are_the_same_are_counted_each() {
 /// When a sweep is killed.
 #[cfg(unix)]
 enum Moment {
-    /// When so many rows are there.
+    /// When this number of rows exists.
     Rows(usize),
-    /// After so many milliseconds.
+    /// After this number of milliseconds.
     Millis(u64),
 }
 

@@ -51,7 +51,7 @@ fn no_output_takes_the_place_of_the_scenario() {
     }
 }
 
-/// The weather of a scenario is as much its input as its file, whoever names it.
+/// The weather file of a scenario is protected as its scenario file is, whether a flag or the scenario names it.
 #[test]
 fn no_output_takes_the_place_of_the_weather() {
     let folder = scratch("overwritten-weather");
@@ -90,20 +90,20 @@ fn no_output_takes_the_place_of_another() {
     }
 }
 
-/// A comparison reads the rows of a sweep, and must not write its page over them, or over anything that is no page.
+/// A comparison reads the rows of a sweep, and must not write its page over them, or over any other file that is not a page.
 #[test]
 fn no_comparison_takes_the_place_of_rows() {
     let folder = scratch("overwritten-rows");
     fs::create_dir(folder.join("rows")).expect("makes");
     for file in ["rows/runs.parquet", "rows/comparison.html"] {
-        fs::write(folder.join(file), "somebody's").expect("writes");
+        fs::write(folder.join(file), "the user's").expect("writes");
     }
     for words in [&["compare", "rows", "--page", "rows/runs.parquet"][..], &["compare", "rows"]] {
         let outcome = interplay(&folder, words);
         assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
-        assert!(outcome.stderr.contains("is no page of Interplay's"), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("is not a page that Interplay wrote"), "{words:?}: {}", outcome.stderr);
         for file in ["rows/runs.parquet", "rows/comparison.html"] {
-            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), "somebody's", "{words:?}");
+            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), "the user's", "{words:?}");
         }
     }
 }
@@ -124,7 +124,7 @@ fn a_title_that_a_terminal_would_obey_is_refused() {
 }
 
 #[test]
-fn no_page_takes_the_place_of_somebody_else_s() {
+fn pages_that_interplay_did_not_write_are_not_replaced() {
     let folder = scratch("foreign-page");
     fs::write(folder.join("index.html"), "<h1>My home page</h1>").expect("writes");
     for words in [&["run", "--set", "duration_s=4", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {

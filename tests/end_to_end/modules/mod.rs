@@ -31,7 +31,7 @@ use self::graph::{Crate, Place, on_circles};
 use self::module::Module;
 use crate::architecture::{members, root};
 
-/// Public types of one name in several modules of the workspace, and why that is no confusion.
+/// Public types of one name in several modules of the workspace, and why that is not confusing.
 const SHARED_NAMES: &[(&str, &str)] =
     &[("Settings", "each planner has its own, and its module is always named beside it: `idm::Settings`")];
 

@@ -113,7 +113,7 @@ fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Er
     let Some(TableColumn::Numbers(column)) = table.column("time_headway_s") else { return Err("no column".into()) };
     let mut sorted: Vec<f64> = column.iter().copied().flatten().collect();
     sorted.sort_by(f64::total_cmp);
-    assert_eq!(sorted.len(), 2, "both end behind somebody");
+    assert_eq!(sorted.len(), 2, "both end behind another vehicle");
     let compared = compare(&folder, Some("idm"), GroupBy::Family, registry.metrics())?;
     let planners = &compared.groups[0].planners;
     let mut least: Vec<f64> =

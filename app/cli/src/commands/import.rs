@@ -57,7 +57,7 @@ fn replacement(text: &str) -> Result<Replacement, String> {
     Ok(Replacement { vehicle, kind: kind.to_owned(), style: style.map(str::to_owned) })
 }
 
-/// Why there is no scenario.
+/// Why an import wrote no scenario.
 #[derive(Debug, Error)]
 enum ImportError {
     #[error(transparent)]

@@ -237,7 +237,7 @@ impl Run {
         print(&text)
     }
 
-    /// The words that run the same again. What is done with the results is no part of them.
+    /// The arguments that repeat this run. Flags for its outputs are not among them.
     fn words(&self) -> Vec<String> {
         let planner = self.planner.iter().flat_map(|kind| ["--planner".to_owned(), kind.clone()]);
         let seed = self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]);

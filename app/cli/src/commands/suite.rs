@@ -160,7 +160,7 @@ impl Suite {
     fn refused_animation(&self, scenarios: &[(String, Scenario)], registry: &Registry) -> Option<String> {
         let folder = self.animate_failures.as_ref()?;
         if folder.exists() && !folder.is_dir() {
-            return Some(format!("`{}` is no folder; choose another name for --animate-failures", folder.display()));
+            return Some(format!("`{}` is not a folder; choose another name for --animate-failures", folder.display()));
         }
         let animations = scenarios.iter().filter_map(|(name, _)| self.animation(name));
         let path = animations.into_iter().find_map(|animation| self.destroyed_by(animation.path(), registry))?;

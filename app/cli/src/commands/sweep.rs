@@ -89,7 +89,7 @@ enum Action {
 enum Keep {
     /// Nothing
     None,
-    /// Recordings of runs in which the ego touched somebody or did not reach its goal
+    /// Recordings of runs in which the ego touched something or did not reach its goal
     Failures,
     /// What every vehicle did at every tick, a Parquet file a run; runs that were made before are not made again for it
     Trajectories,

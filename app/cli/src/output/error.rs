@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::run_outputs::OutputError;
 
-/// Why there is no result, or why it is not where it should be.
+/// Why a command has no result, or why the result is not where it should be.
 #[derive(Debug, Error)]
 pub(crate) enum CommandError {
     #[error(transparent)]

@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 
-/// Prints a result. A reader that has gone away (a closed pipe) is no error of ours.
+/// Prints a result. A closed pipe is not an error.
 ///
 /// # Errors
 /// [`CommandError::Output`] if the result is not where it should be, such as on a full disk.
@@ -25,7 +25,7 @@ pub(crate) fn print(text: &str) -> Result<(), CommandError> {
     delivered(out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()))
 }
 
-/// A reader that has gone away is no error.
+/// A closed pipe is not an error.
 fn delivered(written: io::Result<()>) -> Result<(), CommandError> {
     match written {
         Err(reason) if reason.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(reason)),

@@ -1,4 +1,4 @@
-//! How far a long command has come, for whoever sits in front of it.
+//! Progress of a long command, for the user at the terminal.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::output::print_error;
 
-/// A line on stderr that is written over and over; nothing if stderr is no terminal.
+/// A line on stderr that is rewritten in place; nothing if stderr is not a terminal.
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {

@@ -87,7 +87,7 @@ macro_rules! run_outputs {
             /// Asks for the output of a flag, without its dashes.
             ///
             /// # Errors
-            /// If there is no such flag, or the ending of the file is not one of its formats.
+            /// If no such flag exists, or the ending of the file is not one of its formats.
             pub fn ask_for(&mut self, flag: &str, path: &str) -> Result<(), String> {
                 match flag {
                     $(stringify!($flag) => {
