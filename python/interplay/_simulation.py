@@ -60,7 +60,7 @@ class Simulation:
         return None if arrays is None else Frames({name: array for name, array in arrays.items() if name != "tick"})
 
     def observe(self, vehicle: str) -> Record:
-        """What the driver of a vehicle would be given at the next tick: itself first, then whom it sees.
+        """The scene that the driver of a vehicle would plan from at the next tick: its own vehicle first, then those that it sees.
 
         ``vehicles``: names; ``state``: x_m, y_m, heading_rad, speed_mps of each; ``body_m``: front, rear, width, front axle, rear
         axle; ``prediction``: states from now to the end of the horizon; ``route``: along_m, across_m and the heading of the road

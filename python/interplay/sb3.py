@@ -74,7 +74,7 @@ class VecEnv(BaseVecEnv):
         setattr(self.worlds, attr_name, value)
 
     def env_method(self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any) -> list[Any]:
-        """Calls a method of the worlds; of what it returns for all, those that are asked for."""
+        """Calls a method of the worlds and returns the results of those selected."""
         found = getattr(self.worlds, method_name)(*method_args, **method_kwargs)
         return [found[place] for place in self._places(indices)]
 

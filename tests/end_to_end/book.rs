@@ -215,7 +215,7 @@ fn the_error_in_the_authoring_guide_is_the_command_s() {
     assert!(bare(&said).contains(&bare(&find("text", "unknown key"))), "{said}");
 }
 
-/// Whatever the documents quote of the command line exists: commands, and flags beside them.
+/// Commands that the documents quote exist, and so do the flags beside them.
 #[test]
 fn quoted_commands_and_flags_exist() {
     let folder = scratch("book-help");

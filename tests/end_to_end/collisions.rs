@@ -65,7 +65,7 @@ fn a_collision_has_a_time_parties_and_an_impulse() {
 }
 
 #[test]
-fn a_collision_fails_the_run_and_is_told() {
+fn a_collision_fails_the_run_and_is_reported() {
     let folder = scratch("collision");
     fs::write(folder.join("crash.toml"), unavoidable(0.2)).expect("a scratch file can be written");
     let outcome = interplay(&folder, &["run", "crash.toml", "--no-record"]);

@@ -1,4 +1,4 @@
-//! What a run says of conduct: who waits and why, who is stuck, and whether the rules were kept.
+//! Conduct in reports: which vehicles wait and why, which are stuck, and whether the rules were kept.
 
 use std::fs;
 
@@ -52,9 +52,10 @@ fn street(ego_m: &str) -> Film {
     film("street", from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults())))
 }
 
-/// Who stops at a sign says so and is not stuck; who does nothing for more than ten seconds is, once.
+/// A vehicle that stops at a sign gives that as the reason and is not stuck; one that does nothing for more than ten seconds is
+/// stuck, once.
 #[test]
-fn the_report_says_who_stands_why_and_who_is_stuck() {
+fn the_report_names_standing_and_stuck_vehicles_with_reasons() {
     let film = street("70.0");
     let standing = |name: &str| &film.report.vehicle(name).expect("a vehicle").standing;
     assert!(
@@ -75,7 +76,7 @@ fn the_report_says_who_stands_why_and_who_is_stuck() {
 }
 
 #[test]
-fn the_command_says_it_in_words_and_as_values() {
+fn the_command_reports_conduct_in_words_and_as_json() {
     let folder = scratch("conduct");
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "70.0")).expect("a scratch file can be written");
     let said = interplay(&folder, &["run", "street.toml", "--no-record"]);

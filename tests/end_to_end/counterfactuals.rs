@@ -1,4 +1,4 @@
-//! Runs beside a scenario's own in which something is changed: judged by `run` and `suite`, listed by `why`.
+//! Counterfactual runs, which change one thing of a scenario: judged by `run` and `suite`, listed by `why`.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Documents show what this program does: pictures, quoted output, and tables.
+//! Pictures, quoted output and tables in the documents are those of this version of the program.
 //!
 //! - `docs/gallery/made.txt` has the bytes of each animation and the digest of the run that it shows. A run that has changed, or
 //!   a picture that was changed by hand, is found here; `docs/gallery/make.sh` makes them again.

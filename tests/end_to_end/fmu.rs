@@ -91,7 +91,7 @@ fn both_versions_of_the_standard_have_the_same_resources() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_said_and_nothing_is_written() {
+fn a_failed_export_names_the_reason_and_writes_nothing() {
     let folder = scratch("fmu-refused");
     let plant = "building.plant={ kind = \"socket\", address = \"localhost:1\" }";
     let refused: [(&str, &[&str], &str); 5] = [

@@ -1,5 +1,5 @@
-//! A building that is another program: a server that answers with our own network gives our own run, and whatever else a server
-//! does is an error and no panic.
+//! A building that is another program: a server that answers with our own network gives our own run, and any wrong answer of a
+//! server is an error, not a panic.
 
 use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
@@ -124,9 +124,9 @@ fn the_estimate_of_walls_comes_to_the_truth() {
     assert!(errors_c[0] > 0.5 && errors_c[3] < 1e-3 * errors_c[0] && errors_c[13] < 1e-9, "{errors_c:?}");
 }
 
-/// People, sun and outdoor temperature are told apart, and the gains are their sum as the network has it.
+/// A plant receives people, sun and outdoor temperature separately; the gains are their sum, as in the network.
 #[test]
-fn a_plant_is_told_what_acts_on_it() {
+fn a_plant_receives_people_sun_and_outdoor_temperature() {
     let name = "building/epw-weather";
     let own = authored(name, &[]);
     let network = own.building.as_ref().and_then(|building| building.network().ok()).expect("a network");

@@ -208,7 +208,7 @@ fn a_vehicle_is_driven_from_outside() {
     assert_eq!(simulation.finish().expect("a run without observers finishes").order, own.report.order);
 }
 
-/// Who hands in an input only is expected to keep its speed.
+/// The prediction of a vehicle that hands in an input alone is constant velocity.
 #[test]
 fn an_input_alone_is_expected_to_be_followed_by_constant_velocity() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}"];
@@ -229,7 +229,7 @@ fn an_input_alone_is_expected_to_be_followed_by_constant_velocity() {
 
 /// A run may end early, and says so; watchers see what follows a return to an earlier moment, too.
 #[test]
-fn a_run_ends_early_and_goes_back() {
+fn a_run_ends_early_and_rewinds() {
     let scenario = authored("lane-change/front-nice", &["counterfactual=[]"]);
     let camera = Camera::default();
     let mut simulation = Simulation::watched("early", &scenario, vec![Box::new(camera.clone())]).expect("a world");

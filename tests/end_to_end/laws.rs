@@ -70,7 +70,7 @@ fn inputs_and_speeds_stay_within_the_limits() {
 
 /// The first input of a plan is what is applied; planners keep to the limits, so that nothing is left to clamp.
 #[test]
-fn what_is_planned_is_applied() {
+fn planned_inputs_are_applied() {
     for film in FILMS.iter() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for vehicle in frame.vehicles.iter().filter(|vehicle| vehicle.origin == Origin::Planned) {

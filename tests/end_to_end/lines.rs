@@ -16,7 +16,6 @@ const TOTAL_BUDGET: usize = 166_500;
 /// The first version, major and minor, that may not exceed the budget.
 const ENFORCED_FROM: (u64, u64) = (0, 4);
 
-/// The columns of the table.
 const KINDS: [&str; 6] = ["product", "beside", "tests", "experiments", "benches", "examples"];
 const PRODUCT: usize = 0;
 const BESIDE: usize = 1;
@@ -138,7 +137,6 @@ fn counted() -> Table {
     table
 }
 
-/// The sum of each column.
 fn sums(table: &Table) -> [usize; KINDS.len()] {
     table.values().fold([0; KINDS.len()], |mut sums, row| {
         for (sum, lines) in sums.iter_mut().zip(row) {

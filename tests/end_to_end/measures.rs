@@ -124,7 +124,7 @@ fn vehicles_complete_when_they_reach_their_lane_or_have_crossed() {
     for film in FILMS.iter() {
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let at = format!("{}: {}", film.name(), vehicle.name);
-            // Who starts where it wants to be has nothing to complete.
+            // A vehicle that starts at its goal has nothing to complete.
             let expected = reached(film, index).filter(|ticks| *ticks > 0);
             let expected = expected.map(|ticks| ticks as f64 * film.scenario.step_s);
             match (vehicle.completed_s, expected) {

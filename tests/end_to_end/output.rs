@@ -1,4 +1,4 @@
-//! What the command prints: results on stdout, the rest on stderr, and one JSON document where that is asked for.
+//! What the command prints: results on stdout, the rest on stderr, and one JSON document with `--json`.
 
 use std::fs;
 use std::process::Stdio;
@@ -149,7 +149,7 @@ fn every_help_has_an_example() {
 
 /// As in `interplay list | head -0`.
 #[test]
-fn a_reader_that_has_gone_away_is_no_error() {
+fn a_closed_pipe_is_not_an_error() {
     let folder = scratch("closed-pipe");
     let mut child = command(&folder, &["list", "--json"])
         .stdout(Stdio::piped())

@@ -1,4 +1,4 @@
-//! What a package says of its contents: licences and bill of materials. `packaging/try_wheel.sh` and `packaging/try_archive.sh` try
+//! Contents of a package: licences and bill of materials. `packaging/try_wheel.sh` and `packaging/try_archive.sh` try
 //! the packages themselves.
 
 #![allow(clippy::print_stderr, reason = "a test that skips says so")]

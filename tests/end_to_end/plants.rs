@@ -1,4 +1,4 @@
-//! What becomes of a run when the plant is not the planners' model: the table in `docs/theory/dynamic-plant.md`.
+//! Runs whose plant is not the planners' model: the table in `docs/theory/dynamic-plant.md`.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

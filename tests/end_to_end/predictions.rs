@@ -77,7 +77,7 @@ fn a_driver_is_fitted_to_a_vehicle_of_a_table() {
 }
 
 #[test]
-fn what_is_no_recording_is_refused_with_its_place() {
+fn files_that_are_not_recordings_are_refused_with_the_line() {
     let folder = folder_with_queue("predict-bad", 2);
     fs::create_dir(folder.join("empty")).expect("a folder");
     fs::write(folder.join("bad.xml"), "<commonRoad commonRoadVersion=\"2020a\" timeStepSize=\"no\"></commonRoad>")

@@ -47,7 +47,7 @@ fn a_recorded_vehicle_is_where_its_record_says_at_every_tick() {
             let missed_m = (found_x - x_m).hypot(found_y - y_m);
             assert!(missed_m <= MAX_MISS_M, "{times:?}: {missed_m} m at {} s", frame.time_s);
         }
-        // It stands when its record ends, and goes on standing.
+        // It stands when its record ends, and remains there.
         let last = film.report.vehicles[1].last;
         assert!((last.x_m - 55.0).abs() <= MAX_MISS_M && last.speed_mps == 0.0, "{last:?}");
         assert!(film.report.collisions.is_empty(), "the ego stops behind it: {:?}", film.report.collisions);

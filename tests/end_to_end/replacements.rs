@@ -40,7 +40,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("ramp-merge/nice", "conservative", "order"),
     ("ramp-merge/game-nice", "conservative", "order"),
     ("ramp-merge/conservative-nice", "negotiation", "order"),
-    // Who cooperates alone does not cooperate: all wait for one another.
+    // One cooperative driver alone does not cooperate: all wait for one another.
     ("intersection/cooperative", "conservative", "order"),
     ("lane-change/cooperative", "conservative", "completes.ego"),
     ("lane-keeping/cooperative", "conservative", "completes.merger"),
@@ -77,7 +77,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("narrow-passage/conservative-nice", "scripted", "gap_at_least_m"),
     ("t-junction/bayesian-nice", "human", "yields.main.to.ego"),
     ("t-junction/bayesian-tough", "scripted", "no_collision"),
-    // Who cooperates does not stop, and is through earlier than who waits for its turn.
+    // A cooperative driver does not stop, and passes earlier than one that waits for its turn.
     ("t-junction/cooperative", "human", "speed.ego.min_above_mps"),
     ("roundabout/cooperative", "human", "yields.ego.to.ring"),
     ("narrow-passage/cooperative", "human", "completes.ego"),

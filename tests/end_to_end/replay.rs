@@ -2,8 +2,8 @@
 //!
 //! The test rebuilds every scene of a run from its frames and asks planners of its own. That holds the loop to its order
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
-//! humans' plans) and to the source's assumption of perfect prediction. Who infers plans is shown states only, through a sensor
-//! of its own if it has one.
+//! humans' plans) and to the dissertation's assumption of perfect prediction. A driver that infers plans sees states only, through
+//! its own sensor if it has one.
 
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
     plan
 }
 
-/// Who plans when.
+/// The vehicles in the order in which they plan.
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
     let along = |index: usize| scenario.vehicles[index].route.along(frame.vehicles[index].state.position());
     let (mut first, then): (Vec<usize>, Vec<usize>) =

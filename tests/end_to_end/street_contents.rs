@@ -1,4 +1,4 @@
-//! What stands, walks, blinks, comes and goes on a street.
+//! Parked cars, pedestrians, traffic lights, and vehicles that enter and leave a street.
 
 use interplay_planners::State;
 use interplay_scenarios::{Override, Scenario, from_text, load};
@@ -99,7 +99,7 @@ fn contacts_are_those_of_the_outline() {
 
 /// A driver that keeps the rules passes a parked car; without the car the road is free.
 #[test]
-fn obstacles_are_passed() {
+fn drivers_pass_a_parked_car() {
     let car = "[[obstacle]]\nname = \"parked\"\nlane = \"east\"\nalong_m = 120.0\nlateral_offset_m = -0.6\n";
     let ego = "[[vehicle]]\nname = \"ego\"\nstart = { lane = \"east\", along_m = 30.0, speed_mps = 10.0 }\n";
     for kind in ["human", "idm", "conservative", "negotiation"] {
@@ -116,7 +116,7 @@ fn obstacles_are_passed() {
 
 /// A vehicle comes once there is room, and leaves where its route ends; outside that interval it is in no scene.
 #[test]
-fn vehicles_come_and_go() {
+fn vehicles_enter_and_leave_at_their_times() {
     let film = film(
         "come",
         two_way(
@@ -172,7 +172,7 @@ fn people_on_foot_wait_at_the_kerb_or_go_first() {
 
 /// Cars do not use a lane for buses, and a bus does.
 #[test]
-fn lanes_are_for_some() {
+fn cars_do_not_use_a_bus_lane() {
     let road = "[road]\nkind = \"network\"\nlane = [\n\
          { name = \"main\", points = [[0, 0], [200, 0]], width_m = 3.5, right = \"kept\" },\n\
          { name = \"kept\", points = [[0, -3.5], [200, -3.5]], width_m = 3.5, left = \"main\", users = [\"bus\"] }]\n";
@@ -196,7 +196,7 @@ fn lanes_are_for_some() {
 
 /// What makes no sense is refused where it is written.
 #[test]
-fn contradictions_are_located() {
+fn contradictions_in_a_street_are_refused_at_their_line() {
     let vehicle = "[[vehicle]]\nname = \"ego\"\nstart = { lane = \"east\", along_m = 50.0, speed_mps = 10.0 }\n";
     let road = "road = { kind = \"two-way\" }\n";
     let with = |more: &str| refused(&format!("{road}{vehicle}{more}"));

@@ -1,4 +1,4 @@
-//! Streets on which drivers behaved badly once, each with what is right.
+//! Streets on which drivers once behaved badly, each with the correct behaviour.
 
 use std::path::Path;
 
@@ -136,7 +136,7 @@ fn three_cars_at_a_crossing_without_signs_go_in_order() {
 }
 
 #[test]
-fn who_has_priority_is_not_touched() {
+fn road_users_with_priority_are_not_touched() {
     let untouched = [
         ("nash-roundabout-tough", None),
         ("tee-13", Some("bayesian")),

@@ -1,4 +1,4 @@
-//! What is measured of all vehicles together, worked out again from the frames: gaps and times to collision of any two, the
+//! Measures of all vehicles together, computed again from the frames: gaps and times to collision of any two, the
 //! edges of the road, right of way, speed limits. And what a failing expectation says of them.
 
 use std::fs;
@@ -242,7 +242,7 @@ fn right_of_way_follows_from_the_fronts() {
 
 /// All vehicles drive on one lane with a limit of 1.2 m/s, and the two humans want 1.25 m/s.
 #[test]
-fn who_exceeds_a_limit_is_named() {
+fn vehicles_that_exceed_a_limit_are_named() {
     let line = CentreLine::from_pieces([-10.0, 0.37], 0.0, &[Piece::Straight { length_m: 100.0 }]).expect("a piece");
     let mut lane = Lane::new("main", line, 0.74);
     lane.speed_limit_mps = Some(1.2);
@@ -276,7 +276,7 @@ fn bounded(values: [&str; 5], yields: &str, more: &str) -> String {
 }
 
 #[test]
-fn what_fails_names_the_vehicles_and_the_time() {
+fn a_failed_expectation_names_the_vehicles_and_the_time() {
     let folder = scratch("traffic");
     let held = "yields = [{ vehicle = 'crossing', to = 'ego' }]";
     let claim = "[[counterfactual]]\nname = 'without asking the ego waits'\nplanner = 'conservative'\n\

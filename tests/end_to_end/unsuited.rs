@@ -1,4 +1,4 @@
-//! Drivers and plants that should not manage a scenario do not: its expectations are strong enough to say so.
+//! Drivers and plants that cannot manage a scenario break its expectations, which are strong enough to show it.
 
 use interplay_scenarios::{Override, load};
 use rayon::prelude::*;

@@ -39,7 +39,6 @@ const SHARED_NAMES: &[(&str, &str)] =
 const ACCEPTED_CIRCLES: &[(&str, &str, &str)] =
     &[("app/simulation", "simulation", "a simulation makes snapshots, and a snapshot resumes simulations")];
 
-/// Every library of the workspace.
 fn libraries() -> Vec<(String, Crate)> {
     let roots = members().into_iter().map(|member| (root().join(&member).join("src/lib.rs"), member));
     roots.filter(|(file, _)| file.exists()).map(|(file, member)| (member, Crate::read(&file))).collect()

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-/// What some code names.
 #[derive(Debug, Default)]
 pub struct Uses {
     /// Paths of at least two words.

@@ -17,7 +17,7 @@ pub(crate) struct Check {
     #[arg(value_name = "FILE|DIR", required = true)]
     paths: Vec<String>,
 
-    /// Who drives the ego instead of each scenario's choice
+    /// Planner of the ego instead of each scenario's own
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 

@@ -10,7 +10,7 @@ use super::predict::refused;
 use crate::output::exit_status::ExitStatus;
 use crate::output::{ending, json, print};
 
-/// Find the human driver of ours that drives as a recorded vehicle did: time gap, comfort and style, with intervals at 95 %.
+/// Fit the human driver model to recorded vehicles: time gap, comfort and style, with 95 % intervals.
 ///
 /// The driver plans from each second with a vehicle ahead; its plans are compared with the record 1 to 3 s later.
 #[derive(Debug, Args)]
@@ -57,7 +57,6 @@ impl Fit {
     }
 }
 
-/// The drivers in sentences.
 fn text(fitted: &[FittedDriver]) -> String {
     let mut text = String::new();
     for driver in fitted {

@@ -246,7 +246,6 @@ fn refused_study(error: StudyError) -> ExitStatus {
     }
 }
 
-/// A file as text.
 fn text_of(path: &Path) -> Result<String, String> {
     let cannot = |reason: &dyn std::fmt::Display| format!("cannot read {}: {reason}", path.display());
     let bytes = read_regular(path, MAX_INPUT_BYTES).map_err(|reason| cannot(&reason))?;
@@ -254,7 +253,6 @@ fn text_of(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|_| cannot(&"it is not UTF-8 text"))
 }
 
-/// A score in words.
 fn words(score: &Score) -> String {
     let seconds = |at: Option<f64>| at.map_or_else(|| "never".to_owned(), |at| format!("after {at:.1} s"));
     let row = |row: &ScoreRow| {

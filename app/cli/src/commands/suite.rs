@@ -139,7 +139,7 @@ impl Suite {
         Ok(cases)
     }
 
-    /// Prints and writes the results as it was asked for.
+    /// Prints the results, and writes them with `--junit`.
     fn print_results(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
         print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) })?;
@@ -150,7 +150,7 @@ impl Suite {
 }
 
 impl Suite {
-    /// Where the animation of a scenario goes, if any is asked for.
+    /// Path of the animation of a scenario, with `--animate-failures`.
     fn animation(&self, name: &str) -> Option<AnimationFile> {
         let folder = self.animate_failures.as_ref()?;
         Some(AnimationFile::gif(folder.join(format!("{name}.gif"))))

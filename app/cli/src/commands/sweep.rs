@@ -230,7 +230,6 @@ fn runs(count: u64) -> String {
     if count == 1 { "1 run".to_owned() } else { format!("{count} runs") }
 }
 
-/// What a plan stands for.
 fn counted(plan: &SweepPlan) -> String {
     let [scenarios, styles, planners] = plan.names();
     let listed = |what: &str, names: &[&str]| {

@@ -7,7 +7,6 @@ use std::path::{Component, Path, PathBuf};
 use interplay_scenarios::{Override, Registry, embedded, files_below};
 use thiserror::Error;
 
-/// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ScenarioArgument {
     /// Name of its run ([`short_name`]); in a folder, its path below that folder, without the extension.

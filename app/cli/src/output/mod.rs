@@ -54,7 +54,6 @@ pub(crate) fn ending(shown: Result<(), CommandError>) -> ExitStatus {
     }
 }
 
-/// Says what went wrong.
 pub(crate) fn print_error(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }

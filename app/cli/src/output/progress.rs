@@ -37,7 +37,6 @@ impl Progress {
         self.0.inc(1);
     }
 
-    /// Removes the progress line.
     pub fn clear(self) {
         self.0.finish_and_clear();
     }
@@ -77,7 +76,6 @@ impl CheckProgress {
         bar.set_position(checked);
     }
 
-    /// Removes the progress line.
     pub fn clear(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();

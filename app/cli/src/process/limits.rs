@@ -1,4 +1,4 @@
-//! What the system's limits do to a command: exit code 3 with a reason, and no signal that ends the process.
+//! Limits of the system: a command that meets one ends with exit code 3 and a reason, not by a signal.
 
 use std::io;
 use std::thread;
@@ -22,7 +22,7 @@ pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -
     thread::scope(|scope| {
         let worker = thread::Builder::new().name("main work".to_owned()).stack_size(STACK_BYTES);
         let worker = worker.spawn_scoped(scope, work)?;
-        // A panic goes on as it would have without this thread.
+        // A panic of the work continues on this thread.
         Ok(worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }

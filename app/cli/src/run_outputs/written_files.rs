@@ -11,7 +11,6 @@ use crate::flag_values::files::{destroyed, is_page_file, is_same_file};
 pub(crate) struct WrittenFiles<'a> {
     /// Each with what it is.
     pub files: Vec<(&'static str, &'a Path)>,
-    /// The folder of the page.
     pub page: Option<&'a Path>,
 }
 
