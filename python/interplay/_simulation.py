@@ -73,7 +73,7 @@ class Simulation:
         self._world.apply(vehicle, acceleration_mps2, steering_rad)
 
     def apply_plan(self, vehicle: str, inputs: ArrayLike) -> None:
-        """The same with a plan, of which the others are told: rows of acceleration and steering, one for each step of the horizon."""
+        """Hands in a whole plan, which the others know: rows of acceleration and steering, one for each step of the horizon."""
         rows = np.ascontiguousarray(inputs, dtype=np.float64)
         if rows.ndim != 2:
             raise ValueError(f"a plan is rows of acceleration and steering, and not of the shape {rows.shape}")

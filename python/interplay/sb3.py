@@ -62,7 +62,7 @@ class VecEnv(BaseVecEnv):
         return self.worlds.action_masks()
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
-        """The actions of a planner of ours in all worlds now; see :func:`interplay.policy`."""
+        """The actions of an Interplay planner in all worlds now; see :func:`interplay.policy`."""
         return self.worlds.planned(planner, agent)
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
