@@ -1,4 +1,4 @@
-//! Moving pictures through the binary: what is written, what is refused, and what stays as it is.
+//! Animations through the binary: the files that are written, the flags that are refused, and the runs, which do not change.
 
 use std::fs;
 use std::path::Path;

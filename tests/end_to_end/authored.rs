@@ -1,4 +1,4 @@
-//! Every authored scenario does what it says.
+//! Every authored scenario meets its expectations.
 
 use interplay_scenarios::embedded;
 use serde_json::json;

@@ -80,7 +80,7 @@ fn a_counterfactual_that_fails_is_exit_code_1() {
     }
 }
 
-/// What flags change is changed in both runs; what they make impossible is left out, and said.
+/// Flags change both runs; counterfactuals that they make impossible are left out, which the output says.
 #[test]
 fn flags_hold_for_counterfactuals_too() {
     let folder = scratch("counterfactual-flags");

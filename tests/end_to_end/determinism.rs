@@ -45,7 +45,7 @@ fn golden_digests() {
     assert!(differences.is_empty(), "runs differ from tests/golden:\n{differences}{ADVICE}");
 }
 
-/// What is written out of a scenario runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
+/// A scenario that is written to a file runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
 /// building.
 #[test]
 fn a_scenario_that_was_written_out_runs_the_same() {

@@ -52,7 +52,7 @@ fn moments(name: &str, steps: usize, count: usize) -> Vec<usize> {
     found
 }
 
-/// Runs a scenario with copies at some moments, and demands that what is resumed from each ends as the run itself.
+/// Runs a scenario with snapshots at some steps, and checks that the run resumed from each has the same outcome.
 fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize {
     let steps = TimePoints::new(scenario).count();
     let moments = moments(name, steps, count);
@@ -274,7 +274,7 @@ fn a_simulation_is_sent_to_another_thread() {
     is_send::<Snapshot>();
 }
 
-/// A snapshot as text is read back to the same state, inputs from outside included; what is damaged or of another version is refused.
+/// A snapshot as text is read back to the same state, inputs from outside included; a damaged snapshot or one of another version is refused.
 #[test]
 fn a_snapshot_is_written_and_read() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}", "duration_s=4"];

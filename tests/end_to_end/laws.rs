@@ -1,4 +1,4 @@
-//! What holds at every tick of every run.
+//! Laws that hold at every tick of every run.
 
 use interplay_planners::{Bicycle, State};
 use interplay_simulation::frame::Origin;
@@ -68,7 +68,7 @@ fn inputs_and_speeds_stay_within_the_limits() {
     }
 }
 
-/// The first input of a plan is what is applied; planners keep to the limits, so that nothing is left to clamp.
+/// The first input of a plan is applied; planners keep to the limits, so that no input is clamped.
 #[test]
 fn planned_inputs_are_applied() {
     for film in FILMS.iter() {

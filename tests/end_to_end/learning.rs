@@ -59,9 +59,9 @@ fn the_designs_of_the_dissertation_beat_their_alternatives() {
     }
 }
 
-/// Each scenario expects what its rival does not achieve.
+/// Each scenario has an expectation that the same controller with a weaker setting does not meet.
 #[test]
-fn alternative_models_fail_the_expectations_of_the_designs() {
+fn weaker_settings_fail_the_expectations_of_the_designs() {
     let rivals = [
         ("building/iterative-warm-nights", "controller.stability=fixed", "regret_at_most"),
         ("building/iterative-warm-nights", "controller.objective=nominal", "spectral_radius_at_most"),
@@ -125,7 +125,7 @@ fn designs_that_cannot_be_made_say_why() {
     }
 }
 
-/// What is known beforehand is refused before anything is run.
+/// Designs that are certain to fail are refused before the run.
 #[test]
 fn designs_that_are_known_to_fail_are_refused_at_load() {
     let cases = [

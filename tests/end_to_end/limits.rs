@@ -10,7 +10,7 @@ use interplay_scenarios::{from_text, schema};
 use crate::book::root;
 use crate::command::{interplay, scratch};
 
-/// The messages of what is wrong with a scenario of real cars.
+/// The error messages of a scenario of real cars.
 fn refused(text: &str) -> String {
     let head = "title = 'Limits'\nshows = 'What is refused'\nduration_s = 10.0\n[defaults]\nclass = 'car'\n";
     let error = from_text("limits.toml", &format!("{head}{text}"), &[]).expect_err("refused");

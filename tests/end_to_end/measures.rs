@@ -1,4 +1,4 @@
-//! Every figure of the report, worked out again from the frames.
+//! Every number of the report, computed again from the frames.
 
 use interplay_planners::State;
 use interplay_scenarios::{Branch, LaneReference, Road};

@@ -33,7 +33,7 @@ fn count(text: &str) -> usize {
     words + negations.filter(|(at, phrase)| begins_with_letter(&text[at + phrase.len()..])).count()
 }
 
-/// What is checked of a file: of the changelog, only what is not released.
+/// The part of a file that is checked: of the changelog, the unreleased part.
 fn checked_part<'a>(path: &str, text: &'a str) -> &'a str {
     match text.find("\n## [") {
         Some(released) if path == "CHANGELOG.md" => &text[..released],

@@ -112,7 +112,7 @@ fn a_scenario_far_away_has_the_same_report() {
     assert!(remark.is_some_and(|remark| remark.contains("(400000, 5000000)")));
 }
 
-/// What a user does: import, look, run; and the XML as it is.
+/// The steps of a user: import, check, run; and a run of the XML file itself.
 #[test]
 fn scenarios_of_commonroad_are_imported_and_run() {
     let folder = scratch("commonroad");

@@ -37,7 +37,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
     .collect()
 }
 
-/// What is expected of a vehicle that has not planned in this tick: its last plan, else constant velocity.
+/// The prediction of a vehicle that has not planned in this tick: its last plan, else constant velocity.
 fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame, vehicle: &Vehicle) -> Trajectory {
     let Some(before) = before else {
         return steadily_along(&vehicle.route, &vehicle.body, &now.state, scenario.horizon_steps, scenario.step_s);

@@ -14,7 +14,7 @@ fn two_way(more: &str) -> Scenario {
     from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The messages of what is wrong.
+/// The error messages of a scenario.
 fn refused(text: &str) -> String {
     let head = "title = \"A street\"\nshows = \"What is wrong\"\ndefaults = { class = \"car\" }\n";
     let error = from_text("wrong.toml", &format!("{head}{text}"), &[]).expect_err("refused");

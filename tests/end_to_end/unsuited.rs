@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::film::film;
 
-/// Scenario, what is changed, and which expectations then fail.
+/// A scenario, a change of it, and the expectations that then fail.
 const UNSUITED: &[(&str, &str, &[&str])] = &[
     ("full-size/lane-change", CONSERVATIVE, &["order"]),
     ("full-size/lane-keeping", CONSERVATIVE, &["order", "speed.ego.max_above_mps"]),

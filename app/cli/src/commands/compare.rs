@@ -114,7 +114,7 @@ impl Compare {
     }
 }
 
-/// Writes a page whole or not at all.
+/// Writes a page atomically.
 fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
     write_file(target, page.html().as_bytes())?;
     print_error(&format!("page in {}", target.display()));

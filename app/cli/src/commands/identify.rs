@@ -74,7 +74,7 @@ impl Identify {
         }
         let scenario = match self.scenario_texts(&found, recorded) {
             Ok(scenario) => scenario,
-            // What was found says why.
+            // The findings give the reason.
             Err(error) => {
                 print_error(&format!("Error: {error}"));
                 return ExitStatus::BadInput;
@@ -195,7 +195,7 @@ impl Identify {
     }
 }
 
-/// What is written of a network that was found.
+/// The files written of an identified network.
 struct ScenarioTexts {
     text: String,
     /// The recorded weather, and where it goes.

@@ -85,7 +85,7 @@ impl Suite {
         }
     }
 
-    /// All scenarios with their names; `None` if any cannot be used, once all that is wrong has been said.
+    /// All scenarios with their names; `None` if any cannot be used, after all errors are printed.
     fn load(&self, registry: &Registry) -> Option<Vec<(String, Scenario)>> {
         let mut sound = true;
         let mut scenarios = Vec::new();

@@ -1,4 +1,4 @@
-//! The scenarios that an argument stands for, and what their runs are called.
+//! The scenarios that an argument selects, and the names of their runs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -26,7 +26,7 @@ pub(crate) enum FolderError {
     Empty { folder: String },
 }
 
-/// What an argument stands for: an embedded scenario, a file, or all .toml files below a folder, sorted.
+/// The scenarios that an argument selects: an embedded scenario, a file, or all .toml files below a folder, sorted.
 ///
 /// # Errors
 /// [`FolderError`], if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.

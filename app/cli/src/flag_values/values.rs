@@ -1,4 +1,4 @@
-//! Values of flags, with words for those that cannot be.
+//! Values of flags, with an error message for each kind.
 
 use std::str::FromStr;
 

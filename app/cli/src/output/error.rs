@@ -41,7 +41,7 @@ pub(crate) enum CommandError {
     Threads { jobs: usize, reason: rayon::ThreadPoolBuildError },
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file atomically.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> Result<(), CommandError> {
     interplay_files::write(path, content).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }

@@ -1,4 +1,4 @@
-//! What commands say: results on stdout, everything else on stderr.
+//! Output of commands: results on stdout, everything else on stderr.
 
 pub(crate) mod error;
 pub(crate) mod exit_status;
@@ -76,7 +76,7 @@ fn harmless(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Says what is wrong with a file, with the place underlined; in colours only where none of the texts in it has any of its own.
+/// Prints the error in a file with its place underlined; in colour only if none of the texts in it contains colours.
 pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
     let mut plain = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
@@ -88,7 +88,7 @@ pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
     }
 }
 
-/// Says what is wrong with the arguments; in colours only where none of them has any of its own.
+/// Prints the error in the arguments; in colour only if none of them contains colours.
 pub(crate) fn print_usage_error(said: &clap::Error) {
     let plain = said.render().to_string();
     if plain.chars().all(is_plain) {

@@ -42,7 +42,7 @@ impl Progress {
     }
 }
 
-/// How far a check has come, told once it has taken a second: a line that is written once and, on a terminal, one that counts.
+/// Progress of a check that takes longer than a second: a line that is written once and, on a terminal, a counter.
 pub(crate) struct CheckProgress {
     began: Instant,
     runs: u64,

@@ -1,4 +1,4 @@
-//! What `run` writes of a run besides its report and its recording, for the command and for Python: one value for each flag.
+//! Outputs of `run` besides its report and its recording, for the command and for Python: one value for each flag.
 
 mod animation;
 mod commonroad;
@@ -46,7 +46,7 @@ pub(crate) trait RunOutput {
 pub(crate) struct BegunOutput {
     /// Writes during the run.
     watcher: Option<Box<dyn Watcher>>,
-    /// Writes when the run is over, and returns in words what is where.
+    /// Writes after the run, and returns a line that names the files.
     finish: FinishOutput,
 }
 
@@ -168,7 +168,7 @@ impl BegunOutputs {
         self.0.iter_mut().filter_map(|output| output.watcher.take()).collect()
     }
 
-    /// Writes what is written when the run is over, and tells in words what is where.
+    /// Writes the outputs that need the whole run, and returns lines that name the files.
     ///
     /// # Errors
     /// [`OutputError`] of the first that cannot be written.
