@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         duration_s: Some(10.0),
         ..ScenarioFile::new("Into a bend", "The ego follows a slower car")
     };
-    // Whatever is wrong is located by the path of its key, such as `vehicle.ego.start.lane`.
+    // An error names the path of the key, such as `vehicle.ego.start.lane`.
     let scenario = file.resolve()?;
     let report = run("bend", &scenario, Vec::new())?;
     for (vehicle, measured) in scenario.vehicles.iter().zip(&report.vehicles) {

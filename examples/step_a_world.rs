@@ -10,7 +10,7 @@ use interplay_simulation::Simulation;
 /// How many ticks the ego hesitates in the second world.
 const HESITATION_TICKS: usize = 25;
 
-/// Holds the wanted speed, or half a vehicle's distance a second to whoever is ahead in the lane.
+/// Holds the wanted speed, or slows down for the vehicle ahead in the lane.
 fn decide(scene: &Scene) -> Input {
     let ego = &scene.ego;
     let leads_m = scene.others.iter().filter(|other| ego.shares_lane_with(other)).map(|other| ego.lead_of(other));

@@ -34,7 +34,7 @@ def component(package: dict, known: dict[tuple[str, str], str]) -> dict:
         "purl": f"pkg:cargo/{name}@{version}",
     }
     if package["license"]:
-        # The old way to write "or", which is no SPDX expression.
+        # The old way to write "or", which is not an SPDX expression.
         found["licenses"] = [{"expression": re.sub(r"\s*/\s*", " OR ", package["license"])}]
     if checksum := known.get((name, version)):
         found["hashes"] = [{"alg": "SHA-256", "content": checksum}]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether every scenario ends with the same digest, whoever computes it: other numbers of threads, one processor core, mathematics of
+"""Whether every scenario ends with the same digest wherever it is computed: other numbers of threads, one processor core, mathematics of
 the C library without its vector instructions, processors without and with AVX2 and FMA, and other builds of the command.
 
 Prints a row for each and exits with 1 if a digest differs. What is not there to try is named as skipped.

@@ -96,7 +96,7 @@ def env_pool(street: Street, worlds: int) -> Callable[[], Step]:
         env.reset()
 
         def step() -> int:
-            # Who is over begins anew by itself.
+            # Episodes that are over restart automatically.
             env.step(drawn.integers(count, size=worlds))
             return worlds
 
@@ -106,7 +106,7 @@ def env_pool(street: Street, worlds: int) -> Callable[[], Step]:
 
 
 def ours(street: Street, worlds: int | None, scenario: str, decision_s: float = 1.0) -> Callable[[], Step]:
-    """One world of ours, or several in one call."""
+    """One world of Interplay, or several in one call."""
     settings: dict[str, Any] = {
         "observation": {"kind": "Kinematics", "count": street.rows},
         "action": "DiscreteMeta",
@@ -140,7 +140,7 @@ def ours(street: Street, worlds: int | None, scenario: str, decision_s: float = 
 
 
 def negotiating(street: Street, scenario: str) -> Callable[[], Step]:
-    """One world of ours, whose agent is our negotiating planner: a decision is a plan."""
+    """One world of Interplay, whose agent is the negotiating planner: a decision is a plan."""
 
     def begin() -> Step:
         env = InterplayEnv(scenario, observation={"kind": "Kinematics", "count": street.rows}, action="Plan")

@@ -1,4 +1,4 @@
-"""The streets of HighwayEnv and EnvPool as scenarios of ours: as many vehicles, in the same lanes, with the same time steps.
+"""The streets of HighwayEnv and EnvPool as scenarios of Interplay: as many vehicles, in the same lanes, with the same time steps.
 
 ``python peer_streets.py DIR`` writes them as files, for ``interplay run`` and for profilers.
 """

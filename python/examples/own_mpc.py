@@ -1,4 +1,4 @@
-"""A predictive controller of one's own in CasADi as the ego of a lane change; the others are told its plans."""
+"""A user's model predictive controller in CasADi drives the ego of a lane change; the others know its plans."""
 
 import casadi as ca
 

@@ -1,4 +1,4 @@
-"""Two agents at one intersection, with the interface of PettingZoo: each yields to whoever comes from its right."""
+"""Two agents at one intersection, with the interface of PettingZoo: each yields to the vehicle from its right."""
 
 from interplay.parallel import parallel_env
 

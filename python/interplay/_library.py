@@ -85,7 +85,7 @@ def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = 
 
 
 def list() -> builtins.list[Record]:
-    """The scenarios of the package: name, title, what each shows, figure of the source."""
+    """The scenarios of the package: name, title, what each shows, figure of the dissertation."""
     names = ("name", "title", "shows", "figure")
     return [Record(zip(names, row)) for row in _native.list_scenarios()]
 

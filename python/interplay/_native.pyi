@@ -68,11 +68,11 @@ class Scenario:
 
     @property
     def source(self) -> str:
-        """How it was asked for."""
+        """The name or path from which it was loaded."""
 
     @property
     def changes(self) -> tuple[list[str], int | None, str | None]:
-        """With which changes it was asked for: those of `set`, the seed, and the planner."""
+        """The changes with which it was loaded: those of `set`, the seed, and the planner."""
 
     def __reduce__(self) -> tuple[Any, tuple[str, list[str], int | None, str | None]]: ...
 
@@ -110,7 +110,7 @@ class Scenario:
 
     @property
     def obstacles(self) -> list[str]:
-        """The names of those in whom nobody drives: parked cars, cones, walls."""
+        """The names of the obstacles: parked cars, cones, walls."""
 
     @property
     def default_agents(self) -> list[str]:
@@ -318,7 +318,7 @@ def main(arguments: Sequence[str]) -> int:
     """Does what the arguments of the command say, the first of which is its name, and returns the exit code."""
 
 def list_scenarios() -> list[tuple[str, str, str, str | None]]:
-    """The scenarios in the package: name, title, what it shows, figure of the source."""
+    """The scenarios in the package: name, title, what it shows, figure of the dissertation."""
 
 def scenario_names() -> list[str]:
     """The names of the scenarios in the package."""

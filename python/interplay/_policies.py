@@ -1,4 +1,4 @@
-"""Who acts: planners of ours in any environment, and functions of Python in any run."""
+"""Policies: planners of Interplay in any environment, and Python functions in any run."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class PolicyFunction:
     """A function from an observation to an action, with what it sees and decides.
 
     The function is given observations as an environment with the same ``observation`` has them, and returns actions as its
-    ``action`` has them. Whatever has ``predict`` as models of stable-baselines3 do is a function, too. ``version`` tells its results
+    ``action`` has them. An object with ``predict``, such as a model of stable-baselines3, is accepted as well. ``version`` tells its results
     from those of earlier ones in a sweep; without it, it is made of the source of the function.
     """
 
@@ -123,7 +123,7 @@ class PlannerPolicy:
     """One of our planners, acting in environments; ``predict`` is that of stable-baselines3.
 
     It plans in what the agent's vehicle senses, which is more than an observation tells: it looks at the environment. ``bind`` says
-    which. Through ``Continuous`` actions the others are not told its plan; through ``Plan`` they are.
+    which. With ``Continuous`` actions the others do not know its plan; with ``Plan`` they do.
     """
 
     def __init__(self, kind: str, settings: Mapping[str, Any]) -> None:
@@ -162,7 +162,7 @@ class PlannerPolicy:
 
 
 def policy(kind: str, **settings: Any) -> PlannerPolicy:
-    """A planner of ours, such as ``negotiation``, ``conservative`` or ``idm``, that acts in any of the environments.
+    """A planner of Interplay, such as ``negotiation``, ``conservative`` or ``idm``, that acts in any of the environments.
 
     >>> policy = interplay.policy("negotiation").bind(env)
     >>> observation, reward, terminated, truncated, info = env.step(policy.act())

@@ -19,7 +19,7 @@ class Zone(NamedTuple):
     temperature_c: float
     #: The wanted temperature; none where it is free.
     reference_c: float | None
-    #: Deviations from it that are comfortable; none while nobody is there.
+    #: Deviations from it that are comfortable; none while the zone is unoccupied.
     band_k: float | None
     #: The strongest heating.
     heating_kw: float
@@ -60,7 +60,7 @@ class Simulation:
         return None if arrays is None else Frames({name: array for name, array in arrays.items() if name != "tick"})
 
     def observe(self, vehicle: str) -> Record:
-        """What the driver of a vehicle would be given at the next tick: itself first, then whom it sees.
+        """The scene that the driver of a vehicle would plan from at the next tick: its own vehicle first, then those that it sees.
 
         ``vehicles``: names; ``state``: x_m, y_m, heading_rad, speed_mps of each; ``body_m``: front, rear, width, front axle, rear
         axle; ``prediction``: states from now to the end of the horizon; ``route``: along_m, across_m and the heading of the road
@@ -73,7 +73,7 @@ class Simulation:
         self._world.apply(vehicle, acceleration_mps2, steering_rad)
 
     def apply_plan(self, vehicle: str, inputs: ArrayLike) -> None:
-        """The same with a plan, of which the others are told: rows of acceleration and steering, one for each step of the horizon."""
+        """Hands in a whole plan, which the others know: rows of acceleration and steering, one for each step of the horizon."""
         rows = np.ascontiguousarray(inputs, dtype=np.float64)
         if rows.ndim != 2:
             raise ValueError(f"a plan is rows of acceleration and steering, and not of the shape {rows.shape}")

@@ -21,7 +21,7 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
     """The heat of every zone, as a share of what its equipment can give, at every step of the building; an episode is a day.
 
     The observation is, for each zone, the error of its temperature (0 where it is free), whether a temperature is wanted, whether
-    somebody is there, and the heat of the last step; then the time of day as a point on a circle, and the outdoor temperature of the
+    the zone is occupied, and the heat of the last step; then the time of day as a point on a circle, and the outdoor temperature of the
     last step. The reward is the sum of the terms in ``info["reward_terms"]``, each with its weight: ``discomfort``, in kelvins
     beyond the comfortable band times hours, and ``heat``, in kilowatt-hours.
 

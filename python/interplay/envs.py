@@ -179,7 +179,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         return np.array(mask, dtype=np.bool_)
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
-        """The action of a planner of ours now; see :func:`interplay.policy`."""
+        """The action of an Interplay planner now; see :func:`interplay.policy`."""
         return self._views.planned(planner.act(self._native, 0))
 
     def states(self) -> dict[str, NDArray[np.float64]]:
@@ -362,7 +362,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         return np.array(self._native.action_masks(), dtype=np.bool_)
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
-        """The actions of a planner of ours in all worlds now; see :func:`interplay.policy`."""
+        """The actions of an Interplay planner in all worlds now; see :func:`interplay.policy`."""
         actions = [self._views.planned(planner.act_in(self._native, world)) for world in range(self.num_envs)]
         return np.stack(actions)
 

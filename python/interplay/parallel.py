@@ -109,7 +109,7 @@ class InterplayParallelEnv(ParallelEnv):
         return seen, rewards, terminated, truncated, infos
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
-        """The action of a planner of ours for an agent now; see :func:`interplay.policy`."""
+        """The action of an Interplay planner for an agent now; see :func:`interplay.policy`."""
         place = agent if isinstance(agent, int) else self._place(agent or self.possible_agents[0])
         return self._views.planned(planner.act(self._native, place))
 

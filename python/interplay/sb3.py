@@ -62,7 +62,7 @@ class VecEnv(BaseVecEnv):
         return self.worlds.action_masks()
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
-        """The actions of a planner of ours in all worlds now; see :func:`interplay.policy`."""
+        """The actions of an Interplay planner in all worlds now; see :func:`interplay.policy`."""
         return self.worlds.planned(planner, agent)
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
@@ -74,7 +74,7 @@ class VecEnv(BaseVecEnv):
         setattr(self.worlds, attr_name, value)
 
     def env_method(self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any) -> list[Any]:
-        """Calls a method of the worlds; of what it returns for all, those that are asked for."""
+        """Calls a method of the worlds and returns the results of those selected."""
         found = getattr(self.worlds, method_name)(*method_args, **method_kwargs)
         return [found[place] for place in self._places(indices)]
 

@@ -1,4 +1,4 @@
-//! The exceptions of the package, and which error of ours is which.
+//! The exceptions of the package, and which error of the libraries raises which.
 
 use interplay_scenarios::LoadError;
 use interplay_simulation::environment::EnvironmentError;
@@ -86,7 +86,6 @@ fn located(error: &LoadError) -> String {
     error.faults().iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// An error of a run.
 pub fn unfinished(error: interplay_simulation::run::RunError) -> PyErr {
     use interplay_simulation::run::RunError as Reason;
     let text = error.to_string();
@@ -101,7 +100,6 @@ pub fn unfinished(error: interplay_simulation::run::RunError) -> PyErr {
     }
 }
 
-/// An error of an environment.
 pub fn of_environment(error: EnvironmentError) -> PyErr {
     match error {
         EnvironmentError::Run(error) => unfinished(error),
@@ -110,9 +108,9 @@ pub fn of_environment(error: EnvironmentError) -> PyErr {
     }
 }
 
-/// What was to be JSON of ours, and is not.
+/// Text that should be JSON of Interplay and is not.
 pub fn bad_json(what: &str, error: &serde_json::Error) -> PyErr {
-    // The text was made by the package: its lines and columns tell nobody anything.
+    // The text was made by the package: its lines and columns mean nothing to the caller.
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     PyValueError::new_err(format!("{what}: {message}"))

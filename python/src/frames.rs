@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::shaped;
 
-/// What is told of each vehicle at each tick: name with unit, and how it is read.
+/// The columns of each vehicle at each tick: name with unit, and how the value is read.
 const VEHICLE: [(&str, fn(&VehicleFrame) -> f64); 7] = [
     ("x_m", |vehicle| vehicle.state.x_m),
     ("y_m", |vehicle| vehicle.state.y_m),

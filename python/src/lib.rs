@@ -1,6 +1,6 @@
 //! Interplay in Python: the native half of the package `interplay`.
 //!
-//! Whatever is more than a number or an array passes as JSON, in the words of the command's own `--json`; the package makes objects
+//! Values other than numbers and arrays pass as JSON, with the keys of the command's own `--json`; the package makes objects
 //! of it. Every call that takes time lets other threads of Python run.
 
 mod arrays;

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
-use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::prediction::Prediction;
+use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
 use interplay_simulation::environment::{Action, AgentInterface, AgentView, Policy, PolicyDriver, PolicyError};
 use numpy::{IntoPyArray, PyReadonlyArrayDyn};

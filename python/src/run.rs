@@ -27,7 +27,7 @@ fn unwritten(error: impl std::fmt::Display) -> PyErr {
     RunError::new_err(error.to_string())
 }
 
-/// Runs a scenario and its counterfactuals, and writes a recording and the outputs that are asked for: paths by the flags of the command.
+/// Runs a scenario and its counterfactuals, and writes a recording and the requested outputs: paths by the flags of the command.
 #[pyfunction]
 #[pyo3(signature = (scenario, record=None, outputs=None))]
 pub fn run(

@@ -25,10 +25,10 @@ pub fn registry() -> PyResult<&'static Registry> {
 #[pyclass(name = "Scenario", module = "interplay._native", frozen)]
 pub struct PyScenario {
     pub scenario: Arc<Scenario>,
-    /// What the scenario is called in reports, and how it was asked for.
+    /// The name of the scenario in reports, and the name or path from which it was loaded.
     pub name: String,
     pub source: String,
-    /// With which changes it was asked for.
+    /// The changes with which it was loaded.
     sets: Vec<String>,
     seed: Option<u64>,
     planner: Option<String>,
@@ -62,7 +62,7 @@ impl PyScenario {
         Ok(PyScenario { scenario: Arc::new(scenario), name, source: source.to_owned(), sets, seed, planner })
     }
 
-    /// With which changes it was asked for: those of `set`, the seed, and the planner.
+    /// The changes with which it was loaded: those of `set`, the seed, and the planner.
     #[getter]
     fn changes(&self) -> (Vec<String>, Option<u64>, Option<String>) {
         (self.sets.clone(), self.seed, self.planner.clone())
@@ -84,7 +84,7 @@ impl PyScenario {
         &self.name
     }
 
-    /// How it was asked for.
+    /// The name or path from which it was loaded.
     #[getter]
     fn source(&self) -> &str {
         &self.source
@@ -132,7 +132,7 @@ impl PyScenario {
         self.scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect()
     }
 
-    /// The names of those in whom nobody drives: parked cars, cones, walls.
+    /// The names of the obstacles: parked cars, cones, walls.
     #[getter]
     fn obstacles(&self) -> Vec<&str> {
         let obstacles = self.scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_some());
@@ -165,7 +165,7 @@ impl PyScenario {
     }
 }
 
-/// The scenarios in the package: name, title, what it shows, figure of the source.
+/// The scenarios in the package: name, title, what it shows, figure of the dissertation.
 #[pyfunction]
 pub fn list_scenarios(py: Python<'_>) -> PyResult<Vec<(String, String, String, Option<String>)>> {
     let registry = registry()?;

@@ -102,7 +102,7 @@ impl PySimulation {
         Ok(Some(arrays))
     }
 
-    /// What the driver of a vehicle would be given at the next tick: itself first, then whom it sees.
+    /// The scene that the driver of a vehicle would plan from at the next tick: its own vehicle first, then those that it sees.
     fn observe<'py>(&self, py: Python<'py>, vehicle: &str) -> PyResult<Bound<'py, PyDict>> {
         let world = self.world()?;
         let scene = py.detach(|| world.observe(vehicle)).map_err(unfinished)?.scene;
@@ -152,7 +152,7 @@ impl PySimulation {
         self.world_mut()?.apply(vehicle, Input { acceleration_mps2, steering_rad }).map_err(unfinished)
     }
 
-    /// The same with a whole plan, of which the others are told: a row of acceleration and steering for each step of the horizon.
+    /// Hands in a whole plan, which the others know: a row of acceleration and steering for each step of the horizon.
     fn apply_plan(&mut self, vehicle: &str, inputs: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
         let inputs = inputs.as_array();
         if inputs.ncols() != 2 {

@@ -134,7 +134,7 @@ def episode(env: Any, random: np.random.Generator) -> tuple[int, int]:
 
 
 def refused(env: Any, bad: Any) -> None:
-    """Steps with what is no action, which must be a ValueError."""
+    """Steps with an invalid action, which must raise a ValueError."""
     try:
         env.step(bad)
     except (ValueError, TypeError):

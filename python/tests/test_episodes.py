@@ -136,7 +136,7 @@ def test_a_seed_out_of_range_is_refused(seed: int) -> None:
         {"observation": ["Lane", "Lane"]},
         {"observation": {"kind": "Kinematics", "colour": 1}},
         {"action": "Shout"},
-        {"agent": "nobody"},
+        {"agent": "stranger"},
         {"reward": {"colour": 1.0}},
         {"reward": {"progress": float("nan")}},
         {"perturb": {"colour": 1.0}},

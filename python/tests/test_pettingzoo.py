@@ -87,7 +87,7 @@ def test_an_agent_leaves_when_its_episode_is_over() -> None:
     assert env.step({}) == ({}, {}, {}, {}, {})
 
 
-def test_what_is_no_action_moves_nobody() -> None:
+def test_an_invalid_action_moves_no_agent() -> None:
     one, other = (parallel_env("lane-change/front-nice") for _ in range(2))
     one.reset(seed=1)
     other.reset(seed=1)
@@ -98,7 +98,7 @@ def test_what_is_no_action_moves_nobody() -> None:
 
 
 def test_settings_and_options_that_mean_nothing_are_refused() -> None:
-    refused(lambda: parallel_env("lane-change/front-nice", ["nobody"]))
+    refused(lambda: parallel_env("lane-change/front-nice", ["stranger"]))
     refused(lambda: parallel_env("lane-change/front-nice", ["ego", "ego"]))
     env = parallel_env("lane-change/front-nice")
     refused(lambda: env.reset(options={"seed": -1}))

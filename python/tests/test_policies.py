@@ -1,4 +1,4 @@
-"""Planners of ours in environments, and functions of Python in runs."""
+"""Planners of Interplay in environments, and Python functions in runs."""
 
 from __future__ import annotations
 

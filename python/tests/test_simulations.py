@@ -107,9 +107,9 @@ def test_inputs_that_are_none_are_refused_and_nothing_moves() -> None:
     for numbers in ((np.nan, 0.0), (0.0, np.inf)):
         assert "finite" in refused(lambda numbers=numbers: world.apply("ego", *numbers))  # type: ignore[misc]
     assert "driver of its own" in refused(lambda: world.apply("front", 0.0, 0.0))
-    assert "the vehicles are ego, front, rear" in refused(lambda: world.apply("nobody", 0.0, 0.0))
-    assert "the vehicles are" in refused(lambda: interplay.Simulation("lane-change/front-nice", external="nobody"))
-    refused(lambda: world.observe("nobody"))
+    assert "the vehicles are ego, front, rear" in refused(lambda: world.apply("stranger", 0.0, 0.0))
+    assert "the vehicles are" in refused(lambda: interplay.Simulation("lane-change/front-nice", external="stranger"))
+    refused(lambda: world.observe("stranger"))
     assert world.time_s == 0.0
 
 

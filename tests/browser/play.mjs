@@ -235,7 +235,7 @@ async function playStudy(address) {
     await reach("driving");
     await press("KeyP");
     await press("ArrowUp", 300);
-    check((await evaluate(() => document.getElementById("asked").textContent + document.getElementById("legend").textContent)).match(/negotiat|human|asks/i) === null, "nobody says who drives how");
+    check((await evaluate(() => document.getElementById("asked").textContent + document.getElementById("legend").textContent)).match(/negotiat|human|asks/i) === null, "the page does not say which planner drives which vehicle");
     await reach("trial");
     check((await evaluate(() => interplayPlay.frame())) === null, "the run is over");
   }

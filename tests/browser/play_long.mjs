@@ -12,7 +12,7 @@ import { serve } from "./serve.mjs";
 process.on("exit", (code) => code === 2 && console.log("skipped: ten minutes of `interplay play` were not measured"));
 const { begin, end, evaluate, open, troubles } = await import("./chromium.mjs");
 
-/** A tick is late that comes so much after its time [ms]; so many may be [share]. */
+/** A tick that comes this much after its time is late [ms], and the largest share of late ticks. */
 const LATE_MS = 20;
 const MOST_LATE = 0.001;
 /** Memory at the end beside that of the first tenth. */

@@ -1,4 +1,4 @@
-//! Moving pictures through the binary: what is written, what is refused, and what stays as it is.
+//! Animations through the binary: the files that are written, the flags that are refused, and the runs, which do not change.
 
 use std::fs;
 use std::path::Path;
@@ -134,5 +134,5 @@ fn a_suite_animates_what_failed_and_nothing_else() {
     fs::write(folder.join("taken"), "mine").expect("writes");
     let outcome = interplay(&folder, &["suite", "mine", "--animate-failures", "taken"]);
     assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("is no folder"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("is not a folder"), "{}", outcome.stderr);
 }

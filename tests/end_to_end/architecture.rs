@@ -148,7 +148,8 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-fn all_rust_files() -> Vec<PathBuf> {
+/// Every Rust file of the workspace and of the package for Python, except the examples outside the crate `own-planner`.
+pub fn all_rust_files() -> Vec<PathBuf> {
     let folders = members().into_iter().chain(["python/src".to_owned()]);
     folders.flat_map(|folder| rust_files(&root().join(folder))).collect()
 }

@@ -1,4 +1,4 @@
-//! Every authored scenario does what it says.
+//! Every authored scenario meets its expectations.
 
 use interplay_scenarios::embedded;
 use serde_json::json;
@@ -45,9 +45,9 @@ fn the_conservative_planner_merges_between_and_fails_the_expectation() {
     assert_eq!(what, ["order", "completes.ego"], "another place, and later");
 }
 
-/// In every family the order of the nice scenario is owed to the negotiation: the conservative planner gets another.
+/// In every family the ego goes first in the nice scenario because it negotiates: the conservative planner has another order.
 #[test]
-fn nobody_yields_to_who_does_not_ask() {
+fn others_do_not_yield_to_an_ego_that_does_not_ask() {
     let folder = scratch("does-not-ask");
     for name in ["intersection/nice", "lane-keeping/nice", "ramp-merge/nice"] {
         let order = |planner: &str| {

@@ -1,4 +1,4 @@
-//! Authoring: from an embedded scenario to one's own, with an editor that completes and a run at every save.
+//! Authoring: from an embedded scenario to a new one, with completion in an editor and a run at every save.
 
 use std::fs;
 use std::io::{BufRead, BufReader};

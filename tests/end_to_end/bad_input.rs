@@ -68,55 +68,55 @@ fn the_file_that_the_others_spoil_is_sound() {
 }
 
 #[test]
-fn an_unknown_key() {
+fn an_unknown_key_is_refused_with_a_suggestion() {
     let outcome = run_spoilt("unknown-key", "lane_width_m", "lane_widht_m");
     refused(&outcome, &["1 error", "my.toml:8:1", "unknown key `lane_widht_m`", "did you mean `lane_width_m`"]);
 }
 
 #[test]
-fn a_missing_file() {
+fn a_missing_file_is_refused() {
     let outcome = interplay(&scratch("missing"), &["run", "missing.toml"]);
     refused(&outcome, &["missing.toml", "interplay list"]);
 }
 
 #[test]
-fn a_misspelt_name() {
+fn a_misspelt_scenario_is_refused_with_a_suggestion() {
     let outcome = interplay(&scratch("misspelt"), &["run", "front-nicer"]);
     refused(&outcome, &["front-nicer", "did you mean the embedded scenario `lane-change/front-nice`"]);
 }
 
 #[test]
-fn not_a_number() {
+fn a_text_for_a_number_is_refused() {
     let outcome = run_spoilt("nan", "speed_mps = 1.0", "speed_mps = nan");
     refused(&outcome, &["my.toml:12:47", "`vehicle.ego.start.speed_mps` must be a finite number"]);
 }
 
 #[test]
-fn a_negative_width() {
+fn a_negative_width_is_refused() {
     let outcome = run_spoilt("negative-width", "0.37", "-0.37");
     refused(&outcome, &["my.toml:8:16", "`road.lane_width_m` must be at least 0.001, not -0.37"]);
 }
 
 #[test]
-fn overlapping_cars() {
+fn overlapping_cars_are_refused() {
     let outcome = run_spoilt("overlap", "x_m = 2.0", "x_m = 0.3");
     refused(&outcome, &["my.toml:16", "vehicles `ego` and `other` overlap at the start"]);
 }
 
 #[test]
-fn a_directory() {
+fn a_directory_is_refused() {
     let folder = scratch("directory");
     fs::create_dir(folder.join("some.toml")).expect("a folder can be made");
     refused(&interplay(&folder, &["run", "some.toml"]), &["`some.toml` is a directory"]);
 }
 
 #[test]
-fn an_empty_file() {
+fn an_empty_file_is_refused() {
     refused(&run_file("empty", ""), &["`my.toml` is empty", "`title`, `shows` and a `[[vehicle]]`"]);
 }
 
 #[test]
-fn random_bytes() {
+fn random_bytes_are_refused() {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let bytes: Vec<u8> = std::iter::repeat_with(|| {
         state ^= state << 13;
@@ -131,7 +131,7 @@ fn random_bytes() {
 }
 
 #[test]
-fn a_bad_path_of_a_change() {
+fn a_bad_path_of_a_change_is_refused() {
     let folder = scratch("bad-set");
     let set = |change: &str| interplay(&folder, &["run", "--no-record", "--set", change]);
     refused(&set("vehicle.ego.gaol.lane=1"), &["--set", "unknown key `gaol`", "did you mean `goal`"]);
@@ -142,7 +142,7 @@ fn a_bad_path_of_a_change() {
 }
 
 #[test]
-fn a_bad_word_for_a_planner() {
+fn an_unknown_planner_is_refused() {
     let outcome = interplay(&scratch("bad-planner"), &["run", "--planner", "conservativ", "--no-record"]);
     refused(&outcome, &["--planner", "conservativ", "did you mean `conservative`"]);
     let folder = scratch("planner-without-vehicles");
@@ -151,7 +151,7 @@ fn a_bad_word_for_a_planner() {
 }
 
 #[test]
-fn bad_arguments() {
+fn bad_arguments_are_refused() {
     let folder = scratch("bad-arguments");
     refused(&interplay(&folder, &["runn"]), &["unrecognized subcommand 'runn'", "'run'"]);
     for seed in ["two", "-1", "1.5", "18446744073709551616"] {
@@ -179,10 +179,10 @@ fn check_goes_on_after_an_error() {
     }
 }
 
-/// A recording that cannot be written is said before anything is simulated. The tests may run as root, whom no permission
-/// stops: so the place is below a file, or a folder.
+/// A recording that cannot be written is refused before anything is simulated. The tests may run as root, which ignores
+/// permissions: so the path is below a file, or a folder.
 #[test]
-fn a_recording_that_cannot_be_written() {
+fn an_unwritable_recording_is_refused_before_the_run() {
     let folder = scratch("unwritable-recording");
     fs::write(folder.join("file"), "kept").expect("a scratch file can be written");
     fs::create_dir(folder.join("folder.rrd")).expect("a folder can be made");

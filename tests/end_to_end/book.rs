@@ -215,7 +215,7 @@ fn the_error_in_the_authoring_guide_is_the_command_s() {
     assert!(bare(&said).contains(&bare(&find("text", "unknown key"))), "{said}");
 }
 
-/// Whatever the documents quote of the command line exists: commands, and flags beside them.
+/// Commands that the documents quote exist, and so do the flags beside them.
 #[test]
 fn quoted_commands_and_flags_exist() {
     let folder = scratch("book-help");
@@ -335,7 +335,7 @@ fn the_errata_name_tests_that_exist() {
     }
     for test in &named {
         let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}(")));
-        assert!(found, "the errata name `{test}`, which is no test");
+        assert!(found, "the errata name `{test}`, which is not a test");
     }
     assert!(named.len() > 30, "{named:?}");
 }

@@ -84,7 +84,7 @@ fn the_report_of_a_building_has_the_keys_of_the_contract() {
     for key in keys.split_whitespace() {
         assert!(days.iter().all(|day| day[key].is_number()), "{key}");
     }
-    assert!(days.iter().all(|day| day["regret"].as_f64() > Some(-1e-6)), "nobody is cheaper than the optimum");
+    assert!(days.iter().all(|day| day["regret"].as_f64() > Some(-1e-6)), "no design is cheaper than the optimum");
     let driving =
         interplay(&scratch("building-none"), &["run", "--set", "duration_s=2", "--no-record", "--json"]).json();
     assert!(driving.get("building").is_none() && driving.get("vehicles").is_some());
@@ -92,7 +92,7 @@ fn the_report_of_a_building_has_the_keys_of_the_contract() {
 
 /// The expectations of learning are those that a controller without memory fails.
 #[test]
-fn who_does_not_learn_fails_the_expectations_of_learning() {
+fn controllers_that_do_not_learn_fail_the_expectations_of_learning() {
     let arguments = ["run", "building/four-room-ilc", "--set", "controller.kind=pid", "--no-record", "--json"];
     let outcome = interplay(&scratch("building-no-memory"), &arguments);
     assert_eq!(outcome.code, Some(1), "{outcome:?}");

@@ -1,4 +1,4 @@
-//! A collision: when, between whom, how hard. And none where nobody touches.
+//! A collision is reported with its time, its vehicles and its impact, and only where vehicles touch.
 
 use std::fs;
 
@@ -65,7 +65,7 @@ fn a_collision_has_a_time_parties_and_an_impulse() {
 }
 
 #[test]
-fn a_collision_fails_the_run_and_is_told() {
+fn a_collision_fails_the_run_and_is_reported() {
     let folder = scratch("collision");
     fs::write(folder.join("crash.toml"), unavoidable(0.2)).expect("a scratch file can be written");
     let outcome = interplay(&folder, &["run", "crash.toml", "--no-record"]);
@@ -87,7 +87,7 @@ fn a_car_that_can_stop_does_not_collide() {
     assert!((0.25..0.5).contains(&gap_m) && speed_mps < 1e-3, "{gap_m} {speed_mps}");
 }
 
-/// Side by side with 5 mm between them, at the same speed: near, but nobody touches.
+/// Side by side with 5 mm between them, at the same speed: near, but without contact.
 #[test]
 fn near_is_not_a_collision() {
     let text = r#"

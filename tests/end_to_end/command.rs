@@ -9,7 +9,7 @@ use std::thread;
 
 use serde_json::Value;
 
-/// What the command said and how it ended.
+/// The output of the command and its exit code.
 #[derive(Debug)]
 pub struct Outcome {
     pub code: Option<i32>,

@@ -1,4 +1,4 @@
-//! What a run says of conduct: who waits and why, who is stuck, and whether the rules were kept.
+//! Conduct in reports: which vehicles wait and why, which are stuck, and whether the rules were kept.
 
 use std::fs;
 
@@ -52,9 +52,10 @@ fn street(ego_m: &str) -> Film {
     film("street", from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults())))
 }
 
-/// Who stops at a sign says so and is not stuck; who does nothing for more than ten seconds is, once.
+/// A vehicle that stops at a sign gives that as the reason and is not stuck; one that does nothing for more than ten seconds is
+/// stuck, once.
 #[test]
-fn the_report_says_who_stands_why_and_who_is_stuck() {
+fn the_report_names_standing_and_stuck_vehicles_with_reasons() {
     let film = street("70.0");
     let standing = |name: &str| &film.report.vehicle(name).expect("a vehicle").standing;
     assert!(
@@ -75,7 +76,7 @@ fn the_report_says_who_stands_why_and_who_is_stuck() {
 }
 
 #[test]
-fn the_command_says_it_in_words_and_as_values() {
+fn the_command_reports_conduct_in_words_and_as_json() {
     let folder = scratch("conduct");
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "70.0")).expect("a scratch file can be written");
     let said = interplay(&folder, &["run", "street.toml", "--no-record"]);
@@ -92,7 +93,7 @@ fn the_command_says_it_in_words_and_as_values() {
     let report = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]).json();
     assert_eq!(report["deadlocks"][0]["vehicles"], json!(["idle"]));
     assert_eq!(report["vehicles"][1]["standing"][0]["reason"], "as its scripted driver is told");
-    // 8 m before the line nobody stops from 10 m/s.
+    // 8 m before the line no vehicle can stop from 10 m/s.
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "140.0")).expect("a scratch file can be written");
     let broken = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]);
     assert_eq!(broken.code, Some(1), "{}", broken.stdout);
@@ -103,9 +104,9 @@ fn the_command_says_it_in_words_and_as_values() {
     assert_eq!(expectations, wanted);
 }
 
-/// A driver who waits for an oncoming car before it passes a van says for whom.
+/// A driver that waits for an oncoming car before it passes a van names that car.
 #[test]
-fn who_waits_for_somebody_names_it() {
+fn a_waiting_vehicle_names_the_vehicle_that_it_waits_for() {
     let text = include_str!("../cases/streets/d-parked.toml").replace("negotiation", "human");
     let film = film("parked", from_text("parked.toml", &format!("conduct = 'people'\n{text}"), &[]).expect("sound"));
     let standing = &film.report.vehicle("ego").expect("an ego").standing;

@@ -1,4 +1,4 @@
-//! Runs beside a scenario's own in which something is changed: judged by `run` and `suite`, listed by `why`.
+//! Counterfactual runs, which change one thing of a scenario: judged by `run` and `suite`, listed by `why`.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ use crate::film::FILMS;
 /// A scenario of two cars at an intersection, and what may follow from another planner.
 fn write(folder: &Path, name: &str, expect: &str) {
     let text = format!(
-        "extends = 'intersection/nice'\ntitle = 'Mine'\n\n[[counterfactual]]\nname = 'who asks <nobody>'\n\
+        "extends = 'intersection/nice'\ntitle = 'Mine'\n\n[[counterfactual]]\nname = 'who asks <no one>'\n\
          planner = 'conservative'\n\n[counterfactual.expect]\n{expect}\n"
     );
     fs::write(folder.join(name), text).expect("a scratch file can be written");
@@ -46,14 +46,14 @@ fn a_counterfactual_is_judged_beside_the_run() {
     let one = &report["counterfactuals"][0];
     let keys: Vec<&str> = one.as_object().expect("an object").keys().map(String::as_str).collect();
     assert_eq!(keys, ["name", "passed", "order", "expectations", "digest"]);
-    assert_eq!((&one["name"], &one["passed"]), (&json!("who asks <nobody>"), &json!(true)));
+    assert_eq!((&one["name"], &one["passed"]), (&json!("who asks <no one>"), &json!(true)));
     assert_eq!((&report["order"], &one["order"]), (&json!(["ego", "crossing"]), &json!(["crossing", "ego"])));
     let held = ["order_differs", "later.ego", "earlier.crossing", "breaks", "no_collision", "order"];
     assert_eq!(judged(&report), [held.to_vec(), Vec::new()]);
     let flag = interplay(&folder, &["run", "intersection/nice", "--planner", "conservative", "--no-record", "--json"]);
     assert_eq!(one["digest"], flag.json()["digest"], "the run that the flag makes");
     let printed = run_file(&folder, &[]).stdout;
-    let lines = "  counterfactuals, with something changed:\n  ok   who asks <nobody> (order: crossing, ego)\n  \
+    let lines = "  counterfactuals, with something changed:\n  ok   who asks <no one> (order: crossing, ego)\n  \
         PASSED: the counterfactual did as claimed\n";
     assert!(printed.ends_with(lines), "{printed}");
 }
@@ -72,7 +72,7 @@ fn a_counterfactual_that_fails_is_exit_code_1() {
     assert!(all.iter().all(|one| one["passed"] == true), "the scenario's own expectations hold");
     let printed = run_file(&folder, &[]).stdout;
     for piece in [
-        "  FAIL who asks <nobody> ",
+        "  FAIL who asks <no one> ",
         "\n         breaks: want [], got [\"order\",\"completes.ego\"]\n",
         "FAILED: 1 of 1 ",
     ] {
@@ -80,13 +80,13 @@ fn a_counterfactual_that_fails_is_exit_code_1() {
     }
 }
 
-/// What flags change is changed in both runs; what they make impossible is left out, and said.
+/// Flags change both runs; counterfactuals that they make impossible are left out, which the output says.
 #[test]
 fn flags_hold_for_counterfactuals_too() {
     let folder = scratch("counterfactual-flags");
     write(&folder, "my.toml", "order_differs = true");
     let report = run_file(&folder, &["--set", "vehicle.crossing.driver.style=\"tough\"", "--json"]).json();
-    assert_eq!(report["order"], report["counterfactuals"][0]["order"], "nobody lets anybody go first");
+    assert_eq!(report["order"], report["counterfactuals"][0]["order"], "no vehicle lets another go first");
     assert_eq!(report["counterfactuals"][0]["passed"], false);
     let text = fs::read_to_string(folder.join("my.toml")).expect("written");
     let setting = text.replace("planner = 'conservative'", "set = { vehicle.ego.driver.persuasion = false }");
@@ -94,7 +94,7 @@ fn flags_hold_for_counterfactuals_too() {
     let outcome = run_file(&folder, &["--set", "vehicle.ego.driver={ kind = \"idm\" }", "--json"]);
     assert_eq!(outcome.json()["counterfactuals"], json!([]));
     assert!(
-        outcome.stderr.starts_with("the counterfactual \"who asks <nobody>\" does not fit the flags: unknown key ")
+        outcome.stderr.starts_with("the counterfactual \"who asks <no one>\" does not fit the flags: unknown key ")
     );
 }
 
@@ -140,9 +140,9 @@ fn a_suite_judges_counterfactuals() {
     let starts = [
         "scenario ",
         "good ",
-        "  if: who asks <nobody>  passed ",
+        "  if: who asks <no one>  passed ",
         "bad ",
-        "  if: who asks <nobody>  FAILED ",
+        "  if: who asks <no one>  FAILED ",
         "  FAIL order_differs: want false, got true",
         "FAILED: 1 of 2 met their expectations",
     ];
@@ -152,7 +152,7 @@ fn a_suite_judges_counterfactuals() {
     }
     let xml = fs::read_to_string(folder.join("out.xml")).expect("written");
     assert!(xml.contains("tests=\"4\" skipped=\"0\" failures=\"1\" errors=\"0\""), "{xml}");
-    for piece in ["name=\"good: who asks &lt;nobody&gt;\"", "message=\"order_differs: want false, got true\""] {
+    for piece in ["name=\"good: who asks &lt;no one&gt;\"", "message=\"order_differs: want false, got true\""] {
         assert_eq!(xml.matches(piece).count(), 1, "{piece}: {xml}");
     }
     let reports = interplay(&folder, &["suite", ".", "--json"]).json();
@@ -168,7 +168,7 @@ fn page_and_recording_have_a_line_for_each() {
     let outcome = interplay(&folder, &["run", "my.toml", "--report", "page"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
     let page = fs::read_to_string(folder.join("page/index.html")).expect("a page");
-    assert!(page.contains("Counterfactuals") && page.contains("who asks &lt;nobody&gt;"));
+    assert!(page.contains("Counterfactuals") && page.contains("who asks &lt;no one&gt;"));
     let recording = fs::read(folder.join("page/recording.rrd")).expect("a recording");
     assert!(!recording.is_empty());
 }

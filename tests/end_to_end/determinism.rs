@@ -45,7 +45,7 @@ fn golden_digests() {
     assert!(differences.is_empty(), "runs differ from tests/golden:\n{differences}{ADVICE}");
 }
 
-/// What is written out of a scenario runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
+/// A scenario that is written to a file runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
 /// building.
 #[test]
 fn a_scenario_that_was_written_out_runs_the_same() {
@@ -80,7 +80,7 @@ fn a_difference_names_the_tick_and_the_phase() {
 /// A human that changes its mind half-way is found out: in the tick in which it happens, in the phase Plan. The digests
 /// of the whole runs could not tell: they all differ.
 #[test]
-fn a_changed_mind_is_found_in_its_tick_and_in_plan() {
+fn a_changed_decision_is_found_in_its_tick_and_in_the_phase_plan() {
     let run = |changes: &[&str]| {
         let short = ["duration_s=1", "expect.completes=[]"];
         film("mind", authored("lane-change/front-nice", &[&short[..], changes].concat()))

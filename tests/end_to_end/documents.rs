@@ -1,4 +1,4 @@
-//! The documents say what is so: the README's commands, its example and its sample output, and what CI runs.
+//! The documents agree with the program: the README's commands, its example and its sample output, and what CI runs.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Documents show what this program does: pictures, quoted output, and tables.
+//! Pictures, quoted output and tables in the documents are those of this version of the program.
 //!
 //! - `docs/gallery/made.txt` has the bytes of each animation and the digest of the run that it shows. A run that has changed, or
 //!   a picture that was changed by hand, is found here; `docs/gallery/make.sh` makes them again.
@@ -122,7 +122,7 @@ fn quoted_output_is_what_the_command_says() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "whoever reads what the test says is told which tables are old")]
+#[expect(clippy::print_stderr, reason = "the output of the test names the tables that are old")]
 fn tables_are_those_that_were_made() {
     let path = root().join("docs/made.txt");
     let written = fs::read_to_string(&path).unwrap_or_default();

@@ -74,7 +74,7 @@ fn assert_feasible(states: &[[f64; 6]], step_s: f64) {
 
 /// Roads and planning problem stay as they are written, obstacles are those that were driven, and the ego's motion is feasible.
 #[test]
-fn what_was_imported_is_exported_as_it_was_driven() {
+fn an_imported_scenario_is_exported_as_it_was_driven() {
     let folder = scratch("export-imported");
     let source = case("motorway.xml");
     run(&folder, &source.to_string_lossy(), &["--planner", "human", "--trajectories", "driven.csv"]);
@@ -97,9 +97,9 @@ fn what_was_imported_is_exported_as_it_was_driven() {
     assert_feasible(&solution(&folder), scenario.step_s);
 }
 
-/// Both files are in the coordinates of the source, however far they are from the origin.
+/// Both files are in the coordinates of the imported map, however far it is from the origin.
 #[test]
-fn what_was_moved_near_the_origin_is_moved_back() {
+fn coordinates_moved_near_the_origin_are_moved_back_on_export() {
     let folder = scratch("export-utm");
     run(&folder, &case("tee-in-utm.xml").to_string_lossy(), &[]);
     assert!(solution(&folder).iter().all(|[x, y, ..]| x.abs() > 1e5 && y.abs() > 1e6));
@@ -108,7 +108,7 @@ fn what_was_moved_near_the_origin_is_moved_back() {
 
 /// Lanes of every form of road become lanelets on which the same vehicles drive, and the ego's way is a solution.
 #[test]
-fn scenarios_of_ours_become_scenarios_of_commonroad() {
+fn authored_scenarios_become_commonroad_scenarios() {
     for scenario in ["roundabout/nice", "streets/crossing/3", "intersection/nice", "lane-change/front-nice"] {
         let folder = scratch("export-ours");
         let outcome = run(&folder, scenario, &["--set", "duration_s=3.0"]);
@@ -119,9 +119,9 @@ fn scenarios_of_ours_become_scenarios_of_commonroad() {
     }
 }
 
-/// Who is not on the road has no row and no state: nobody stands where somebody comes later.
+/// A vehicle that has not entered the road yet has no row and no state.
 #[test]
-fn whoever_comes_later_is_written_from_then_on() {
+fn a_vehicle_is_written_from_its_entry_on() {
     let folder = scratch("export-later");
     run(&folder, "people/high-street", &["--set", "duration_s=10.0", "--trajectories", "driven.csv"]);
     let table = columns(&folder.join("driven.csv"));

@@ -1,4 +1,4 @@
-//! A planner that fails: the previous plan goes on, then the brakes are applied; each time it is told and counted.
+//! A planner that fails: the previous plan continues, then the vehicle brakes; each failure is reported and counted.
 //!
 //! No scenario file makes a planner fail on purpose, so a driver takes over that does for a while.
 
@@ -48,7 +48,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
 }
 
 #[test]
-fn a_failed_plan_is_continued_then_braked_told_and_counted() {
+fn after_failed_plans_the_vehicle_continues_then_brakes_and_reports_it() {
     let (frames, failed) = run_with_failures();
     assert_eq!(failed, SPOILT.len());
     assert!(SPOILT.len() > HORIZON, "long enough for both fallbacks");
@@ -58,7 +58,7 @@ fn a_failed_plan_is_continued_then_braked_told_and_counted() {
         assert_eq!(front.name, "front");
         let warnings: Vec<_> = frame.events.iter().filter(|event| event.level == Level::Warning).collect();
         let others = [0, 2].map(|index| frame.vehicles[index].origin);
-        assert_eq!(others, [Origin::Planned; 2], "one failure is not everybody's");
+        assert_eq!(others, [Origin::Planned; 2], "one planner's failure leaves the others planned");
         if !SPOILT.contains(&tick) {
             assert_eq!((front.origin, warnings.len()), (Origin::Planned, 0), "tick {tick}");
             continue;
@@ -81,7 +81,7 @@ fn a_failed_plan_is_continued_then_braked_told_and_counted() {
     }
 }
 
-/// Who never had a plan brakes at once, to a standstill and no further; the report counts every failure.
+/// A vehicle that never had a plan brakes at once to a standstill; the report counts every failure.
 #[test]
 fn a_planner_that_never_succeeds_brakes_to_a_standstill() {
     let mut scenario = authored("lane-change/front-nice", &["duration_s=3"]);

@@ -1,4 +1,4 @@
-//! Figures and pages: every one of the source is made, the page has all of it inside, and mistakes are answered.
+//! Figures and pages: every figure of the dissertation is made, the page contains all of them, and wrong names are refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -22,7 +22,6 @@ pub struct Film {
 pub struct Camera(Arc<Mutex<Vec<Frame>>>);
 
 impl Camera {
-    /// The frames so far.
     pub fn frames(&self) -> Vec<Frame> {
         self.0.lock().expect("no thread panicked with the camera").clone()
     }
@@ -101,7 +100,6 @@ impl Film {
         from.zip(self.states_after(tick)).map(mixed).collect()
     }
 
-    /// What the run is called.
     pub fn name(&self) -> &str {
         &self.report.scenario
     }

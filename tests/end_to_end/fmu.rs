@@ -91,7 +91,7 @@ fn both_versions_of_the_standard_have_the_same_resources() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_said_and_nothing_is_written() {
+fn a_failed_export_names_the_reason_and_writes_nothing() {
     let folder = scratch("fmu-refused");
     let plant = "building.plant={ kind = \"socket\", address = \"localhost:1\" }";
     let refused: [(&str, &[&str], &str); 5] = [
@@ -99,7 +99,7 @@ fn what_cannot_be_exported_is_said_and_nothing_is_written() {
         ("building/four-room-pid", &["--set", plant], "another program"),
         ("building/hundred-zones", &["--set", "building.grid={ rows = 20, columns = 30 }"], "at most 500"),
         ("building/hundred-zones", &["--set", "building.step_s=900", "--set", "iterations=900"], "lower `iterations`"),
-        ("building/nobody", &[], "building/nobody"),
+        ("building/unknown", &[], "building/unknown"),
     ];
     for (scenario, more, said) in refused {
         let outcome = interplay(&folder, &[&["export-fmu", scenario, "--out", "out.fmu"], more].concat());

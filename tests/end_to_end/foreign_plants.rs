@@ -1,5 +1,5 @@
-//! A building that is another program: a server that answers with our own network gives our own run, and whatever else a server
-//! does is an error and no panic.
+//! A building that is another program: a server that answers with our own network gives our own run, and any wrong answer of a
+//! server is an error, not a panic.
 
 use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
@@ -106,8 +106,8 @@ fn the_same_network_behind_a_socket_gives_the_same_run() {
     }
 }
 
-/// Nobody measures walls. Their estimate begins at rest, which is wrong here by many kelvins, and forgets it within days: then the
-/// model predicts the day to the last digits, since forecast and model are exact.
+/// The temperatures of walls are not measured. Their estimate starts at rest, which is wrong here by many kelvins, and converges within
+/// days: then the model predicts the day to the last digits, since forecast and model are exact.
 #[test]
 fn the_estimate_of_walls_comes_to_the_truth() {
     let name = "../assets/telemetry/cabin-scenario.toml";
@@ -124,9 +124,9 @@ fn the_estimate_of_walls_comes_to_the_truth() {
     assert!(errors_c[0] > 0.5 && errors_c[3] < 1e-3 * errors_c[0] && errors_c[13] < 1e-9, "{errors_c:?}");
 }
 
-/// People, sun and outdoor temperature are told apart, and the gains are their sum as the network has it.
+/// A plant receives people, sun and outdoor temperature separately; the gains are their sum, as in the network.
 #[test]
-fn a_plant_is_told_what_acts_on_it() {
+fn a_plant_receives_people_sun_and_outdoor_temperature() {
     let name = "building/epw-weather";
     let own = authored(name, &[]);
     let network = own.building.as_ref().and_then(|building| building.network().ok()).expect("a network");

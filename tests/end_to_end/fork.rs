@@ -1,4 +1,4 @@
-//! A world that is stepped from outside, copied and resumed goes on bit for bit as one that nobody touched.
+//! A world that is stepped from outside, copied and resumed is bit-identical with one that runs undisturbed.
 
 use interplay_planners::Input;
 use interplay_scenarios::{Registry, Scenario, embedded};
@@ -34,7 +34,7 @@ fn forget_wall_times(value: &mut Value) {
 
 fn finished(mut simulation: Simulation) -> Report {
     while simulation.step().expect("the run can go on").is_some() {}
-    simulation.finish().expect("nobody watches")
+    simulation.finish().expect("a run without observers finishes")
 }
 
 /// Where a run is copied: pseudo-random steps of the whole run, other ones for other scenarios.
@@ -52,7 +52,7 @@ fn moments(name: &str, steps: usize, count: usize) -> Vec<usize> {
     found
 }
 
-/// Runs a scenario with copies at some moments, and demands that what is resumed from each ends as the run itself.
+/// Runs a scenario with snapshots at some steps, and checks that the run resumed from each has the same outcome.
 fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize {
     let steps = TimePoints::new(scenario).count();
     let moments = moments(name, steps, count);
@@ -66,7 +66,7 @@ fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize
         assert!(simulation.step().expect("the run can go on").is_some(), "{name}: step {step} of {steps}");
     }
     assert!(simulation.step().expect("the run is over").is_none());
-    let wanted = outcome(&simulation.finish().expect("nobody watches"));
+    let wanted = outcome(&simulation.finish().expect("a run without observers finishes"));
     for (step, fork) in &forks {
         let resumed = finished(fork.resume().expect("a copy can be copied"));
         assert_eq!(outcome(&resumed), wanted, "{name}, resumed after {step} steps");
@@ -179,9 +179,9 @@ fn to_observe_has_no_side_effect() {
         }
     }
     assert_eq!(shifted, scenario.tick_count() + 1, "predictions begin where the others are");
-    assert_eq!(outcome(&simulation.finish().expect("nobody watches")), outcome(&alone));
+    assert_eq!(outcome(&simulation.finish().expect("a run without observers finishes")), outcome(&alone));
     let simulation = Simulation::new(&scenario).expect("a world");
-    assert!(matches!(simulation.observe("nobody"), Err(RunError::NoVehicle { .. })));
+    assert!(matches!(simulation.observe("stranger"), Err(RunError::NoVehicle { .. })));
 }
 
 /// A run from outside with the inputs that a planner gave is the planner's own run, as far as the plant is concerned.
@@ -205,10 +205,10 @@ fn a_vehicle_is_driven_from_outside() {
         }
     }
     assert!(simulation.step().expect("the scenario is over").is_none());
-    assert_eq!(simulation.finish().expect("nobody watches").order, own.report.order);
+    assert_eq!(simulation.finish().expect("a run without observers finishes").order, own.report.order);
 }
 
-/// Who hands in an input only is expected to keep its speed.
+/// The prediction of a vehicle that hands in an input alone is constant velocity.
 #[test]
 fn an_input_alone_is_expected_to_be_followed_by_constant_velocity() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}"];
@@ -229,7 +229,7 @@ fn an_input_alone_is_expected_to_be_followed_by_constant_velocity() {
 
 /// A run may end early, and says so; watchers see what follows a return to an earlier moment, too.
 #[test]
-fn a_run_ends_early_and_goes_back() {
+fn a_run_ends_early_and_rewinds() {
     let scenario = authored("lane-change/front-nice", &["counterfactual=[]"]);
     let camera = Camera::default();
     let mut simulation = Simulation::watched("early", &scenario, vec![Box::new(camera.clone())]).expect("a world");
@@ -261,7 +261,7 @@ fn a_building_ends_early() {
     for _ in 0..30 {
         simulation.step().expect("the run can go on");
     }
-    let report = simulation.finish().expect("nobody watches");
+    let report = simulation.finish().expect("a run without observers finishes");
     let days = report.building.map(|building| building.iterations.len());
     assert!(report.ended_early_s.is_some_and(|time_s| time_s > 0.0) && days == Some(0), "{days:?}");
 }
@@ -274,7 +274,7 @@ fn a_simulation_is_sent_to_another_thread() {
     is_send::<Snapshot>();
 }
 
-/// A snapshot as text is read back to the same state, inputs from outside included; what is damaged or of another version is refused.
+/// A snapshot as text is read back to the same state, inputs from outside included; a damaged snapshot or one of another version is refused.
 #[test]
 fn a_snapshot_is_written_and_read() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}", "duration_s=4"];
@@ -297,7 +297,7 @@ fn a_snapshot_is_written_and_read() {
             simulation.apply("ego", Input::default()).expect("the ego is external");
             simulation.step().expect("it has its input");
         }
-        outcome(&simulation.finish().expect("nobody watches"))
+        outcome(&simulation.finish().expect("a run without observers finishes"))
     });
     assert_eq!(ends[0], ends[1]);
     let other_run = text.replacen("0.002", "0.003", 1);

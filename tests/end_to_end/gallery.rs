@@ -54,7 +54,7 @@ fn every_family_driver_and_controller_has_an_animation() {
     let vehicles =
         entries.iter().flat_map(|entry| &entry.scenario.vehicles).filter(|vehicle| vehicle.obstacle.is_none());
     let drivers: BTreeSet<&str> = vehicles.map(|vehicle| vehicle.driver.kind()).collect();
-    // Whoever comes from outside, or from a record, is in no scenario of ours.
+    // Drivers from outside and recorded drivers are in none of the authored scenarios.
     let kinds = Registry::standard().driver_kinds().into_iter();
     let every: BTreeSet<&str> = kinds.filter(|kind| !["external", "inputs", "recorded"].contains(kind)).collect();
     assert_eq!(drivers, every, "kinds of drivers");

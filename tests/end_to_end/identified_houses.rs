@@ -74,7 +74,6 @@ fn sunny_house(test: &str) -> PathBuf {
     folder
 }
 
-/// A scenario as a table.
 fn written(path: &Path) -> toml::Table {
     fs::read_to_string(path).expect("written").parse().expect("TOML")
 }
@@ -126,7 +125,7 @@ fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
 
 /// The sun is a key of the wall in the file, and a run with the file knows it.
 #[test]
-fn sun_on_a_wall_comes_back_as_sun_on_a_wall() {
+fn sun_on_a_wall_is_identified_as_sun_on_a_wall() {
     let folder = sunny_house("identify-sun");
     let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");

@@ -1,4 +1,4 @@
-//! What holds at every tick of every run.
+//! Laws that hold at every tick of every run.
 
 use interplay_planners::{Bicycle, State};
 use interplay_simulation::frame::Origin;
@@ -6,7 +6,7 @@ use interplay_simulation::frame::Origin;
 use crate::film::{FILMS, kinematic};
 
 #[test]
-fn there_is_a_frame_for_every_tick_and_everybody_is_in_it() {
+fn every_tick_has_a_frame_with_every_vehicle() {
     for film in FILMS.iter() {
         assert_eq!(film.frames.len(), film.scenario.tick_count(), "{}", film.name());
         for (tick, frame) in film.frames.iter().enumerate() {
@@ -68,9 +68,9 @@ fn inputs_and_speeds_stay_within_the_limits() {
     }
 }
 
-/// The first input of a plan is what is applied; planners keep to the limits, so that nothing is left to clamp.
+/// The first input of a plan is applied; planners keep to the limits, so that no input is clamped.
 #[test]
-fn what_is_planned_is_applied() {
+fn planned_inputs_are_applied() {
     for film in FILMS.iter() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for vehicle in frame.vehicles.iter().filter(|vehicle| vehicle.origin == Origin::Planned) {
@@ -107,7 +107,7 @@ fn plans_are_motions_of_the_vehicle() {
 /// The road edges are soft rows of the planners; an exact penalty keeps the vehicles on the road all the same. A scenario may
 /// state a larger tolerance, which its verdict then checks.
 #[test]
-fn nobody_leaves_the_road() {
+fn vehicles_stay_on_the_road() {
     for film in kinematic() {
         let tolerance_m = film.scenario.expect.off_road_at_most_m.unwrap_or(1e-3);
         for frame in &film.frames {

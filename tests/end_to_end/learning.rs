@@ -1,5 +1,5 @@
-//! Controllers that learn, through the whole application: what they report, what is expected of them, what they are
-//! better at than others, and what becomes of a run when their designs fail.
+//! Controllers that learn, through the whole application: their reports and expectations, in which measures
+//! they are better than others, and how a run continues when their designs fail.
 
 use std::fs;
 
@@ -44,7 +44,7 @@ fn an_exchange_is_reported_with_rounds_messages_and_the_centralised_optimum() {
 }
 
 #[test]
-fn the_designs_of_the_source_are_better_than_what_they_are_compared_with() {
+fn the_designs_of_the_dissertation_beat_their_alternatives() {
     for seed in ["1", "2", "3"] {
         let of =
             |name: &str, key: &str| later(&report("learn-order", &format!("building/{name}"), &["--seed", seed]), key);
@@ -59,9 +59,9 @@ fn the_designs_of_the_source_are_better_than_what_they_are_compared_with() {
     }
 }
 
-/// Each scenario expects what its rival does not achieve.
+/// Each scenario has an expectation that the same controller with a weaker setting does not meet.
 #[test]
-fn expectations_tell_the_designs_from_their_rivals() {
+fn weaker_settings_fail_the_expectations_of_the_designs() {
     let rivals = [
         ("building/iterative-warm-nights", "controller.stability=fixed", "regret_at_most"),
         ("building/iterative-warm-nights", "controller.objective=nominal", "spectral_radius_at_most"),
@@ -82,7 +82,7 @@ fn expectations_tell_the_designs_from_their_rivals() {
 }
 
 /// The plan fails every day; the inputs of the day before are planned again (`building/tests/iterative.rs`), which is an event, is
-/// counted and can be expected; the run goes on.
+/// counted and can be expected; the run continues.
 #[test]
 fn a_day_without_a_plan_is_an_event_and_the_run_goes_on() {
     let changes =
@@ -125,7 +125,7 @@ fn designs_that_cannot_be_made_say_why() {
     }
 }
 
-/// What is known beforehand is refused before anything is run.
+/// Designs that are certain to fail are refused before the run.
 #[test]
 fn designs_that_are_known_to_fail_are_refused_at_load() {
     let cases = [
@@ -159,7 +159,7 @@ fn inputs_stay_within_their_limits_and_rooms_are_cooled_ahead() {
 }
 
 #[test]
-fn what_is_believed_wrongly_is_refused_where_it_is_said() {
+fn wrong_model_parameters_are_refused_at_their_line() {
     let folder = scratch("learn-belief");
     let text = "extends = 'building/iterative-warm-nights'\n[building]\nmethod = 'euler'\n[building.believed]\ncapacity_factor = ";
     for (value, pieces) in [

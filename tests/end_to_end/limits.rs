@@ -10,7 +10,7 @@ use interplay_scenarios::{from_text, schema};
 use crate::book::root;
 use crate::command::{interplay, scratch};
 
-/// The messages of what is wrong with a scenario of real cars.
+/// The error messages of a scenario of real cars.
 fn refused(text: &str) -> String {
     let head = "title = 'Limits'\nshows = 'What is refused'\nduration_s = 10.0\n[defaults]\nclass = 'car'\n";
     let error = from_text("limits.toml", &format!("{head}{text}"), &[]).expect_err("refused");
@@ -62,7 +62,7 @@ fn the_limits_name_tests_that_exist() {
     for row in rows {
         let cell = row.trim_end_matches(" |").rsplit("| ").next().unwrap_or_default();
         if let Some(test) = cell.strip_prefix('`').and_then(|rest| rest.strip_suffix('`')) {
-            assert!(tests.contains(test), "there is no test `{test}`");
+            assert!(tests.contains(test), "the test `{test}` does not exist");
             count += 1;
         } else {
             assert!(cell.contains("](../evidence/"), "neither a test nor evidence: {row}");

@@ -2,20 +2,20 @@
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
-//! - many runs from one plan: [`sweeps`]; what vehicles did as tables: [`trajectories`]; as scenarios of others: [`exports`]
-//! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
-//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
-//! - what would have happened: [`counterfactuals`], [`mutation`]
-//! - what others may add: [`own`]
-//! - what tyres, friction and lag make of it: [`plants`]
-//! - vehicles that were recorded, scenarios of others, and maps far from the origin: [`recorded`]
-//! - how recorded cars are predicted, and drivers fitted to them: [`predictions`]
-//! - what scenarios demand of drivers: [`unsuited`]
-//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
-//!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
-//!   and for other programs: [`fmu`]
-//! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`], [`python_package`]
+//! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
+//! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
+//! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
+//! - changes of a scenario: [`counterfactuals`], [`mutation`]
+//! - extensions by users: [`own`]
+//! - plants with tyres, friction and lag: [`plants`]
+//! - recorded vehicles, imported scenarios, and maps far from the origin: [`recorded`]
+//! - predictions of recorded cars, and drivers fitted to them: [`predictions`]
+//! - drivers that cannot manage a scenario: [`unsuited`]
+//! - buildings: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`], [`sample_telemetry`];
+//!   buildings simulated by other programs: [`foreign_plants`]; buildings exported to other programs: [`fmu`]
+//! - bit-identical repetition: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
+//! - the workspace: [`architecture`], [`modules`], [`lines`]; its language: [`plain_words`]; its packages: [`packages`],
+//!   [`python_package`]
 
 mod animations;
 mod architecture;
@@ -44,12 +44,14 @@ mod identified_houses;
 mod laws;
 mod learning;
 mod limits;
+mod lines;
 mod measures;
 mod modules;
 mod mutation;
 mod output;
 mod own;
 mod packages;
+mod plain_words;
 mod plants;
 mod played;
 mod predictions;

@@ -1,4 +1,4 @@
-//! Every figure of the report, worked out again from the frames.
+//! Every number of the report, computed again from the frames.
 
 use interplay_planners::State;
 use interplay_scenarios::{Branch, LaneReference, Road};
@@ -52,7 +52,7 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
     for film in FILMS.iter().filter(|film| film.report.collisions.is_empty()) {
         let places = film.report.vehicles.iter().enumerate().map(|(index, vehicle)| {
             let place = match film.scenario.road {
-                Road::Intersection(_) => reached(film, index).expect("everybody crosses") as f64,
+                Road::Intersection(_) => reached(film, index).expect("every vehicle crosses") as f64,
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
                 // Towards different goals, the order is that of arrival, and then by what is left of the way.
                 _ if is_junction(film) => {
@@ -124,7 +124,7 @@ fn vehicles_complete_when_they_reach_their_lane_or_have_crossed() {
     for film in FILMS.iter() {
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let at = format!("{}: {}", film.name(), vehicle.name);
-            // Who starts where it wants to be has nothing to complete.
+            // A vehicle that starts at its goal has nothing to complete.
             let expected = reached(film, index).filter(|ticks| *ticks > 0);
             let expected = expected.map(|ticks| ticks as f64 * film.scenario.step_s);
             match (vehicle.completed_s, expected) {

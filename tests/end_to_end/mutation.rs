@@ -43,8 +43,8 @@ fn authored_counterfactuals_do_as_they_claim() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Of every driving figure the other drivers' style decides the outcome, and where its planner is said to gain over the
-/// conservative one, the planner's own mechanism does. Its file must carry the counterfactuals that show it; the test above
+/// In every driving figure the style of the other drivers decides the outcome, and where its planner claims a gain over the
+/// conservative one, the planner's own mechanism causes it. The file must have the counterfactuals that show it; the test above
 /// runs them.
 #[test]
 fn figures_carry_the_counterfactuals_that_prove_them() {
@@ -64,7 +64,7 @@ fn figures_carry_the_counterfactuals_that_prove_them() {
             drivers(changed) != drivers(own)
         };
         let (kind, order) = (own.vehicles[ego].driver.kind(), own.expect.order.as_ref());
-        // Of each counterfactual the changed scenario, and whether the ego's place in the order is said to change.
+        // The changed scenario of each counterfactual, and whether it claims that the ego's place in the order changes.
         let changes: Vec<(&Scenario, bool)> = own
             .counterfactuals
             .iter()

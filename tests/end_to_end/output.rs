@@ -1,4 +1,4 @@
-//! What the command prints: results on stdout, the rest on stderr, and one JSON document where that is asked for.
+//! What the command prints: results on stdout, the rest on stderr, and one JSON document with `--json`.
 
 use std::fs;
 use std::process::Stdio;
@@ -37,7 +37,7 @@ fn the_report_has_the_keys_of_the_contract() {
     has_keys(&report["phase_digests"], "sense predict plan act physics");
     has_keys(&report["smallest_gap"], "m between time_s");
     has_keys(&report["shortest_time_to_collision"], "s between time_s");
-    assert_eq!(report["right_of_way"], serde_json::json!([]), "on one road, nobody's way crosses another's");
+    assert_eq!(report["right_of_way"], serde_json::json!([]), "on one road, no paths cross");
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
@@ -61,7 +61,7 @@ fn the_report_has_the_keys_of_the_contract() {
     }
 }
 
-/// Nobody wants to read 0.30000000000000004.
+/// Times are rounded: not 0.30000000000000004.
 #[test]
 fn times_are_round() {
     let folder = scratch("times");
@@ -149,7 +149,7 @@ fn every_help_has_an_example() {
 
 /// As in `interplay list | head -0`.
 #[test]
-fn a_reader_that_has_gone_away_is_no_error() {
+fn a_closed_pipe_is_not_an_error() {
     let folder = scratch("closed-pipe");
     let mut child = command(&folder, &["list", "--json"])
         .stdout(Stdio::piped())

@@ -1,4 +1,4 @@
-//! What a package says of its contents: licences and bill of materials. `packaging/try_wheel.sh` and `packaging/try_archive.sh` try
+//! Contents of a package: licences and bill of materials. `packaging/try_wheel.sh` and `packaging/try_archive.sh` try
 //! the packages themselves.
 
 #![allow(clippy::print_stderr, reason = "a test that skips says so")]
@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::architecture::root;
 
-/// What a script of `packaging/` prints; nothing where there is no Python.
+/// What a script of `packaging/` prints; nothing without Python.
 fn printed(script: &str) -> Option<String> {
     let mut command = Command::new("python3");
     command.arg(root().join("packaging").join(script)).env("CARGO_NET_OFFLINE", "true");

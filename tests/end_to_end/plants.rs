@@ -1,4 +1,4 @@
-//! What becomes of a run when the plant is not the planners' model: the table in `docs/theory/dynamic-plant.md`.
+//! Runs whose plant is not the planners' model: the table in `docs/theory/dynamic-plant.md`.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -90,8 +90,8 @@ fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
     assert!(found == wanted, "the page says\n{found}\nbut it is\n{wanted}\n{ADVICE}");
 }
 
-/// Nobody leaves a road without an end by more than a third of a vehicle's width, though its edge is reached by somebody who plans
-/// with another model; and inputs stay within the limits.
+/// No vehicle leaves an endless road by more than a third of its width, even one that plans with another model and reaches the edge;
+/// and inputs stay within the limits.
 #[test]
 fn on_tyres_vehicles_stay_on_their_road() {
     for name in ["lane-change/front-nice", "intersection/tough", "lane-keeping/tough"] {
@@ -105,9 +105,9 @@ fn on_tyres_vehicles_stay_on_their_road() {
     }
 }
 
-/// After the crash both brake to a standstill, ask nobody, and the one behind does not touch them.
+/// After the crash both brake to a standstill and do not negotiate, and the vehicle behind does not touch them.
 #[test]
-fn who_has_crashed_stays() {
+fn crashed_vehicles_come_to_rest() {
     let film = FILMS.iter().find(|film| film.name() == "crash/side-impact").expect("it is embedded");
     let crash = film.report.collisions.first().expect("a crash on purpose");
     assert!(crash.impulse_ns > 1.0 && crash.between == ["ego", "crossing"], "{crash:?}");

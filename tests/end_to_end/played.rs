@@ -14,7 +14,7 @@ const SCRIPT: &str = r#"{"tick": 0, "type": "input", "acceleration": 0.3, "steer
 "#;
 
 #[test]
-fn what_was_played_from_a_file_runs_again_to_the_same_digest() {
+fn a_played_run_repeats_with_the_same_digest() {
     let folder = scratch("played");
     fs::write(folder.join("drive.jsonl"), SCRIPT).expect("the folder can be written");
     let play = ["play", "lane-change/front-nice", "--input", "drive.jsonl", "--out", "again/played.toml", "--json"];
@@ -26,7 +26,7 @@ fn what_was_played_from_a_file_runs_again_to_the_same_digest() {
     assert!(text.contains("kind = \"inputs\"") && text.contains("to = \"conservative\""), "{text}");
 }
 
-/// Whoever yields as the front driver is not asked again; whoever does not is waited for.
+/// A front driver that yields is not asked again; the ego waits for one that does not yield.
 #[test]
 fn negotiation_answers_the_person_in_the_other_car() {
     let folder = scratch("played-front");
@@ -47,12 +47,12 @@ fn negotiation_answers_the_person_in_the_other_car() {
 }
 
 #[test]
-fn what_cannot_be_played_is_refused_before_anything_is_written() {
+fn wrong_scripts_are_refused_before_anything_is_written() {
     let folder = scratch("played-wrong");
     fs::write(folder.join("wrong.jsonl"), "{\"tick\": 1, \"type\": \"fly\"}\n").expect("the folder can be written");
     fs::write(folder.join("drive.jsonl"), SCRIPT).expect("the folder can be written");
     for (arguments, part) in [
-        (&["lane-change/front-nice", "--as", "nobody", "--input", "drive.jsonl"][..], "choose from ego, front, rear"),
+        (&["lane-change/front-nice", "--as", "stranger", "--input", "drive.jsonl"][..], "choose from ego, front, rear"),
         (&["lane-change/front-nice", "--input", "wrong.jsonl"], "wrong.jsonl:1: unknown variant `fly`"),
         (&["lane-change/front-nice", "--input", "nowhere.jsonl"], "cannot read nowhere.jsonl"),
         (

@@ -77,7 +77,7 @@ fn a_driver_is_fitted_to_a_vehicle_of_a_table() {
 }
 
 #[test]
-fn what_is_no_recording_is_refused_with_its_place() {
+fn files_that_are_not_recordings_are_refused_with_the_line() {
     let folder = folder_with_queue("predict-bad", 2);
     fs::create_dir(folder.join("empty")).expect("a folder");
     fs::write(folder.join("bad.xml"), "<commonRoad commonRoadVersion=\"2020a\" timeStepSize=\"no\"></commonRoad>")
@@ -92,7 +92,7 @@ fn what_is_no_recording_is_refused_with_its_place() {
         (&["predict", "empty"], "empty"),
         (&["predict", "notes.txt"], "notes.txt"),
         (&["predict", "queue.csv", "--starts", "0"], "whole number"),
-        (&["fit", "queue.csv", "--vehicle", "nobody"], "nobody"),
+        (&["fit", "queue.csv", "--vehicle", "stranger"], "stranger"),
         (&["fit", "queue.csv", "--vehicle", "car-0"], "car-0"),
         (&["fit", "bad.csv"], "bad.csv:2"),
     ] {

@@ -50,7 +50,7 @@ fn locked(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
     versions
 }
 
-/// Whoever runs the same scenario from Python runs the same code: each library that both use has the same version.
+/// A scenario runs the same code from Python as from the command: each library that both use has the same version.
 #[test]
 fn its_lock_file_agrees_with_that_of_the_workspace() {
     let (workspace, python) = (locked("."), locked("python"));

@@ -47,7 +47,7 @@ fn a_recorded_vehicle_is_where_its_record_says_at_every_tick() {
             let missed_m = (found_x - x_m).hypot(found_y - y_m);
             assert!(missed_m <= MAX_MISS_M, "{times:?}: {missed_m} m at {} s", frame.time_s);
         }
-        // It stands when its record ends, and goes on standing.
+        // It stands when its record ends, and remains there.
         let last = film.report.vehicles[1].last;
         assert!((last.x_m - 55.0).abs() <= MAX_MISS_M && last.speed_mps == 0.0, "{last:?}");
         assert!(film.report.collisions.is_empty(), "the ego stops behind it: {:?}", film.report.collisions);
@@ -56,7 +56,7 @@ fn a_recorded_vehicle_is_where_its_record_says_at_every_tick() {
 
 /// The others see it brake when it does, and expect it to keep its speed: they cannot know what comes.
 #[test]
-fn nobody_is_told_what_comes() {
+fn others_do_not_know_the_future_of_a_record() {
     let film = film("record", scenario(""));
     for frame in film.frames.iter().filter(|frame| frame.plans) {
         let front = &frame.vehicles[1];
@@ -112,7 +112,7 @@ fn a_scenario_far_away_has_the_same_report() {
     assert!(remark.is_some_and(|remark| remark.contains("(400000, 5000000)")));
 }
 
-/// What a user does: import, look, run; and the XML as it is.
+/// The steps of a user: import, check, run; and a run of the XML file itself.
 #[test]
 fn scenarios_of_commonroad_are_imported_and_run() {
     let folder = scratch("commonroad");
@@ -135,10 +135,10 @@ fn scenarios_of_commonroad_are_imported_and_run() {
 
 /// A recorded car would drive into one that stands where it was free when it was recorded. With `hands_over` it does not, and says why.
 #[test]
-fn a_record_is_left_where_it_would_lead_into_somebody() {
+fn a_record_is_left_where_it_would_lead_into_another_vehicle() {
     let run = |more: &str| {
         let text = format!(
-            "title = \"In its way\"\nshows = \"Somebody stands in the way of a recorded car\"\nduration_s = 12.0\n\
+            "title = \"In its way\"\nshows = \"A vehicle stands in the way of a recorded car\"\nduration_s = 12.0\n\
              road = {{ kind = \"lanes\", lane_width_m = 3.5 }}\n[[vehicle]]\nname = \"ego\"\n\
              start = {{ lane = 0, along_m = 80.0, speed_mps = 0.0 }}\ndriver = {{ kind = \"scripted\" }}\n[[vehicle]]\n\
              name = \"rear\"\nstart = {{ x_m = 0.0, y_m = 1.75, speed_mps = 10.0 }}\ndriver = {{ kind = \"recorded\"{more}, \
@@ -146,12 +146,12 @@ fn a_record_is_left_where_it_would_lead_into_somebody() {
         );
         film("in-its-way", from_text("way.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}")))
     };
-    assert_eq!(run("").report.collisions.len(), 1, "a record reacts to nobody");
+    assert_eq!(run("").report.collisions.len(), 1, "a recorded vehicle does not react");
     let handed = run(", hands_over = { to = \"human\", when = \"disturbed\" }");
     assert!(handed.report.collisions.is_empty(), "{:?}", handed.report.collisions);
     let told = handed.frames.iter().flat_map(|frame| &frame.events).find(|event| event.text.contains("drives itself"));
     assert!(told.is_some_and(|event| event.vehicle == "rear" && event.text.contains("ego is in its way")));
-    // At a time it does so, whoever is there.
+    // With a time for `when` it does so then, whatever the traffic.
     let at = run(", hands_over = { to = \"idm\", when = 3.0 }");
     let left = at.frames.iter().find(|frame| frame.events.iter().any(|event| event.text.contains("drives itself")));
     assert!(left.is_some_and(|frame| (2.99..3.5).contains(&frame.time_s)) && at.report.collisions.is_empty());

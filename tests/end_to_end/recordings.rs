@@ -63,7 +63,7 @@ fn a_recording_never_leaves_its_folder() {
     assert_eq!(contents(&folder), expected);
 }
 
-/// Whoever opens a recording reads how to make it again.
+/// A recording shows the command that repeats it.
 #[test]
 fn a_recording_says_how_to_repeat_it() {
     let folder = scratch("repeat");
@@ -81,7 +81,7 @@ fn no_record_leaves_nothing() {
     assert!(contents(&folder).is_empty());
 }
 
-/// Whoever is stopped half-way leaves nothing that looks like a recording.
+/// A process that is killed half-way leaves no file that looks like a recording.
 #[test]
 fn a_run_that_is_killed_leaves_no_recording() {
     let folder = scratch("killed");

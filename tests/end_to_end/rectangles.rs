@@ -1,4 +1,4 @@
-//! The distance between two rectangles, worked out without the physics engine.
+//! The distance between two rectangles, computed without the physics engine.
 
 use interplay_planners::{Body, State};
 

@@ -1,6 +1,6 @@
-//! Expected failures: what a scenario shows is owed to its planner. Each one, driven by a planner that should not manage it,
-//! must break the expectation named here. "scripted" is a driver without a script, who goes on as it began and looks at
-//! nobody.
+//! Expected failures: a scenario shows what it shows because of its planner. Each one, driven by a planner that should not manage
+//! it, must break the expectation named here. "scripted" is a driver without a script, which keeps its initial speed and ignores
+//! all traffic.
 
 use std::collections::BTreeSet;
 
@@ -12,9 +12,9 @@ use rayon::prelude::*;
 type Replacement = (&'static str, &'static str, &'static str);
 
 const REPLACEMENTS: &[Replacement] = &[
-    // Who drives by a script stops for nobody.
+    // A scripted vehicle does not stop for others.
     ("people/high-street", "scripted", "no_collision"),
-    // Nobody yields to who does not ask, and who asks goes first.
+    // Others do not yield to an ego that does not ask; an ego that asks goes first.
     ("intersection/nice", "conservative", "order"),
     ("intersection/bayesian-nice", "conservative", "order"),
     ("intersection/game-friendly", "conservative", "order"),
@@ -40,7 +40,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("ramp-merge/nice", "conservative", "order"),
     ("ramp-merge/game-nice", "conservative", "order"),
     ("ramp-merge/conservative-nice", "negotiation", "order"),
-    // Who cooperates alone does not cooperate: all wait for one another.
+    // One cooperative driver alone does not cooperate: all wait for one another.
     ("intersection/cooperative", "conservative", "order"),
     ("lane-change/cooperative", "conservative", "completes.ego"),
     ("lane-keeping/cooperative", "conservative", "completes.merger"),
@@ -48,7 +48,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-change/among-idm", "idm", "completes.ego"),
     ("lane-change/front-tough", "idm", "order"),
     ("lane-change/bayesian-exact", "conservative", "order"),
-    // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
+    // The intelligent driver model sees no crossing traffic, and waits for a gap that no vehicle makes.
     ("intersection/tough", "idm", "no_collision"),
     ("intersection/bayesian-tough", "idm", "no_collision"),
     ("intersection/bayesian-inches", "idm", "order"),
@@ -61,7 +61,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("ramp-merge/front-tough", "idm", "order"),
     ("curve/lane-drop", "idm", "order"),
     ("full-size/bend", "idm", "completes.ego"),
-    // Who keeps the right of way asks nobody for it, and who ignores it goes out of turn.
+    // A driver that keeps the right of way does not ask for it; one that ignores it goes out of turn.
     ("left-turn/nice", "human", "yields.oncoming.to.ego"),
     ("left-turn/tough", "scripted", "yields.ego.to.oncoming"),
     ("left-turn/game-nice", "human", "yields.oncoming.to.ego"),
@@ -77,7 +77,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("narrow-passage/conservative-nice", "scripted", "gap_at_least_m"),
     ("t-junction/bayesian-nice", "human", "yields.main.to.ego"),
     ("t-junction/bayesian-tough", "scripted", "no_collision"),
-    // Who cooperates does not stop, and is through earlier than who waits for its turn.
+    // A cooperative driver does not stop, and passes earlier than one that waits for its turn.
     ("t-junction/cooperative", "human", "speed.ego.min_above_mps"),
     ("roundabout/cooperative", "human", "yields.ego.to.ring"),
     ("narrow-passage/cooperative", "human", "completes.ego"),
@@ -97,7 +97,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("ramp-merge/game-tough", "scripted", "completes.ego"),
 ];
 
-/// The expectations that break when somebody else drives the ego.
+/// The expectations that break when another planner drives the ego.
 fn broken(name: &str, planner: &str) -> Vec<String> {
     let scenario = load(name, &[Override::Planner(planner.to_owned())]).expect("authored, with a known planner");
     let report = run(name, &scenario, Vec::new()).expect("the run can be finished");

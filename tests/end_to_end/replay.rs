@@ -1,9 +1,9 @@
-//! Planning is a function of plain values: whoever is given what was seen decides the same, bit for bit.
+//! Planning is a function of plain values: the same scene gives the same plan, bit for bit.
 //!
 //! The test rebuilds every scene of a run from its frames and asks planners of its own. That holds the loop to its order
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
-//! humans' plans) and to the source's assumption of perfect prediction. Who infers plans is shown states only, through a sensor
-//! of its own if it has one.
+//! humans' plans) and to the dissertation's assumption of perfect prediction. A driver that infers plans sees states only, through
+//! its own sensor if it has one.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
 use crate::film::{FILMS, Film, authored, film};
 
-/// Everybody at the start of a tick, expected to go on as they planned.
+/// All vehicles at the start of a tick, each expected to follow its last plan.
 fn agents(film: &Film, tick: usize) -> Vec<Agent> {
     let Film { scenario, frames, .. } = film;
     let before = tick.checked_sub(1).map(|before| &frames[before]);
@@ -37,7 +37,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
     .collect()
 }
 
-/// What is expected of a vehicle that has not planned in this tick: its last plan, else constant velocity.
+/// The prediction of a vehicle that has not planned in this tick: its last plan, else constant velocity.
 fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame, vehicle: &Vehicle) -> Trajectory {
     let Some(before) = before else {
         return steadily_along(&vehicle.route, &vehicle.body, &now.state, scenario.horizon_steps, scenario.step_s);
@@ -47,7 +47,7 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
     plan
 }
 
-/// Who plans when.
+/// The vehicles in the order in which they plan.
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
     let along = |index: usize| scenario.vehicles[index].route.along(frame.vehicles[index].state.position());
     let (mut first, then): (Vec<usize>, Vec<usize>) =
@@ -121,7 +121,7 @@ fn the_prediction_of_a_human_is_its_plan() {
     }
 }
 
-/// Of everybody else one expects the last plan to go on, and constant velocity before the first.
+/// The prediction of another planner is its last plan, and constant velocity before its first.
 #[test]
 fn the_prediction_of_a_planner_is_its_last_plan() {
     for film in FILMS.iter() {
@@ -137,7 +137,7 @@ fn the_prediction_of_a_planner_is_its_last_plan() {
     }
 }
 
-/// Among those who do not plan first nobody has an advantage: it does not matter who is listed first.
+/// Among vehicles that do not plan first, the order in which they are listed gives no advantage.
 #[test]
 fn two_planners_meet_on_equal_terms() {
     let changes = ["duration_s=3", "vehicle.front.driver.kind=\"conservative\"", "expect.completes=[]"];

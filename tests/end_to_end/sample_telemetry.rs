@@ -1,4 +1,4 @@
-//! The telemetry in the repository is what its scenario gives, and identification finds that scenario's cabin in it.
+//! The telemetry in the repository is simulated from its scenario, and identification recovers that scenario's cabin.
 
 use std::fmt::Write;
 use std::fs;
@@ -77,7 +77,7 @@ fn the_cabin_is_found_in_its_telemetry() {
 
 /// What the book warns of: without the column of the appliances the walls seem better than they are.
 #[test]
-fn heat_that_is_not_in_the_mapping_is_taken_for_better_walls() {
+fn unmapped_heat_makes_the_estimated_walls_better() {
     let scratch = scratch("sample-telemetry");
     let mapping = fs::read_to_string(folder().join("cabin.toml")).expect("the mapping");
     let less: Vec<&str> = mapping.lines().filter(|line| !line.contains("appliances_kw")).collect();

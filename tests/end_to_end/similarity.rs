@@ -105,7 +105,7 @@ fn is_converged(film: &Film) -> bool {
 
 /// What a descent that has ended at an optimum leaves of the optimality conditions.
 const CONVERGED_RESIDUAL: f64 = 1e-6;
-/// At so many ticks the problems of twins are compared: the first, and the second, in which negotiation persuades. Later the
+/// Number of ticks at which the problems of twins are compared: the first, and the second, in which negotiation persuades. Later the
 /// plans of others that are in them differ by what an optimiser leaves, at a price of 10³.
 const ALIKE_TICKS: usize = 2;
 /// States that differ by less are the same.
@@ -164,9 +164,8 @@ fn twins_without_an_optimiser_move_alike_to_rounding() {
     }
 }
 
-/// Settings that are stated are not scaled.
 #[test]
-fn whoever_states_a_setting_gets_it() {
+fn stated_settings_are_not_scaled() {
     let mut scenario = twin("lanes", "kind = 'bayesian', beta_0_m = 0.02", 10.0);
     let Driver::Bayesian(settings) = &mut scenario.vehicles[0].driver else { panic!("another driver") };
     assert_eq!((settings.beta_0_m, settings.clear_lead_m), (0.02, 2.0));

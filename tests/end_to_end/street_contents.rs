@@ -1,4 +1,4 @@
-//! What stands, walks, blinks, comes and goes on a street.
+//! Parked cars, pedestrians, traffic lights, and vehicles that enter and leave a street.
 
 use interplay_planners::State;
 use interplay_scenarios::{Override, Scenario, from_text, load};
@@ -14,7 +14,7 @@ fn two_way(more: &str) -> Scenario {
     from_text("street.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The messages of what is wrong.
+/// The error messages of a scenario.
 fn refused(text: &str) -> String {
     let head = "title = \"A street\"\nshows = \"What is wrong\"\ndefaults = { class = \"car\" }\n";
     let error = from_text("wrong.toml", &format!("{head}{text}"), &[]).expect_err("refused");
@@ -47,7 +47,7 @@ fn a_street_with_everything_is_driven_lawfully() {
     for vehicle in &film.report.vehicles {
         assert_eq!(vehicle.metrics.number("rules_broken").unwrap_or(0.0), 0.0, "{}", vehicle.name);
     }
-    // The walker is on the crossing while the ego waits for it, and everybody has gone on.
+    // The walker is on the crossing while the ego waits for it, and all vehicles go on afterwards.
     let walker = states(&film, "walker");
     let crosses_s: Vec<f64> =
         walker.iter().filter(|(_, state)| (-3.5..3.5).contains(&state.y_m)).map(|(time_s, _)| *time_s).collect();
@@ -56,12 +56,12 @@ fn a_street_with_everything_is_driven_lawfully() {
     let nearest_m = ego.iter().filter(|(time_s, _)| (begins_s..=ends_s).contains(time_s)).map(|(_, state)| state.x_m);
     assert!(
         nearest_m.fold(f64::NEG_INFINITY, f64::max) + 2.2 < 0.0,
-        "the ego is before the crossing while somebody is on it"
+        "the ego is before the crossing while the walker is on it"
     );
     assert!(ego[ego.len() - 1].1.x_m > 60.0 && walker[walker.len() - 1].1.y_m > 10.0);
 }
 
-/// With lights that are off, nobody waits for them: they are what holds the ego.
+/// The ego waits for lights that are on, and does not wait for lights that are off.
 #[test]
 fn the_light_is_what_the_ego_waits_for() {
     let lit = high_street(&[]);
@@ -97,9 +97,9 @@ fn contacts_are_those_of_the_outline() {
     assert_eq!(wider.report.collisions.len(), 1, "its tip reaches 0.1 m into the way of the ego");
 }
 
-/// A driver who keeps the rules passes a parked car, and one that nobody parked is not missed.
+/// A driver that keeps the rules passes a parked car; without the car the road is free.
 #[test]
-fn obstacles_are_passed() {
+fn drivers_pass_a_parked_car() {
     let car = "[[obstacle]]\nname = \"parked\"\nlane = \"east\"\nalong_m = 120.0\nlateral_offset_m = -0.6\n";
     let ego = "[[vehicle]]\nname = \"ego\"\nstart = { lane = \"east\", along_m = 30.0, speed_mps = 10.0 }\n";
     for kind in ["human", "idm", "conservative", "negotiation"] {
@@ -114,9 +114,9 @@ fn obstacles_are_passed() {
     }
 }
 
-/// A vehicle comes once there is room, and leaves where its route ends; meanwhile it is in nobody's scene.
+/// A vehicle comes once there is room, and leaves where its route ends; outside that interval it is in no scene.
 #[test]
-fn vehicles_come_and_go() {
+fn vehicles_enter_and_leave_at_their_times() {
     let film = film(
         "come",
         two_way(
@@ -130,7 +130,7 @@ fn vehicles_come_and_go() {
     );
     let [comes, goes] = ["comes", "goes"].map(|name| states(&film, name));
     let came_s = comes[0].0;
-    assert!((9.5..16.0).contains(&came_s), "there is no room before the other one has left: {came_s} s");
+    assert!((9.5..16.0).contains(&came_s), "it enters only after the other one has left: {came_s} s");
     let (_, last) = comes[comes.len() - 1];
     assert!(last.x_m > 140.0 && comes[comes.len() - 1].0 < 49.0, "it leaves where its route ends: {last:?}");
     let (left_s, _) = goes[goes.len() - 1];
@@ -143,12 +143,12 @@ fn vehicles_come_and_go() {
     assert!(!film.frames.iter().filter(|frame| (6.5..9.0).contains(&frame.time_s)).any(knows));
 }
 
-/// Somebody on foot lets cars go at the kerb where they go first, and is let go on a zebra crossing.
+/// A pedestrian waits at the kerb where cars have priority, and goes first on a zebra crossing.
 #[test]
 fn people_on_foot_wait_at_the_kerb_or_go_first() {
     let street = |crossing: &str| {
         let text = format!(
-            "title = \"Kerb\"\nshows = \"Somebody crosses\"\nduration_s = 25.0\ndefaults = {{ class = \"car\" }}\n[road]\nkind = \"network\"\n\
+            "title = \"Kerb\"\nshows = \"A pedestrian crosses\"\nduration_s = 25.0\ndefaults = {{ class = \"car\" }}\n[road]\nkind = \"network\"\n\
              lane = [{{ name = \"street\", points = [[-100, 0], [100, 0]], width_m = 3.5 }},\n\
              {{ name = \"pavement\", points = [[0, -10], [0, -3]], width_m = 2.5, users = [\"pedestrian\"], successors = [\"over\"], right_of_way = \"{}\" }},\n\
              {{ name = \"over\", points = [[0, -3], [0, 9]], width_m = 2.5, users = [\"pedestrian\"]{} }}]\n\
@@ -170,9 +170,9 @@ fn people_on_foot_wait_at_the_kerb_or_go_first() {
     }
 }
 
-/// A lane for buses is in nobody's way who drives a car, and a bus drives on it.
+/// Cars do not use a lane for buses, and a bus does.
 #[test]
-fn lanes_are_for_some() {
+fn cars_do_not_use_a_bus_lane() {
     let road = "[road]\nkind = \"network\"\nlane = [\n\
          { name = \"main\", points = [[0, 0], [200, 0]], width_m = 3.5, right = \"kept\" },\n\
          { name = \"kept\", points = [[0, -3.5], [200, -3.5]], width_m = 3.5, left = \"main\", users = [\"bus\"] }]\n";
@@ -196,7 +196,7 @@ fn lanes_are_for_some() {
 
 /// What makes no sense is refused where it is written.
 #[test]
-fn contradictions_are_located() {
+fn contradictions_in_a_street_are_refused_at_their_line() {
     let vehicle = "[[vehicle]]\nname = \"ego\"\nstart = { lane = \"east\", along_m = 50.0, speed_mps = 10.0 }\n";
     let road = "road = { kind = \"two-way\" }\n";
     let with = |more: &str| refused(&format!("{road}{vehicle}{more}"));
@@ -209,7 +209,7 @@ fn contradictions_are_located() {
         (script("{ from_s = 1.0, speed_mps = 1.0 }, { from_s = 1.0, speed_mps = 2.0 }"), "begin at one time"),
         (
             script(
-                "{ when = { vehicle = \"nobody\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }",
+                "{ when = { vehicle = \"stranger\", reaches = { lane = \"east\", along_m = 1.0 } }, speed_mps = 1.0 }",
             ),
             "no vehicle",
         ),

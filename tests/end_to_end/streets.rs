@@ -1,4 +1,4 @@
-//! Streets on which drivers behaved badly once, each with what is right.
+//! Streets on which drivers once behaved badly, each with the correct behaviour.
 
 use std::path::Path;
 
@@ -68,7 +68,7 @@ fn a_standing_van_on_an_empty_street_is_passed() {
     }
 }
 
-/// With somebody coming the other way the driver waits first.
+/// With an oncoming car the driver waits first.
 #[test]
 fn a_standing_van_is_passed_behind_an_oncoming_car() {
     for kind in ["human", "idm", "negotiation"] {
@@ -81,9 +81,9 @@ fn a_standing_van_is_passed_behind_an_oncoming_car() {
     }
 }
 
-/// Nobody drives faster than it wants in order to be ahead of somebody with priority.
+/// No vehicle exceeds its wanted speed to pass before a road user with priority.
 #[test]
-fn nobody_races_a_walker() {
+fn no_planner_races_a_road_user_with_priority() {
     for kind in ["human", "idm", "conservative", "negotiation", "game", "nash", "bayesian", "contingency"] {
         let film = driven("e-zebra", &[&planner(kind)]);
         assert_untouched(&film, kind);
@@ -111,7 +111,7 @@ fn a_speed_limit_is_kept() {
     }
 }
 
-/// On a ring with priority nobody asks who must wait anyway.
+/// On a ring with priority the ego does not ask vehicles that must wait anyway.
 #[test]
 fn a_negotiator_with_priority_drives_on() {
     let arrival_s = |name: &str, kind: &str| vehicle(&driven(name, &[&planner(kind)]), "ego").completed_s;
@@ -136,7 +136,7 @@ fn three_cars_at_a_crossing_without_signs_go_in_order() {
 }
 
 #[test]
-fn who_has_priority_is_not_touched() {
+fn road_users_with_priority_are_not_touched() {
     let untouched = [
         ("nash-roundabout-tough", None),
         ("tee-13", Some("bayesian")),
@@ -165,7 +165,7 @@ fn a_ring_is_entered_in_the_first_gap() {
     assert!(vehicle(&film, "ego").completed_s.is_some(), "it arrives");
 }
 
-/// Somebody who has just yielded may be nice.
+/// A driver that has just yielded may be nice.
 #[test]
 #[ignore = "not reached: the weights that it is taken for end at 16"]
 fn a_driver_who_yields_may_be_nice() {

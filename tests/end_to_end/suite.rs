@@ -80,7 +80,7 @@ fn one_failed_expectation_fails_the_suite_and_is_named() {
     assert!(xml.contains("tests=\"3\" skipped=\"0\" failures=\"1\" errors=\"0\""), "{xml}");
 }
 
-/// Nothing runs unless everything can.
+/// No scenario runs if one of them is wrong.
 #[test]
 fn all_bad_files_are_reported_and_nothing_runs() {
     let folder = scratch("suite-bad");

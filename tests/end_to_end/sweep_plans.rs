@@ -37,8 +37,8 @@ fn samples_are_refused_where_the_seed_changes_nothing() {
     assert!(outcomes.contains(&true) && outcomes.contains(&false), "{outcomes:?}: the test says nothing");
 }
 
-/// A path is relative to the folder of the plan that states it, and in a flag to the current folder; what is said of a missing
-/// file says so.
+/// A path is relative to the folder of the plan that states it, and in a flag to the current folder; the message about
+/// a missing file states which.
 #[test]
 fn paths_of_weather_are_relative_to_what_states_them() {
     let folder = scratch("sweep-weather");

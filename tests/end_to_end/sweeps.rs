@@ -1,4 +1,4 @@
-//! Sweeps: rows do not depend on how they came about, and whatever is wrong is said before anything is run.
+//! Sweeps: rows do not depend on threads, shards and interruptions, and wrong plans are refused before anything is run.
 
 use std::fs;
 use std::path::Path;
@@ -81,13 +81,13 @@ fn scenarios_that_are_the_same_are_counted_each() {
 /// When a sweep is killed.
 #[cfg(unix)]
 enum Moment {
-    /// When so many rows are there.
+    /// When this number of rows exists.
     Rows(usize),
-    /// After so many milliseconds.
+    /// After this number of milliseconds.
     Millis(u64),
 }
 
-/// Kills a sweep at a moment and goes on. Returns how many rows there were.
+/// Kills a sweep at a moment and resumes it. Returns the number of rows at the kill.
 #[cfg(unix)]
 fn killed_at(folder: &Path, out: &str, moment: &Moment) -> usize {
     let mut child = command(folder, &["sweep", "plan.toml", "--out", out, "--jobs", "2"]);
@@ -101,7 +101,6 @@ fn killed_at(folder: &Path, out: &str, moment: &Moment) -> usize {
         }
         Moment::Millis(millis) => sleep(Duration::from_millis(*millis)),
     }
-    // SIGKILL.
     child.kill().expect("killed, or done");
     child.wait().expect("ended");
     let before = lines(folder, &format!("{out}/journal.jsonl"));
@@ -178,7 +177,6 @@ fn comparisons_are_printed_as_a_page_and_as_json() {
     assert!(wrong.stderr.contains("did you mean `idm`?"), "{}", wrong.stderr);
 }
 
-/// The lines of a journal.
 fn journal(folder: &Path, out: &str) -> Vec<serde_json::Value> {
     let text = fs::read_to_string(folder.join(out).join("journal.jsonl")).expect("a journal");
     text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
@@ -306,7 +304,7 @@ fn wrong_flags_are_refused_by_their_names() {
 }
 
 #[test]
-fn what_is_wrong_is_said_before_anything_is_run_or_written() {
+fn wrong_plans_are_refused_before_anything_is_run_or_written() {
     let folder = scratch("sweep-wrong");
     let write = |text: &str| fs::write(folder.join("plan.toml"), text).expect("a scratch file");
     for (text, arguments, words) in [

@@ -1,4 +1,4 @@
-//! What is measured of all vehicles together, worked out again from the frames: gaps and times to collision of any two, the
+//! Measures of all vehicles together, computed again from the frames: gaps and times to collision of any two, the
 //! edges of the road, right of way, speed limits. And what a failing expectation says of them.
 
 use std::fs;
@@ -240,9 +240,9 @@ fn right_of_way_follows_from_the_fronts() {
     assert!(judged > 15, "{judged}");
 }
 
-/// Everybody drives on one lane with a limit of 1.2 m/s, and the two humans want 1.25 m/s.
+/// All vehicles drive on one lane with a limit of 1.2 m/s, and the two humans want 1.25 m/s.
 #[test]
-fn who_exceeds_a_limit_is_named() {
+fn vehicles_that_exceed_a_limit_are_named() {
     let line = CentreLine::from_pieces([-10.0, 0.37], 0.0, &[Piece::Straight { length_m: 100.0 }]).expect("a piece");
     let mut lane = Lane::new("main", line, 0.74);
     lane.speed_limit_mps = Some(1.2);
@@ -276,10 +276,10 @@ fn bounded(values: [&str; 5], yields: &str, more: &str) -> String {
 }
 
 #[test]
-fn what_fails_names_the_vehicles_and_the_time() {
+fn a_failed_expectation_names_the_vehicles_and_the_time() {
     let folder = scratch("traffic");
     let held = "yields = [{ vehicle = 'crossing', to = 'ego' }]";
-    let claim = "[[counterfactual]]\nname = 'who asks nobody waits'\nplanner = 'conservative'\n\
+    let claim = "[[counterfactual]]\nname = 'without asking the ego waits'\nplanner = 'conservative'\n\
                  [counterfactual.expect]\nbreaks = ['order', 'completes.ego', 'yields.crossing.to.ego']\n\
                  yields = [{ vehicle = 'ego', to = 'crossing' }]\n";
     let sound = bounded(["0.01", "0.05", "5", "60", "5"], held, claim);
@@ -310,7 +310,7 @@ fn what_fails_names_the_vehicles_and_the_time() {
     let text = interplay(&folder, &["run", "tight.toml", "--no-record"]).stdout;
     assert!(text.contains("FAIL gap_at_least_m: want 9.0, got {\"m\":"), "{text}");
     assert!(text.contains("\"between\":[\"ego\",\"crossing\"]"), "{text}");
-    // Nobody gets there in half a second.
+    // No vehicle gets there in half a second.
     let short = ["run", "sound.toml", "--no-record", "--set", "duration_s=0.5"];
     let text = interplay(&folder, &[&short[..], &["--set", "counterfactual=[]"]].concat()).stdout;
     assert!(text.contains("got \"neither entered the conflict zone\""), "{text}");

@@ -42,7 +42,7 @@ fn every_vehicle_has_a_row_at_every_tick_and_moves_as_its_row_says() {
         let moved_m = (number("x_m", row) - number("x_m", before)).hypot(number("y_m", row) - number("y_m", before));
         assert!((moved_m - step_s * number("speed_mps", before)).abs() < 1e-9, "row {row}");
     }
-    assert!(table["plan"].iter().all(|word| word == "planned"), "nobody fails here");
+    assert!(table["plan"].iter().all(|word| word == "planned"), "no planner fails here");
     let of_ego = |name: &str| (0..rows).step_by(vehicles).map(|row| table[name][row].clone()).collect::<Vec<_>>();
     assert!(of_ego("plan_cost").iter().all(|cost| cost.parse::<f64>().is_ok()), "the ego's planner states its cost");
     assert!(of_ego("partner").iter().any(|partner| partner == "front"), "{:?}", of_ego("partner"));

@@ -1,4 +1,4 @@
-//! What the command does not do to its user's files, terminal and build server. Each test is a fault that was found once.
+//! The command does no harm to a user's files, terminal and build server. Each test covers a fault that was found once.
 
 use std::fs;
 use std::process::Stdio;
@@ -51,7 +51,7 @@ fn no_output_takes_the_place_of_the_scenario() {
     }
 }
 
-/// The weather of a scenario is as much its input as its file, whoever names it.
+/// The weather file of a scenario is protected as its scenario file is, whether a flag or the scenario names it.
 #[test]
 fn no_output_takes_the_place_of_the_weather() {
     let folder = scratch("overwritten-weather");
@@ -90,20 +90,20 @@ fn no_output_takes_the_place_of_another() {
     }
 }
 
-/// A comparison reads the rows of a sweep, and must not write its page over them, or over anything that is no page.
+/// A comparison reads the rows of a sweep, and must not write its page over them, or over any other file that is not a page.
 #[test]
 fn no_comparison_takes_the_place_of_rows() {
     let folder = scratch("overwritten-rows");
     fs::create_dir(folder.join("rows")).expect("makes");
     for file in ["rows/runs.parquet", "rows/comparison.html"] {
-        fs::write(folder.join(file), "somebody's").expect("writes");
+        fs::write(folder.join(file), "the user's").expect("writes");
     }
     for words in [&["compare", "rows", "--page", "rows/runs.parquet"][..], &["compare", "rows"]] {
         let outcome = interplay(&folder, words);
         assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
-        assert!(outcome.stderr.contains("is no page of Interplay's"), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("is not a page that Interplay wrote"), "{words:?}: {}", outcome.stderr);
         for file in ["rows/runs.parquet", "rows/comparison.html"] {
-            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), "somebody's", "{words:?}");
+            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), "the user's", "{words:?}");
         }
     }
 }
@@ -124,7 +124,7 @@ fn a_title_that_a_terminal_would_obey_is_refused() {
 }
 
 #[test]
-fn no_page_takes_the_place_of_somebody_else_s() {
+fn pages_that_interplay_did_not_write_are_not_replaced() {
     let folder = scratch("foreign-page");
     fs::write(folder.join("index.html"), "<h1>My home page</h1>").expect("writes");
     for words in [&["run", "--set", "duration_s=4", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {
@@ -132,7 +132,7 @@ fn no_page_takes_the_place_of_somebody_else_s() {
         assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
         assert_eq!(fs::read_to_string(folder.join("index.html")).expect("there"), "<h1>My home page</h1>");
     }
-    // One of ours is renewed.
+    // A page that Interplay wrote is replaced.
     let words = ["run", "--set", "duration_s=4", "--no-record", "--report", "mine"];
     for _ in 0..2 {
         let outcome = interplay(&folder, &words);
@@ -179,16 +179,16 @@ fn a_start_beyond_every_road_is_refused() {
 
 /// Thousands of threads were made for three runs.
 #[test]
-fn any_number_of_jobs_is_enough() {
+fn a_huge_number_of_jobs_is_accepted() {
     let folder = scratch("jobs");
     fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
     let outcome = interplay(&folder, &["suite", "mine.toml", "--jobs", "100000"]);
     assert!(outcome.code.is_some_and(|code| code <= 1), "{}", outcome.stderr);
 }
 
-/// `check` accepted what no run could finish.
+/// `check` accepted scenarios that no run could finish.
 #[test]
-fn what_cannot_be_finished_is_refused_before_it_begins() {
+fn runs_beyond_the_limits_are_refused_before_they_begin() {
     let folder = scratch("budget");
     fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
     let dynamic = ["run", "mine.toml", "--set", "plant={ kind = \"dynamic\" }", "--set", "step_s=1e6"];
@@ -224,7 +224,7 @@ fn a_new_file_is_sound_whatever_it_is_called() {
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
 }
 
-/// "There is no scenario" was said of a file that is there.
+/// The message was "there is no scenario" although the file exists.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_whose_name_is_not_utf_8_is_named_as_the_reason() {

@@ -1,11 +1,11 @@
-//! Drivers and plants that should not manage a scenario do not: its expectations are strong enough to say so.
+//! Drivers and plants that cannot manage a scenario break its expectations, which are strong enough to show it.
 
 use interplay_scenarios::{Override, load};
 use rayon::prelude::*;
 
 use crate::film::film;
 
-/// Scenario, what is changed, and which expectations then fail.
+/// A scenario, a change of it, and the expectations that then fail.
 const UNSUITED: &[(&str, &str, &[&str])] = &[
     ("full-size/lane-change", CONSERVATIVE, &["order"]),
     ("full-size/lane-keeping", CONSERVATIVE, &["order", "speed.ego.max_above_mps"]),
@@ -23,7 +23,7 @@ const CONSERVATIVE: &str = "vehicle.ego.driver={ kind = 'conservative' }";
 const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
 
 #[test]
-fn whoever_should_not_manage_does_not() {
+fn unsuited_drivers_break_their_expectations() {
     UNSUITED.par_iter().for_each(|(name, change, expected): &(&str, &str, &[&str])| {
         let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
         let report = film(name, scenario).report;

@@ -86,7 +86,7 @@ def _leaves(value: object, path: tuple = ()) -> list[tuple]:
 
 
 def _edited(value: object, lie: dict) -> object:
-    """An answer with a lie in it; a mark stands for text that is no JSON."""
+    """An answer with a lie in it; a mark stands for text that is not JSON."""
     if lie["kind"] == "extra" and isinstance(value, dict):
         return value | {"\u009b31m": 1, "time ": [1], "": {}}
     leaves = _leaves(value)

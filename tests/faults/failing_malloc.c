@@ -27,7 +27,7 @@ static int fails(void) {
     return 1;
 }
 
-/* Allocations of the loader, before this, are not counted: nobody could tell of them. */
+/* Allocations of the loader, before this, are not counted: their failure could not be reported. */
 __attribute__((constructor)) static void begin(void) {
     const char *number = getenv("FAILING_ALLOCATION");
     wanted = number ? atol(number) : 0;

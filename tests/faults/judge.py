@@ -32,5 +32,5 @@ def of_files(folder: pathlib.Path) -> str | None:
             try:
                 xml.etree.ElementTree.fromstring(text)
             except xml.etree.ElementTree.ParseError as error:
-                return f"{file.name} is no XML: {error.msg}"
+                return f"{file.name} is not XML: {error.msg}"
     return None

@@ -7,7 +7,7 @@ import re
 import edits
 from target import ROOT, RECORD, Commands, Target
 
-# Drivers of ours need wider lanes than a record.
+# Interplay's drivers need wider lanes than a record.
 DRIVERS = frozenset(["--ego", "--replace"])
 # Scenes that are no part of the repository; inputs made of them are not kept.
 REAL = [folder / "shared/data/commonroad" for folder in (ROOT.parent, ROOT.parent.parent)]

@@ -33,7 +33,7 @@ def _spoil(text: str, _others: list[str], dice: random.Random) -> str:
         scenario, seat, messages = dice.choice(STARTS[:3]), "ego", []
     messages += [_message(dice) for _ in range(dice.randint(1, 8))]
     if dice.random() < 0.15:
-        # A frame that is no text, or none at all.
+        # A frame that is not text, or no frame at all.
         messages.append(dice.choice(["frame:8200", "frame:0180000000", "frame:c18000000000", "frame:81ff7fffffffffffffff", "frame:888200000000ffff", "frame:8980", "frame:f100"]))
     return json.dumps([scenario, seat, *messages])
 

@@ -59,7 +59,7 @@ def documented(page: str) -> list[str]:
 
 
 def shortened(text: str, most_s: float) -> str:
-    """A scenario that ends after so many seconds at the latest."""
+    """A scenario that ends after at most `most_s` seconds."""
     return re.sub(r"(?m)^duration_s = ([\d.]+)", lambda found: f"duration_s = {min(float(found[1]), most_s)}", text)
 
 

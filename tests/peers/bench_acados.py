@@ -111,7 +111,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--tolerance", type=float, default=1e-4, help="of SQP; with 1e-6 it goes on to its limit of 100 QPs in most problems of `human`")
     parser.add_argument("--kind", action="append", choices=KINDS)
-    parser.add_argument("--every", type=int, default=1, help="takes one problem in so many")
+    parser.add_argument("--every", type=int, default=1, help="takes every N-th problem")
     arguments = parser.parse_args()
     ipopt, solvers, descents = Ipopt(), {}, {}
     own = {kind: {o["id"]: o for o in ours(kind, "robust", repeats=7 * arguments.repeats)} for kind in arguments.kind or KINDS}

@@ -95,7 +95,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--kind", action="append", choices=one_vehicle.KINDS)
-    parser.add_argument("--every", type=int, default=1, help="takes one problem in so many")
+    parser.add_argument("--every", type=int, default=1, help="takes every N-th problem")
     arguments = parser.parse_args()
     ipopt, solvers, descents = Ipopt(), {}, {}
     print("| problems | solver | median ms | p99 ms | iterations in the median | solved by its own judgement | same cost as ours | dearer | cheaper |")

@@ -32,7 +32,7 @@ from trajectory_nlp import Ipopt
 LAST_STEP = 1e-6
 #: or in which the cost decreases by less than this share of 1 + cost,
 LEAST_DECREASE = 1e-9
-#: or after so many QPs.
+#: or after this number of QPs.
 MOST_STEPS = 100
 #: Least eigenvalue of the Hessian of a stage.
 LEAST_CURVATURE = 1e-8
@@ -296,7 +296,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeats", type=int, default=3, help="solves of every QP by PIQP, of every problem by IPOPT; ours seven times as many")
     parser.add_argument("--kind", action="append", choices=KINDS)
-    parser.add_argument("--every", type=int, default=1, help="takes one problem in so many")
+    parser.add_argument("--every", type=int, default=1, help="takes every N-th problem")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of PIQP")
     parser.add_argument("--backend", default="multistage", choices=BACKENDS)
     arguments = parser.parse_args()

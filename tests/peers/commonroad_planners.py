@@ -5,10 +5,10 @@
 FOLDER has scenarios of CommonRoad with recorded cars and a planning problem. Of the distinct ones whose run lasts at least 2.5 s, some are drawn
 by the seed. Each is driven by each planner in four kinds of traffic:
 
-    recorded    everybody follows its record
-    hands over  everybody follows its record until that would lead into somebody, and then drives as a normal human
-    humans      everybody is a human of the style `measured`
-    idm         everybody drives after the intelligent driver model
+    recorded    every vehicle follows its record
+    hands over  every vehicle follows its record until that would lead into another, and then drives as a normal human
+    humans      every vehicle is a human of the style `measured`
+    idm         every vehicle drives after the intelligent driver model
 
 A table says, for each kind of traffic and planner, how many runs had a contact of the ego, how far the ego came on average as a share of how far it
 came with the planner that came farthest in that scene and traffic, and how hard it braked. Ranks of planners by that progress, contacts last, are

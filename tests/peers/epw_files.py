@@ -33,7 +33,7 @@ def theirs(file):
     try:
         with open(file, encoding="latin-1") as text:
             data, place = pvlib.iotools.read_epw(text)
-    except Exception as error:  # Whatever their reader stumbles over is told beside ours.
+    except Exception as error:  # The failures of their reader are listed beside ours.
         return None, f"{type(error).__name__}: {error}"
     return data, place
 

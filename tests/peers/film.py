@@ -5,7 +5,7 @@
 
 For each scenario the film must have the size of the GIF of the same run, last as long to a tenth of a second, and its
 first and last pictures must differ from those of the GIF by less than 4 of 255 on average. Prints a table; exits with 1
-if a film differs, and with 0 and a word where there is no ffmpeg to be had.
+if a film differs, and with 0 and a word where ffmpeg is missing.
 """
 
 import argparse

@@ -2,7 +2,7 @@
 
     python tests/peers/planner_table.py FOLDER [--interplay PROGRAM]
 
-The figures are those of `interplay compare FOLDER --json`. A sweep whose planners are all told the others' plans gives the overview, the
+The figures are those of `interplay compare FOLDER --json`. A sweep whose planners all know the others' plans gives the overview, the
 pairs against the conservative planner, and how often the ego is first by family; one with planners that infer them gives the table of
 all planners and their pairs. Probabilities are corrected by Holm's method for the rows of their column.
 """
@@ -20,7 +20,7 @@ ALL = [
     "conservative", INFERRED[0], "negotiation", INFERRED[1], "bayesian", INFERRED[2], "game", INFERRED[3],
     "contingency", "nash", "cooperative", "idm",
 ]
-#: Who is compared with whom where some infer.
+#: Pairs of planners that are compared where some infer plans.
 PAIRS = [(name, name.removesuffix(" (inferred)")) for name in INFERRED]
 PAIRS += [(name, INFERRED[0]) for name in [*INFERRED[1:], "contingency"]] + [("nash", "conservative")]
 

@@ -53,7 +53,7 @@ def _serve_run(make_plant, lines):
                 return
     except (BrokenPipeError, ConnectionResetError):
         raise
-    except Exception as error:  # Whatever goes wrong here is told to the run, which ends with it.
+    except Exception as error:  # Any failure here is sent to the run, which ends with it.
         answer({"message": "error", "reason": f"{type(error).__name__}: {error}"})
         raise
     finally:

@@ -132,7 +132,7 @@ def off_road(rows, planners):
 
 
 def roads(folder, wide=None):
-    """Who goes first on real roads, and whether the order is that of the file; with a last row from wider starts."""
+    """Which vehicle goes first on real roads, and whether the order is that of the file; with a last row from wider starts."""
     table = pandas.read_parquet(f"{folder}/runs.parquet")
     titles = [TITLES.get(name, name) for name in DRIVERS]
     head(["start", "what counts", *titles, "off the road"])

@@ -7,12 +7,10 @@ use std::{env, fs};
 /// The most lines of an example.
 const MOST_LINES: usize = 65;
 
-/// The folder of the examples.
 fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
-/// The names of the examples.
 fn names() -> Vec<String> {
     let entries = fs::read_dir(sources()).expect("the folder of the examples");
     let paths = entries.map(|entry| entry.expect("readable").path());

@@ -13,7 +13,7 @@ const ROUNDING_H: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ZoneSchedule {
-    /// The names of the zones that follow it. On days for which a zone has no schedule nobody is there.
+    /// The names of the zones that follow it. On days for which a zone has no schedule it is unoccupied.
     #[schemars(length(min = 1, max = 1000), example = vec!["office"])]
     pub zones: Vec<String>,
     /// The days on which it applies. A holiday is none of its weekdays.

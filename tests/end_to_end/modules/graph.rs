@@ -28,7 +28,6 @@ struct Methods {
     in_place: BTreeSet<String>,
 }
 
-/// All modules of a crate.
 #[derive(Debug, Default)]
 pub struct Crate(pub BTreeMap<Place, Module>);
 

@@ -31,7 +31,7 @@ use self::graph::{Crate, Place, on_circles};
 use self::module::Module;
 use crate::architecture::{members, root};
 
-/// Public types of one name in several modules of the workspace, and why that is no confusion.
+/// Public types of one name in several modules of the workspace, and why that is not confusing.
 const SHARED_NAMES: &[(&str, &str)] =
     &[("Settings", "each planner has its own, and its module is always named beside it: `idm::Settings`")];
 
@@ -39,7 +39,6 @@ const SHARED_NAMES: &[(&str, &str)] =
 const ACCEPTED_CIRCLES: &[(&str, &str, &str)] =
     &[("app/simulation", "simulation", "a simulation makes snapshots, and a snapshot resumes simulations")];
 
-/// Every library of the workspace.
 fn libraries() -> Vec<(String, Crate)> {
     let roots = members().into_iter().map(|member| (root().join(&member).join("src/lib.rs"), member));
     roots.filter(|(file, _)| file.exists()).map(|(file, member)| (member, Crate::read(&file))).collect()

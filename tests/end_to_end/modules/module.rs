@@ -7,7 +7,6 @@ use syn::{Attribute, ImplItem, Item, ItemImpl, TraitItem, Type, UseTree, Visibil
 
 use super::uses::Uses;
 
-/// One module.
 #[derive(Debug, Default)]
 pub struct Module {
     pub children: BTreeSet<String>,
@@ -15,7 +14,6 @@ pub struct Module {
     pub imports: BTreeMap<String, Vec<String>>,
     /// Modules of which `use` brings in everything.
     pub globs: Vec<Vec<String>>,
-    /// Names that are defined here.
     pub items: BTreeSet<String>,
     /// Public structs, enums, traits and type aliases.
     pub public_types: BTreeSet<String>,

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-/// What some code names.
 #[derive(Debug, Default)]
 pub struct Uses {
     /// Paths of at least two words.
@@ -35,7 +34,7 @@ impl Uses {
                 // `pub(in crate::a)` says who may see something, and uses nothing.
                 TokenTree::Group(_) if is_word(index.checked_sub(1), "pub") => {}
                 TokenTree::Group(group) => self.collect(group.stream(), own),
-                // The end of a range is no field.
+                // The end of a range is not a field.
                 TokenTree::Ident(word) if is_mark(index.checked_sub(1), '.') && !is_mark(index.checked_sub(2), '.') => {
                     let has_types = is_mark(Some(index + 1), ':') && is_mark(Some(index + 2), ':');
                     if has_types || matches!(tokens.get(index + 1), Some(TokenTree::Group(_))) {

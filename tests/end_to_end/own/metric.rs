@@ -113,7 +113,7 @@ fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Er
     let Some(TableColumn::Numbers(column)) = table.column("time_headway_s") else { return Err("no column".into()) };
     let mut sorted: Vec<f64> = column.iter().copied().flatten().collect();
     sorted.sort_by(f64::total_cmp);
-    assert_eq!(sorted.len(), 2, "both end behind somebody");
+    assert_eq!(sorted.len(), 2, "both end behind another vehicle");
     let compared = compare(&folder, Some("idm"), GroupBy::Family, registry.metrics())?;
     let planners = &compared.groups[0].planners;
     let mut least: Vec<f64> =
@@ -127,7 +127,7 @@ fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Er
 }
 
 #[test]
-fn a_metric_that_is_not_there_or_is_there_already_is_refused() -> Result<(), Box<dyn Error>> {
+fn unknown_and_duplicate_metrics_are_refused() -> Result<(), Box<dyn Error>> {
     let refused = driven("{ name = 'time_hedway_s', at_least = 0.1 }").map(|_| ()).expect_err("a wrong name");
     let refused = format!("{refused:?}");
     assert!(refused.contains("there is no metric") && refused.contains("time_headway_s"), "{refused}");

@@ -26,5 +26,5 @@ fn two_seconds(scenario: &str) -> Result<bool, Box<dyn std::error::Error>> {
 
 #[test]
 fn a_rule_of_ones_own_drives_among_humans() {
-    assert!(two_seconds("lane-change/front-tough").expect("a run"), "it touches nobody");
+    assert!(two_seconds("lane-change/front-tough").expect("a run"), "it touches no vehicle");
 }

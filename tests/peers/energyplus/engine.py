@@ -132,7 +132,7 @@ class House:
         """Holds the heat. Returns the temperature at the end [°C], and the means over the time of the weather."""
         count = round(duration_s / STEP_S)
         if abs(count * STEP_S - duration_s) > 1e-6 or count < 1:
-            raise EngineError(f"a step of {duration_s} s is no multiple of {STEP_S} s")
+            raise EngineError(f"a step of {duration_s} s is not a multiple of {STEP_S} s")
         ambient_c = sun_w_per_m2 = 0.0
         for _ in range(count):
             # Before its time step EnergyPlus knows the air outside of that step, and the sun on the window of the one before.

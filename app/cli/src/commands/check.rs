@@ -17,7 +17,7 @@ pub(crate) struct Check {
     #[arg(value_name = "FILE|DIR", required = true)]
     paths: Vec<String>,
 
-    /// Who drives the ego instead of each scenario's choice
+    /// Planner of the ego instead of each scenario's own
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
@@ -54,7 +54,7 @@ impl Check {
     }
 }
 
-/// That a file is fine, what a run of it makes, and what is remarkable about it although it is allowed.
+/// A line that a file is sound, the size of a run of it, and remarks about unusual values.
 fn approved(file: &str, scenario: &Scenario) -> String {
     let network = scenario.building.as_ref().and_then(|building| building.network().ok());
     let remarks: Vec<_> = network.iter().flat_map(|network| network.remarks()).collect();

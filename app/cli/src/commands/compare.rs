@@ -61,7 +61,10 @@ enum By {
 impl Compare {
     pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
         if let Some(page) = self.page_path().filter(|page| Page::is_taken(page)) {
-            print_error(&format!("`{}` is no page of Interplay's; choose another name for --page", page.display()));
+            print_error(&format!(
+                "`{}` is not a page that Interplay wrote; choose another name for --page",
+                page.display()
+            ));
             return ExitStatus::BadInput;
         }
         let by = if self.by == By::Family { GroupBy::Family } else { GroupBy::Scenario };
@@ -111,7 +114,7 @@ impl Compare {
     }
 }
 
-/// Writes a page whole or not at all.
+/// Writes a page atomically.
 fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
     write_file(target, page.html().as_bytes())?;
     print_error(&format!("page in {}", target.display()));

@@ -110,7 +110,7 @@ impl ExportFmu {
         Some(format!("the FMU and the table cannot both be `{}`; choose another name for one", reference.display()))
     }
 
-    /// Runs the scenario and writes its steps, if that is asked for.
+    /// Runs the scenario and writes its steps, with `--reference`.
     fn write_reference(&self, scenario: &Scenario) -> Result<(), CommandError> {
         let Some(path) = &self.reference else { return Ok(()) };
         let building = Scenario { vehicles: Vec::new(), counterfactuals: Vec::new(), ..scenario.clone() };
@@ -149,7 +149,6 @@ fn table(scenario: &Scenario, log: &FrameLog) -> String {
     text
 }
 
-/// A field of a table.
 fn quoted(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))

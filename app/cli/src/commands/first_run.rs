@@ -5,7 +5,7 @@ use interplay_presentation::shell;
 use crate::output::print_error;
 use crate::output::program::this_program;
 
-/// What is run: two real cars come to a crossing without priority.
+/// The scenario of the first run: two real cars come to a crossing without priority.
 pub(crate) const SCENARIO: &str = "people/intersection";
 
 /// Prints three commands to try next, a line each with its effect.

@@ -10,9 +10,9 @@ use super::predict::refused;
 use crate::output::exit_status::ExitStatus;
 use crate::output::{ending, json, print};
 
-/// Find the human driver of ours that drives as a recorded vehicle did: time gap, comfort and style, with intervals at 95 %.
+/// Fit the human driver model to recorded vehicles: time gap, comfort and style, with 95 % intervals.
 ///
-/// The driver plans from each second with somebody ahead; its plans are compared with the record 1 to 3 s later.
+/// The driver plans from each second with a vehicle ahead; its plans are compared with the record 1 to 3 s later.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay fit USA_US101-4_1_T-1.xml --vehicle 468\n  \
@@ -22,7 +22,7 @@ pub(crate) struct Fit {
     #[arg(value_name = "RECORDING")]
     recording: PathBuf,
 
-    /// The vehicle, by its id; may be repeated [default: all that follow somebody for long enough]
+    /// The vehicle, by its id; may be repeated [default: all that follow another vehicle long enough]
     #[arg(long, value_name = "ID")]
     vehicle: Vec<String>,
 
@@ -57,7 +57,6 @@ impl Fit {
     }
 }
 
-/// The drivers in sentences.
 fn text(fitted: &[FittedDriver]) -> String {
     let mut text = String::new();
     for driver in fitted {

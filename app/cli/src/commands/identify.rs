@@ -74,7 +74,7 @@ impl Identify {
         }
         let scenario = match self.scenario_texts(&found, recorded) {
             Ok(scenario) => scenario,
-            // What was found says why.
+            // The findings give the reason.
             Err(error) => {
                 print_error(&format!("Error: {error}"));
                 return ExitStatus::BadInput;
@@ -87,7 +87,7 @@ impl Identify {
         ExitStatus::Well
     }
 
-    /// The scenario, and the table of its weather where whole days were recorded, if they are asked for.
+    /// The text of the scenario, and the table of its weather where whole days were recorded, with `--scenario`.
     fn scenario_texts(
         &self,
         found: &Identification,
@@ -164,7 +164,7 @@ impl Identify {
         };
         let found =
             identify_with_progress(&telemetry, &mapping.identify, &progress).map_err(|reason| match reason {
-                // These are said by the mapping; the table is not to blame.
+                // These errors are in the mapping, not in the table.
                 IdentifyError::Setting(_)
                 | IdentifyError::NothingToIdentify { .. }
                 | IdentifyError::TooMuchWork { .. }
@@ -176,7 +176,7 @@ impl Identify {
         Ok((found, telemetry.recorded_days()))
     }
 
-    /// Prints what was found, and draws it if that is asked for.
+    /// Prints the findings, and draws them with `--out`.
     fn print_findings(&self, found: &Identification) -> Result<(), CommandError> {
         if let Some(folder) = &self.out {
             let written = plot::identification(folder, found)?;
@@ -195,14 +195,14 @@ impl Identify {
     }
 }
 
-/// What is written of a network that was found.
+/// The files written of an identified network.
 struct ScenarioTexts {
     text: String,
     /// The recorded weather, and where it goes.
     weather: Option<(PathBuf, String)>,
 }
 
-/// How long a fit takes is told beforehand from here on \[s\].
+/// A fit that is expected to take longer than this says so before it starts \[s\].
 const TOLD_S: f64 = 10.0;
 /// Seconds after which a fit tells what it does.
 const SILENT_S: u64 = 5;
@@ -237,7 +237,6 @@ fn held_out(found: &Identification) -> String {
     text
 }
 
-/// Why telemetry cannot be used.
 #[derive(Debug, Error)]
 enum InputError {
     #[error("cannot read {}: {reason}{help}", path.display())]

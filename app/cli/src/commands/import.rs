@@ -43,7 +43,7 @@ pub(crate) struct Import {
     replace: Vec<Replacement>,
 }
 
-/// Whom to replace, and by whom: `all`, `all=human:tough`, `1213=idm`.
+/// A replaced vehicle and its driver: `all`, `all=human:tough`, `1213=idm`.
 fn replacement(text: &str) -> Result<Replacement, String> {
     let (vehicle, driver) = text.split_once('=').unwrap_or((text, "human"));
     if vehicle != "all" && !text.contains('=') {
@@ -57,7 +57,7 @@ fn replacement(text: &str) -> Result<Replacement, String> {
     Ok(Replacement { vehicle, kind: kind.to_owned(), style: style.map(str::to_owned) })
 }
 
-/// Why there is no scenario.
+/// Why an import wrote no scenario.
 #[derive(Debug, Error)]
 enum ImportError {
     #[error(transparent)]

@@ -32,7 +32,7 @@ pub(crate) struct New {
     from: String,
 }
 
-/// Why there is no new file.
+/// Why no new file was written.
 #[derive(Debug, Error)]
 enum NewError {
     #[error(transparent)]
@@ -76,7 +76,7 @@ impl New {
              # and that of the `#[table]` above them.\n\n"
         );
         let folders = NewFolders::make_above(&self.file).map_err(unwritable(&self.file))?;
-        // The schema first: whoever finds the scenario finds all of it.
+        // The schema first: once the scenario file exists, its schema does too.
         let schema = folder.join(SCHEMA_FILE);
         let is_missing = !schema.exists();
         if is_missing {

@@ -23,7 +23,7 @@ use crate::output::{ending, json, print, print_error, print_load_error};
 #[command(after_help = "Examples:\n  \
     interplay play                                        (a menu of all scenarios)\n  \
     interplay play lane-change/front-nice --as front      (be the driver whom the negotiator asks)\n  \
-    interplay play intersection/nice --join crossing      (a second page, for somebody else)\n  \
+    interplay play intersection/nice --join crossing      (a second page, for another player)\n  \
     interplay play lane-change/front-nice --input drive.jsonl --out played.toml\n  \
     interplay play --study people.toml --as front         (walk people through a plan, a row a run)\n\n\
     On another machine: `interplay play --no-browser --port 7777` there, `ssh -L 7777:localhost:7777 THERE` here, and the\n\
@@ -41,7 +41,7 @@ pub(crate) struct Play {
     #[arg(long = "as", value_name = "VEHICLE", requires = "played")]
     seat: Option<String>,
 
-    /// A second vehicle that somebody drives from a second page, whose address is printed, too
+    /// A second vehicle, which another player drives from a second page; its address is printed, too
     #[arg(long, value_name = "VEHICLE", requires = "scenario", conflicts_with = "input")]
     join: Option<String>,
 
@@ -49,7 +49,7 @@ pub(crate) struct Play {
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
 
-    /// Another address than that of this machine alone: whoever reaches it and knows the page's address can play
+    /// Address to listen on instead of this machine's own: anyone who reaches it and knows the page's address can play
     #[arg(long, value_name = "ADDRESS")]
     listen: Option<IpAddr>,
 
@@ -235,7 +235,7 @@ impl Play {
     }
 }
 
-/// Says why there is no study.
+/// Prints why a study cannot begin.
 fn refused_study(error: StudyError) -> ExitStatus {
     match error {
         StudyError::Plan(error) => gave_up(error),
@@ -246,20 +246,18 @@ fn refused_study(error: StudyError) -> ExitStatus {
     }
 }
 
-/// A file as text.
 fn text_of(path: &Path) -> Result<String, String> {
     let cannot = |reason: &dyn std::fmt::Display| format!("cannot read {}: {reason}", path.display());
     let bytes = read_regular(path, MAX_INPUT_BYTES).map_err(|reason| cannot(&reason))?;
     let bytes = bytes.ok_or_else(|| cannot(&"it is larger than 256 MiB"))?;
-    String::from_utf8(bytes).map_err(|_| cannot(&"it is no UTF-8 text"))
+    String::from_utf8(bytes).map_err(|_| cannot(&"it is not UTF-8 text"))
 }
 
-/// A score in words.
 fn words(score: &Score) -> String {
     let seconds = |at: Option<f64>| at.map_or_else(|| "never".to_owned(), |at| format!("after {at:.1} s"));
     let row = |row: &ScoreRow| {
         let gap = row.smallest_gap_m.map(|m| format!(", smallest gap {m:.2} m")).unwrap_or_default();
-        let touched = if row.contact { ", touched somebody" } else { "" };
+        let touched = if row.contact { ", touched another vehicle" } else { "" };
         format!("{}: goal {}{gap}{touched}\n", row.name, seconds(row.reached_s))
     };
     let story = score.story.iter().map(|line| format!("{line}\n"));

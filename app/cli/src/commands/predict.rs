@@ -14,8 +14,8 @@ use crate::output::{ending, json, print, print_error, print_load_error};
 /// Say how well drivers predict recorded cars, from each second 1 to 5 s ahead.
 ///
 /// Constant velocity, decaying acceleration, IDM and our human driver are compared. Models with parameters are fitted on one half of the
-/// cars and judged on the other. A prediction knows nothing that was recorded after its start, and nobody's plan. Each argument is a
-/// group of its own in the tables.
+/// cars and judged on the other. A prediction knows nothing that was recorded after its start, and no vehicle's plan. Each argument is
+/// a group of its own in the tables.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay predict recordings/\n  \
@@ -26,7 +26,7 @@ pub(crate) struct Predict {
     #[arg(value_name = "RECORDINGS", required = true)]
     recordings: Vec<PathBuf>,
 
-    /// Judge on at most so many starts, evenly from all of them [default: all]
+    /// Judge on at most N starts, evenly from all of them [default: all]
     #[arg(long, value_name = "N", value_parser = count::<NonZeroUsize>)]
     starts: Option<NonZeroUsize>,
 

@@ -54,7 +54,10 @@ impl Reproduce {
         }
         let page = self.out.join("index.html");
         if Page::is_taken(&page) {
-            print_error(&format!("`{}` is no page of Interplay's; choose another folder for --out", page.display()));
+            print_error(&format!(
+                "`{}` is not a page that Interplay wrote; choose another folder for --out",
+                page.display()
+            ));
             return ExitStatus::BadInput;
         }
         let began = Instant::now();

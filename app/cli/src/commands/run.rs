@@ -39,7 +39,7 @@ pub(crate) struct Run {
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
     scenario: Option<String>,
 
-    /// Who drives the ego instead of the scenario's choice
+    /// Planner of the ego instead of the scenario's own
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
@@ -192,7 +192,7 @@ impl Run {
         scenario.without_counterfactuals()
     }
 
-    /// What is run, as it was asked for.
+    /// The scenario that is run, with its changes.
     fn scenario(&self) -> &str {
         self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO)
     }
@@ -220,7 +220,7 @@ impl Run {
         Ok(RecordedRun { command: self.words(), shown_until_s: self.animate_until, ..recorded })
     }
 
-    /// Draws the page, if that is asked for.
+    /// Draws the page, with `--report`.
     fn page(&self, name: &str, recorded: &RecordedRun) -> Result<(), CommandError> {
         let Some(folder) = &self.report else { return Ok(()) };
         let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
@@ -231,13 +231,13 @@ impl Run {
         Ok(())
     }
 
-    /// Prints the report as it was asked for.
+    /// Prints the report, as text or as JSON.
     fn print_report(&self, title: &str, report: &Report) -> Result<(), CommandError> {
         let text = if self.json { json("the report", report)? } else { summary(title, report) };
         print(&text)
     }
 
-    /// The words that run the same again. What is done with the results is no part of them.
+    /// The arguments that repeat this run. Flags for its outputs are not among them.
     fn words(&self) -> Vec<String> {
         let planner = self.planner.iter().flat_map(|kind| ["--planner".to_owned(), kind.clone()]);
         let seed = self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]);

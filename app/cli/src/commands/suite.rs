@@ -85,7 +85,7 @@ impl Suite {
         }
     }
 
-    /// All scenarios with their names; `None` if any cannot be used, once all that is wrong has been said.
+    /// All scenarios with their names; `None` if any cannot be used, after all errors are printed.
     fn load(&self, registry: &Registry) -> Option<Vec<(String, Scenario)>> {
         let mut sound = true;
         let mut scenarios = Vec::new();
@@ -139,7 +139,7 @@ impl Suite {
         Ok(cases)
     }
 
-    /// Prints and writes the results as it was asked for.
+    /// Prints the results, and writes them with `--junit`.
     fn print_results(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
         print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) })?;
@@ -150,7 +150,7 @@ impl Suite {
 }
 
 impl Suite {
-    /// Where the animation of a scenario goes, if any is asked for.
+    /// Path of the animation of a scenario, with `--animate-failures`.
     fn animation(&self, name: &str) -> Option<AnimationFile> {
         let folder = self.animate_failures.as_ref()?;
         Some(AnimationFile::gif(folder.join(format!("{name}.gif"))))
@@ -160,7 +160,7 @@ impl Suite {
     fn refused_animation(&self, scenarios: &[(String, Scenario)], registry: &Registry) -> Option<String> {
         let folder = self.animate_failures.as_ref()?;
         if folder.exists() && !folder.is_dir() {
-            return Some(format!("`{}` is no folder; choose another name for --animate-failures", folder.display()));
+            return Some(format!("`{}` is not a folder; choose another name for --animate-failures", folder.display()));
         }
         let animations = scenarios.iter().filter_map(|(name, _)| self.animation(name));
         let path = animations.into_iter().find_map(|animation| self.destroyed_by(animation.path(), registry))?;

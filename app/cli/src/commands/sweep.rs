@@ -89,7 +89,7 @@ enum Action {
 enum Keep {
     /// Nothing
     None,
-    /// Recordings of runs in which the ego touched somebody or did not reach its goal
+    /// Recordings of runs in which the ego touched something or did not reach its goal
     Failures,
     /// What every vehicle did at every tick, a Parquet file a run; runs that were made before are not made again for it
     Trajectories,
@@ -230,7 +230,6 @@ fn runs(count: u64) -> String {
     if count == 1 { "1 run".to_owned() } else { format!("{count} runs") }
 }
 
-/// What a plan stands for.
 fn counted(plan: &SweepPlan) -> String {
     let [scenarios, styles, planners] = plan.names();
     let listed = |what: &str, names: &[&str]| {

@@ -21,7 +21,6 @@ pub(crate) struct View {
     files: Vec<PathBuf>,
 }
 
-/// Why nothing is shown.
 #[derive(Debug, Error)]
 enum ViewError {
     #[error("cannot read `{}`: {reason}; `interplay run` writes recordings", path.display())]

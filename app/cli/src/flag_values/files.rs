@@ -1,4 +1,4 @@
-//! The scenarios that an argument stands for, and what their runs are called.
+//! The scenarios that an argument selects, and the names of their runs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -7,7 +7,6 @@ use std::path::{Component, Path, PathBuf};
 use interplay_scenarios::{Override, Registry, embedded, files_below};
 use thiserror::Error;
 
-/// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ScenarioArgument {
     /// Name of its run ([`short_name`]); in a folder, its path below that folder, without the extension.
@@ -27,7 +26,7 @@ pub(crate) enum FolderError {
     Empty { folder: String },
 }
 
-/// What an argument stands for: an embedded scenario, a file, or all .toml files below a folder, sorted.
+/// The scenarios that an argument selects: an embedded scenario, a file, or all .toml files below a folder, sorted.
 ///
 /// # Errors
 /// [`FolderError`], if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.

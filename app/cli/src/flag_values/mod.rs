@@ -1,4 +1,4 @@
-//! What arguments stand for: scenarios, values, plans.
+//! Parsing of arguments: scenarios, values, plans.
 
 pub(crate) mod files;
 pub(crate) mod plan_flags;

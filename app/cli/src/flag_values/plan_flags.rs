@@ -14,7 +14,7 @@ pub(crate) struct PlanFlags {
     #[arg(long, value_name = "NAME|FILE|DIR")]
     scenario: Vec<String>,
 
-    /// Who drives the ego; may be repeated, to compare [default: as each file says]
+    /// Planner of the ego; may be repeated, to compare [default: as each file says]
     #[arg(long, value_name = "KIND", requires = "scenario")]
     planner: Vec<String>,
 
@@ -26,7 +26,7 @@ pub(crate) struct PlanFlags {
     #[arg(long, requires = "scenario")]
     counterfactuals: bool,
 
-    /// Who drives the other vehicles: a style of humans or a kind of driver; may be repeated [default: as each file says]
+    /// Drivers of the other vehicles: a style of humans or a kind of driver; may be repeated [default: as each file says]
     #[arg(long, value_name = "STYLE|KIND", requires = "scenario")]
     style: Vec<String>,
 

@@ -1,11 +1,11 @@
-//! Values of flags, with words for those that cannot be.
+//! Values of flags, with an error message for each kind.
 
 use std::str::FromStr;
 
 /// How many of something there are; `N` is a type of [`NonZero`](std::num::NonZero).
 ///
 /// # Errors
-/// What would work, if the text is no whole number of at least 1.
+/// What would work, if the text is not a whole number of at least 1.
 pub(crate) fn count<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse().map_err(|_| "write a whole number of at least 1".to_owned())
 }
@@ -13,7 +13,7 @@ pub(crate) fn count<N: FromStr>(text: &str) -> Result<N, String> {
 /// A seed as it is written on the command line.
 ///
 /// # Errors
-/// What would work, if the text is no such number.
+/// What would work, if the text is not such a number.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
@@ -21,7 +21,7 @@ pub(crate) fn seed(text: &str) -> Result<u64, String> {
 /// A time since the beginning of a run \[s\].
 ///
 /// # Errors
-/// What would work, if the text is no finite number of at least 0.
+/// What would work, if the text is not a finite number of at least 0.
 pub(crate) fn time(text: &str) -> Result<f64, String> {
     let found: Option<f64> = text.parse().ok();
     let found = found.filter(|time_s| time_s.is_finite() && *time_s >= 0.0);

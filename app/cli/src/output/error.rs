@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::run_outputs::OutputError;
 
-/// Why there is no result, or why it is not where it should be.
+/// Why a command has no result, or why the result is not where it should be.
 #[derive(Debug, Error)]
 pub(crate) enum CommandError {
     #[error(transparent)]
@@ -41,7 +41,7 @@ pub(crate) enum CommandError {
     Threads { jobs: usize, reason: rayon::ThreadPoolBuildError },
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file atomically.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> Result<(), CommandError> {
     interplay_files::write(path, content).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }

@@ -3,7 +3,7 @@
 /// How a command ended, from well to worst; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
-    /// Everything that was asked for was done and held.
+    /// The command did its work, and all expectations held.
     Well = 0,
     /// An expectation failed.
     Failed = 1,

@@ -1,4 +1,4 @@
-//! What commands say: results on stdout, everything else on stderr.
+//! Output of commands: results on stdout, everything else on stderr.
 
 pub(crate) mod error;
 pub(crate) mod exit_status;
@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::output::error::CommandError;
 use crate::output::exit_status::ExitStatus;
 
-/// Prints a result. A reader that has gone away (a closed pipe) is no error of ours.
+/// Prints a result. A closed pipe is not an error.
 ///
 /// # Errors
 /// [`CommandError::Output`] if the result is not where it should be, such as on a full disk.
@@ -25,7 +25,7 @@ pub(crate) fn print(text: &str) -> Result<(), CommandError> {
     delivered(out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()))
 }
 
-/// A reader that has gone away is no error.
+/// A closed pipe is not an error.
 fn delivered(written: io::Result<()>) -> Result<(), CommandError> {
     match written {
         Err(reason) if reason.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(reason)),
@@ -54,7 +54,6 @@ pub(crate) fn ending(shown: Result<(), CommandError>) -> ExitStatus {
     }
 }
 
-/// Says what went wrong.
 pub(crate) fn print_error(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }
@@ -77,7 +76,7 @@ fn harmless(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Says what is wrong with a file, with the place underlined; in colours only where none of the texts in it has any of its own.
+/// Prints the error in a file with its place underlined; in colour only if none of the texts in it contains colours.
 pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
     let mut plain = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
@@ -89,7 +88,7 @@ pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
     }
 }
 
-/// Says what is wrong with the arguments; in colours only where none of them has any of its own.
+/// Prints the error in the arguments; in colour only if none of them contains colours.
 pub(crate) fn print_usage_error(said: &clap::Error) {
     let plain = said.render().to_string();
     if plain.chars().all(is_plain) {

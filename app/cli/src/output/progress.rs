@@ -1,4 +1,4 @@
-//! How far a long command has come, for whoever sits in front of it.
+//! Progress of a long command, for the user at the terminal.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::output::print_error;
 
-/// A line on stderr that is written over and over; nothing if stderr is no terminal.
+/// A line on stderr that is rewritten in place; nothing if stderr is not a terminal.
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
@@ -37,13 +37,12 @@ impl Progress {
         self.0.inc(1);
     }
 
-    /// Removes the progress line.
     pub fn clear(self) {
         self.0.finish_and_clear();
     }
 }
 
-/// How far a check has come, told once it has taken a second: a line that is written once and, on a terminal, one that counts.
+/// Progress of a check that takes longer than a second: a line that is written once and, on a terminal, a counter.
 pub(crate) struct CheckProgress {
     began: Instant,
     runs: u64,
@@ -77,7 +76,6 @@ impl CheckProgress {
         bar.set_position(checked);
     }
 
-    /// Removes the progress line.
     pub fn clear(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();

@@ -6,7 +6,7 @@ use crate::output::exit_status::ExitStatus;
 use crate::output::{print_error, print_load_error};
 use crate::run_outputs::OutputError;
 
-/// Says why there is no result.
+/// Prints why a command has no result.
 pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
     let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
     match error {

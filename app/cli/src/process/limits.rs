@@ -1,4 +1,4 @@
-//! What the system's limits do to a command: exit code 3 with a reason, and no signal that ends the process.
+//! Limits of the system: a command that meets one ends with exit code 3 and a reason, not by a signal.
 
 use std::io;
 use std::thread;
@@ -13,7 +13,7 @@ const STACK_BYTES: usize = 16 << 20;
 /// # Errors
 /// The system's reason, if it has no such threads.
 pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> io::Result<T> {
-    // Beforehand, for rayon panics where it cannot start them later. Whoever has built them already is no error.
+    // Beforehand, since rayon panics where it cannot start them later. A pool that exists already is not an error.
     if let Err(reason) = ThreadPoolBuilder::new().build_global()
         && !is_there_already(&reason)
     {
@@ -22,7 +22,7 @@ pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -
     thread::scope(|scope| {
         let worker = thread::Builder::new().name("main work".to_owned()).stack_size(STACK_BYTES);
         let worker = worker.spawn_scoped(scope, work)?;
-        // A panic goes on as it would have without this thread.
+        // A panic of the work continues on this thread.
         Ok(worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }
@@ -34,13 +34,13 @@ fn is_there_already(reason: &ThreadPoolBuildError) -> bool {
 /// Writing more than `ulimit -f` allows fails as on a full disk, and does not end the process.
 #[cfg(unix)]
 pub(crate) fn writing_too_much_is_an_error() {
-    #![expect(unsafe_code, reason = "there is no other way to ignore a signal")]
+    #![expect(unsafe_code, reason = "a signal cannot be ignored in another way")]
     // SAFETY: the arguments are constants of the system, and no other thread runs yet.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
     }
 }
 
-/// There is no such signal here.
+/// Other systems have no such signal.
 #[cfg(not(unix))]
 pub(crate) fn writing_too_much_is_an_error() {}

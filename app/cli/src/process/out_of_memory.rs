@@ -1,4 +1,4 @@
-//! What happens when there is no more memory: exit code 3, as with everything else that cannot be finished.
+//! A process that runs out of memory ends with exit code 3, as every command that cannot finish.
 //!
 //! Without this the process would be aborted, which a build server cannot tell from a crash; elsewhere than on Unix it still is. What
 //! it has written is left as after a kill.

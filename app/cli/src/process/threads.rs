@@ -9,7 +9,7 @@ use crate::output::error::CommandError;
 /// Most threads for each core: more would only wait for one another.
 const MOST_PER_CORE: usize = 4;
 
-/// Threads for so many of `runs` at a time, at most four for each core; without a number, one for each core.
+/// Number of threads for `runs` in parallel: at most four per core; without a number, one per core.
 ///
 /// # Errors
 /// [`CommandError::Threads`] if the system refuses them.

@@ -1,4 +1,4 @@
-//! What `run` writes of a run besides its report and its recording, for the command and for Python: one value for each flag.
+//! Outputs of `run` besides its report and its recording, for the command and for Python: one value for each flag.
 
 mod animation;
 mod commonroad;
@@ -44,9 +44,9 @@ pub(crate) trait RunOutput {
 
 /// An output of a run that has not ended.
 pub(crate) struct BegunOutput {
-    /// Writes while the run goes on.
+    /// Writes during the run.
     watcher: Option<Box<dyn Watcher>>,
-    /// Writes when the run is over, and returns in words what is where.
+    /// Writes after the run, and returns a line that names the files.
     finish: FinishOutput,
 }
 
@@ -55,7 +55,7 @@ type FinishOutput = Box<dyn FnOnce(&RecordedRun) -> Result<String, OutputError> 
 /// Why an output is not where it should be.
 #[derive(Debug, Error)]
 pub enum OutputError {
-    /// The scenario cannot be written in the form that is asked for.
+    /// The scenario cannot be written in the requested format.
     #[error("{0}")]
     Refused(Box<LoadError>),
     /// A moving picture cannot be made or written.
@@ -77,7 +77,7 @@ pub enum OutputError {
 /// Declares the flags: each is a file of its type, which implements [`RunOutput`].
 macro_rules! run_outputs {
     ($($(#[$about:meta])* $flag:ident: $File:ty;)*) => {
-        /// The outputs of a run that are asked for.
+        /// The requested outputs of a run.
         #[derive(Clone, Debug, Default, Args)]
         pub struct RunOutputs {
             $($(#[$about])* #[arg(long)] $flag: Option<$File>,)*
@@ -87,7 +87,7 @@ macro_rules! run_outputs {
             /// Asks for the output of a flag, without its dashes.
             ///
             /// # Errors
-            /// If there is no such flag, or the ending of the file is not one of its formats.
+            /// If no such flag exists, or the ending of the file is not one of its formats.
             pub fn ask_for(&mut self, flag: &str, path: &str) -> Result<(), String> {
                 match flag {
                     $(stringify!($flag) => {
@@ -163,12 +163,12 @@ impl RunOutputs {
 pub struct BegunOutputs(Vec<BegunOutput>);
 
 impl BegunOutputs {
-    /// What writes while the run goes on.
+    /// The watchers that write during the run.
     pub fn watchers(&mut self) -> Vec<Box<dyn Watcher>> {
         self.0.iter_mut().filter_map(|output| output.watcher.take()).collect()
     }
 
-    /// Writes what is written when the run is over, and tells in words what is where.
+    /// Writes the outputs that need the whole run, and returns lines that name the files.
     ///
     /// # Errors
     /// [`OutputError`] of the first that cannot be written.

@@ -1,4 +1,4 @@
-//! `run --trajectories`, `--detectors` and `--series`: tables that are written while the run goes on.
+//! `run --trajectories`, `--detectors` and `--series`: tables that are written during the run.
 
 use std::path::Path;
 use std::str::FromStr;

@@ -11,12 +11,11 @@ use crate::flag_values::files::{destroyed, is_page_file, is_same_file};
 pub(crate) struct WrittenFiles<'a> {
     /// Each with what it is.
     pub files: Vec<(&'static str, &'a Path)>,
-    /// The folder of the page.
     pub page: Option<&'a Path>,
 }
 
 impl WrittenFiles<'_> {
-    /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
+    /// Why an output must not be written: it would replace an input, another output, or a page that Interplay did not write.
     pub(crate) fn refused(&self, registry: &Registry, scenario: &str, overrides: &[Override]) -> Option<String> {
         self.takes_an_input(registry, scenario, overrides)
             .or_else(|| self.is_of_page())
@@ -51,6 +50,6 @@ impl WrittenFiles<'_> {
 
     fn takes_a_page(&self) -> Option<String> {
         let page = self.page.map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))?;
-        Some(format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()))
+        Some(format!("`{}` is not a page that Interplay wrote; choose another folder for --report", page.display()))
     }
 }
