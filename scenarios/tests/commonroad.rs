@@ -63,7 +63,7 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
     for line in [
         "1 sign `277`: not carried over yet",
         "1 traffic light: left out",
-        "1 obstacle that is no rectangle: carried over as the box around it",
+        "1 obstacle that is not a rectangle: carried over as the box around it",
     ] {
         assert!(imported.notes.iter().any(|note| note.starts_with(line)), "no {line:?} in {:#?}", imported.notes);
     }
@@ -144,7 +144,7 @@ fn errors_are_located_in_the_imported_file() {
         let text = shown(&error);
         assert!(text.contains(fragment) && text.contains("motorway.xml:"), "{instead}: {text}");
     }
-    // Whoever asks for a driver that does not exist is told so where the planning problem is written.
+    // An unknown driver is reported at the planning problem.
     let options = ImportOptions { ego: Some("humane".to_owned()), ..ImportOptions::default() };
     let imported = import_commonroad("motorway.xml", &motorway, &options).expect("as far as the importer sees");
     let error = imported.resolve(Registry::standard()).expect_err("no such driver");

@@ -78,7 +78,7 @@ fn flags_change_counterfactuals_too_and_their_own_changes_win() {
     assert!(loaded(&variant("planner = 'idm'"), &[set("counterfactual=[]")]).counterfactuals.is_empty());
 }
 
-/// A counterfactual of a mechanism that the planner of a flag does not have is no error of the file.
+/// A counterfactual of a mechanism that the planner of a flag does not have is not an error of the file.
 #[test]
 fn what_flags_have_made_impossible_is_left_out() {
     let text = variant("set = { vehicle.ego.driver.persuasion = false }");

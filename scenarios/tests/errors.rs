@@ -286,7 +286,7 @@ fn plants_and_crashes() {
     let crash = |pair: &'static str| [("no_collision = true", pair)];
     refusal(
         &mut errors,
-        "crash_with_nobody",
+        "crash_with_an_unknown_vehicle",
         &crash("collisions = [[\"ego\", \"frnt\"]]"),
         &["no vehicle `frnt`", "`front`?"],
     );

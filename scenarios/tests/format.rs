@@ -132,7 +132,7 @@ fn another_planner_keeps_the_settings_that_it_knows() {
 }
 
 #[test]
-fn whoever_says_nothing_carries_on() {
+fn a_vehicle_without_a_goal_keeps_its_lane_and_speed() {
     let scenario = least("", &[]);
     let car = &scenario.vehicles[0];
     assert_eq!(car.target(&scenario.road), car.start);
@@ -320,7 +320,7 @@ fn the_schema_gives_every_number_a_unit_and_every_key_a_default_or_an_example() 
     assert!(numbers > 100, "{numbers}");
 }
 
-/// A default or an example that breaks a bound of its own key would mislead whoever copies it.
+/// A default or an example that breaks a bound of its own key would mislead users who copy it.
 #[test]
 fn defaults_and_examples_are_within_their_bounds() {
     let root = schema();
@@ -337,7 +337,7 @@ fn defaults_and_examples_are_within_their_bounds() {
     assert!(bounded > 100, "{bounded}");
 }
 
-/// The source assumes that everybody's plan is known. A figure that rests on it says so.
+/// The dissertation assumes that all plans are known. Each figure that depends on this says so.
 #[test]
 fn every_driving_figure_states_that_plans_are_known() {
     let text = |name: &str| embedded().iter().find(|file| file.name == name).map(|file| file.text).unwrap_or_default();

@@ -150,7 +150,7 @@ fn a_script_says_something_in_the_order_of_time() {
     let of_script =
         |orders: &str| from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(orders)), &[]);
     let scenario = of_script(sound).expect("a script");
-    // Whoever has no script states none, and is written so.
+    // A driver without a script is written without one.
     let idle = Override::Set("vehicle.car.driver={ kind = \"scripted\" }".to_owned());
     let idle = from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(sound)), &[idle]);
     for scenario in [scenario, idle.expect("no script")] {

@@ -213,7 +213,11 @@ fn wrong_schedules_and_prices() {
     };
     let office = "\n[[schedule]]\nzones = [\"office\"]\n";
     let period = "\n[[schedule.period]]\nfrom_h = 8.0\nto_h = 18.0\nwanted_c = 21.0\n";
-    refused("schedule_of_nobody", &office.replace("office", "ofice"), &["bad.toml:30:10", "did you mean `office`?"]);
+    refused(
+        "schedule_of_an_unknown_zone",
+        &office.replace("office", "ofice"),
+        &["bad.toml:30:10", "did you mean `office`?"],
+    );
     let night = period.replace("8.0\nto_h = 18.0", "22.0\nto_h = 6.0");
     refused("a_night_in_one_period", &format!("{office}{night}"), &["bad.toml:34:8", "from 22 to 24 and from 0 to 6"]);
     refused("periods_that_overlap", &format!("{office}{period}{period}"), &["bad.toml:38:10", "overlaps"]);

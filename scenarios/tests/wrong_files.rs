@@ -60,7 +60,7 @@ fn the_text_of_a_file_of_another_kind_is_not_shown() {
     for (text, words) in [
         (
             "extends = 'passwd'\n".to_owned(),
-            ["mine.toml:1:11", "`FOLDER/passwd` is no scenario: its line 1 is not valid TOML"],
+            ["mine.toml:1:11", "`FOLDER/passwd` is not a scenario: its line 1 is not valid TOML"],
         ),
         ("extends = 'latin'\n".to_owned(), ["mine.toml:1:11", "`FOLDER/latin` is not UTF-8 text"]),
         (format!("{house}[weather]\nkind = 'epw'\nfile = 'passwd'\n"), ["passwd:1:1", "begins with `LOCATION,`"]),
@@ -72,8 +72,8 @@ fn the_text_of_a_file_of_another_kind_is_not_shown() {
             format!("{house}[weather]\nkind = 'csv'\nfile = 'passwd.csv'\ntemperature = 'T'\n"),
             ["passwd.csv:2:1", "fields"],
         ),
-        (format!("{house}[tariff]\nfile = 'passwd'\n"), ["passwd:2:1", "is no table of prices"]),
-        (format!("{house}[[gains]]\nfile = 'passwd'\n"), ["passwd:2:1", "is no table of gains"]),
+        (format!("{house}[tariff]\nfile = 'passwd'\n"), ["passwd:2:1", "is not a table of prices"]),
+        (format!("{house}[[gains]]\nfile = 'passwd'\n"), ["passwd:2:1", "is not a table of gains"]),
         (format!("{car}driver = {{ kind = 'recorded', file = 'passwd' }}\n"), ["passwd:1:1", "has no column"]),
     ] {
         let path = write("mine.toml", text.as_bytes());

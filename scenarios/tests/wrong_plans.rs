@@ -189,19 +189,19 @@ const WRONG: &[plans::WrongPlan] = &[
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { unifrom = [1.0, 1.2] }\n",
         3,
         35,
-        "`unifrom` is no distribution",
+        "`unifrom` is not a distribution",
     ),
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { mean = 1.0, sd = 0.1 }\n",
         3,
         35,
-        "`mean` is no distribution",
+        "`mean` is not a distribution",
     ),
     (
         "scenario = ['intersection/nice']\n[vary]\n'vehicle.*.driver.safety_weight' = { lognormal = [1.0, 1.2] }\n",
         3,
         38,
-        "`lognormal` is no distribution",
+        "`lognormal` is not a distribution",
     ),
     // What concerns vehicles, of a building.
     ("scenario = ['building/tower']\nstyle = ['nice']\n", 2, 10, "no vehicles"),

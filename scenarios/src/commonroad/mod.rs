@@ -69,7 +69,7 @@ pub(crate) fn import_file(path: &Path, options: &ImportOptions) -> Result<Import
 /// Imports a scenario of CommonRoad from its text; `name` is what errors call it.
 ///
 /// # Errors
-/// Where the text is no such scenario, or its lanelets and vehicles cannot be made a scenario of; each located.
+/// If the text is not such a scenario, or its lanelets and vehicles cannot become a scenario; each error is located.
 pub fn import_commonroad(name: &str, text: &str, options: &ImportOptions) -> Result<Imported, LoadError> {
     imported(name, text, options).map_err(|fault| LoadError::new(name, vec![fault]))
 }

@@ -1,6 +1,6 @@
-//! What may be chosen of an import.
+//! Options of an import.
 
-/// What whoever imports a scenario may choose.
+/// Options of an import.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// The kind of driver of the ego; a nice human without one.

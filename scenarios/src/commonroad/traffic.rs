@@ -12,7 +12,7 @@ use crate::text::error::{Fault, LoadError};
 /// Reads the recorded traffic of a scenario of CommonRoad: every lanelet for vehicles, and every dynamic obstacle with a trajectory.
 ///
 /// # Errors
-/// Where the file cannot be read or is no such scenario; each located.
+/// If the file cannot be read or is not such a scenario; each error is located.
 pub fn recorded_traffic_in_commonroad(path: &Path) -> Result<RecordedTraffic, LoadError> {
     let name = path.display().to_string();
     let read = imported_text(path).and_then(|text| traffic(&name, &text));

@@ -22,7 +22,7 @@ impl<'a> Xml<'a> {
     /// Parses a text; `name` is what errors call it.
     ///
     /// # Errors
-    /// Where it is no well-formed XML.
+    /// If it is not well-formed XML.
     pub(super) fn parse(name: &str, text: &'a str) -> Result<Xml<'a>, Fault> {
         let document = Document::new(name, text, 1);
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
@@ -111,7 +111,7 @@ impl<'a> Element<'a> {
     /// The number in it.
     ///
     /// # Errors
-    /// For a text that is no number, and for one that is not finite or has more than nine digits.
+    /// For a text that is not a number, and for a number that is not finite or has more than nine digits.
     pub(super) fn number(&self) -> Result<f64, Fault> {
         self.as_number(self.text())
     }
@@ -123,7 +123,7 @@ impl<'a> Element<'a> {
     pub(super) fn as_number(&self, text: &str) -> Result<f64, Fault> {
         let value: Option<f64> = text.parse().ok();
         value.filter(|value| value.abs() <= MAX_NUMBER).ok_or_else(|| {
-            let message = format!("{} is {}, which is no number up to {MAX_NUMBER:.0}", self.shown(), quoted(text));
+            let message = format!("{} is {}, which is not a number up to {MAX_NUMBER:.0}", self.shown(), quoted(text));
             self.fault("no number", message)
         })
     }
@@ -166,7 +166,7 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Elements that nobody has read, by their place in the file, such as `lanelet/userBidirectional`, and how many there are.
+/// Elements that were not read, by their path in the file, such as `lanelet/userBidirectional`, and how many there are.
 #[derive(Debug, Default)]
 pub(super) struct Unread(BTreeMap<String, usize>);
 

@@ -7,9 +7,9 @@ use crate::model::traffic::lane_reference::LaneReference;
 use crate::model::traffic::obstacle::ObstacleKind;
 use crate::text::name;
 
-/// Something that stands on or beside the road, or moves by a timetable, and that nobody drives: a parked car, a cone, a wall. Its place is
+/// An object without a driver that stands on or beside the road or moves by a timetable: a parked car, a cone, a wall. Its position is
 /// stated in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`); its shape by `length_m` and `width_m`, by `radius_m`, or
-/// by `corners_m`, and by default its kind says it.
+/// by `corners_m`, and by default by its kind.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Obstacle")]

@@ -91,7 +91,7 @@ pub struct ScenarioFile {
     #[serde(rename = "flow", default)]
     #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub flows: Vec<FlowConfig>,
-    /// What stands on the road or beside it and nobody drives, one `[[obstacle]]` each.
+    /// The objects without a driver on the road or beside it, one `[[obstacle]]` each.
     #[serde(rename = "obstacle", default)]
     #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub obstacles: Vec<ObstacleConfig>,

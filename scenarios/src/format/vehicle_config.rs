@@ -132,17 +132,17 @@ vehicle_keys! {
         #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
         Option<Stated<Driver>>
     };
-    /// Whether it keeps all rules of roads whose lanes have names, whoever drives it: speed limits, stop signs and right of way. It then
-    /// drives no faster than it wants, and a human or a driver after the intelligent driver model passes what stands in its way. Without
-    /// it these two keep right of way and signs, and planners settle the order themselves.
+    /// Whether it keeps all rules of roads whose lanes have names, with any driver: speed limits, stop signs and right of way. It then
+    /// never exceeds its desired speed, and a human or an IDM driver passes obstacles in its way. Without this key, these two drivers
+    /// keep right of way and signs, and planners settle the order themselves.
     #[schemars(example = json!("kept"))]
     rules: Option<RuleKeeping> => rules, for_all {
         /// Whether vehicles keep the rules of the road.
         #[schemars(example = json!("kept"))]
         Option<RuleKeeping>
     };
-    /// When it comes on the road; by default it is there from the start. It comes once there is room: nobody stands or drives so near
-    /// before it that it would have to brake at once \[s\].
+    /// When it enters the road; by default it is there from the start. It waits until there is room: no vehicle ahead is so near
+    /// that it would have to brake at once \[s\].
     #[schemars(range(min = 0.0), example = 12.0)]
     enters_s: Option<f64> => stay.enters_s;
     /// When it leaves the road; by default never \[s\].

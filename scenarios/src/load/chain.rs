@@ -10,16 +10,16 @@ use crate::text::error::{Fault, Place, quoted};
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
 
-/// Who names a source.
+/// What names a source.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum NamedBy {
-    /// Whoever gave the command: errors may show what is written in it.
+    /// The user of the command: errors may show the text of the source.
     Command,
-    /// Another file, whose author need not be who runs it: of a file that is no scenario, errors show no text.
+    /// Another file, whose author may not be the user: errors show no text of a file that is not a scenario.
     File,
 }
 
-/// Whether the faults are about the source as a whole, so that whoever refers to it is to blame.
+/// Whether the faults are about the source as a whole, so that the reference to it is to blame.
 pub(super) type Refusal = (bool, Vec<Fault>);
 
 /// The faults of a source that is named at `place`.
@@ -50,11 +50,11 @@ pub(super) fn read_link(
     extended(source, node, chain, schema).map_err(|faults| (false, faults))
 }
 
-/// That a source is no TOML, without its text.
+/// The fault of a source that is not TOML, without its text.
 fn no_scenario(source: &Source, faults: Vec<Fault>) -> Fault {
     let title = quoted(&source.title());
     let line = faults.iter().filter_map(Fault::line_and_column).map(|(line, _)| line).min().unwrap_or(1);
-    Fault::new(format!("{title} is no scenario: its line {line} is not valid TOML"))
+    Fault::new(format!("{title} is not a scenario: its line {line} is not valid TOML"))
         .help(format!("name a scenario; if it is one, `interplay check` of {title} itself shows what is wrong there"))
 }
 

@@ -68,7 +68,7 @@ pub(super) fn faults(
     own
 }
 
-/// A fault if `set` changes what is no condition of a run.
+/// A fault if `set` changes a key that is not a condition of a run.
 fn refused(key: &str, entry: &TomlEntry) -> Option<Fault> {
     let first = key.split('.').next().unwrap_or_default().trim();
     let help = match first {

@@ -170,7 +170,7 @@ pub(crate) fn changed_tree(
     Ok(tree)
 }
 
-/// The same of a source that a plan names at `place`, which is to blame for a file that is no scenario.
+/// The same for a source that a plan names at `place`, which is to blame for a file that is not a scenario.
 pub(crate) fn tree_named_at(registry: &Registry, source: &str, place: &Place) -> Result<TomlNode, Vec<Fault>> {
     let source = Source::find(source).map_err(|error| error.faults().to_vec())?;
     read_link(&source, NamedBy::File, &mut Vec::new(), registry.complete()).map_err(|refusal| blamed_on(place, refusal))

@@ -1,7 +1,7 @@
-//! What is said of a metric: all that reports, rows of sweeps, comparisons and expectations need to know of it.
+//! The declaration of a metric: all that reports, rows of sweeps, comparisons and expectations need to know about it.
 //!
-//! How a metric follows from the ticks of a run is declared in the same place, by whoever steps a scenario. This crate
-//! knows only what is said of it.
+//! The simulation declares in the same place how a metric follows from the ticks of a run. This crate knows only the
+//! declaration.
 
 use std::any::Any;
 use std::collections::BTreeSet;

@@ -42,7 +42,7 @@ use crate::model::traffic::weights::Weights;
 use crate::roads::{Branch, Road};
 use crate::text::name::EGO;
 
-/// So many vehicles and fewer are no crowd.
+/// The most vehicles that are not yet a crowd.
 pub(crate) const MOST_TOLD: usize = 40;
 
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
@@ -131,7 +131,7 @@ impl Scenario {
         self.index_of(EGO).unwrap_or(0)
     }
 
-    /// The scenario without its counterfactuals: they are claims about its own planner, and nothing to somebody else at the wheel.
+    /// The scenario without its counterfactuals: they are claims about its own planner and do not apply to another driver.
     pub fn without_counterfactuals(self) -> Scenario {
         Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..self }
     }
@@ -154,7 +154,7 @@ impl Scenario {
         }
     }
 
-    /// Whether there are so many vehicles that recordings and pictures tell of those near the ego alone.
+    /// Whether recordings and pictures show only the vehicles near the ego, because there are too many.
     pub fn is_crowd(&self) -> bool {
         self.vehicles.len() > MOST_TOLD
     }
@@ -270,7 +270,7 @@ pub struct Vehicle {
     pub rules: Option<RuleKeeping>,
     /// When it is on the road.
     pub stay: Stay,
-    /// What it is if nobody drives it.
+    /// The obstacle that it is, if it has no driver.
     pub obstacle: Option<ObstacleForm>,
     /// What it senses of the others; without it, it sees every state as it is.
     pub sensing: Option<sensing::Settings>,
@@ -303,8 +303,8 @@ impl Vehicle {
     }
 
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
-    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
-    /// tracks it.
+    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start; no
+    /// controller tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
@@ -336,7 +336,7 @@ impl Vehicle {
         self.driver.planner_believing(&self.inference.unwrap_or_default())
     }
 
-    /// Its sensor with the errors of a seed; none where it sees everybody as it is.
+    /// Its sensor with the errors of a seed; `None` if it sees the exact states.
     pub fn sensor(&self, seed: u64) -> Option<Sensor> {
         self.sensing.map(|settings| Sensor::new(settings, seed))
     }

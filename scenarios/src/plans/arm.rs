@@ -76,7 +76,7 @@ impl Arm {
             Table::from([("kind".to_owned(), entry(word))])
         } else {
             let words: Vec<&str> = styles.into_iter().chain(kinds).collect();
-            let message = format!("{} is no style and no kind of driver", quoted(word));
+            let message = format!("{} is neither a style nor a kind of driver", quoted(word));
             return Err(vec![Fault::at(&node.place, "unknown", message).help(suggestion(word, "choose from", &words))]);
         };
         let path = path_of("vehicle.*.driver", &node.place).map_err(|fault| vec![fault])?;

@@ -108,7 +108,7 @@ fn misspelt(path: &SettingPath, table: &Table, schema: SchemaNode) -> Option<Fau
     if !is_value && (!is_close || property.is_none_or(|schema| schema.property(key).is_some())) {
         return None;
     }
-    let message = format!("{} is no distribution of the values of {}", quoted(key), quoted(&path.written()));
+    let message = format!("{} is not a distribution of the values of {}", quoted(key), quoted(&path.written()));
     let near = nearest(key, DISTRIBUTIONS).map(|near| format!("did you mean `{near}`? "));
     Some(Fault::at(&entry.key, "unknown", message).help(format!("{}{EXAMPLE}", near.unwrap_or_default())))
 }
@@ -121,7 +121,7 @@ fn values_of(node: &TomlNode) -> Result<Values, Fault> {
         TomlValue::Array(items) => Ok(Values::List(items.clone())),
         TomlValue::Table(table) => distribution(node, table),
         other => {
-            let message = format!("{} is no list and no distribution", kind_of(other));
+            let message = format!("{} is neither a list nor a distribution", kind_of(other));
             Err(Fault::at(&node.place, "does not vary", message)
                 .help(format!("{EXAMPLE}; one value belongs in `[set]`")))
         }
@@ -170,7 +170,7 @@ fn distribution(node: &TomlNode, table: &Table) -> Result<Values, Fault> {
     }
 }
 
-/// Evenly spaced values between two ends: so many, or by a step.
+/// Evenly spaced values between two ends, by a count or by a step.
 fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> Result<Values, Fault> {
     let integers = match &ends.value {
         TomlValue::Array(items) => items.iter().filter_map(integer).collect(),

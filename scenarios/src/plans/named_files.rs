@@ -1,4 +1,4 @@
-//! What the files say that a scenario only names: whoever compares scenarios must compare it, too.
+//! The contents of the files that a scenario names: a comparison of scenarios must compare them, too.
 
 use interplay_building::energy::Tariff;
 

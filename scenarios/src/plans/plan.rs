@@ -124,7 +124,7 @@ impl SweepPlan {
         self.samples_of_all_styles()?.checked_mul(planners)
     }
 
-    /// How many runs there are with so many scenarios; none if they are more than can be counted.
+    /// How many runs there are with `scenarios` scenarios; `None` if the number overflows.
     pub(super) fn count_for(&self, scenarios: usize) -> Option<u64> {
         self.samples_of_all_styles()?.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
     }
@@ -186,7 +186,7 @@ impl SweepPlan {
     /// A run.
     ///
     /// # Panics
-    /// If there are not so many runs.
+    /// If `index` is not below the number of runs.
     pub fn point(&self, index: u64) -> SweepPoint {
         assert!(index < self.run_count(), "the plan has no run {index}");
         let mut rest = index;

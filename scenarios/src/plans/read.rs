@@ -66,8 +66,8 @@ impl SweepPlan {
 }
 
 impl Registry {
-    /// The plan of that name in the binary, otherwise the file at that path; with a number of samples, with so many instead of
-    /// its own.
+    /// The plan of that name in the binary, otherwise the file at that path; `samples`, if stated, replaces its own number of
+    /// samples.
     ///
     /// # Errors
     /// Whatever is wrong with it, each error located.
@@ -269,7 +269,7 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
     let asked = count.map_or("more runs than can be counted".to_owned(), |count| format!("{count} runs"));
     let blamed = ["samples", "vary", "max_runs", "scenario"].iter().find_map(|key| tree.at(key));
     let message = format!("the plan asks for {asked}, and at most {most} are allowed");
-    let help = "state fewer samples or values; if so many are meant, state a larger `max_runs`";
+    let help = "state fewer samples or values, or a larger `max_runs`";
     Err(vec![Fault::at(blamed.map_or(&tree.place, |node| &node.place), "too many", message).help(help)])
 }
 

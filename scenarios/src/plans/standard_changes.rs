@@ -1,6 +1,6 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
-//! - the style of each human, nice or tough, and of whoever walks; instead of another driver who minds nobody's wishes, a human of either style;
+//! - the style of each human, nice or tough, and of each pedestrian; for another driver that does not interact, a human of either style;
 //! - the planner of each interactive vehicle: negotiation, conservative or cooperative (`DriverKind::replacement_in_why`);
 //! - instead of it, the intelligent driver model, which does not interact: a factor of its own;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
@@ -69,8 +69,8 @@ impl Registry {
 }
 
 impl Registry {
-    /// The settings that the planner of an interactive vehicle would have in a scenario whose file says nothing of them; none for
-    /// those who mind nobody's wishes.
+    /// The settings that the planner of an interactive vehicle would have in a scenario whose file does not state them; `None` for
+    /// drivers that do not interact.
     fn plain_driver(&self, name_or_path: &str, vehicle: &Vehicle, overrides: &[Override]) -> Option<Driver> {
         if vehicle.driver.goes_first() {
             return None;
@@ -106,7 +106,7 @@ fn changes(vehicle: &Vehicle, plain: Option<&Driver>, registry: &Registry) -> Ve
             let others = styles.filter(|style| style.safety_weight() != settings.weight());
             others.map(|style| style_change(vehicle, style)).collect()
         }
-        // Somebody on foot is no driver, and keeps what makes it begin to walk.
+        // A pedestrian cannot become a driver, and keeps its trigger.
         Driver::Walker(settings) => {
             let styles = [WalkerStyle::Careful, WalkerStyle::Normal, WalkerStyle::Bold].into_iter();
             styles.filter(|style| *style != settings.style).filter_map(|style| walker_change(vehicle, style)).collect()

@@ -58,7 +58,7 @@ pub(crate) fn of(first: [f64; 2]) -> Option<[f64; 2]> {
     (!is_near).then(|| first.map(|coordinate| (coordinate / GRID_M).round() * GRID_M))
 }
 
-/// That a road was moved, for whoever reads positions in reports and recordings.
+/// The remark that a road was moved, for readers of positions in reports and recordings.
 pub(super) fn remark([x_m, y_m]: [f64; 2], tree: &TomlNode) -> Fault {
     let message =
         format!("the road is far from the origin, so that all is moved: ({x_m:.0}, {y_m:.0}) is (0, 0) in this run");

@@ -1,5 +1,5 @@
-//! Which of the measured drivers somebody is whose style is `measured`: drawn from the seed of the scenario and the vehicle's name, so that
-//! another vehicle in the file changes nobody.
+//! Which of the measured drivers a vehicle has whose style is `measured`: drawn from the seed of the scenario and the vehicle's name, so
+//! that another vehicle in the file changes none of the draws.
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::Driver;

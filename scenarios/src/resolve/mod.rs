@@ -179,11 +179,8 @@ fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result
     if ticks >= 1.0 && (ticks * step_s - period_s).abs() <= 1e-6 * period_s {
         return Ok(ticks as usize);
     }
-    let message = format!(
-        "`planning_period_s` ({}) is no whole number of times `step_s` ({})",
-        readable(period_s),
-        readable(step_s)
-    );
+    let message =
+        format!("`planning_period_s` ({}) is not a multiple of `step_s` ({})", readable(period_s), readable(step_s));
     let help = format!("{} works", readable(step_s * ticks.max(1.0)));
     Err(Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help))
 }

@@ -78,9 +78,9 @@ fn rows(
             };
             let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
             let bytes = bytes.ok_or_else(|| refused("it is larger than 64 MiB".to_owned()))?;
-            let text = String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".to_owned()))?;
+            let text = String::from_utf8(bytes).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
             let records = Arc::new(parse(&text).map_err(|(line, problem)| {
-                let message = format!("{} is no table of recorded vehicles: line {line}: {problem}", quoted(&title));
+                let message = format!("{} is not a table of recorded vehicles: line {line}: {problem}", quoted(&title));
                 let help = format!(
                     "the first line is `{ID_COLUMN},{}`, then there is a row for each moment",
                     COLUMNS.join(",")
@@ -128,7 +128,7 @@ pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
         for ((number, place), name) in numbers.iter_mut().zip(places).zip(COLUMNS) {
             let value: Option<f64> = cells[place].parse().ok();
             *number = value.filter(|value| value.abs() <= MAX_NUMBER).ok_or_else(|| {
-                (line, format!("`{name}` is {}, which is no number up to {MAX_NUMBER:.0}", shown_cell(cells[place])))
+                (line, format!("`{name}` is {}, which is not a number up to {MAX_NUMBER:.0}", shown_cell(cells[place])))
             })?;
         }
         let rows = records.entry(id.map_or_else(String::new, |id| cells[id].to_owned())).or_default();

@@ -49,7 +49,7 @@ impl SeriesFile {
         };
         let bytes = read_regular(&beside, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
         let bytes = bytes.ok_or_else(|| refused(format!("it is larger than 128 MiB, and no {what} is")))?;
-        let text = String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".to_owned()))?;
+        let text = String::from_utf8(bytes).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
         let found = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
         let empty = SeriesTable {
             first_s: 0.0,
@@ -71,7 +71,7 @@ impl SeriesFile {
     }
 
     fn refused(&self, error: &SeriesError, place: &Place) -> Fault {
-        let message = format!("{} is no {}: line {}: {}", quoted(&self.title), self.what, error.line, error.problem);
+        let message = format!("{} is not a {}: line {}: {}", quoted(&self.title), self.what, error.line, error.problem);
         let help = "the first line names the columns, the first of them `hour`, `time_s` or one of dates; then come rows at \
                     equal intervals";
         Fault::at(place, "this line", message).help(help)
@@ -89,7 +89,7 @@ impl SeriesFile {
 
     /// Where the run begins: on the date of the scenario's calendar where the table has dates, or else on the table's first day.
     pub fn start(&self, scenario: &Scenario, skip_days: usize) -> RunStart {
-        // What is no date is refused by the check of the calendar.
+        // A text that is not a date is refused by the check of the calendar.
         let stated = scenario.calendar.as_ref().and_then(|calendar| calendar.first_date().ok().flatten());
         let first_days = self.table.first_day.map(local_days);
         let stated_days = stated.map(local_days);

@@ -146,7 +146,7 @@ fn unusable(title: &str, text: &str, error: &EpwError) -> Fault {
 
 /// A fault in a line of an EPW file, counted from 1.
 fn located(title: &str, line: usize, fault: &str) -> Fault {
-    let message = format!("{} is no whole EPW file: line {line}: {fault}", quoted(title));
+    let message = format!("{} is not a complete EPW file: line {line}: {fault}", quoted(title));
     let help =
         "`weather.file` must name an EPW file as EnergyPlus reads it: 8 lines of header, then a row for each interval";
     Fault::at(&line_without_text(title, line, RANK), "this line", message).help(help)

@@ -87,7 +87,7 @@ impl Turn {
 /// What is wrong with a curved road. Pieces are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CurveFault {
-    /// A piece is no piece of a road.
+    /// A piece is not a valid piece of a road.
     Piece { piece: usize, fault: PieceFault },
     /// The road is longer than its geometry is checked for.
     TooLong { length_m: f64, most_m: f64 },

@@ -229,7 +229,7 @@ impl Road {
         Some([reaches[0].min(reaches[1]), reaches[0].max(reaches[1])])
     }
 
-    /// The lanes of a road that is no network.
+    /// The lanes of a road that is not a network.
     pub fn parallel_lanes(&self) -> Option<ParallelLanes> {
         let (count, width_m) = match self {
             Road::Lanes(lanes) => (lanes.lane_count, lanes.lane_width_m),

@@ -31,7 +31,7 @@ pub(super) fn ring(draft: &mut Draft) {
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// A roundabout with two lanes; everybody stays in the outer one or the inner one.
+/// A roundabout with two lanes; each vehicle stays in the outer one or the inner one.
 pub(super) fn wide_ring(draft: &mut Draft) {
     let radius_m = draft.between(18.0, 28.0);
     draft.road(&format!("kind = \"roundabout\"\nlane_count = 2\nradius_m = {radius_m:.1}"));
@@ -55,7 +55,7 @@ pub(super) fn crossing(draft: &mut Draft) {
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// A crossing where everybody stops.
+/// An all-way stop.
 pub(super) fn all_way_stop(draft: &mut Draft) {
     draft.road("kind = \"all-way-stop\"");
     let others = draft.count(1, 3);
@@ -86,7 +86,7 @@ pub(super) fn narrow_passage(draft: &mut Draft) {
     }
 }
 
-/// Four roads that meet without signs, everybody straight on: whoever comes from the right goes first.
+/// Four roads that meet without signs, all vehicles straight on: a vehicle from the right goes first.
 pub(super) fn equal(draft: &mut Draft) {
     let limit_mps = [8.3, 13.9][draft.count(0, 1)];
     let lane = |name: &str, ends: [[f64; 2]; 2], more: &str| {
@@ -118,7 +118,7 @@ pub(super) fn equal(draft: &mut Draft) {
     }
 }
 
-/// Somebody on its way from one lane to another: the ego, or one of the others.
+/// Adds a vehicle that drives from one lane to another: the ego, or one of the others.
 fn drive_through(
     draft: &mut Draft,
     name: &str,

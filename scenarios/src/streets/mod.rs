@@ -1,11 +1,11 @@
-//! Streets that nobody tuned for: ordinary scenes, each drawn from a seed.
+//! Streets for which no planner was tuned: ordinary scenes, each drawn from a seed.
 //!
 //! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario has a name: in `run`, `why`, plans of
-//! sweeps and `extends`. The same name is the same file for ever. Whoever changes a kind so that its draws change gives it another
-//! word, since rows of sweeps are compared by name.
+//! sweeps and `extends`. The same name is the same file for ever. A change of a kind that changes its draws needs another word, since
+//! rows of sweeps are compared by name.
 //!
 //! The ego of each street is a human of a drawn style; `--planner` gives it another driver. Each scene has a conflict in most of its
-//! draws: somebody stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
+//! draws: a road user stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
 
 mod draft;
 mod junctions;
@@ -54,7 +54,7 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "stop", shows: "A crossing where everybody stops", draw: junctions::all_way_stop },
 ];
 
-/// A pattern stands for at most so many numbers of each kind.
+/// The most numbers of each kind that a pattern stands for.
 const MAX_NUMBERS: usize = 100_000;
 
 /// The folder of names.
@@ -83,7 +83,7 @@ impl Street {
     }
 
     /// The streets of a pattern such as `streets/ring/0-19`, `streets/*/7` or `streets/t*/3`: of the kinds that fit, each number from the
-    /// first to the last. Empty if it is no such pattern.
+    /// first to the last. Empty if it is not such a pattern.
     pub(crate) fn matching(pattern: &str) -> Vec<Street> {
         let Some((kinds, numbers)) = pattern.strip_prefix(FOLDER).and_then(|rest| rest.split_once('/')) else {
             return Vec::new();

@@ -36,7 +36,7 @@ pub(super) struct Base {
     pub origin: [f64; 2],
     /// The step of time at which the run begins.
     pub begin: i64,
-    /// A road of parallel lanes, whose length depends on where somebody drove.
+    /// A road of parallel lanes, whose length depends on where vehicles drove.
     pub parallel: Option<Box<Scenario>>,
     /// The lanelets in which the ego's way ends; empty where that is anywhere.
     pub last_lanelets: Vec<u64>,

@@ -15,7 +15,7 @@ impl Ids {
         Ids(ids.collect())
     }
 
-    /// The wanted id if nobody has it, otherwise one above all others.
+    /// Returns the wanted id if it is free, otherwise one above all others.
     pub(super) fn give(&mut self, wanted: Option<u64>) -> u64 {
         let free = || self.0.last().map_or(FIRST, |last| last.saturating_add(1));
         let id = wanted.filter(|id| *id > 0 && !self.0.contains(id)).unwrap_or_else(free);

@@ -23,7 +23,7 @@ const NO_TAGS: &str = "<scenarioTags><urban/></scenarioTags>";
 /// Reads what stays.
 ///
 /// # Errors
-/// For a text that is no scenario, and a run with another step of time.
+/// For a text that is not a scenario, and for a run with a different time step.
 pub(super) fn base(scenario: &Scenario, path: &Path) -> Result<Base, Fault> {
     let name = path.display().to_string();
     let text = imported_text(path)?;

@@ -71,8 +71,8 @@ pub(super) fn mapped(
     let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
     let ego = scenario.problems.first().and_then(|problem| ego::of_problem(problem, scenario.step_s, &lanes, notes));
-    let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
-    let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
+    let has_no_driver = ego.is_none() && followers.iter().all(|follower| follower.stands);
+    let ego = if has_no_driver { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
     let lights = lights::lights(scenario, &lanes, begin, notes);
@@ -88,7 +88,7 @@ pub(super) fn mapped(
             continue;
         }
         let mut config = driven(&follower, &lanes, options, notes);
-        // A record that ends before the run is that of somebody who has left; a driver of ours drives to the end of its way.
+        // A vehicle whose record ends before the run leaves then; a vehicle with a driver of ours drives to the end of its way.
         config.leaves_at_end = (!config.route.is_empty()).then_some(true);
         config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
         vehicles.push((config, Some(follower.place)));

@@ -7,7 +7,7 @@ use interplay_planners::road::network::RightOfWay;
 use super::super::model::{CommonRoad, Lanelet, SignMeaning};
 use super::notes::{NOT_YET, Notes};
 
-/// The signs of a scenario, by their ids, and the approaches where everybody stops.
+/// The signs of a scenario, by id, and the approaches of all-way stops.
 pub(super) struct Signs<'a> {
     meanings: BTreeMap<&'a str, &'a [SignMeaning]>,
     /// Lanelets that lead into an intersection on whose every approach one has to stop.

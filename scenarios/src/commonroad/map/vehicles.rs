@@ -139,7 +139,7 @@ pub(super) fn in_world(state: &State) -> StartConfig {
     }
 }
 
-/// A number with so many digits behind the point.
+/// Rounds a number to `digits` decimal places.
 pub(super) fn rounded(number: f64, digits: i32) -> f64 {
     let factor = 10_f64.powi(digits);
     (factor * number).round() / factor
@@ -156,7 +156,7 @@ fn class(kind: &str) -> VehicleClass {
     }
 }
 
-/// The body of an obstacle, with its middle as the mass centre; none of one that is no vehicle.
+/// The body of an obstacle, with its middle as the mass centre; `None` if the obstacle is not a vehicle.
 fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
     if obstacle.role == Role::Surroundings {
         notes.one(["obstacle beside the road", "obstacles beside the road"], NOT_YET);
@@ -173,7 +173,7 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
     };
     if !is_exact {
         notes.one(
-            ["obstacle that is no rectangle", "obstacles that are no rectangle"],
+            ["obstacle that is not a rectangle", "obstacles that are not rectangles"],
             "carried over as the box around it",
         );
     }

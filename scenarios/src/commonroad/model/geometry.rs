@@ -73,7 +73,7 @@ impl Region {
         }
     }
 
-    /// A rectangle around a shape of a vehicle, and whether it is the shape itself; none for what is no shape.
+    /// A rectangle around the shape of a vehicle, and whether it is the shape itself; `None` for a region that is not a shape.
     pub(crate) fn rectangle(&self) -> Option<(Rectangle, bool)> {
         match self {
             Region::Rectangle(rectangle) => Some((*rectangle, true)),

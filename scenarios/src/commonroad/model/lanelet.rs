@@ -16,11 +16,11 @@ pub(crate) struct Lanelet<'a> {
     pub successors: Vec<String>,
     /// The lanelets on the left and on the right.
     pub beside: [Option<Adjacent>; 2],
-    /// Whether the left and the right bound are lines that nobody crosses.
+    /// Whether the left and the right bound are lines that must not be crossed.
     pub is_solid: [bool; 2],
     /// What sort of lanelet it is, such as `urban` or `crosswalk`; several words are allowed.
     pub types: Vec<String>,
-    /// Who may use it; everybody where nothing is said.
+    /// The road users that may use it; all if none are stated.
     pub users: Vec<String>,
     /// Whether it may also be driven against its direction.
     pub is_two_way: bool,

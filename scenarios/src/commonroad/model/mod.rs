@@ -48,7 +48,7 @@ impl<'a> CommonRoad<'a> {
     /// Reads a scenario.
     ///
     /// # Errors
-    /// Where it is no scenario of a known version.
+    /// If it is not a scenario of a known version.
     pub(super) fn read(root: Element<'a>, unread: &mut Unread) -> Result<CommonRoad<'a>, Fault> {
         if root.name() != ROOT {
             let message = format!("the outermost element is {}, not `{ROOT}`", quoted(root.name()));

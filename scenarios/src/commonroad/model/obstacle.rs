@@ -27,7 +27,7 @@ pub(crate) enum Role {
     Static,
     /// It moves.
     Dynamic,
-    /// It belongs to the surroundings, such as a building, or nobody knows whether it is there.
+    /// It belongs to the surroundings, such as a building, or its existence is unknown.
     Surroundings,
 }
 

@@ -10,7 +10,7 @@ pub(crate) struct Sign {
     pub meanings: Vec<SignMeaning>,
 }
 
-/// What a sign says to whoever drives.
+/// The meaning of a sign for drivers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SignMeaning {
     /// No faster than this \[m/s\].

@@ -32,7 +32,7 @@ impl StateAt {
         let regions = Region::read_all(stated)?;
         let position = regions.first().and_then(Region::middle);
         let position = position.ok_or_else(|| {
-            stated.fault("no place", format!("`position` of {} is no point and no region", element.shown()))
+            stated.fault("no place", format!("`position` of {} is neither a point nor a region", element.shown()))
         })?;
         let value = |key: &'static str| element.child(key).map(|value| value.interval()).transpose();
         let [time, orientation, along, across] = [

@@ -154,7 +154,7 @@ impl<'s> SchemaNode<'s> {
         forms.into_iter().flatten().map(move |form| self.at(form))
     }
 
-    /// The keys of a table, in the order of the fields; none if this is no table, or one of several kinds.
+    /// The keys of a table, in the order of the fields; empty if this is not a table, or a table of several kinds.
     pub fn properties(self) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
         let properties = self.definition().get("properties").and_then(Json::as_object);
         properties.into_iter().flatten().map(move |(key, stated)| (key, self.at(stated)))

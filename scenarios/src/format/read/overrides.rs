@@ -277,7 +277,7 @@ fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> TomlNode 
     parse_value(document, offset, value).unwrap_or_else(text)
 }
 
-/// Whether `vehicle` has entries; what is no list is left for the check to refuse.
+/// Whether `vehicle` has entries; a value that is not a list is refused by the check.
 fn has_vehicles(root: &Table) -> bool {
     root.get("vehicle").is_some_and(|entry| !entry.node.is_empty_list())
 }

@@ -137,7 +137,7 @@ impl Registry {
     /// (`docs/guide/extending.md`).
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_driver<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -152,7 +152,7 @@ impl Registry {
     /// The same registry with another kind of controller: that of these settings, as [`Registry::with_driver`].
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_controller<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: ControllerKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -169,7 +169,7 @@ impl Registry {
     /// The same registry with another form of road: that of these settings, as [`Registry::with_driver`].
     ///
     /// # Errors
-    /// [`RegistryError`] if the form's word is taken or is no name.
+    /// [`RegistryError`] if the form's word is taken or is not a valid name.
     pub fn with_road<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: RoadForm + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -184,7 +184,7 @@ impl Registry {
     /// The same registry with another kind of obstacle: a word with its usual size.
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_obstacle(mut self, obstacle: DeclaredObstacle) -> Result<Registry, RegistryError> {
         let words = self.complete().property("obstacle").and_then(SchemaNode::entries);
         let words = words.and_then(|entry| entry.property("kind")).map(SchemaNode::words).unwrap_or_default();
@@ -213,8 +213,8 @@ impl Registry {
         Ok(self)
     }
 
-    /// The metrics that are declared. Without any, `[[expect.metric]]` may name whatever it likes; whoever runs the scenario knows
-    /// which metrics there are.
+    /// The declared metrics. If none are declared, `[[expect.metric]]` may use any name; the program that runs the scenario then
+    /// checks it.
     pub fn metrics(&self) -> &RegisteredMetrics {
         &self.metrics
     }

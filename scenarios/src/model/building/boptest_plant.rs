@@ -102,7 +102,7 @@ pub struct BoptestZone {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestInput {
-    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it. An FMU that is no case of BOPTEST may
+    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it. An FMU that is not a BOPTEST case may
     /// have inputs with other endings and without activation.
     #[schemars(example = &"oveHeaPumY_u", length(min = 1))]
     pub name: String,
@@ -209,7 +209,7 @@ impl BoptestPlantConfig {
                 let plain = |character: char| character.is_ascii_alphanumeric() || "-._:[]".contains(character);
                 let path = |character: char| character.is_ascii_graphic();
                 if authority.is_empty() || !authority.chars().all(plain) || !url.chars().all(path) {
-                    return Some(("url".to_owned(), "is no address such as `http://127.0.0.1:8080`".to_owned()));
+                    return Some(("url".to_owned(), "is not an address such as `http://127.0.0.1:8080`".to_owned()));
                 }
             }
             (None, Some(_)) => {}
@@ -217,7 +217,7 @@ impl BoptestPlantConfig {
         }
         let word = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
         if self.case.as_ref().is_some_and(|case| !case.chars().all(word)) {
-            return Some(("case".to_owned(), "is no name of letters, digits, `_` and `-`".to_owned()));
+            return Some(("case".to_owned(), "may only contain letters, digits, `_` and `-`".to_owned()));
         }
         if self.period.is_some() && self.start_day != 0 {
             return Some((

@@ -53,8 +53,8 @@ impl SocketPlantConfig {
         let plain = |character: char| character.is_ascii_alphanumeric() || "-._".contains(character);
         match port.parse::<u16>() {
             _ if host.is_empty() => Some("it has no host"),
-            _ if !is_bracketed && !host.chars().all(plain) => Some("the host is no name and no IP address"),
-            Err(_) | Ok(0) => Some("the port is no whole number from 1 to 65535"),
+            _ if !is_bracketed && !host.chars().all(plain) => Some("the host is neither a name nor an IP address"),
+            Err(_) | Ok(0) => Some("the port is not a whole number from 1 to 65535"),
             Ok(_) => None,
         }
     }

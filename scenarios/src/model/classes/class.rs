@@ -23,7 +23,7 @@ pub enum VehicleClass {
     Bus,
     /// A bicycle with its rider, 1.8 m long.
     Bicycle,
-    /// Somebody on foot.
+    /// A pedestrian.
     Pedestrian,
 }
 

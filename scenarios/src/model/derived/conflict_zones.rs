@@ -23,8 +23,9 @@ impl Road {
     /// The places where the ways of two vehicles cross, merge or meet head-on, in the order of the first one's route; none
     /// where both drive along one road.
     ///
-    /// Routes of one network know where they meet: a zone begins where their centre lines do, for whoever waits before that, with
-    /// its front in the outer part of the other's lane, lets the other pass. Of the roads of an intersection, it is where one lies on the other.
+    /// Routes of one network store where they meet: a zone begins where their centre lines meet, since a vehicle that waits before
+    /// that point, with its front in the outer part of the other's lane, lets the other pass. On an intersection of two roads, the zone is
+    /// their overlap.
     pub fn conflict_zones(&self, first: &Vehicle, second: &Vehicle) -> Vec<ConflictZone> {
         if first.route.is_in_network() && second.route.is_in_network() {
             let conflicts = first.route.conflicts_with(&second.route);

@@ -22,7 +22,7 @@ impl Scenario {
         let Some(building) = &self.building else { return false };
         let is_synthetic = matches!(self.weather, WeatherSource::Synthetic(_));
         let is_uncertain = matches!(self.weather.forecast(), Forecast::Uncertain { .. });
-        // Of another program nobody knows.
+        // Another program may draw random numbers.
         let is_foreign = !matches!(building.plant, BuildingPlant::Network(_));
         is_synthetic || is_uncertain || is_foreign || self.occupancy.unwrap_or_default().depends_on_seed()
     }

@@ -10,7 +10,7 @@ use crate::model::scenario::Scenario;
 /// Why a scenario has no timetable. One that was loaded has been checked for all of this.
 #[derive(Debug, Error)]
 pub enum TimetableError {
-    /// A text is no date.
+    /// A text is not a date.
     #[error(transparent)]
     Calendar(#[from] CalendarError),
     /// Schedules contradict one another, or fit no building.

@@ -12,7 +12,7 @@ use crate::model::expectations::expect::CounterfactualExpect;
 #[schemars(rename = "Counterfactual")]
 pub struct CounterfactualConfig {
     /// What it claims, in a few words; unique in the file.
-    #[schemars(length(min = 1), example = &"Who asks nobody goes second")]
+    #[schemars(length(min = 1), example = &"Without a proposal the ego goes second")]
     pub name: String,
     /// Who drives the ego instead, as `--planner` has it: settings that this kind of driver does not know are dropped.
     #[serde(default)]

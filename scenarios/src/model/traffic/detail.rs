@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Detail {
-    /// So near to the ego everybody drives as its `driver` says. Who has come near stays near up to a tenth more \[m\].
+    /// Within this distance of the ego, all vehicles drive as their `driver` says. A vehicle that has come within it counts as near up to a
+    /// distance a tenth larger \[m\].
     #[schemars(range(min = 0.1, max = 100_000.0), example = 150.0)]
     pub within_m: f64,
 }

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::model::traffic::lane_reference::LaneReference;
 use crate::text::name;
 
-/// A line across some lanes: whoever passes it is counted, lane by lane and together. `interplay run --detectors FILE` writes what it
+/// A line across some lanes that counts the vehicles that pass it, lane by lane and together. `interplay run --detectors FILE` writes the
 /// counts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -56,7 +56,7 @@ impl ObstacleKind {
     }
 }
 
-/// An obstacle: what it is and its shape. It is held by a vehicle that nobody drives.
+/// An obstacle: its kind and its shape. It belongs to a vehicle without a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObstacleForm {
     /// What it is.
@@ -101,7 +101,7 @@ impl Outline {
                 (most(|at| at[0]), most(|at| -at[0]), 2.0 * most(|at| at[1].abs()))
             }
         };
-        // Nobody drives it: axles lie within it, so that it is a body.
+        // It never moves by itself: any axles within it make a valid body.
         let (front_axle_m, rear_axle_m) = (0.6 * front_m.max(1e-3), 0.6 * rear_m.max(1e-3));
         Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale }
     }

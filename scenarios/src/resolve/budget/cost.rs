@@ -26,13 +26,13 @@ const BYTES_PER_PLOTTED_ZONE_STEP: f64 = 150.0;
 const SECONDS_PER_STEP: f64 = 2e-7;
 const SECONDS_PER_OPERATION: f64 = 1e-9;
 
-/// So many others are near a vehicle in dense traffic.
+/// The most other vehicles near a vehicle in dense traffic.
 const MOST_NEAR: u64 = 80;
 
 /// What a run will make: counts are exact, operations and bytes are estimates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunCost {
-    /// Plans of vehicles, at most: whoever leaves early makes fewer.
+    /// Plans of vehicles, at most: a vehicle that leaves early makes fewer.
     pub plans: u64,
     /// Steps of bodies, pairs of bodies, and zones.
     pub steps: u64,
@@ -96,13 +96,13 @@ impl RunCost {
     }
 }
 
-/// What vehicles add to a recording, with so many plans and ticks \[bytes\].
+/// What vehicles add to a recording of `plans` plans and `ticks` ticks \[bytes\].
 fn vehicles_bytes(scenario: &Scenario, plans: u64, ticks: u64) -> f64 {
     let planned = plans as f64 * scenario.horizon_steps as f64 * BYTES_PER_STAGE;
     if !scenario.is_crowd() {
         return planned;
     }
-    // Of a crowd about so many are near the ego.
+    // Of a crowd, about `MOST_TOLD` vehicles are near the ego.
     let vehicles = scenario.vehicles.len() as f64;
     planned * MOST_TOLD as f64 / vehicles + ticks as f64 * vehicles * BYTES_PER_TICK
 }

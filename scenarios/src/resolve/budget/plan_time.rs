@@ -1,4 +1,4 @@
-//! How long a plan of a vehicle takes: as its driver says, among so many others.
+//! Time to compute a plan of a vehicle, by its driver and the number of others.
 //!
 //! ```text
 //! time = alone · (1 + share · others) · stages / 30 · (people) · (inference)
@@ -13,11 +13,11 @@ use crate::model::scenario::{Scenario, Vehicle};
 
 /// Stages of the plans that were measured.
 const USUAL_STAGES: f64 = 30.0;
-/// More others than these are seldom near enough to take time.
+/// More vehicles than this are seldom near enough to add time.
 const MOST_OTHERS: usize = 12;
-/// People keep more rules, and look more often.
+/// Human drivers keep more rules and look more often.
 const PEOPLE_FACTOR: f64 = 2.5;
-/// Who infers thinks of several motions of each other.
+/// A driver that infers plans considers several motions of each other vehicle.
 const INFERENCE_FACTOR: f64 = 3.0;
 
 /// Processor time of a plan of a vehicle \[s\].

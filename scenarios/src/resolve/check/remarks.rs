@@ -59,13 +59,13 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
 }
 
-/// A level of detail that concerns nobody.
+/// A level of detail that concerns no vehicle.
 fn idle_detail(scenario: &Scenario, tree: &TomlNode) -> Option<Fault> {
     let concerned = (0..scenario.vehicles.len()).any(|index| scenario.detail_of(index).is_some());
     let message =
         "`detail` changes nothing: it concerns drivers of kind `human` beside the ego, and there are none".to_owned();
     (scenario.detail.is_some() && !concerned)
-        .then(|| Fault::at(tree.place_of("detail"), "concerns nobody", message).help("leave it out".to_owned()))
+        .then(|| Fault::at(tree.place_of("detail"), "concerns no vehicle", message).help("leave it out".to_owned()))
 }
 
 /// Flows of more vehicles than their lanes carry.

@@ -5,9 +5,9 @@ use interplay_common::units::{quantity_of, unit_of};
 
 use crate::format::json_schema::SchemaNode;
 
-/// So many tables deep a key is looked for that stands in the wrong one.
+/// How many tables deep a misplaced key is searched for.
 const SEARCHED_DEPTH: usize = 3;
-/// So many places of it are told.
+/// The most places of it that an error lists.
 const MOST_PLACES: usize = 3;
 
 /// Endings of keys in a unit that nothing here has, the ending of the same quantity here, and how a value is converted.

@@ -15,7 +15,7 @@ const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_
 
 /// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
 /// of each vehicle. Where neither is stated, the width of the lanes says the size. A scenario of 1/10 scale is left as it is, but
-/// for the lanes of IDM drivers. What is no table of the format is left too.
+/// for the lanes of IDM drivers. A value that is not a table of the format is left, too.
 pub(crate) fn expand(scenario: &mut Json, registry: &Registry) {
     let schema = registry.complete();
     let Some(root) = scenario.as_object_mut() else { return };

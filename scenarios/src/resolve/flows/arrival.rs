@@ -5,7 +5,7 @@ use interplay_common::random::{Random, hash_of};
 use crate::format::flow::{FlowConfig, Headways};
 use crate::model::traffic::lane_reference::LaneReference;
 
-/// Speeds are at most so many standard deviations from their mean.
+/// The largest deviation of a speed from its mean, in standard deviations.
 const MOST_DEVIATIONS: f64 = 2.0;
 const HOUR_S: f64 = 3600.0;
 
@@ -73,7 +73,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
         let mean_mps = sort.and_then(|sort| flow.mix[sort].speed_mps).unwrap_or(flow.speed_mps);
         arrivals.push(Arrival {
             number,
-            // Nobody of a flow is there before the run begins.
+            // No vehicle of a flow is on the road before the run begins.
             enters_s: enters_s.max(f64::MIN_POSITIVE),
             lane,
             to: to.map(|index| &flow.to[index].lane),
@@ -83,7 +83,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
     }
 }
 
-/// When so many vehicles are expected to have come; none if that is after the end.
+/// When `count` vehicles are expected to have come; `None` if that is after the end.
 fn when(pieces: &[[f64; 3]], count: f64) -> Option<f64> {
     let mut before = 0.0;
     for [from_s, to_s, per_s] in pieces {

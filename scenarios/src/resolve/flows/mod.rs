@@ -40,7 +40,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
         _ => 1,
     };
     let duration_s = root.get("duration_s").map(|entry| entry.node.to_json().as_f64().unwrap_or(f64::NAN));
-    // What is no duration is refused with the other keys.
+    // A value that is not a duration is refused with the other keys.
     if duration_s.is_some_and(|duration_s| !duration_s.is_finite()) {
         return Ok(tree);
     }
@@ -63,8 +63,8 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
     let is_alone = root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list());
     let Some(arrivals) = drawn(&flows, seed, duration_s, is_alone) else {
-        let message = "nobody comes before the run ends, and there is no other vehicle";
-        let fault = Fault::at(&stated.place, "nobody of them", message.to_owned());
+        let message = "no vehicle comes before the run ends, and there is no other vehicle";
+        let fault = Fault::at(&stated.place, "no arrivals", message.to_owned());
         return Err(vec![fault.help("raise the rates or `duration_s`, or state a `[[vehicle]]`".to_owned())]);
     };
     let arrivals: Vec<TomlNode> = arrivals
@@ -202,7 +202,7 @@ mod tests {
     fn flows_that_make_no_sense_are_refused_once() {
         for (flow, part) in [
             ("", "nothing says how many vehicles"),
-            ("vehicles_per_h = 0.0", "nobody comes before the run ends"),
+            ("vehicles_per_h = 0.0", "no vehicle comes before the run ends"),
             ("rates = [[5.0, 10.0], [1.0, 20.0]]", "in order of time"),
             ("vehicles_per_h = 600.0\nbegins_s = 5.0\nends_s = 5.0", "does not end after it begins"),
             ("vehicles_per_h = 600.0\nto = [{ lane = 1, share = 0.0 }]", "no lane has a share"),

@@ -68,7 +68,7 @@ pub(crate) fn place(
             (Ok(Some((_, state))), None, Some(route)) => Ok((state, Arc::clone(route))),
             (Ok(None), Some(network), _) => on_network::place(&written, network),
             (Ok(None), None, Some(route)) => parallel::place(&written, road, route),
-            // A road that is no network has a route.
+            // A road that is not a network has a route.
             (Ok(_), None, None) => continue,
         };
         match found {

@@ -140,7 +140,7 @@ impl Describer<'_> {
                 to_centimetres(*first_m)
             ))
             .help("let it turn less, or end beside itself; it may cross itself at a large angle"),
-            LaneFault::NoName | LaneFault::NoEnds => at(format!("{of} is none: {fault}")),
+            LaneFault::NoName | LaneFault::NoEnds => at(format!("{of} is invalid: {fault}")),
             LaneFault::WrongDirection { other }
             | LaneFault::ChangesSides { other, .. }
             | LaneFault::NotSideBySide { other, .. }

@@ -20,7 +20,7 @@ use crate::text::readable::readable;
 /// Ratio of lengths of real cars to those of 1/10 scale.
 const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 
-/// The obstacles of a file on a road, as vehicles that nobody drives, of the scale of the others.
+/// The obstacles of a file on a road, as vehicles without a driver, of the scale of the others.
 ///
 /// # Errors
 /// For places that are none, and outlines that are no convex polygons.

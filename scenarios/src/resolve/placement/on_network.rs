@@ -284,7 +284,7 @@ impl NetworkVehicle<'_> {
             | RouteError::UnknownLane { .. }
             | RouteError::Centre { .. }
             | RouteError::TooTight { .. }) => {
-                let message = format!("{of} is none: {other}");
+                let message = format!("{of} is invalid: {other}");
                 self.written.fault(&self.key_of(""), "no route", message).help("another `lane` or `route` may work")
             }
         }

@@ -13,7 +13,7 @@ use crate::text::error::Fault;
 /// The state of a vehicle at its start.
 ///
 /// # Errors
-/// For a start that is no place, and for lanes with names; all of them.
+/// For a start that is not a position, and for lanes with names; all errors are returned.
 pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Route>) -> Result<Start, Vec<Fault>> {
     let state =
         if written.stated.start.is_in_lane() { in_lane(written, road, route) } else { in_world(written, road, route) };

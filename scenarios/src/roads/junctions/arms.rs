@@ -34,7 +34,7 @@ pub(super) enum Median {
     None,
     /// A lane that leads to the left.
     TurningLane,
-    /// A strip of a lane's width on which nobody drives, opposite a turning lane.
+    /// An unused strip of a lane's width opposite a turning lane.
     Island,
 }
 

@@ -20,7 +20,7 @@ macro_rules! forms {
             roundabout::Roundabout: "A ring with three to six arms.";
             t_junction::TJunction: "A minor road that ends at a main one.";
             crossing::Crossing: "Two roads with both directions that cross, the main one with priority.";
-            all_way_stop::AllWayStop: "Two roads with both directions that cross, where everybody stops.";
+            all_way_stop::AllWayStop: "Two roads with both directions that cross at an all-way stop.";
             on_ramp::OnRamp: "A motorway that a ramp joins with an acceleration lane.";
             narrow_passage::NarrowPassage: "A road with both directions that narrows to the width of one lane.";
             two_way::TwoWay: "A straight road with a lane in each direction.";

@@ -64,7 +64,7 @@ pub struct LaneConfig {
     #[serde(default)]
     #[schemars(length(max = 5), example = json!(["bus"]))]
     pub users: Vec<LaneUser>,
-    /// Whether it is a zebra crossing: whoever is on it, or comes to it, goes first, whatever the signs of the lanes that it crosses.
+    /// Whether it is a zebra crossing: a pedestrian on it, or coming to it, goes first, whatever the signs of the lanes that it crosses.
     #[serde(default)]
     pub zebra: bool,
 }
@@ -182,7 +182,7 @@ impl LaneWidth {
                 .help(format!("widths are at least {MIN_WIDTH_M} m everywhere; 3.5 m is a usual one")));
         }
         Profile::through(knots).map_err(|error| {
-            RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is none: {error}"))
+            RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is invalid: {error}"))
                 .help("write pairs of increasing distances and widths, such as `[[0.0, 3.5], [20.0, 3.0]]`")
         })
     }

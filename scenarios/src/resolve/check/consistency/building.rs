@@ -126,7 +126,7 @@ impl Checker<'_> {
         let samples = building.step_s / config.sampling_s;
         if config.fmu.is_some() && (samples < 0.5 || (samples - samples.round()).abs() > 1e-9) {
             let message = format!(
-                "`building.step_s` ({}) is no whole number of `building.plant.sampling_s` ({})",
+                "`building.step_s` ({}) is not a multiple of `building.plant.sampling_s` ({})",
                 building.step_s, config.sampling_s
             );
             self.refuse(

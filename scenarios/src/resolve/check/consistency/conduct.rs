@@ -99,7 +99,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Somebody who walks may wait for a vehicle.
+    /// A pedestrian may wait for a vehicle.
     pub(super) fn walker(&mut self, index: usize, vehicle: &Vehicle) {
         let Driver::Walker(settings) = &vehicle.driver else { return };
         if let Some(when) = &settings.when {

@@ -48,7 +48,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
         checker.script(index, vehicle);
         checker.walker(index, vehicle);
         checker.stay(index, vehicle);
-        // A record is what it is: whoever was recorded was there, and fast, and beside the lanes.
+        // A recorded vehicle really had its speed and position, beside the lanes too: neither is checked.
         if vehicle.driver.record().is_some() {
             checker.recorded(index, vehicle);
             continue;
@@ -166,7 +166,7 @@ impl Checker<'_> {
                 (Branch::Main, Road::Curve(_)) => ("a curve", "y of the world"),
                 (Branch::Main, _) => ("a network of lanes", "y of the world"),
             };
-            let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on {which}");
+            let message = format!("`vehicle.{name}.goal.y_m` is not a lateral position on {which}");
             self.refuse(&format!("{path}.y_m"), label, message, "state its `lane`");
             return;
         }
