@@ -1,4 +1,4 @@
-//! A file and all that it extends, as one tree.
+//! A file and all that it extends, merged into one tree.
 
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
 use crate::format::json_schema::SchemaNode;
@@ -7,7 +7,7 @@ use crate::format::read::source::Source;
 use crate::format::read::tree::{self, Table, TomlNode, TomlValue};
 use crate::text::error::{Fault, Place, quoted};
 
-/// How many files may extend one another.
+/// The most files of a chain of `extends`.
 const MAX_CHAIN_LENGTH: usize = 16;
 
 /// What names a source.
@@ -58,7 +58,7 @@ fn no_scenario(source: &Source, faults: Vec<Fault>) -> Fault {
         .help(format!("name a scenario; if it is one, `interplay check` of {title} itself shows what is wrong there"))
 }
 
-/// The tree laid over the one that it extends, if it extends any.
+/// The tree merged into the one that it extends, if any.
 pub(super) fn extended(
     source: &Source,
     mut node: TomlNode,
@@ -82,8 +82,8 @@ pub(super) fn extended(
     Ok(node)
 }
 
-/// What a file takes over from the one that it extends: all but the figure, since a variant is another picture, and the
-/// counterfactuals, which say what that one's outcome is owed to.
+/// The keys that a file inherits from the one that it extends: all but the figure, which a variant does not reproduce, and the
+/// counterfactuals, which explain the outcome of the parent.
 fn inherited(mut under: Table) -> Table {
     under.remove("figure");
     under.remove("counterfactual");

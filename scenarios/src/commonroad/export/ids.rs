@@ -1,4 +1,4 @@
-//! Ids of elements, each given once.
+//! Unique ids of elements.
 
 use std::collections::BTreeSet;
 
@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ids(BTreeSet<u64>);
 
-/// The first id of what has none of its own.
+/// The first id of an element without its own.
 const FIRST: u64 = 1;
 
 impl Ids {
-    /// The ids that stand in a file.
+    /// The ids in a file.
     pub(super) fn taken(ids: impl Iterator<Item = u64>) -> Ids {
         Ids(ids.collect())
     }

@@ -1,4 +1,4 @@
-//! Parallel lanes as lanelets, as long as what was driven on them.
+//! Parallel lanes as lanelets, as long as the driven part of the road.
 
 use super::base::Base;
 use super::driven::DrivenVehicle;

@@ -1,4 +1,4 @@
-//! Lanelets: a left and a right bound, and what is said of other lanelets.
+//! Lanelets: a left and a right bound, and references to other lanelets.
 
 use super::super::xml::{Element, Unread};
 use super::geometry::points;
@@ -18,7 +18,7 @@ pub(crate) struct Lanelet<'a> {
     pub beside: [Option<Adjacent>; 2],
     /// Whether the left and the right bound are lines that must not be crossed.
     pub is_solid: [bool; 2],
-    /// What sort of lanelet it is, such as `urban` or `crosswalk`; several words are allowed.
+    /// Its types, such as `urban` or `crosswalk`; several are allowed.
     pub types: Vec<String>,
     /// The road users that may use it; all if none are stated.
     pub users: Vec<String>,

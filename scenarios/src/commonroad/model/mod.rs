@@ -1,4 +1,4 @@
-//! A scenario of CommonRoad as plain values, one file a concept; the format is described in its documentation, versions 2018b and
+//! A scenario of CommonRoad as plain values, one file per concept; the documentation of CommonRoad describes the format, versions 2018b and
 //! 2020a.
 
 mod geometry;
@@ -64,7 +64,7 @@ impl<'a> CommonRoad<'a> {
             let message = format!("`timeStepSize` is {step_s}; it must be from {} to {} s", STEPS_S[0], STEPS_S[1]);
             return Err(root.fault("no step of time", message));
         }
-        // Where and by whom a scenario was made says nothing of how it is driven.
+        // The location and the author of a scenario do not affect the motion.
         let mut scenario = CommonRoad {
             benchmark: root.attribute("benchmarkID").unwrap_or_default().to_owned(),
             step_s,
@@ -91,7 +91,7 @@ impl<'a> CommonRoad<'a> {
     }
 }
 
-/// What is read of a scenario, or says nothing of how it is driven.
+/// The elements of a scenario that are read or do not affect the motion.
 const READ: [&str; 12] = [
     "location",
     "scenarioTags",
