@@ -124,7 +124,7 @@ fn faults_of_vehicles_do_not_hide_others() {
         [[vehicle]]\nname = \"car\"\nstart = { lane = 7, along_m = 1.0, speed_mps = 0.5 }\n[[counterfactual]]\nname = \"slower\"\n\
         set = { \"vehicle.lorry.start.speed_mps\" = 0.1 }\n";
     let found = messages(lines);
-    for words in ["shorter than one step", "no whole number of times", "nowhere.epw", "car.start.lane` is 7", "lorry"] {
+    for words in ["shorter than one step", "not a multiple of", "nowhere.epw", "car.start.lane` is 7", "lorry"] {
         assert!(found.iter().any(|message| message.contains(words)), "{words} in {found:#?}");
     }
     assert!(found.iter().any(|message| message.starts_with("in the counterfactual `slower`")), "{found:#?}");

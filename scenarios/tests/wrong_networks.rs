@@ -180,7 +180,7 @@ fn vehicles_on_lanes() {
     case(
         "no_lateral_position",
         ("speed_mps = 1.0 }", "speed_mps = 1.0 }\ngoal = { y_m = 1.0 }"),
-        &["no lateral position on a network of lanes", "its `lane`"],
+        &["not a lateral position on a network of lanes", "its `lane`"],
     );
     case(
         "cross",

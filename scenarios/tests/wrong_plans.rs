@@ -21,7 +21,7 @@ const WRONG: &[plans::WrongPlan] = &[
     ("scenario = ['lane-change/front-nice']\nsamples = 0\n", 2, 11, "must be at least 1"),
     ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
     ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
-    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "no style and no kind of driver"),
+    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "neither a style nor a kind of driver"),
     (
         "scenario = ['intersection/nice']\nplanner = [{ name = 'A conservative ego crosses second', kind = 'idm' }]\n\
          counterfactuals = true\n",
@@ -54,7 +54,7 @@ const WRONG: &[plans::WrongPlan] = &[
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",
         3,
         33,
-        "no list and no distribution",
+        "neither a list nor a distribution",
     ),
     ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [2, 1] }\n", 3, 26, "is empty"),
     (

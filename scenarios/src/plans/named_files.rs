@@ -16,7 +16,7 @@ pub(super) fn contents(scenario: &Scenario) -> String {
         WeatherSource::Csv(weather) => format!("{:?}{:?}", weather.stated, weather.weather),
         WeatherSource::Synthetic(_) => String::new(),
     };
-    // Of prices by the hour the interval is not told, so that plans keep the keys of their runs.
+    // The interval of hourly prices is left out, so that plans keep the keys of their runs.
     let by_the_hour = |tariff: &Tariff| tariff.interval_s == 3600.0;
     let interval = |tariff: &Tariff| if by_the_hour(tariff) { String::new() } else { tariff.interval_s.to_string() };
     let told = |tariff: &Tariff| format!("{:?}{}", tariff.prices_per_kwh, interval(tariff));

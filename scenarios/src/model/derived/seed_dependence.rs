@@ -7,9 +7,9 @@ use crate::model::building::weather::WeatherSource;
 use crate::model::scenario::{Scenario, Vehicle};
 
 impl Scenario {
-    /// Whether runs with different seeds may differ. Where it is false, they are the same bit for bit.
+    /// Whether runs with different seeds may differ. If not, they are bit-identical.
     ///
-    /// The seed decides the change of the starts and the errors of sensors; and of a building the synthetic weather, errors of
+    /// The seed decides the change of the starts and the errors of sensors; and, in a building, the synthetic weather, errors of
     /// forecasts, and people.
     pub fn depends_on_seed(&self) -> bool {
         let jitter = self.start_jitter;

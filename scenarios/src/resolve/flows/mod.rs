@@ -83,7 +83,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
 }
 
 /// The vehicles of all flows, each with the index of its flow. Without other vehicles the first that comes is the ego, which is there when
-/// the run begins; none where nobody comes then.
+/// the run begins; none if no vehicle comes then.
 fn drawn(flows: &[FlowConfig], seed: u64, duration_s: f64, are_alone: bool) -> Option<Vec<(usize, Arrival<'_>)>> {
     let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
     for (index, flow) in flows.iter().enumerate() {
