@@ -1,5 +1,5 @@
-//! Reads the tables of recorded vehicles that a scenario names, when the scenario is loaded: whatever is wrong with one is said then,
-//! with its line.
+//! Reads the tables of recorded vehicles that a scenario names when the scenario is loaded; their faults are reported then,
+//! with their lines.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ const MAX_NUMBER: f64 = 1e9;
 const RANK: usize = 1002;
 /// The columns of a table, in the order of a driver's `points`.
 pub(crate) const COLUMNS: [&str; 5] = ["time_s", "x_m", "y_m", "heading_rad", "speed_mps"];
-/// The column that tells vehicles apart.
+/// The column that distinguishes vehicles.
 pub(crate) const ID_COLUMN: &str = "id";
 /// The kind of driver that follows a record.
 pub(crate) const KIND: &str = "recorded";
@@ -34,10 +34,10 @@ const MAX_NAMES: usize = 12;
 /// The rows of each vehicle of a table, by its `id`; without such a column, of one vehicle without a name.
 pub(crate) type Records = BTreeMap<String, Vec<[f64; 5]>>;
 
-/// Puts the rows of the tables that recorded drivers name in the place of their names.
+/// Replaces the names of tables in recorded drivers by their rows.
 ///
 /// # Errors
-/// What is wrong with the tables.
+/// The faults of the tables.
 pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<(), Vec<Fault>> {
     let mut tables: BTreeMap<PathBuf, Arc<Records>> = BTreeMap::new();
     let mut faults = Vec::new();
@@ -107,7 +107,7 @@ fn rows(
     })
 }
 
-/// The records of a table; or the line, from 1, and what is wrong with it.
+/// The records of a table; or the line, from 1, and its problem.
 pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let mut lines = lines.map(|(index, line)| (index + 1, line.trim())).filter(|(_, row)| !row.is_empty());

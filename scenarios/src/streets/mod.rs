@@ -16,7 +16,7 @@ use draft::Draft;
 
 use crate::text::pattern::fits;
 
-/// One kind of street: its word, what it shows, and how a scene is drawn.
+/// One kind of street: its word, its description, and the function that draws a scene.
 struct StreetKind {
     word: &'static str,
     shows: &'static str,
@@ -34,7 +34,7 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "bus", shows: "A bus stops, and goes on", draw: obstacles::bus },
     StreetKind {
         word: "crosser",
-        shows: "Somebody slow crosses the street and has priority",
+        shows: "A slow road user crosses the street and has priority",
         draw: obstacles::crosser,
     },
     StreetKind {
@@ -51,7 +51,7 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "tee", shows: "A minor road joins a main one", draw: junctions::tee },
     StreetKind { word: "crossing", shows: "A minor road crosses a main one", draw: junctions::crossing },
     StreetKind { word: "equal", shows: "Four roads meet without signs: right before left", draw: junctions::equal },
-    StreetKind { word: "stop", shows: "A crossing where everybody stops", draw: junctions::all_way_stop },
+    StreetKind { word: "stop", shows: "An all-way stop", draw: junctions::all_way_stop },
 ];
 
 /// The most numbers of each kind that a pattern stands for.
@@ -73,7 +73,7 @@ impl Street {
         KINDS.iter().map(|kind| kind.word)
     }
 
-    /// The street of a name such as `streets/ring/17`; none if it names no street.
+    /// The street of a name such as `streets/ring/17`; `None` if the name is not that of a street.
     pub fn named(name: &str) -> Option<Street> {
         let (word, number) = name.strip_prefix(FOLDER)?.split_once('/')?;
         let kind = KINDS.iter().position(|kind| kind.word == word)?;
@@ -94,7 +94,7 @@ impl Street {
         fitting.flat_map(|kind| (first..=last).take(MAX_NUMBERS).map(move |number| Street { kind, number })).collect()
     }
 
-    /// What rows of sweeps call its kind.
+    /// The name of its kind in rows of sweeps.
     pub(crate) fn family(&self) -> String {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
@@ -141,7 +141,7 @@ mod tests {
         }
     }
 
-    /// Every street loads without a fault, with an ego that has something to do.
+    /// Every street loads without a fault, with an ego that moves.
     #[test]
     fn every_street_is_a_sound_scenario() {
         for kind in Street::kinds() {
@@ -154,7 +154,7 @@ mod tests {
         }
     }
 
-    /// Draws differ from number to number, and stay.
+    /// Draws differ from number to number, and are repeatable.
     #[test]
     fn numbers_give_different_streets() {
         let text = |name: &str| Street::named(name).expect("a street").text();

@@ -1,4 +1,4 @@
-//! Streets on which something stands, stops or crosses.
+//! Streets with standing, stopping or crossing road users.
 
 use super::draft::{Draft, Draftee, SCRIPTED};
 
@@ -127,7 +127,7 @@ pub(super) fn crosser(draft: &mut Draft) {
     }
 }
 
-/// What people want on a street with a limit: nearly that.
+/// The desired speed of people on a street with a limit: slightly below it.
 fn draft_wanted(limit_mps: f64) -> f64 {
     0.95 * limit_mps
 }

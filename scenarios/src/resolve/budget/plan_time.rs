@@ -4,8 +4,8 @@
 //! time = alone · (1 + share · others) · stages / 30 · (people) · (inference)
 //! ```
 //!
-//! [`DriverKind::plan_time`](interplay_planners::DriverKind::plan_time) says the first two, which were fitted to 324 random runs (an authored
-//! scenario, often with another planner or horizon). The two factors were set afterwards, by the runs that were farthest off.
+//! [`DriverKind::plan_time`](interplay_planners::DriverKind::plan_time) returns the first two, which were fitted to 324 random runs (an authored
+//! scenario, often with another planner or horizon). The two factors were set afterwards, from the runs with the largest errors.
 
 use interplay_planners::prediction::Prediction;
 

@@ -1,4 +1,4 @@
-//! Which vehicle of a flow comes when.
+//! The arrival times of the vehicles of a flow.
 
 use interplay_common::random::{Random, hash_of};
 
@@ -22,16 +22,16 @@ pub(super) struct Arrival<'a> {
     pub to: Option<&'a LaneReference>,
     /// The index of its sort, if there are several.
     pub sort: Option<usize>,
-    /// The speed with which it comes and at which it aims \[m/s\].
+    /// The speed with which it comes, which is also its desired speed \[m/s\].
     pub speed_mps: f64,
 }
 
-/// How many vehicles come, about.
+/// The expected number of vehicles.
 pub(super) fn expected(flow: &FlowConfig, duration_s: f64) -> f64 {
     pieces(flow, duration_s).iter().map(|[from_s, to_s, per_s]| (to_s - from_s) * per_s).sum()
 }
 
-/// The times between which a number of vehicles come in a second: from, to, number.
+/// The intervals with a constant rate of vehicles: from, to, vehicles per second.
 fn pieces(flow: &FlowConfig, duration_s: f64) -> Vec<[f64; 3]> {
     let end_s = flow.ends_s.unwrap_or(duration_s).min(duration_s);
     let rates = match flow.vehicles_per_h {
@@ -96,7 +96,7 @@ fn when(pieces: &[[f64; 3]], count: f64) -> Option<f64> {
     None
 }
 
-/// The index of the share in which a number from 0 to 1 lies; none without shares.
+/// The index of the share in which a number from 0 to 1 lies; `None` without shares.
 fn share_at(number: f64, shares: impl Iterator<Item = f64> + Clone) -> Option<usize> {
     let sum: f64 = shares.clone().sum();
     let mut left = number * sum;

@@ -19,7 +19,7 @@ pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Rou
         if written.stated.start.is_in_lane() { in_lane(written, road, route) } else { in_world(written, road, route) };
     let goal = match &written.stated.goal.lane {
         Some(LaneReference::Name(name)) => Some(no_names(written, "goal.lane", name, road)),
-        // Of a vehicle that has a place, the goal is checked with all else.
+        // For a vehicle with a position, the goal is checked later.
         Some(LaneReference::Number(lane)) if state.is_err() => {
             let refused = no_such_lane(&format!("{}.goal.lane", written.shown()), *lane, road);
             refused.map(|(message, help)| written.fault("goal.lane", "no such lane", message).help(help))

@@ -1,4 +1,4 @@
-//! The check of what a scenario expects of its vehicles.
+//! The check of expectations of vehicles.
 
 use interplay_common::spelling::suggestion;
 
@@ -79,7 +79,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether an entry of a list of bounds states one, for a vehicle that exists.
+    /// Whether an entry of a list states a bound, for a vehicle that exists.
     fn bounds(&mut self, list: &str, index: usize, vehicle: &str, bounds: &[MetricBoundKey; 4]) {
         let path = format!("expect.{list}.{index}");
         self.known(&format!("{path}.vehicle"), vehicle);
@@ -90,7 +90,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether an entry bounds a metric that exists, of a vehicle that exists, by what its values can be compared with. Without
+    /// Whether an entry bounds a metric that exists, of a vehicle that exists, by a value of the right type. Without
     /// declared metrics, the program that runs the scenario checks this.
     fn metric(&mut self, index: usize, stated: &ExpectedMetric) {
         let ExpectedMetric { name, vehicle, at_most, at_least, is } = stated;
@@ -127,7 +127,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the ways of both vehicles meet, so that one can let the other go first.
+    /// Whether the routes of both vehicles meet, so that one can let the other go first.
     fn yields(&mut self, index: usize, ExpectedYield { vehicle, to }: &ExpectedYield) {
         let path = format!("expect.yields.{index}");
         self.known(&format!("{path}.vehicle"), vehicle);
