@@ -1,4 +1,4 @@
-//! Data that a scenario names: weather, prices and gains from tables, windows under a sky, and what is said of what is wrong with them.
+//! Data files that a scenario names: weather, prices and gains from tables, solar radiation on windows, and their errors.
 
 mod common;
 
@@ -65,7 +65,7 @@ fn epw(cell: impl Fn(usize, usize) -> Option<&'static str>) -> String {
 }
 
 #[test]
-fn a_run_in_february_does_not_mind_october() {
+fn gaps_outside_the_days_of_the_run_are_accepted() {
     let folder = Folder::new();
     let weather = "[weather]\nkind = 'epw'\nfile = 'year.epw'\n";
     let october = 24 * 280..24 * 285;
@@ -118,7 +118,7 @@ fn prices_by_the_quarter_hour_and_with_quotes_are_read() {
 }
 
 #[test]
-fn prices_do_not_begin_anew_in_the_middle_of_a_day() {
+fn prices_repeat_after_whole_days_only() {
     let folder = Folder::new();
     let list = |count: usize| format!("{HOUSE}[tariff]\nprices_per_kwh = [{}]\n", "0.3,".repeat(count));
     for count in [1, 2, 24, 48, 49, 100] {

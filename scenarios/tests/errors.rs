@@ -1,5 +1,4 @@
-//! Every error as its reader sees it: each case is rendered and compared with the snapshots, and must name what
-//! matters.
+//! Every error as rendered for users: each case is compared with a snapshot, and must name the cause and the remedy.
 
 mod common;
 mod spoiled;

@@ -1,4 +1,4 @@
-//! Slips of an author, and whether the message names what was meant and the line that is to blame.
+//! Slips of an author: the message names the intended key or value and the line to blame.
 
 use interplay_scenarios::{Fault, Override, from_text};
 
@@ -20,7 +20,7 @@ fn hint(fault: &Fault) -> &str {
 const VARIANT: &str = "extends = \"lane-change/front-nice\"\ntitle = \"a\"\nshows = \"b\"\n";
 
 #[test]
-fn a_misspelt_vehicle_of_a_variant_is_told_its_nearest_name() {
+fn a_misspelt_vehicle_of_a_variant_gets_the_nearest_name_as_help() {
     let text = format!("{VARIANT}[[vehicle]]\nname = \"fornt\"\ndriver = {{ kind = \"human\", style = \"tough\" }}\n");
     let fault = only(&text, &[]);
     assert_eq!(fault.message(), "`vehicle.fornt.start` is missing");
@@ -31,7 +31,7 @@ fn a_misspelt_vehicle_of_a_variant_is_told_its_nearest_name() {
 }
 
 #[test]
-fn a_vehicle_of_a_variant_that_stands_there_twice_is_told_so() {
+fn a_vehicle_that_a_variant_states_twice_is_refused() {
     let entry = "[[vehicle]]\nname = \"front\"\ndriver = { kind = \"human\", style = \"tough\" }\n";
     let fault = only(&format!("{VARIANT}{entry}{entry}"), &[]);
     assert_eq!(fault.message(), "`vehicle.front` stands there twice");
@@ -40,7 +40,7 @@ fn a_vehicle_of_a_variant_that_stands_there_twice_is_told_so() {
 }
 
 #[test]
-fn a_word_in_capitals_is_told_its_own_spelling() {
+fn a_word_in_capitals_gets_its_spelling_as_help() {
     let fault = only(&format!("{VARIANT}[[vehicle]]\nname = \"front\"\ndriver = {{ kind = \"IDM\" }}\n"), &[]);
     assert_eq!(hint(&fault), "did you mean `idm`?");
     let by_flag = only(VARIANT, &["vehicle.front.driver.style=\"TOUGH\""]);
@@ -75,7 +75,7 @@ fn scaled_numbers_are_short_in_messages() {
 
 /// One bracket where a list wants two: at the header with one, whichever comes first.
 #[test]
-fn one_bracket_instead_of_two_is_told_so() {
+fn one_bracket_instead_of_two_is_named_as_the_cause() {
     for (vehicles, line, message) in [
         ("[vehicle]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here for the second time"),
         ("[vehicle]\nname = 'a'\n[[vehicle]]\nname = 'b'\n", 3, "`[vehicle]` stands here beside `[[vehicle]]`"),
@@ -139,7 +139,7 @@ fn scripted(orders: &str) -> String {
 }
 
 #[test]
-fn a_script_says_something_in_the_order_of_time() {
+fn empty_or_unordered_scripts_are_refused() {
     all_are_told(&scripted(""), &["the script of vehicle `car` has no orders"]);
     all_are_told(&scripted("{ from_s = 1.0 }"), &["order 0 of vehicle `car` says neither how fast nor where to drive"]);
     let late = "{ from_s = 3.0, speed_mps = 0.4 }, { from_s = 1.0, lateral_m = 0.2 }";

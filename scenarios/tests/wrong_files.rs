@@ -1,4 +1,4 @@
-//! Files that are not there or cannot be read, and what is said of them; as `errors.rs`.
+//! Errors of missing and unreadable files; as `errors.rs`.
 
 mod common;
 
@@ -41,7 +41,7 @@ fn unreadable_files() {
 
 const SECRET: &str = "root:x:0:0:root:/root:/bin/bash\nalice:$6$secret:1000:1000::/home/alice:/bin/sh\n";
 
-/// A scenario may name any file, and who runs it need not be who wrote it: of a file of another kind no text is shown.
+/// A scenario may name any file, and its user may not be its author: errors show no text of a file of another kind.
 #[test]
 fn the_text_of_a_file_of_another_kind_is_not_shown() {
     let folder = tempfile::tempdir().expect("a temporary folder");
