@@ -95,10 +95,10 @@ fn messages(lines: &str) -> Vec<String> {
         .collect()
 }
 
-fn all_are_told(lines: &str, words: &[&str]) {
+fn expect_messages(lines: &str, words: &[&str]) {
     let found = messages(lines);
-    let are_told = found.len() == words.len() && found.iter().zip(words).all(|(message, word)| message.contains(word));
-    assert!(are_told, "{words:?} in {found:#?}");
+    let all_match = found.len() == words.len() && found.iter().zip(words).all(|(message, word)| message.contains(word));
+    assert!(all_match, "{words:?} in {found:#?}");
 }
 
 #[test]
@@ -108,14 +108,17 @@ fn a_wrong_start_does_not_hide_a_wrong_goal() {
             "[[vehicle]]\nname = \"car\"\nstart = {{ {start}, along_m = 1.0, speed_mps = 0.5 }}\ngoal = {{ lane = {goal} }}\n"
         )
     };
-    all_are_told(&car("lane = 7", "8"), &["car.start.lane` is 7", "car.goal.lane` is 8"]);
-    all_are_told(&car("lane = 7", "\"west\""), &["car.start.lane` is 7", "`vehicle.car.goal.lane` names lane `west`"]);
+    expect_messages(&car("lane = 7", "8"), &["car.start.lane` is 7", "car.goal.lane` is 8"]);
+    expect_messages(
+        &car("lane = 7", "\"west\""),
+        &["car.start.lane` is 7", "`vehicle.car.goal.lane` names lane `west`"],
+    );
     let network = "[road]\nkind = \"crossing\"\n";
     let on_network = |start: &str, goal: &str| format!("{network}{}", car(start, goal));
     let lanes = on_network("lane = \"nowhere\"", "\"elsewhere\"");
-    all_are_told(&lanes, &["start.lane` names lane `nowhere`", "goal.lane` names lane `elsewhere`"]);
+    expect_messages(&lanes, &["start.lane` names lane `nowhere`", "goal.lane` names lane `elsewhere`"]);
     let beyond = on_network("lane = \"west-in\"", "\"elsewhere\"").replace("along_m = 1.0", "along_m = 1e4");
-    all_are_told(&beyond, &["start.along_m` (10000) is not on lane", "goal.lane` names lane `elsewhere`"]);
+    expect_messages(&beyond, &["start.along_m` (10000) is not on lane", "goal.lane` names lane `elsewhere`"]);
 }
 
 #[test]
@@ -140,10 +143,13 @@ fn scripted(orders: &str) -> String {
 
 #[test]
 fn empty_or_unordered_scripts_are_refused() {
-    all_are_told(&scripted(""), &["the script of vehicle `car` has no orders"]);
-    all_are_told(&scripted("{ from_s = 1.0 }"), &["order 0 of vehicle `car` says neither how fast nor where to drive"]);
+    expect_messages(&scripted(""), &["the script of vehicle `car` has no orders"]);
+    expect_messages(
+        &scripted("{ from_s = 1.0 }"),
+        &["order 0 of vehicle `car` says neither how fast nor where to drive"],
+    );
     let late = "{ from_s = 3.0, speed_mps = 0.4 }, { from_s = 1.0, lateral_m = 0.2 }";
-    all_are_told(&scripted(late), &["order 1 of vehicle `car` begins at 1 s, before order 0 above it, at 3 s"]);
+    expect_messages(&scripted(late), &["order 1 of vehicle `car` begins at 1 s, before order 0 above it, at 3 s"]);
     let fault = only(&format!("title = \"a\"\nshows = \"b\"\n{}", scripted(late)), &[]);
     assert_eq!(fault.line_and_column(), Some((7, 87)), "{fault:?}");
     let sound = "{ from_s = 1.0, lateral_m = 0.2 }, { from_s = 1.0, speed_mps = 0.4 }";

@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lanelets_and_obstacles_are_read_as_they_are() {
+    fn lanelets_and_obstacles_are_read_unchanged() {
         let text = r#"<commonRoad timeStepSize="0.5" commonRoadVersion="2020a" benchmarkID="A_B-1_1_T-1">
           <lanelet id="1"><leftBound><point><x>0</x><y>3</y></point><point><x>9</x><y>3</y></point></leftBound>
             <rightBound><point><x>0</x><y>0</y></point><point><x>9</x><y>0</y></point></rightBound>

@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_are_where_the_text_ends_to_be_xml() {
+    fn errors_are_located_where_the_xml_is_malformed() {
         let fault = Xml::parse("a.xml", "<a>\n  <b></c>\n</a>").err().expect("not closed");
         assert_eq!(fault.line_and_column().map(|(line, _)| line), Some(2), "{fault}");
         assert!(Xml::parse("a.xml", "<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").is_err(), "no entities");

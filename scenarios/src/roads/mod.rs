@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn past_its_end_nothing_of_the_ramp_is_left() {
+    fn the_ramp_has_no_width_past_its_end() {
         let road = Road::RampMerge(RampMerge::default());
         let edge = |along_m| straight(&road, Branch::Main).right_edge_m(along_m);
         assert!(edge(1.0) < 1e-4 && edge(3.5) > 0.36 && edge(9.0) <= 0.37);

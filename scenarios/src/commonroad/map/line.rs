@@ -213,7 +213,7 @@ mod tests {
     const RIGHT: [[f64; 2]; 2] = [[0.0, 0.0], [20.0, 0.0]];
 
     #[test]
-    fn the_middle_is_halfway_whatever_the_order_of_the_bounds() {
+    fn the_middle_is_halfway_for_any_order_of_the_bounds() {
         let line = between(&LEFT, &RIGHT).expect("a line");
         assert_eq!(line.points, [[0.0, 1.5], [10.0, 1.5], [20.0, 1.5]]);
         assert_eq!(line.widths, [[0.0, 3.0], [10.0, 3.0], [20.0, 3.0]]);

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_has_its_line() {
+    fn an_error_names_its_line() {
         let text = "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,no,0,0,5\n";
         let error = recorded_traffic_in_text("t.csv", text).expect_err("no number");
         assert_eq!(error.faults()[0].line_and_column().map(|(line, _)| line), Some(3));

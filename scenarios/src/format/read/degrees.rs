@@ -114,7 +114,7 @@ mod tests {
     use crate::Registry;
 
     #[test]
-    fn degrees_take_the_place_of_radians() {
+    fn degrees_replace_radians() {
         let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
         to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_in_degrees_is_read_as_the_same_bits() {
+    fn angles_written_in_degrees_read_back_bit_identical() {
         let schema = Registry::standard().complete();
         let angles = (-3000..3000).map(|angle| f64::from(angle) * 0.001_047_197_551).chain([60.0_f64.to_radians()]);
         let mut in_degrees = 0;

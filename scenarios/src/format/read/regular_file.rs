@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ordinary_files_are_read_up_to_the_limit() {
+    fn regular_files_are_read_up_to_the_limit() {
         let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
         let length = std::fs::metadata(&here).expect("there").len();
         assert_eq!(read_regular(&here, length).expect("read").expect("within the limit").len() as u64, length);
@@ -52,7 +52,7 @@ mod tests {
     /// An endless device, one that blocks its reader, and a folder.
     #[cfg(unix)]
     #[test]
-    fn what_is_no_ordinary_file_is_refused_at_once() {
+    fn pipes_devices_and_folders_are_refused_at_once() {
         for path in ["/dev/zero", "/dev/tty", "/dev", "/nowhere"] {
             assert!(read_regular(Path::new(path), 10).is_err(), "{path}");
         }

@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_may_leave_out_what_a_complete_file_must_state() {
+    fn a_variant_may_omit_required_keys() {
         let whole_scenario = complete(&ForeignKinds::default());
         let file = json_schema::of_file(&whole_scenario);
         let definitions = file["$defs"].to_string();

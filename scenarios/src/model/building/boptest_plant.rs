@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_the_zones_is_named() {
+    fn settings_that_do_not_fit_the_zones_are_named() {
         let fault = |change: fn(&mut BoptestPlantConfig)| {
             let mut wrong = config("http://localhost");
             change(&mut wrong);

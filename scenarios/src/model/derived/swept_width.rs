@@ -84,7 +84,7 @@ mod tests {
 
     /// The corners and sides of a lorry at a constant steering angle stay within the strip and reach both of its edges.
     #[test]
-    fn a_body_on_a_circle_covers_this_strip() {
+    fn a_body_on_a_circle_sweeps_the_computed_strip() {
         let body = VehicleClass::Truck.dimensions().body;
         let step_s = 0.01;
         let input = Input { acceleration_mps2: 0.0, steering_rad: 0.4 };
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_straight_road_it_is_the_width_of_the_body() {
+    fn the_swept_width_on_a_straight_road_is_the_body_width() {
         let body = VehicleClass::Car.dimensions().body;
         assert_eq!(swept_width_m(&body, f64::INFINITY), 1.8);
         assert!((swept_width_m(&body, 1e6) - 1.8).abs() < 1e-4);

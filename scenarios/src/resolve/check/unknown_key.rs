@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_in_another_unit_or_another_table_is_told_so() {
+    fn a_key_in_another_unit_or_table_gets_a_suggestion() {
         let whole = crate::format::registry::complete(&Default::default());
         let file = SchemaNode::new(&whole);
         let vehicle = file.property("vehicle").and_then(SchemaNode::entries).expect("vehicles");

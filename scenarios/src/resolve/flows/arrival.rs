@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_lanes_ways_and_speeds_are_as_stated() {
+    fn rates_lanes_routes_and_speeds_are_as_stated() {
         let flow = flow();
         let duration_s = 36_000.0;
         let drawn = draw(&flow, 1, duration_s);

@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn flows_that_make_no_sense_are_refused_once() {
+    fn invalid_flows_are_refused_once() {
         for (flow, part) in [
             ("", "nothing says how many vehicles"),
             ("vehicles_per_h = 0.0", "no vehicle comes before the run ends"),

@@ -89,7 +89,7 @@ mod tests {
 
     /// After any turn, the curve ends exactly where the second lane begins, without curvature.
     #[test]
-    fn a_connector_leads_from_pose_to_pose() {
+    fn a_connector_joins_two_poses() {
         for (turn_deg, to_corner_m, from_corner_m) in
             [(90.0, 10.0, 12.0), (-90.0, 12.0, 8.0), (35.0, 20.0, 20.0), (-140.0, 30.0, 31.0), (3.0, 9.0, 9.0)]
         {
