@@ -219,7 +219,6 @@ fn mutated(text: &str, random: &mut SplitMix64) -> String {
     text
 }
 
-/// Values of elements and attributes.
 const VALUES: [&str; 14] =
     ["-1", "0", "1", "2", "3", "103", "7.5", "1e9", "-200", "0.0001", "dynamic", "opposite", "solid", "pedestrian"];
 

@@ -127,7 +127,6 @@ fn straight_roads_take_places_in_lanes() {
     assert_eq!(merge.main_route().straight().copied(), merge.road.corridor(Branch::Main));
 }
 
-/// A scenario with a ramp.
 fn ramp_merge() -> &'static str {
     embedded().iter().find(|file| file.name.starts_with("ramp-merge/")).expect("there is one").name
 }

@@ -133,7 +133,6 @@ fn faults_of_vehicles_do_not_hide_others() {
     assert!(found.iter().any(|message| message.starts_with("in the counterfactual `slower`")), "{found:#?}");
 }
 
-/// A car with this script.
 fn scripted(orders: &str) -> String {
     format!(
         "duration_s = 9.0\n[[vehicle]]\nname = \"car\"\nstart = {{ lane = 0, along_m = 1.0, speed_mps = 0.5 }}\n\

@@ -11,7 +11,6 @@ mod export;
 mod map;
 mod model;
 mod moved;
-mod options;
 pub(crate) mod recorded_traffic;
 mod traffic;
 mod xml;
@@ -31,12 +30,31 @@ use crate::text::error::{Fault, LoadError, Place};
 pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;
-pub use options::{ImportOptions, Replacement};
 pub use traffic::recorded_traffic_in_commonroad;
 use xml::{Unread, Xml};
 
 /// The number of leading bytes that decide whether a file is a scenario \[bytes\].
 const HEAD_BYTES: u64 = 4096;
+
+/// Options of an import.
+#[derive(Clone, Debug, Default)]
+pub struct ImportOptions {
+    /// The kind of driver of the ego; a nice human without one.
+    pub ego: Option<String>,
+    /// Drivers that take the place of records.
+    pub replace: Vec<Replacement>,
+}
+
+/// A driver that takes the place of a record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replacement {
+    /// The id or the name of the vehicle; all vehicles without one.
+    pub vehicle: Option<String>,
+    /// The kind of the driver.
+    pub kind: String,
+    /// Its style, of a human.
+    pub style: Option<String>,
+}
 
 /// A scenario that was imported.
 #[derive(Clone, Debug)]

@@ -12,7 +12,6 @@ const MAX_NODES: u32 = 8_000_000;
 /// The largest number that is read, of any unit.
 const MAX_NUMBER: f64 = 1e9;
 
-/// A parsed text.
 pub(super) struct Xml<'a> {
     tree: roxmltree::Document<'a>,
     document: Arc<Document>,
@@ -37,7 +36,6 @@ impl<'a> Xml<'a> {
         }
     }
 
-    /// The outermost element.
     pub(super) fn root(&self) -> Element<'_> {
         Element { node: self.tree.root_element(), document: &self.document }
     }
@@ -59,7 +57,6 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    /// Its name.
     pub(super) fn name(&self) -> &'a str {
         self.node.tag_name().name()
     }
@@ -89,7 +86,6 @@ impl<'a> Element<'a> {
         self.child(name).ok_or_else(|| self.fault(&format!("has no `{name}`"), missing()))
     }
 
-    /// The value of an attribute.
     pub(super) fn attribute(&self, name: &str) -> Option<&'a str> {
         self.node.attribute(name).map(str::trim)
     }
@@ -103,7 +99,6 @@ impl<'a> Element<'a> {
         self.attribute(name).ok_or_else(|| self.fault(&format!("has no `{name}`"), missing()))
     }
 
-    /// The text in it.
     pub(super) fn text(&self) -> &'a str {
         self.node.text().unwrap_or_default().trim()
     }
@@ -155,7 +150,6 @@ impl<'a> Element<'a> {
         self.node.document().input_text().get(self.node.range()).unwrap_or_default()
     }
 
-    /// Where it is written.
     pub(super) fn place(&self) -> Place {
         Place::new(self.document, self.node.range())
     }

@@ -132,7 +132,6 @@ impl SweepPlan {
     }
 }
 
-/// A message without its numbers.
 fn without_numbers(message: &str) -> String {
     let is_number = |word: &&str| word.trim_matches(|letter| "`(),;:".contains(letter)).parse::<f64>().is_ok();
     message.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ")

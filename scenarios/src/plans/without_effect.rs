@@ -40,7 +40,6 @@ struct Change<'a> {
     values: BTreeSet<Settings>,
 }
 
-/// The changes of one arm.
 type Changes<'a> = Vec<Change<'a>>;
 
 /// The effect of a setting at a place of the plan.

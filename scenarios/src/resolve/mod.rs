@@ -236,7 +236,6 @@ fn with_named_files(
     (scenario, unread)
 }
 
-/// Reads tables of settings.
 struct Reader<'a> {
     registry: &'a Registry,
     tree: &'a TomlNode,

@@ -58,7 +58,6 @@ pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<()
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// The rows of one vehicle.
 fn rows(
     tables: &mut BTreeMap<PathBuf, Arc<Records>>,
     file: &str,

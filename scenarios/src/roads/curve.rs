@@ -197,7 +197,6 @@ impl RoadCurve {
         self.pieces.iter().enumerate().map(located).collect()
     }
 
-    /// The default length of transitions.
     fn default_transition_m(&self, pieces: &[Piece]) -> f64 {
         let radius_m = self.turns().map(|turn| turn.radius_m).fold(f64::INFINITY, f64::min);
         let most_m = DEFAULT_TRANSITION_SHARE * longest_transition_m(pieces).min(radius_m);

@@ -17,7 +17,6 @@ const DRIVERS: [&str; 6] = [
 /// A driver that keeps its speed, or stands.
 pub(super) const SCRIPTED: &str = "{ kind = \"scripted\" }";
 
-/// A vehicle under construction.
 pub(super) struct Draftee<'a> {
     pub name: &'a str,
     pub class: &'a str,

@@ -55,7 +55,6 @@ pub(super) fn crossing(draft: &mut Draft) {
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// An all-way stop.
 pub(super) fn all_way_stop(draft: &mut Draft) {
     draft.road("kind = \"all-way-stop\"");
     let others = draft.count(1, 3);

@@ -2,7 +2,6 @@
 
 use super::draft::{Draft, Draftee};
 
-/// A car in a lane.
 fn car<'a>(name: &'a str, lane: &'a str, along_m: f64, speed_mps: f64) -> Draftee<'a> {
     Draftee { name, class: "car", lane, along_m, speed_mps, to: None, wanted_mps: speed_mps, driver: None }
 }

@@ -23,7 +23,6 @@ struct StreetKind {
     draw: fn(&mut Draft),
 }
 
-/// All kinds.
 const KINDS: [StreetKind; 15] = [
     StreetKind { word: "van", shows: "A van stands in the ego's lane", draw: obstacles::standing_van },
     StreetKind {

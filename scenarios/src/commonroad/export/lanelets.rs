@@ -28,7 +28,6 @@ pub(super) struct LaneletText {
 }
 
 impl LaneletText {
-    /// The lanelet as text.
     pub(super) fn written(&self) -> String {
         let [left, right] = &self.bounds;
         let mut text =

@@ -23,9 +23,7 @@ use super::xml_text::{escaped, number};
 const MODEL_AND_COST: &str = "KS2:WX1";
 /// The distance of the rear axle from the middle of the car \[m\].
 const REAR_AXLE_M: f64 = 1.422_717_093_6;
-/// The wheelbase \[m\].
 const WHEELBASE_M: f64 = 1.156_195_706_4 + REAR_AXLE_M;
-/// The largest steering angle \[rad\].
 const MAX_STEERING_RAD: f64 = 1.066;
 
 /// A state of the model.

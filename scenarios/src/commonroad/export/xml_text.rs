@@ -31,7 +31,6 @@ pub(super) fn escaped(text: &str) -> String {
     written
 }
 
-/// A point \[m\].
 pub(super) fn point([x_m, y_m]: [f64; 2]) -> String {
     format!("<point><x>{}</x><y>{}</y></point>", number(x_m), number(y_m))
 }

@@ -41,7 +41,6 @@ const BMW_320I: Body = Body {
 /// Its largest steering rate \[rad/s\].
 const STEERING_RATE_RADPS: f64 = 0.4;
 
-/// The ego, and its body.
 pub(super) struct Ego {
     pub config: VehicleConfig,
     pub state: State,

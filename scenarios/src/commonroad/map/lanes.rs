@@ -19,7 +19,6 @@ const MAX_LOOPS: usize = 200;
 
 const LANELET: [&str; 2] = ["lanelet", "lanelets"];
 
-/// The lanes of a scenario.
 pub(super) struct Lanes {
     /// The lanes as a file states them.
     pub configs: Vec<LaneConfig>,
@@ -264,7 +263,6 @@ fn users(lanelet: &Lanelet<'_>) -> Vec<LaneUser> {
 /// Lanes nearer than this are treated as touching \[m\].
 const GAP_M: f64 = 0.02;
 
-/// A lane along a line.
 fn lane_along(name: &str, line: &Line) -> LaneConfig {
     let first_m = line.widths[0][1];
     let is_constant = line.widths.iter().all(|[_, width_m]| *width_m == first_m);

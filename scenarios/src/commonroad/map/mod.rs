@@ -15,8 +15,8 @@ use interplay_planners::drivers::recorded;
 use interplay_planners::{Driver, DriverKind};
 use serde_json::{Value as Json, json};
 
+use super::ImportOptions;
 use super::model::CommonRoad;
-use super::options::ImportOptions;
 use super::xml::Unread;
 use crate::format::obstacle::ObstacleConfig;
 use crate::format::scenario_file::ScenarioFile;
@@ -36,7 +36,6 @@ use vehicles::{Follower, followers, in_world};
 
 /// The most vehicles of a scenario.
 const MAX_VEHICLES: usize = 256;
-/// The most obstacles.
 const MAX_OBSTACLES: usize = 256;
 /// The longest run \[s\], and the shortest.
 const DURATIONS_S: [f64; 2] = [1.0, 3600.0];
@@ -44,7 +43,6 @@ const DURATIONS_S: [f64; 2] = [1.0, 3600.0];
 const MAP_DURATION_S: f64 = 10.0;
 /// The time between two plans, rounded to a whole number of steps \[s\].
 const PLANNING_PERIOD_S: f64 = 0.2;
-/// The horizon of plans \[s\].
 const HORIZON_S: f64 = 8.0;
 /// The most stages of a plan.
 const MAX_STAGES: f64 = 200.0;

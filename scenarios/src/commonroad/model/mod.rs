@@ -30,7 +30,6 @@ const VERSIONS: [&str; 2] = ["2018b", "2020a"];
 /// The shortest and the longest step of time \[s\].
 const STEPS_S: [f64; 2] = [0.001, 10.0];
 
-/// A scenario of CommonRoad.
 pub(super) struct CommonRoad<'a> {
     /// Its name among the benchmarks.
     pub benchmark: String,

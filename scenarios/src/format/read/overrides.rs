@@ -243,7 +243,6 @@ fn steps_of(path: &[&str], place: &Place) -> Vec<Step> {
     path.iter().map(|word| Step { word: (*word).to_owned(), place: place.clone() }).collect()
 }
 
-/// Path and value of `path.to.key=value`.
 fn assignment_of(assignment: &str) -> Result<(Vec<Step>, TomlNode), Fault> {
     let document = Document::new("--set", assignment, 0);
     let place = Place::new(&document, 0..assignment.len());

@@ -68,7 +68,6 @@ impl MetricLimit {
 /// A key that bounds a metric: its name, its value if stated, the metric, and the meaning of the value.
 pub(crate) type MetricBoundKey = (&'static str, Option<f64>, &'static str, fn(f64) -> MetricLimit);
 
-/// The stated bounds.
 fn stated_bounds<'a>(
     vehicle: Option<&'a str>,
     bounds: &[MetricBoundKey],

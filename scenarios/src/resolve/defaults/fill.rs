@@ -19,7 +19,6 @@ pub(super) fn fill(schema: SchemaNode, table: &mut Map<String, Json>, scale: f64
     }
 }
 
-/// The same for one key.
 pub(super) fn fill_key(key: &str, property: SchemaNode, table: &mut Map<String, Json>, scale: f64) {
     match (table.get_mut(key), property.default()) {
         (Some(Json::Object(below)), _) if !property.holds_paths() => fill(property, below, scale),

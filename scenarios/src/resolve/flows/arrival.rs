@@ -26,7 +26,6 @@ pub(super) struct Arrival<'a> {
     pub speed_mps: f64,
 }
 
-/// The expected number of vehicles.
 pub(super) fn expected(flow: &FlowConfig, duration_s: f64) -> f64 {
     pieces(flow, duration_s).iter().map(|[from_s, to_s, per_s]| (to_s - from_s) * per_s).sum()
 }

@@ -76,7 +76,6 @@ impl KnownNetwork {
     }
 }
 
-/// Values by keys.
 struct Memo<K, V>(Mutex<HashMap<K, Arc<V>>>);
 
 impl<K, V> Default for Memo<K, V> {

@@ -116,7 +116,6 @@ impl Written<'_> {
         Ok((points, start))
     }
 
-    /// Its position.
     fn place(&self) -> Result<State, Fault> {
         let stated = self.stated;
         let turned_rad = stated.heading_rad.unwrap_or(0.0);

@@ -16,7 +16,6 @@ use crate::text::error::{Fault, quoted};
 /// Cosine of the largest angle between a start and its lane.
 const MIN_COS_OF_START: f64 = 0.5;
 
-/// Most names in an error.
 const MAX_NAMES: usize = 12;
 
 /// The state of a vehicle at its start, and its route from the start of the lane there.

@@ -55,7 +55,6 @@ fn straight(start: [f64; 2], heading_rad: f64, length_m: f64) -> Result<CentreLi
     CentreLine::from_pieces(start, heading_rad, &[Piece::Straight { length_m }])
 }
 
-/// A lane beside another one.
 fn beside(lane: &str, relation: NeighbourRelation, may_change: bool) -> Option<LaneNeighbour> {
     Some(LaneNeighbour { lane: lane.to_owned(), relation, may_change })
 }

@@ -17,7 +17,6 @@ use crate::text::error::{Fault, quoted};
 
 /// The most steps that a building may take.
 const MAX_STEPS: usize = 100_000;
-/// The most zones.
 const MAX_ZONES: usize = 1000;
 /// All faults of the building.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
