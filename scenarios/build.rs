@@ -1,4 +1,4 @@
-//! Embeds the authored scenarios anew when one is added or taken away, which the compiler alone does not notice.
+//! Rebuilds the crate when an authored scenario is added or removed, which the compiler does not detect.
 
 fn main() {
     println!("cargo::rerun-if-changed=files");

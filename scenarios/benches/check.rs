@@ -1,4 +1,4 @@
-//! What it costs to check scenarios.
+//! The time to check scenarios.
 //!
 //! ```sh
 //! cargo bench -p interplay-scenarios

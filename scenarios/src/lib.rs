@@ -2,7 +2,7 @@
 //!
 //! There are two types. A [`ScenarioFile`] is what is written, and nothing of what it leaves out. A [`Scenario`] is what is run:
 //! everything has a value, each vehicle has a start in world coordinates and a route along a road that was built, and the files
-//! that it names were read. One mechanism leads from the first to the second, whoever wrote it:
+//! that it names were read. One mechanism leads from the first to the second, for every author of a file:
 //!
 //! ```text
 //! text -> tree with places -> merged with what it extends -> changed by --set

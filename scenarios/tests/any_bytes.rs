@@ -1,4 +1,4 @@
-//! Whatever the bytes, loading ends with a scenario or with an error that can be shown; it never panics.
+//! Loading any bytes ends with a scenario or with an error that can be shown; it never panics.
 
 use std::fs;
 

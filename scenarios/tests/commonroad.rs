@@ -1,4 +1,4 @@
-//! Scenarios of CommonRoad: what is carried over, where errors are, and that no file makes the importer panic.
+//! Scenarios of CommonRoad: carried-over parts, places of errors, and no panics of the importer.
 
 use std::fs;
 use std::path::PathBuf;
@@ -63,7 +63,7 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
     for line in [
         "1 sign `277`: not carried over yet",
         "1 traffic light: left out",
-        "1 obstacle that is no rectangle: carried over as the box around it",
+        "1 obstacle that is not a rectangle: carried over as the box around it",
     ] {
         assert!(imported.notes.iter().any(|note| note.starts_with(line)), "no {line:?} in {:#?}", imported.notes);
     }
@@ -86,9 +86,9 @@ fn maps_far_away_are_moved_near_the_origin_with_all_that_is_on_them() {
     assert_eq!(scenario.ego().and_then(|ego| ego.route.legs.last()).map(|leg| leg.lane.as_str()), Some("l103"));
 }
 
-/// As it is written: the scenario with its records in a table beside it is the scenario with the records in it.
+/// A scenario with its records in a table beside it equals the scenario with the records in it.
 #[test]
-fn written_to_files_it_is_the_same_scenario() {
+fn a_scenario_written_to_files_is_the_same_scenario() {
     for file in ["motorway.xml", "tee-in-utm.xml"] {
         let imported = imported(file);
         let place = tempfile::tempdir().expect("a folder");
@@ -105,7 +105,7 @@ fn written_to_files_it_is_the_same_scenario() {
 }
 
 #[test]
-fn drivers_of_ours_take_the_place_of_records() {
+fn drivers_of_ours_replace_records() {
     let replace = |vehicle: Option<&str>, kind: &str, style: Option<&str>| {
         let [vehicle, style] = [vehicle, style].map(|word| word.map(str::to_owned));
         Replacement { vehicle, kind: kind.to_owned(), style }
@@ -144,7 +144,7 @@ fn errors_are_located_in_the_imported_file() {
         let text = shown(&error);
         assert!(text.contains(fragment) && text.contains("motorway.xml:"), "{instead}: {text}");
     }
-    // Whoever asks for a driver that does not exist is told so where the planning problem is written.
+    // An unknown driver is reported at the planning problem.
     let options = ImportOptions { ego: Some("humane".to_owned()), ..ImportOptions::default() };
     let imported = import_commonroad("motorway.xml", &motorway, &options).expect("as far as the importer sees");
     let error = imported.resolve(Registry::standard()).expect_err("no such driver");
@@ -153,7 +153,7 @@ fn errors_are_located_in_the_imported_file() {
 }
 
 #[test]
-fn folders_have_scenarios_of_commonroad_and_no_other_xml() {
+fn a_folder_lists_scenarios_of_commonroad_and_no_other_xml() {
     let place = tempfile::tempdir().expect("a folder");
     let [scenario, report] = ["a.xml", "b.xml"].map(|name| place.path().join(name));
     fs::write(&scenario, text("motorway.xml")).expect("written");
@@ -162,7 +162,7 @@ fn folders_have_scenarios_of_commonroad_and_no_other_xml() {
     assert_eq!(files_below(place.path()).expect("readable"), [scenario]);
 }
 
-/// Pieces that lead further than random letters.
+/// Fragments that get further through the parser than random letters.
 const PIECES: [&str; 20] = [
     "<",
     ">",
@@ -187,7 +187,7 @@ const PIECES: [&str; 20] = [
 ];
 
 /// A text with a few mistakes. Some leave it well-formed: another value of an element or attribute, or an element that is left out or
-/// doubled. Others leave out, double, reverse or replace whatever letters there are.
+/// doubled. Others leave out, double, reverse or replace any letters.
 fn mutated(text: &str, random: &mut SplitMix64) -> String {
     let mut text = text.to_owned();
     let mut below = |most: usize| (random.uniform(0.0, 1.0) * most as f64) as usize % most.max(1);
@@ -219,7 +219,6 @@ fn mutated(text: &str, random: &mut SplitMix64) -> String {
     text
 }
 
-/// Values of elements and attributes.
 const VALUES: [&str; 14] =
     ["-1", "0", "1", "2", "3", "103", "7.5", "1e9", "-200", "0.0001", "dynamic", "opposite", "solid", "pedestrian"];
 
@@ -262,7 +261,7 @@ fn mutated_files_are_refused_with_a_place_or_are_scenarios() {
 
 /// A table of records is the record, to a tenth of a millimetre.
 #[test]
-fn records_are_those_of_the_file() {
+fn a_table_of_records_equals_the_records_in_the_file() {
     let scenario = resolved(&imported("motorway.xml"));
     let record: Record = scenario.vehicle("truck-22").and_then(|truck| truck.driver.record()).expect("a record");
     for step in 0..=20 {

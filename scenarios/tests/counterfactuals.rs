@@ -1,4 +1,4 @@
-//! Counterfactuals in a file: what they change, what they inherit, and what is said where they are wrong.
+//! Counterfactuals in a file: what they change, what they inherit, and their errors.
 
 mod common;
 
@@ -37,7 +37,7 @@ fn style(scenario: &Scenario) -> Option<Style> {
     }
 }
 
-/// However a path is spelt, it changes what `--set` would change.
+/// A path in any spelling changes what `--set` would change.
 #[test]
 fn a_counterfactual_is_the_scenario_that_flags_would_make() {
     let flags = [set("vehicle.crossing.driver.style=\"nice\""), set("vehicle.crossing.goal.speed_mps=0.7")];
@@ -65,7 +65,7 @@ fn another_planner_comes_before_its_settings() {
     assert!(matches!(found.ego().expect("there").driver, Driver::Idm(_)));
 }
 
-/// What flags change is changed in the counterfactual too, unless it says otherwise.
+/// Changes by flags apply to the counterfactual too, unless it states another value.
 #[test]
 fn flags_change_counterfactuals_too_and_their_own_changes_win() {
     let flags = [Override::Seed(9), set("duration_s=5"), set("vehicle.crossing.driver.style=\"nice\"")];
@@ -78,9 +78,9 @@ fn flags_change_counterfactuals_too_and_their_own_changes_win() {
     assert!(loaded(&variant("planner = 'idm'"), &[set("counterfactual=[]")]).counterfactuals.is_empty());
 }
 
-/// A counterfactual of a mechanism that the planner of a flag does not have is no error of the file.
+/// A counterfactual of a mechanism that the planner of a flag does not have is not an error of the file.
 #[test]
-fn what_flags_have_made_impossible_is_left_out() {
+fn a_counterfactual_that_flags_make_impossible_is_left_out() {
     let text = variant("set = { vehicle.ego.driver.persuasion = false }");
     assert_eq!(loaded(&text, &[]).counterfactuals.len(), 1);
     let scenario = loaded(&text, &[Override::Planner("idm".to_owned())]);
@@ -102,7 +102,7 @@ fn a_variant_has_its_own_counterfactuals_only() {
     assert_eq!(scenario.counterfactuals, []);
 }
 
-/// What is written out reads back, and `interplay new` keeps it.
+/// A written counterfactual reads back, and `interplay new` keeps it.
 #[test]
 fn a_counterfactual_survives_writing() {
     let scenario = loaded(&variant("set = { 'vehicle.crossing.driver.style' = 'nice', vehicle.ego.limits = {} }"), &[]);
@@ -110,7 +110,7 @@ fn a_counterfactual_survives_writing() {
 }
 
 #[test]
-fn whatever_is_wrong_with_a_counterfactual_is_located_before_anything_runs() {
+fn faults_of_a_counterfactual_are_located_before_anything_runs() {
     let mut errors = Catalogue::default();
     let mut case = |name: &str, stated: &str, fragments: &[&str]| {
         errors.error(name, from_text("mine.toml", &variant(stated), &[]), fragments);
@@ -178,7 +178,7 @@ fn a_building_has_counterfactuals_too() {
     errors.error("planner", stated("planner = 'idm'\nexpect.order_differs = true"), &["there are no vehicles"]);
 }
 
-/// What a file says of its planner is varied, and what it does not say is not.
+/// Settings that a file states for its planner are varied, and no others.
 #[test]
 fn settings_that_a_file_names_are_varied() {
     let factors = |sets: &[&str]| -> Vec<(String, String)> {

@@ -72,7 +72,7 @@ fn a_place_in_a_lane_is_a_state_in_the_world() {
     );
     assert_eq!(off.position(), [12.0, 2.25]);
     assert!((off.heading_rad + 10_f64.to_radians()).abs() < 1e-12);
-    // After the turn of 200° the heading goes on counting, however it is stated.
+    // After the turn of 200° the heading exceeds a half turn, however it is stated.
     let along_m = 100.0 + 200_f64.to_radians() * 25.0 + 10.0;
     let behind = start(&format!("start = {{ lane = 0, along_m = {along_m}, speed_mps = 5.0 }}"));
     assert!((behind.heading_rad - 200_f64.to_radians()).abs() < 1e-9, "{behind:?}");
@@ -127,7 +127,6 @@ fn straight_roads_take_places_in_lanes() {
     assert_eq!(merge.main_route().straight().copied(), merge.road.corridor(Branch::Main));
 }
 
-/// Some scenario with a ramp.
 fn ramp_merge() -> &'static str {
     embedded().iter().find(|file| file.name.starts_with("ramp-merge/")).expect("there is one").name
 }

@@ -1,4 +1,4 @@
-//! Data that a scenario names: weather, prices and gains from tables, windows under a sky, and what is said of what is wrong with them.
+//! Data files that a scenario names: weather, prices and gains from tables, solar radiation on windows, and their errors.
 
 mod common;
 
@@ -65,7 +65,7 @@ fn epw(cell: impl Fn(usize, usize) -> Option<&'static str>) -> String {
 }
 
 #[test]
-fn a_run_in_february_does_not_mind_october() {
+fn gaps_outside_the_days_of_the_run_are_accepted() {
     let folder = Folder::new();
     let weather = "[weather]\nkind = 'epw'\nfile = 'year.epw'\n";
     let october = 24 * 280..24 * 285;
@@ -76,13 +76,13 @@ fn a_run_in_february_does_not_mind_october() {
     assert!(said.contains("120 such cells") && said.contains("column 10, air pressure, is 960"), "{said}");
     folder
         .refused(&format!("{HOUSE}{weather}month = 10\nday = 8\n"), &["year.epw:6729:1", "is -999", "take other days"]);
-    // No sun is no matter without windows, and is refused with them.
+    // Missing radiation is accepted without windows, and refused with them.
     folder.write("year.epw", &epw(|_, column| (13..16).contains(&column).then_some("9999")));
     assert!(folder.load(&format!("{HOUSE}{weather}")).is_ok());
     let sunny = HOUSE.replace("name = 'bed'\n", "name = 'bed'\nsolar_aperture_m2 = 1.0\n");
     folder
         .refused(&format!("{sunny}{weather}"), &["every global horizontal radiation is marked as missing", "`window`"]);
-    // 480 missing temperatures are no gap to bridge.
+    // A gap of 480 temperatures is too long to bridge.
     folder.write("year.epw", &epw(|row, column| (column == 6 && (10..490).contains(&row)).then_some("99.9")));
     folder.refused(&format!("{HOUSE}{weather}"), &["year.epw:19:1", "missing for 480 h", "weather.bridge_gaps_h"]);
     let bridged = folder.load(&format!("{HOUSE}{weather}bridge_gaps_h = 480.0\n")).expect("as stated");
@@ -118,7 +118,7 @@ fn prices_by_the_quarter_hour_and_with_quotes_are_read() {
 }
 
 #[test]
-fn prices_do_not_begin_anew_in_the_middle_of_a_day() {
+fn prices_repeat_after_whole_days_only() {
     let folder = Folder::new();
     let list = |count: usize| format!("{HOUSE}[tariff]\nprices_per_kwh = [{}]\n", "0.3,".repeat(count));
     for count in [1, 2, 24, 48, 49, 100] {

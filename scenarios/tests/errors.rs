@@ -1,5 +1,4 @@
-//! Every error as its reader sees it: each case is rendered and compared with the snapshots, and must name what
-//! matters.
+//! Every error as rendered for users: each case is compared with a snapshot, and must name the cause and the remedy.
 
 mod common;
 mod spoiled;
@@ -190,7 +189,12 @@ fn roads() {
     refusal(&mut errors, "beside_the_crossing_road", &[crossing, cross, north], &["reaches 0.37 to either side"]);
     let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
     let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
-    refusal(&mut errors, "no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
+    refusal(
+        &mut errors,
+        "no_lateral_position",
+        &[crossing, cross, there, y_m],
+        &["not a lateral position", "its `lane`"],
+    );
     let slanted = ("kind = \"lanes\"", "kind = \"intersection\"\nangle_deg = 10");
     refusal(&mut errors, "hardly_crossing", &[slanted], &["hardly cross", "from 20 to 160"]);
     insta::assert_snapshot!("roads", errors.0);
@@ -286,7 +290,7 @@ fn plants_and_crashes() {
     let crash = |pair: &'static str| [("no_collision = true", pair)];
     refusal(
         &mut errors,
-        "crash_with_nobody",
+        "crash_with_an_unknown_vehicle",
         &crash("collisions = [[\"ego\", \"frnt\"]]"),
         &["no vehicle `frnt`", "`front`?"],
     );

@@ -2,7 +2,7 @@
 
 use interplay_scenarios::from_text;
 
-/// The key of the first fault of a scenario with a line more.
+/// The key of the first fault of a scenario with one more line.
 fn key(line: &str) -> Option<String> {
     let text = format!(
         "title = 'a'\nshows = 'b'\nvehicle = [{{ name = 'a', start = {{ x_m = 0, y_m = 0.2, speed_mps = 1 }} }}]\n{line}"

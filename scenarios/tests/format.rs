@@ -1,4 +1,4 @@
-//! What the format means: variants, overrides, defaults, the schema, and the authored files.
+//! The meaning of the format: variants, overrides, defaults, the schema, and the authored files.
 
 mod least;
 
@@ -132,7 +132,7 @@ fn another_planner_keeps_the_settings_that_it_knows() {
 }
 
 #[test]
-fn whoever_says_nothing_carries_on() {
+fn a_vehicle_without_a_goal_keeps_its_lane_and_speed() {
     let scenario = least("", &[]);
     let car = &scenario.vehicles[0];
     assert_eq!(car.target(&scenario.road), car.start);
@@ -162,7 +162,7 @@ fn jitter_is_bounded_and_repeats_with_the_seed() {
 fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(&str, &Json)) {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     let schema = name.map_or(schema, |name| &root["$defs"][name]);
-    // Alternatives that only say what is required have no type.
+    // Alternatives that only state required keys have no type.
     let alternatives = ["oneOf", "anyOf"].iter().filter_map(|key| schema.get(*key)?.as_array()).flatten();
     for alternative in alternatives.filter(|one| one.get("type").is_some()) {
         each_property(root, alternative, path, visit);
@@ -177,7 +177,7 @@ fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(
     }
 }
 
-/// The file that the first line of every authored scenario names. `INTERPLAY_BLESS=1` writes it anew.
+/// The schema file that the first line of every authored scenario names. `INTERPLAY_BLESS=1` rewrites it.
 #[test]
 fn the_schema_beside_the_authored_files_is_the_one_that_is_published() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema.json");
@@ -205,7 +205,7 @@ fn the_schema_describes_every_key() {
     assert!(!root.to_string().contains("null"), "TOML has no null");
 }
 
-/// A value with every default of the schema written out, over what `stated` has.
+/// A value with every default of the schema that `stated` does not have.
 fn with_defaults(root: &Json, schema: &Json, stated: &Json) -> Json {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     let schema = name.map_or(schema, |name| &root["$defs"][name]);
@@ -238,7 +238,7 @@ fn writing_out_every_default_of_the_schema_changes_nothing() {
     assert_eq!(from_text("full.toml", &text, &[]).expect("the schema's own defaults"), least("", &[]));
 }
 
-/// What `interplay new` starts from means what it was made from, and explains each key once.
+/// A file of `interplay new` means the same as its origin, and explains each key once.
 #[test]
 fn a_commented_file_means_the_same_as_its_origin() {
     for file in embedded() {
@@ -262,7 +262,7 @@ fn a_commented_file_means_the_same_as_its_origin() {
     assert!(settings.count() > 20, "{text}");
 }
 
-/// Lines such as `#step_s = 0.1` say what is so without them: each of a complete scenario changes nothing when it is stated,
+/// Lines such as `#step_s = 0.1` show defaults: stating any of them in a complete scenario changes nothing,
 /// unless the schema knows no default and gives an example.
 #[test]
 fn the_defaults_in_a_commented_file_are_the_defaults() {
@@ -320,7 +320,7 @@ fn the_schema_gives_every_number_a_unit_and_every_key_a_default_or_an_example() 
     assert!(numbers > 100, "{numbers}");
 }
 
-/// A default or an example that breaks a bound of its own key would mislead whoever copies it.
+/// A default or an example that breaks a bound of its own key would mislead users who copy it.
 #[test]
 fn defaults_and_examples_are_within_their_bounds() {
     let root = schema();
@@ -337,7 +337,7 @@ fn defaults_and_examples_are_within_their_bounds() {
     assert!(bounded > 100, "{bounded}");
 }
 
-/// The source assumes that everybody's plan is known. A figure that rests on it says so.
+/// The dissertation assumes that all plans are known. Each figure that depends on this says so.
 #[test]
 fn every_driving_figure_states_that_plans_are_known() {
     let text = |name: &str| embedded().iter().find(|file| file.name == name).map(|file| file.text).unwrap_or_default();

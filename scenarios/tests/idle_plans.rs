@@ -3,7 +3,7 @@
 #[path = "common/plans.rs"]
 mod plans;
 
-/// Each wrong plan, with the line and column of the error and what it says.
+/// Each wrong plan, with the line, the column and a fragment of its error.
 const WRONG: &[plans::WrongPlan] = &[
     // The same driver, stated by keys that exclude each other.
     (
@@ -20,7 +20,7 @@ const WRONG: &[plans::WrongPlan] = &[
         19,
         "varies here, and the style `x` varies `vehicle.*.driver.style`, which excludes it",
     ),
-    // With one of the styles is enough: its rows would state weights that no driver has.
+    // One such style suffices: its rows would state weights that no driver has.
     (
         "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\n[[style]]\nname = 'y'\n\
          vary = { 'vehicle.*.driver' = [{ kind = 'human' }, { kind = 'human', style = 'nice' }] }\n\
@@ -36,7 +36,7 @@ const WRONG: &[plans::WrongPlan] = &[
         22,
         "`vehicle.front.driver.style` varies here, and the plan varies `vehicle.front.driver.safety_weight`",
     ),
-    // What every style or every planner replaces, by a key, by `vehicle.*`, or by another kind of driver.
+    // Settings that every style or every planner replaces, by a key, by `vehicle.*`, or by another kind of driver.
     (
         "scenario = ['lane-change/front-nice']\nset = { vehicle.front.driver.style = 'tough' }\nstyle = ['nice', 'tough']\n",
         2,
@@ -120,7 +120,7 @@ fn changes_and_samples_without_effect_are_refused_where_they_are_written() {
     plans::all_are_refused(WRONG);
 }
 
-/// What has an effect in some run, and samples for which something is drawn.
+/// Changes with an effect in some run, and samples with a drawn value.
 #[test]
 fn changes_and_samples_with_an_effect_are_accepted() {
     for text in [

@@ -1,4 +1,4 @@
-//! Scenarios that code makes: what they leave out, and where it says that they are wrong.
+//! Scenarios made in code: their defaults, and the paths in their errors.
 
 use interplay_scenarios::{
     Fault, LaneConfig, LaneNetwork, LoadError, Road, Scenario, ScenarioFile, StartConfig, Stated, VehicleClass,
@@ -64,7 +64,7 @@ fn a_table_of_json_may_extend_an_authored_scenario() {
     assert_eq!(scenario.ego().and_then(|ego| ego.goal.speed_mps), Some(0.9));
 }
 
-/// Whatever is wrong, the error names the path of the key and shows its value.
+/// Each error names the path of the key and shows its value.
 #[test]
 fn errors_name_the_path_of_the_key() {
     let first = |result: Result<Scenario, LoadError>| {

@@ -49,7 +49,7 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
 }
 
 #[test]
-fn what_is_absent_has_no_name() -> Outcome {
+fn an_absent_key_has_no_name() -> Outcome {
     assert_eq!(names("")?, BTreeSet::new());
     assert_eq!(names("building = { after_iterations = 2 }")?, BTreeSet::new());
     Ok(())

@@ -146,9 +146,9 @@ fn without_a_goal_the_only_way_is_taken() {
     assert_eq!(lanes("kind = 'two-way'", "east"), ["east"]);
 }
 
-/// What the forms say of priority and of lanes side by side.
+/// The right of way and the neighbouring lanes of the short forms.
 #[test]
-fn short_forms_say_who_goes_first_and_who_may_change() {
+fn short_forms_state_right_of_way_and_permitted_lane_changes() {
     let right_of_way = |road: &str, lane: &str| network(road, lane).lane(lane).expect("it is there").right_of_way;
     assert_eq!(right_of_way("kind = 'roundabout'", "north-in"), RightOfWay::Yield);
     assert_eq!(right_of_way("kind = 't-junction'", "south-in"), RightOfWay::Yield);
@@ -188,9 +188,9 @@ fn the_turning_lane_of_a_t_junction_leads_into_the_minor_road() {
     assert_eq!(network.lane("west-in").and_then(|lane| lane.left.clone()), None);
 }
 
-/// Pieces end where they would end without smooth curves between them, so that lanes can be laid out by hand.
+/// Pieces end where they would end without the smooth curves between them, so that lanes can be laid out by hand.
 #[test]
-fn a_lane_of_pieces_ends_where_they_do() {
+fn a_lane_ends_where_its_pieces_end() {
     let road = "kind = 'network'\nlane = [{ name = 'bend', start = { x_m = 5.0, y_m = 3.0, heading_deg = 90.0 }, \
         width_m = [[0.0, 3.5], [20.0, 3.0]], speed_limit_mps = 8.0, right_of_way = 'stop', \
         pieces = [{ straight_m = 20.0 }, { turn_deg = -90.0, radius_m = 10.0 }, { straight_m = 15.0 }] }]";

@@ -1,4 +1,4 @@
-//! Plans of many runs: what they stand for, and what is said of wrong ones.
+//! Plans of many runs: their runs, seeds and drawn values.
 
 use std::path::Path;
 
@@ -68,7 +68,7 @@ fn planners_get_the_same_values_and_seeds_in_a_sample() {
 }
 
 #[test]
-fn what_is_drawn_does_not_depend_on_what_else_is_in_the_plan() {
+fn drawn_values_do_not_depend_on_other_parts_of_the_plan() {
     let few = sound(&format!(
         "scenario = ['lane-change/front-nice']\nsamples = 5\n[vary]\n{SPEED} = {{ uniform = [1.0, 1.3] }}\n"
     ));
@@ -127,7 +127,7 @@ fn counterfactuals_are_planners_of_their_scenario_alone() {
         let styles: std::collections::BTreeSet<&str> = of_scenario.iter().map(|one| one.style.as_str()).collect();
         assert_eq!(styles.len(), 2);
     }
-    // What a counterfactual changes is changed, from the same start.
+    // The change of the counterfactual applies, from the same start.
     let find = |planner: &str| points.iter().find(|point| point.planner == planner && point.style == "as-written");
     let run = |planner: &str| plan.scenario(find(planner).expect("there")).expect("sound");
     let conservative = run("A conservative ego crosses second");
@@ -161,9 +161,9 @@ fn jitter_is_scaled_to_the_vehicles() {
     }
 }
 
-/// What a plan keeps of a road for its other runs is what a scenario by itself computes.
+/// The results that a plan keeps about a road equal those that a single scenario computes.
 #[test]
-fn runs_on_a_known_road_are_those_of_the_scenario_itself() {
+fn runs_on_a_known_road_equal_those_of_the_scenario_itself() {
     let plan = sound(
         "scenario = ['roundabout', 't-junction', 'narrow-passage', 'left-turn', 'on-ramp', 'all-way-stop', 'overtaking']\nsamples = 2\n\
          jitter = { position_m = 0.1, speed_mps = 0.1 }\n",

@@ -14,13 +14,13 @@ fn loaded(text: &str, overrides: &[Override]) -> Scenario {
 const HEAD: &str = "title = 'a'\nshows = 'b'\n";
 const CAR: &str = "[[vehicle]]\nname = 'car'\nstart.lane = 0\nstart.along_m = 0\n";
 
-/// The car, with more said of it; at 3 m/s unless that says otherwise.
+/// The car with further keys; at 3 m/s unless they state another speed.
 fn car(more: &str) -> String {
     let speed = if more.contains("start.speed_mps") { "" } else { "start.speed_mps = 3\n" };
     format!("{CAR}{speed}{more}")
 }
 
-/// What a scenario says of everything is written between the head and one car.
+/// A scenario of the head, further keys, and one car.
 fn with_car(between: &str, more: &str) -> Scenario {
     loaded(&format!("{HEAD}{between}\n{}", car(more)), &[])
 }
@@ -40,7 +40,7 @@ fn a_scale_scales_what_is_not_stated() {
 }
 
 #[test]
-fn tenth_scale_is_what_is_so_without_a_scale() {
+fn tenth_scale_is_the_default() {
     let (stated, unstated) = (with_car("scale = 'tenth'", "start.speed_mps = 1"), with_car("", "start.speed_mps = 1"));
     assert_eq!(stated.vehicles, unstated.vehicles);
     assert_eq!((stated.step_s, stated.duration_s, stated.road), (unstated.step_s, unstated.duration_s, unstated.road));
@@ -90,7 +90,7 @@ fn flags_reach_defaults() {
 }
 
 #[test]
-fn a_fault_in_defaults_is_said_once() {
+fn a_fault_in_defaults_is_reported_once() {
     let text = format!("{HEAD}[defaults]\nklass = 'car'\n{}{}", car(""), car("").replace("'car'", "'two'"));
     let error = from_text("size.toml", &text, &[]).expect_err("no such key");
     let said: Vec<&str> = error.faults().iter().map(|fault| fault.message()).collect();
@@ -188,7 +188,7 @@ fn on_road(road: &str, start: &str, more: &str) -> String {
     )
 }
 
-/// Where neither a scale nor a class nor a body is stated, the width of the lanes says the size.
+/// If neither a scale nor a class nor a body is stated, the width of the lanes determines the size.
 #[test]
 fn the_width_of_lanes_chooses_the_size() {
     let size = |road: &str, start: &str, more: &str| {
@@ -215,7 +215,7 @@ fn the_width_of_lanes_chooses_the_size() {
     assert_eq!((scenario.vehicles[0].body.width_m, scenario.planning_period_s()), tenth);
 }
 
-/// What is stated goes before the width of the lanes.
+/// Stated keys go before the width of the lanes.
 #[test]
 fn a_scale_a_class_or_a_body_goes_before_the_width_of_lanes() {
     let wide = "[road]\nkind = 'lanes'\nlane_width_m = 3.5";
@@ -238,7 +238,7 @@ fn a_speed_out_of_limits_names_scale_and_class() {
     assert!(help.contains("from 0 to 1.5") && help.contains("`class`") && help.contains("`scale`"), "{help}");
 }
 
-/// The narrowest lane of the way counts, from the start on, and no other.
+/// Only the narrowest lane of the route counts, from the start on.
 #[test]
 fn a_lane_that_is_narrower_than_the_car_is_found_on_its_way() {
     let first = |text: &str| {
@@ -269,7 +269,7 @@ fn a_lane_that_is_narrower_than_the_car_is_found_on_its_way() {
     );
 }
 
-/// A lorry covers more of these turns than they have, a car does not.
+/// A lorry sweeps more than the width of these turns, a car does not.
 #[test]
 fn a_turn_without_room_for_a_body_is_remarked_on() {
     for (road, from, to) in [
@@ -298,7 +298,7 @@ fn angles_are_degrees() {
 }
 
 #[test]
-fn who_does_not_look_ahead_needs_no_longer_plans() {
+fn drivers_that_do_not_look_ahead_need_no_longer_plans() {
     let said = |driver: &str| {
         let scenario = with_car("scale = 'full'\nhorizon_steps = 10", &format!("start.speed_mps = 32\n{driver}"));
         remarks(&scenario).iter().any(|remark| remark.contains("to stop from"))

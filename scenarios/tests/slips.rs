@@ -1,4 +1,4 @@
-//! Slips of an author, and whether the message names what was meant and the line that is to blame.
+//! Slips of an author: the message names the intended key or value and the line to blame.
 
 use interplay_scenarios::{Fault, Override, from_text};
 
@@ -20,7 +20,7 @@ fn hint(fault: &Fault) -> &str {
 const VARIANT: &str = "extends = \"lane-change/front-nice\"\ntitle = \"a\"\nshows = \"b\"\n";
 
 #[test]
-fn a_misspelt_vehicle_of_a_variant_is_told_its_nearest_name() {
+fn a_misspelt_vehicle_of_a_variant_gets_the_nearest_name_as_help() {
     let text = format!("{VARIANT}[[vehicle]]\nname = \"fornt\"\ndriver = {{ kind = \"human\", style = \"tough\" }}\n");
     let fault = only(&text, &[]);
     assert_eq!(fault.message(), "`vehicle.fornt.start` is missing");
@@ -31,7 +31,7 @@ fn a_misspelt_vehicle_of_a_variant_is_told_its_nearest_name() {
 }
 
 #[test]
-fn a_vehicle_of_a_variant_that_stands_there_twice_is_told_so() {
+fn a_vehicle_that_a_variant_states_twice_is_refused() {
     let entry = "[[vehicle]]\nname = \"front\"\ndriver = { kind = \"human\", style = \"tough\" }\n";
     let fault = only(&format!("{VARIANT}{entry}{entry}"), &[]);
     assert_eq!(fault.message(), "`vehicle.front` stands there twice");
@@ -40,7 +40,7 @@ fn a_vehicle_of_a_variant_that_stands_there_twice_is_told_so() {
 }
 
 #[test]
-fn a_word_in_capitals_is_told_its_own_spelling() {
+fn a_word_in_capitals_gets_its_spelling_as_help() {
     let fault = only(&format!("{VARIANT}[[vehicle]]\nname = \"front\"\ndriver = {{ kind = \"IDM\" }}\n"), &[]);
     assert_eq!(hint(&fault), "did you mean `idm`?");
     let by_flag = only(VARIANT, &["vehicle.front.driver.style=\"TOUGH\""]);
@@ -75,7 +75,7 @@ fn scaled_numbers_are_short_in_messages() {
 
 /// One bracket where a list wants two: at the header with one, whichever comes first.
 #[test]
-fn one_bracket_instead_of_two_is_told_so() {
+fn one_bracket_instead_of_two_is_named_as_the_cause() {
     for (vehicles, line, message) in [
         ("[vehicle]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here for the second time"),
         ("[vehicle]\nname = 'a'\n[[vehicle]]\nname = 'b'\n", 3, "`[vehicle]` stands here beside `[[vehicle]]`"),
@@ -95,10 +95,10 @@ fn messages(lines: &str) -> Vec<String> {
         .collect()
 }
 
-fn all_are_told(lines: &str, words: &[&str]) {
+fn expect_messages(lines: &str, words: &[&str]) {
     let found = messages(lines);
-    let are_told = found.len() == words.len() && found.iter().zip(words).all(|(message, word)| message.contains(word));
-    assert!(are_told, "{words:?} in {found:#?}");
+    let all_match = found.len() == words.len() && found.iter().zip(words).all(|(message, word)| message.contains(word));
+    assert!(all_match, "{words:?} in {found:#?}");
 }
 
 #[test]
@@ -108,14 +108,17 @@ fn a_wrong_start_does_not_hide_a_wrong_goal() {
             "[[vehicle]]\nname = \"car\"\nstart = {{ {start}, along_m = 1.0, speed_mps = 0.5 }}\ngoal = {{ lane = {goal} }}\n"
         )
     };
-    all_are_told(&car("lane = 7", "8"), &["car.start.lane` is 7", "car.goal.lane` is 8"]);
-    all_are_told(&car("lane = 7", "\"west\""), &["car.start.lane` is 7", "`vehicle.car.goal.lane` names lane `west`"]);
+    expect_messages(&car("lane = 7", "8"), &["car.start.lane` is 7", "car.goal.lane` is 8"]);
+    expect_messages(
+        &car("lane = 7", "\"west\""),
+        &["car.start.lane` is 7", "`vehicle.car.goal.lane` names lane `west`"],
+    );
     let network = "[road]\nkind = \"crossing\"\n";
     let on_network = |start: &str, goal: &str| format!("{network}{}", car(start, goal));
     let lanes = on_network("lane = \"nowhere\"", "\"elsewhere\"");
-    all_are_told(&lanes, &["start.lane` names lane `nowhere`", "goal.lane` names lane `elsewhere`"]);
+    expect_messages(&lanes, &["start.lane` names lane `nowhere`", "goal.lane` names lane `elsewhere`"]);
     let beyond = on_network("lane = \"west-in\"", "\"elsewhere\"").replace("along_m = 1.0", "along_m = 1e4");
-    all_are_told(&beyond, &["start.along_m` (10000) is not on lane", "goal.lane` names lane `elsewhere`"]);
+    expect_messages(&beyond, &["start.along_m` (10000) is not on lane", "goal.lane` names lane `elsewhere`"]);
 }
 
 #[test]
@@ -124,13 +127,12 @@ fn faults_of_vehicles_do_not_hide_others() {
         [[vehicle]]\nname = \"car\"\nstart = { lane = 7, along_m = 1.0, speed_mps = 0.5 }\n[[counterfactual]]\nname = \"slower\"\n\
         set = { \"vehicle.lorry.start.speed_mps\" = 0.1 }\n";
     let found = messages(lines);
-    for words in ["shorter than one step", "no whole number of times", "nowhere.epw", "car.start.lane` is 7", "lorry"] {
+    for words in ["shorter than one step", "not a multiple of", "nowhere.epw", "car.start.lane` is 7", "lorry"] {
         assert!(found.iter().any(|message| message.contains(words)), "{words} in {found:#?}");
     }
     assert!(found.iter().any(|message| message.starts_with("in the counterfactual `slower`")), "{found:#?}");
 }
 
-/// A car with this script.
 fn scripted(orders: &str) -> String {
     format!(
         "duration_s = 9.0\n[[vehicle]]\nname = \"car\"\nstart = {{ lane = 0, along_m = 1.0, speed_mps = 0.5 }}\n\
@@ -139,18 +141,21 @@ fn scripted(orders: &str) -> String {
 }
 
 #[test]
-fn a_script_says_something_in_the_order_of_time() {
-    all_are_told(&scripted(""), &["the script of vehicle `car` has no orders"]);
-    all_are_told(&scripted("{ from_s = 1.0 }"), &["order 0 of vehicle `car` says neither how fast nor where to drive"]);
+fn empty_or_unordered_scripts_are_refused() {
+    expect_messages(&scripted(""), &["the script of vehicle `car` has no orders"]);
+    expect_messages(
+        &scripted("{ from_s = 1.0 }"),
+        &["order 0 of vehicle `car` says neither how fast nor where to drive"],
+    );
     let late = "{ from_s = 3.0, speed_mps = 0.4 }, { from_s = 1.0, lateral_m = 0.2 }";
-    all_are_told(&scripted(late), &["order 1 of vehicle `car` begins at 1 s, before order 0 above it, at 3 s"]);
+    expect_messages(&scripted(late), &["order 1 of vehicle `car` begins at 1 s, before order 0 above it, at 3 s"]);
     let fault = only(&format!("title = \"a\"\nshows = \"b\"\n{}", scripted(late)), &[]);
     assert_eq!(fault.line_and_column(), Some((7, 87)), "{fault:?}");
     let sound = "{ from_s = 1.0, lateral_m = 0.2 }, { from_s = 1.0, speed_mps = 0.4 }";
     let of_script =
         |orders: &str| from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(orders)), &[]);
     let scenario = of_script(sound).expect("a script");
-    // Whoever has no script states none, and is written so.
+    // A driver without a script is written without one.
     let idle = Override::Set("vehicle.car.driver={ kind = \"scripted\" }".to_owned());
     let idle = from_text("my.toml", &format!("title = \"a\"\nshows = \"b\"\n{}", scripted(sound)), &[idle]);
     for scenario in [scenario, idle.expect("no script")] {

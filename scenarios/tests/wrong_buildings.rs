@@ -1,4 +1,4 @@
-//! Wrong buildings and wrong units, and what is said of them; as `errors.rs`.
+//! Errors of wrong buildings and wrong units; as `errors.rs`.
 
 mod common;
 
@@ -132,7 +132,7 @@ fn days_and_controllers() {
     insta::assert_snapshot!("days_and_controllers", errors.0);
 }
 
-/// A flag that is about vehicles says that there are none.
+/// A flag about vehicles is refused without any.
 #[test]
 fn flags_for_vehicles() {
     let mut errors = Catalogue::default();
@@ -150,7 +150,7 @@ fn flags_for_vehicles() {
     insta::assert_snapshot!("flags_for_vehicles", errors.0);
 }
 
-/// Each error points at the key that it is about, also where only the building crate can find it.
+/// Each error points at its key, even if only the building crate can find it.
 #[test]
 fn keys_of_controllers_and_setpoints() {
     let mut errors = Catalogue::default();
@@ -204,7 +204,7 @@ fn keys_of_controllers_and_setpoints() {
     insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);
 }
 
-/// Hours, prices and zones of their own, and what is said where they do not fit.
+/// Errors of schedules, prices and zones.
 #[test]
 fn wrong_schedules_and_prices() {
     let mut errors = Catalogue::default();
@@ -213,7 +213,11 @@ fn wrong_schedules_and_prices() {
     };
     let office = "\n[[schedule]]\nzones = [\"office\"]\n";
     let period = "\n[[schedule.period]]\nfrom_h = 8.0\nto_h = 18.0\nwanted_c = 21.0\n";
-    refused("schedule_of_nobody", &office.replace("office", "ofice"), &["bad.toml:30:10", "did you mean `office`?"]);
+    refused(
+        "schedule_of_an_unknown_zone",
+        &office.replace("office", "ofice"),
+        &["bad.toml:30:10", "did you mean `office`?"],
+    );
     let night = period.replace("8.0\nto_h = 18.0", "22.0\nto_h = 6.0");
     refused("a_night_in_one_period", &format!("{office}{night}"), &["bad.toml:34:8", "from 22 to 24 and from 0 to 6"]);
     refused("periods_that_overlap", &format!("{office}{period}{period}"), &["bad.toml:38:10", "overlaps"]);

@@ -1,4 +1,4 @@
-//! Expectations that cannot hold, cannot fail, or are about nobody.
+//! Expectations that cannot hold, cannot fail, or are about no vehicle.
 
 mod common;
 mod spoiled;
@@ -17,10 +17,10 @@ fn an_order_that_can_never_fail() {
     let mut errors = Catalogue::default();
     let order = |text: &'static str| [("order = [\"front\", \"ego\"]", text)];
     let remedy = "order = [\"ego\", \"front\"]";
-    refusal(&mut errors, "nobody", &order("order = []"), &["bad.toml:23:9", "names nobody", remedy]);
+    refusal(&mut errors, "order_of_no_vehicle", &order("order = []"), &["bad.toml:23:9", "names no vehicle", remedy]);
     refusal(&mut errors, "one_only", &order("order = [\"ego\"]"), &["names `ego` only", remedy]);
     let collisions = [("no_collision = true", "collisions = []")];
-    refusal(&mut errors, "no_pair", &collisions, &["bad.toml:22:14", "names nobody", "`no_collision = true`"]);
+    refusal(&mut errors, "no_pair", &collisions, &["bad.toml:22:14", "names no vehicle", "`no_collision = true`"]);
     insta::assert_snapshot!("an_order_that_can_never_fail", errors.0);
 }
 
@@ -46,7 +46,7 @@ fn comfort_and_limits() {
         errors.error(name, from_text("bad.toml", &changed, &[]), fragments);
     };
     change("no_speed_limit", "speed_limit_exceeded_by_at_most_mps = 0.5", &["bad.toml:22:", "`max_below_mps`"]);
-    change("nobody_keeps_rules", "rules_kept = true", &["bad.toml:22:", "no vehicle keeps", "rules = \"kept\""]);
+    change("no_vehicle_keeps_rules", "rules_kept = true", &["bad.toml:22:", "no vehicle keeps", "rules = \"kept\""]);
     change("long_time", "time_to_collision_at_least_s = 101", &["at most 100"]);
     change("negative_gap", "gap_at_least_m = -0.1", &["at least 0"]);
     insta::assert_snapshot!("comfort_and_limits", errors.0);
@@ -94,7 +94,7 @@ fn every_expectation_has_a_name() {
     assert!(!names.iter().any(|name| name.ends_with(".vehicle") || name.contains("lateral")), "{names:?}");
 }
 
-/// The zones of an intersection are where one road lies on the other, whoever is asked first.
+/// The conflict zones of an intersection are the overlap of its roads, in either order of the vehicles.
 #[test]
 fn zones_of_an_intersection_are_those_of_its_roads() {
     let scenario = load("intersection/stop-sign", &[]).expect("authored");

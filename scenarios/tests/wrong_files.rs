@@ -1,4 +1,4 @@
-//! Files that are not there or cannot be read, and what is said of them; as `errors.rs`.
+//! Errors of missing and unreadable files; as `errors.rs`.
 
 mod common;
 
@@ -41,7 +41,7 @@ fn unreadable_files() {
 
 const SECRET: &str = "root:x:0:0:root:/root:/bin/bash\nalice:$6$secret:1000:1000::/home/alice:/bin/sh\n";
 
-/// A scenario may name any file, and who runs it need not be who wrote it: of a file of another kind no text is shown.
+/// A scenario may name any file, and its user may not be its author: errors show no text of a file of another kind.
 #[test]
 fn the_text_of_a_file_of_another_kind_is_not_shown() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -60,7 +60,7 @@ fn the_text_of_a_file_of_another_kind_is_not_shown() {
     for (text, words) in [
         (
             "extends = 'passwd'\n".to_owned(),
-            ["mine.toml:1:11", "`FOLDER/passwd` is no scenario: its line 1 is not valid TOML"],
+            ["mine.toml:1:11", "`FOLDER/passwd` is not a scenario: its line 1 is not valid TOML"],
         ),
         ("extends = 'latin'\n".to_owned(), ["mine.toml:1:11", "`FOLDER/latin` is not UTF-8 text"]),
         (format!("{house}[weather]\nkind = 'epw'\nfile = 'passwd'\n"), ["passwd:1:1", "begins with `LOCATION,`"]),
@@ -72,8 +72,8 @@ fn the_text_of_a_file_of_another_kind_is_not_shown() {
             format!("{house}[weather]\nkind = 'csv'\nfile = 'passwd.csv'\ntemperature = 'T'\n"),
             ["passwd.csv:2:1", "fields"],
         ),
-        (format!("{house}[tariff]\nfile = 'passwd'\n"), ["passwd:2:1", "is no table of prices"]),
-        (format!("{house}[[gains]]\nfile = 'passwd'\n"), ["passwd:2:1", "is no table of gains"]),
+        (format!("{house}[tariff]\nfile = 'passwd'\n"), ["passwd:2:1", "is not a table of prices"]),
+        (format!("{house}[[gains]]\nfile = 'passwd'\n"), ["passwd:2:1", "is not a table of gains"]),
         (format!("{car}driver = {{ kind = 'recorded', file = 'passwd' }}\n"), ["passwd:1:1", "has no column"]),
     ] {
         let path = write("mine.toml", text.as_bytes());

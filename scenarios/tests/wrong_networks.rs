@@ -180,7 +180,7 @@ fn vehicles_on_lanes() {
     case(
         "no_lateral_position",
         ("speed_mps = 1.0 }", "speed_mps = 1.0 }\ngoal = { y_m = 1.0 }"),
-        &["no lateral position on a network of lanes", "its `lane`"],
+        &["not a lateral position on a network of lanes", "its `lane`"],
     );
     case(
         "cross",
@@ -284,7 +284,7 @@ fn a_width_of_zero_is_named_before_the_length_that_it_allows() {
 }
 
 #[test]
-fn points_that_double_back_are_told_where() {
+fn the_error_of_points_that_double_back_names_the_point() {
     let (last, back) = ("[60.0, 3.5]]", "[60.0, 3.5], [10.0, 3.5], [-5.0, 3.5]]");
     refused(last, back, &["bad.toml:17:23", "the line turns back at point 1"]);
 }

@@ -1,4 +1,4 @@
-//! What is said of wrong plans of many runs, and where.
+//! Errors of wrong plans of many runs, and their places.
 
 #[path = "common/plans.rs"]
 mod plans;
@@ -10,7 +10,7 @@ fn sound(text: &str) -> SweepPlan {
     read(text).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()))
 }
 
-/// Each wrong plan, with the line and column of the error and what it says.
+/// Each wrong plan, with the line, the column and a fragment of its error.
 const WRONG: &[plans::WrongPlan] = &[
     ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
     ("title = 'A'\nshows = 'B'\n[road]\nkind = 'lanes'\n", 3, 2, "is a scenario, not a plan of runs"),
@@ -21,7 +21,7 @@ const WRONG: &[plans::WrongPlan] = &[
     ("scenario = ['lane-change/front-nice']\nsamples = 0\n", 2, 11, "must be at least 1"),
     ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
     ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
-    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "no style and no kind of driver"),
+    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "neither a style nor a kind of driver"),
     (
         "scenario = ['intersection/nice']\nplanner = [{ name = 'A conservative ego crosses second', kind = 'idm' }]\n\
          counterfactuals = true\n",
@@ -54,7 +54,7 @@ const WRONG: &[plans::WrongPlan] = &[
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",
         3,
         33,
-        "no list and no distribution",
+        "neither a list nor a distribution",
     ),
     ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [2, 1] }\n", 3, 26, "is empty"),
     (
@@ -138,7 +138,7 @@ const WRONG: &[plans::WrongPlan] = &[
         11,
         "counted by the clock",
     ),
-    // What a set value breaks is blamed on it, with and without values that vary.
+    // A fault caused by a set value is blamed on it, with and without values that vary.
     (
         "scenario = ['lane-change/front-nice']\nset = { duration_s = 0.5 }\n",
         2,
@@ -170,7 +170,7 @@ const WRONG: &[plans::WrongPlan] = &[
         35,
         "with `vehicle.front.start.x_m = -0.35`",
     ),
-    // Of two changes that do not fit together it is the one that varies, or else the one that the fault is about.
+    // Of two incompatible changes, the one that varies is blamed, or else the one that the fault is about.
     (
         "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = 0.1 }\n[vary]\nvehicle.ego.start.y_m = [0.185, 0.5]\n",
         4,
@@ -189,21 +189,21 @@ const WRONG: &[plans::WrongPlan] = &[
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { unifrom = [1.0, 1.2] }\n",
         3,
         35,
-        "`unifrom` is no distribution",
+        "`unifrom` is not a distribution",
     ),
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { mean = 1.0, sd = 0.1 }\n",
         3,
         35,
-        "`mean` is no distribution",
+        "`mean` is not a distribution",
     ),
     (
         "scenario = ['intersection/nice']\n[vary]\n'vehicle.*.driver.safety_weight' = { lognormal = [1.0, 1.2] }\n",
         3,
         38,
-        "`lognormal` is no distribution",
+        "`lognormal` is not a distribution",
     ),
-    // What concerns vehicles, of a building.
+    // Changes of vehicles in a building.
     ("scenario = ['building/tower']\nstyle = ['nice']\n", 2, 10, "no vehicles"),
     ("scenario = ['building/tower']\nset = { 'vehicle.*.driver.kind' = 'idm' }\n", 2, 18, "no vehicles"),
     (
@@ -212,7 +212,7 @@ const WRONG: &[plans::WrongPlan] = &[
         10,
         "`building/tower` has no vehicles, so `jitter`",
     ),
-    // What is stated twice.
+    // Repeated statements.
     (
         "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[vary]\nhorizon_steps = [20, 25]\n",
         2,
@@ -250,14 +250,14 @@ fn wrong_plans_are_refused_where_they_are_wrong() {
     plans::all_are_refused(WRONG);
 }
 
-/// What is wrong with the runs of a plan that can be read.
+/// The faults of the runs of a valid plan.
 fn refusal(plan: &SweepPlan) -> LoadError {
     let points = (0..plan.run_count()).rev().map(|index| plan.point(index));
     let refused = points.filter_map(|point| plan.check(&point).err());
     plan.refusal(&refused.reduce(|all, one| all.and(one)).expect("some are refused"))
 }
 
-/// Each fault is said once, with the first run that has it and how many do.
+/// Each fault is reported once, with the first run that has it and their number.
 #[test]
 fn drawn_values_that_break_a_scenario_are_named_once() {
     let plan = sound(
@@ -283,9 +283,9 @@ fn drawn_values_that_break_a_scenario_are_named_once() {
     assert_eq!(error.faults()[0].line_and_column(), Some((5, 21)));
 }
 
-/// What the first sample has is counted like what the others have.
+/// Faults of the first sample are counted like those of the others.
 #[test]
-fn faults_of_the_first_sample_say_how_many_runs_have_them() {
+fn faults_of_the_first_sample_state_how_many_runs_have_them() {
     let plan = sound(
         "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'human']\nsamples = 3\n[vary]\nvehicle.front.start.x_m = [-1.65]\n\
          vehicle.front.start.speed_mps = { uniform = [1.0, 1.1] }\n",
@@ -295,7 +295,7 @@ fn faults_of_the_first_sample_say_how_many_runs_have_them() {
     assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((5, 21))));
     let said = [", sample 0: ", "overlap at the start", "; 6 runs have this error"];
     assert!(said.iter().all(|words| fault.message().contains(words)), "{}", fault.message());
-    // A fault that all runs of a combination have is said when the plan is read.
+    // A fault of all runs of a combination is reported when the plan is read.
     let error = read("scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = -1.65 }\n")
         .err()
         .expect("refused");
@@ -321,7 +321,7 @@ fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
 
 /// A counterfactual with a seed of its own would be the same run in every sample.
 #[test]
-fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
+fn a_counterfactual_that_sets_the_seed_is_refused_in_a_plan() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let scenario = "extends = 'intersection/nice'\n[[counterfactual]]\nname = 'seeded'\nset = { seed = 4 }\n\
                     expect = { order = ['ego', 'turning'] }\n";

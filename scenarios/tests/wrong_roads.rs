@@ -70,7 +70,7 @@ fn vehicles_on_curves() {
         errors.error(name, from_text("bad.toml", &good.replacen(from, to, 1), &[]), fragments);
     };
     let front = |to: &'static str| ("start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }", to);
-    refuse("no_lateral_position", ("lane = 1 }", "y_m = 0.3 }"), &["no lateral position on a curve", "its `lane`"]);
+    refuse("no_lateral_position", ("lane = 1 }", "y_m = 0.3 }"), &["not a lateral position on a curve", "its `lane`"]);
     refuse("cross", ("name = \"front\"", "name = \"front\"\nroad = \"cross\""), &["no crossing road"]);
     let outside = front("start = { x_m = 3.5, y_m = 0.185, speed_mps = 1.0 }");
     refuse("outside_of_the_turn", outside, &["`front` starts outside the road", "0.37 m to either side"]);

@@ -4,14 +4,13 @@
 //! text -> elements with places (`xml`) -> CommonRoad as plain values (`model`) -> ScenarioFile (`map`)
 //! ```
 //!
-//! What a scenario has no words for is left out, and said in a line for each kind of thing. Every error has the place in the imported
-//! text, also those that are found later, when the scenario is resolved.
+//! Parts that a scenario cannot state are left out and noted, one line for each kind. Every error has its place in the imported
+//! text, including errors found later, when the scenario is resolved.
 
 mod export;
 mod map;
 mod model;
 mod moved;
-mod options;
 pub(crate) mod recorded_traffic;
 mod traffic;
 mod xml;
@@ -31,19 +30,38 @@ use crate::text::error::{Fault, LoadError, Place};
 pub use export::{CommonRoadExport, DrivenVehicle, Exported};
 use map::{Mapped, Notes};
 use model::CommonRoad;
-pub use options::{ImportOptions, Replacement};
 pub use traffic::recorded_traffic_in_commonroad;
 use xml::{Unread, Xml};
 
-/// How much of a file tells whether it is a scenario \[bytes\].
+/// The number of leading bytes that decide whether a file is a scenario \[bytes\].
 const HEAD_BYTES: u64 = 4096;
+
+/// Options of an import.
+#[derive(Clone, Debug, Default)]
+pub struct ImportOptions {
+    /// The kind of driver of the ego; a nice human without one.
+    pub ego: Option<String>,
+    /// Drivers that take the place of records.
+    pub replace: Vec<Replacement>,
+}
+
+/// A driver that takes the place of a record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replacement {
+    /// The id or the name of the vehicle; all vehicles without one.
+    pub vehicle: Option<String>,
+    /// The kind of the driver.
+    pub kind: String,
+    /// Its style, of a human.
+    pub style: Option<String>,
+}
 
 /// A scenario that was imported.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The scenario, with the records of its vehicles in it.
     pub file: ScenarioFile,
-    /// What could not be carried over, or not as it was: a line for each kind of thing.
+    /// The parts that could not be carried over, or only with changes: one line for each kind.
     pub notes: Vec<String>,
     /// Paths of keys, each with its place in the imported text.
     places: Vec<(String, Place)>,
@@ -61,7 +79,7 @@ pub fn import_commonroad_file(path: &Path, options: &ImportOptions) -> Result<Im
     import_file(path, options).map_err(|fault| LoadError::new(name, vec![fault]))
 }
 
-/// The same, with what is wrong as it is.
+/// The same, with the unconverted faults.
 pub(crate) fn import_file(path: &Path, options: &ImportOptions) -> Result<Imported, Fault> {
     imported(&path.display().to_string(), &imported_text(path)?, options)
 }
@@ -69,7 +87,7 @@ pub(crate) fn import_file(path: &Path, options: &ImportOptions) -> Result<Import
 /// Imports a scenario of CommonRoad from its text; `name` is what errors call it.
 ///
 /// # Errors
-/// Where the text is no such scenario, or its lanelets and vehicles cannot be made a scenario of; each located.
+/// If the text is not such a scenario, or its lanelets and vehicles cannot become a scenario; each error is located.
 pub fn import_commonroad(name: &str, text: &str, options: &ImportOptions) -> Result<Imported, LoadError> {
     imported(name, text, options).map_err(|fault| LoadError::new(name, vec![fault]))
 }
@@ -107,7 +125,7 @@ impl Imported {
         (file, has_records.then_some(rows))
     }
 
-    /// The tree of the scenario, in which everything is written where it stands in the imported text.
+    /// The tree of the scenario, with the places of its values in the imported text.
     pub(crate) fn into_tree(self) -> TomlNode {
         let mut tree = tree::of_value(&Json::Object(self.file.stated()));
         tree.set_place(&self.root);

@@ -12,7 +12,7 @@ use crate::text::error::{Fault, LoadError};
 /// Reads the recorded traffic of a scenario of CommonRoad: every lanelet for vehicles, and every dynamic obstacle with a trajectory.
 ///
 /// # Errors
-/// Where the file cannot be read or is no such scenario; each located.
+/// If the file cannot be read or is not such a scenario; each error is located.
 pub fn recorded_traffic_in_commonroad(path: &Path) -> Result<RecordedTraffic, LoadError> {
     let name = path.display().to_string();
     let read = imported_text(path).and_then(|text| traffic(&name, &text));
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lanelets_and_obstacles_are_read_as_they_are() {
+    fn lanelets_and_obstacles_are_read_unchanged() {
         let text = r#"<commonRoad timeStepSize="0.5" commonRoadVersion="2020a" benchmarkID="A_B-1_1_T-1">
           <lanelet id="1"><leftBound><point><x>0</x><y>3</y></point><point><x>9</x><y>3</y></point></leftBound>
             <rightBound><point><x>0</x><y>0</y></point><point><x>9</x><y>0</y></point></rightBound>

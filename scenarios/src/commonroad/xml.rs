@@ -12,7 +12,6 @@ const MAX_NODES: u32 = 8_000_000;
 /// The largest number that is read, of any unit.
 const MAX_NUMBER: f64 = 1e9;
 
-/// A parsed text.
 pub(super) struct Xml<'a> {
     tree: roxmltree::Document<'a>,
     document: Arc<Document>,
@@ -22,7 +21,7 @@ impl<'a> Xml<'a> {
     /// Parses a text; `name` is what errors call it.
     ///
     /// # Errors
-    /// Where it is no well-formed XML.
+    /// If it is not well-formed XML.
     pub(super) fn parse(name: &str, text: &'a str) -> Result<Xml<'a>, Fault> {
         let document = Document::new(name, text, 1);
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
@@ -37,7 +36,6 @@ impl<'a> Xml<'a> {
         }
     }
 
-    /// The outermost element.
     pub(super) fn root(&self) -> Element<'_> {
         Element { node: self.tree.root_element(), document: &self.document }
     }
@@ -59,7 +57,6 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    /// Its name.
     pub(super) fn name(&self) -> &'a str {
         self.node.tag_name().name()
     }
@@ -89,7 +86,6 @@ impl<'a> Element<'a> {
         self.child(name).ok_or_else(|| self.fault(&format!("has no `{name}`"), missing()))
     }
 
-    /// The value of an attribute.
     pub(super) fn attribute(&self, name: &str) -> Option<&'a str> {
         self.node.attribute(name).map(str::trim)
     }
@@ -103,7 +99,6 @@ impl<'a> Element<'a> {
         self.attribute(name).ok_or_else(|| self.fault(&format!("has no `{name}`"), missing()))
     }
 
-    /// The text in it.
     pub(super) fn text(&self) -> &'a str {
         self.node.text().unwrap_or_default().trim()
     }
@@ -111,7 +106,7 @@ impl<'a> Element<'a> {
     /// The number in it.
     ///
     /// # Errors
-    /// For a text that is no number, and for one that is not finite or has more than nine digits.
+    /// For a text that is not a number, and for a number that is not finite or has more than nine digits.
     pub(super) fn number(&self) -> Result<f64, Fault> {
         self.as_number(self.text())
     }
@@ -123,7 +118,7 @@ impl<'a> Element<'a> {
     pub(super) fn as_number(&self, text: &str) -> Result<f64, Fault> {
         let value: Option<f64> = text.parse().ok();
         value.filter(|value| value.abs() <= MAX_NUMBER).ok_or_else(|| {
-            let message = format!("{} is {}, which is no number up to {MAX_NUMBER:.0}", self.shown(), quoted(text));
+            let message = format!("{} is {}, which is not a number up to {MAX_NUMBER:.0}", self.shown(), quoted(text));
             self.fault("no number", message)
         })
     }
@@ -155,7 +150,6 @@ impl<'a> Element<'a> {
         self.node.document().input_text().get(self.node.range()).unwrap_or_default()
     }
 
-    /// Where it is written.
     pub(super) fn place(&self) -> Place {
         Place::new(self.document, self.node.range())
     }
@@ -166,7 +160,7 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Elements that nobody has read, by their place in the file, such as `lanelet/userBidirectional`, and how many there are.
+/// Elements that were not read, by their path in the file, such as `lanelet/userBidirectional`, and how many there are.
 #[derive(Debug, Default)]
 pub(super) struct Unread(BTreeMap<String, usize>);
 
@@ -189,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_are_where_the_text_ends_to_be_xml() {
+    fn errors_are_located_where_the_xml_is_malformed() {
         let fault = Xml::parse("a.xml", "<a>\n  <b></c>\n</a>").err().expect("not closed");
         assert_eq!(fault.line_and_column().map(|(line, _)| line), Some(2), "{fault}");
         assert!(Xml::parse("a.xml", "<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").is_err(), "no entities");

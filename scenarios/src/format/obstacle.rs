@@ -1,4 +1,4 @@
-//! Something that stands on or beside the road, as a file states it.
+//! An object on or beside the road, as a file states it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,9 +7,9 @@ use crate::model::traffic::lane_reference::LaneReference;
 use crate::model::traffic::obstacle::ObstacleKind;
 use crate::text::name;
 
-/// Something that stands on or beside the road, or moves by a timetable, and that nobody drives: a parked car, a cone, a wall. Its place is
+/// An object without a driver that stands on or beside the road or moves by a timetable: a parked car, a cone, a wall. Its position is
 /// stated in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`); its shape by `length_m` and `width_m`, by `radius_m`, or
-/// by `corners_m`, and by default its kind says it.
+/// by `corners_m`, and by default by its kind.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Obstacle")]
@@ -17,13 +17,13 @@ pub struct ObstacleConfig {
     /// Its name, unique among obstacles and vehicles.
     #[schemars(extend("pattern" = name::pattern()), example = &"parked-1")]
     pub name: String,
-    /// What it is: how it looks, and its size where none is stated.
+    /// Its kind: its appearance, and its size where none is stated.
     #[serde(default)]
     pub kind: ObstacleKind,
     /// The lane beside whose middle it stands: its name, or its number from the right.
     #[schemars(example = &"east", extend("x-excludes" = ["x_m", "y_m"]))]
     pub lane: Option<LaneReference>,
-    /// Where its middle is along the lane \[m\].
+    /// Position of its middle along the lane \[m\].
     #[schemars(range(min = -100_000.0, max = 100_000.0), example = 40.0, extend("x-excludes" = ["x_m", "y_m"]))]
     pub along_m: Option<f64>,
     /// Distance of its middle from that of the lane, positive to the left; it may be beside the lane \[m\].
@@ -52,8 +52,8 @@ pub struct ObstacleConfig {
     #[serde(default)]
     #[schemars(length(max = 64), example = vec![[1.0, -1.0], [1.0, 1.0], [-1.0, 0.0]])]
     pub corners_m: Vec<[f64; 2]>,
-    /// Where it is when, in place of standing: rows of time \[s\], x and y \[m\] and heading \[rad\]. Between two rows it moves evenly,
-    /// and it stays where the last one says.
+    /// Its motion, if it does not stand: rows of time \[s\], x and y \[m\] and heading \[rad\]. Between two rows it moves at constant
+    /// velocity, and it stays at the last row.
     #[serde(default)]
     #[schemars(length(max = 10_000), example = vec![[0.0, 10.0, 5.0, 1.57], [8.0, 10.0, 9.0, 1.57]])]
     pub timetable: Vec<[f64; 4]>,

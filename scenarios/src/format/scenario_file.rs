@@ -34,7 +34,7 @@ use crate::roads::Road;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScenarioFile {
-    /// What the scenario is called, in a few words.
+    /// The title of the scenario, in a few words.
     #[schemars(length(min = 1), example = &"Lane change, front driver nice")]
     pub title: String,
     /// What it shows, in one sentence.
@@ -49,9 +49,9 @@ pub struct ScenarioFile {
     /// size; networks of lanes do unless all their lanes begin narrower than 1 m. Otherwise it is 1/10 scale.
     #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]
     pub scale: Option<ScenarioScale>,
-    /// How drivers behave where the file says nothing of it: `"people"` keep within comfort and to time gaps and rules, need 0.6 s to
-    /// react, and move in steps of 0.1 s with a plan of 8 s every 0.2 s; `"source"` are the drivers of the dissertation. By default people where
-    /// everything is of full size and no `figure` is reproduced.
+    /// The default behaviour of drivers: `"people"` keep within comfort and to time gaps and rules, need 0.6 s to
+    /// react, and move in steps of 0.1 s with a plan of 8 s every 0.2 s; `"source"` are the drivers of the dissertation. By default
+    /// `"people"` at full size if no `figure` is reproduced.
     #[schemars(extend("x-concerns" = "vehicles"), example = &"people")]
     pub conduct: Option<Conduct>,
     /// Simulated time; 12 s at 1/10 scale, and `√λ` times as long at another `scale` \[s\].
@@ -61,8 +61,8 @@ pub struct ScenarioFile {
     /// long at another `scale`, so that a horizon of as many ticks covers the same motion \[s\].
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), default = "defaults::step_s")]
     pub step_s: Option<f64>,
-    /// Time from one plan to the next, and length of a stage of a plan: a whole number of times `step_s`, by default once. Between two
-    /// plans inputs change evenly from one to the next \[s\].
+    /// Time from one plan to the next, and length of a stage of a plan: a multiple of `step_s`, by default `step_s` itself. Between two
+    /// plans inputs change linearly from one to the next \[s\].
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"), example = 0.3)]
     pub planning_period_s: Option<f64>,
     /// Horizon of every plan, in stages.
@@ -71,13 +71,13 @@ pub struct ScenarioFile {
     /// Seed of all random numbers.
     #[schemars(default = "defaults::seed")]
     pub seed: Option<u64>,
-    /// How long a plan may take; without the table there is no limit.
+    /// The time limit of a plan; without the table there is none.
     #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "plan_budget_ms": 10.0, "deadline": "enforced" }))]
     pub real_time: Option<Stated<RealTime>>,
-    /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
+    /// The plant that moves the vehicles; `kind` chooses. By default exactly the model of the planners.
     #[schemars(extend("x-concerns" = "vehicles"), with = "Plant", default = "Plant::default")]
     pub plant: Option<Stated<Plant>>,
-    /// Where vehicles may drive, `kind` choosing; by default two lanes for 1/10 scale cars.
+    /// The road; `kind` chooses. By default two lanes for 1/10 scale cars.
     #[schemars(extend("x-concerns" = "vehicles"), with = "Road", default = "Road::default")]
     pub road: Option<Stated<Road>>,
     /// Random change of every start, drawn from the seed; none by default.
@@ -91,25 +91,25 @@ pub struct ScenarioFile {
     #[serde(rename = "flow", default)]
     #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub flows: Vec<FlowConfig>,
-    /// What stands on the road or beside it and nobody drives, one `[[obstacle]]` each.
+    /// The objects without a driver on the road or beside it, one `[[obstacle]]` each.
     #[serde(rename = "obstacle", default)]
     #[schemars(length(max = 256), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub obstacles: Vec<ObstacleConfig>,
-    /// Where traffic is counted, one `[[detector]]` each.
+    /// The lines at which traffic is counted, one `[[detector]]` each.
     #[serde(rename = "detector", default)]
     #[schemars(length(max = 1000), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub detectors: Vec<DetectorConfig>,
-    /// How closely the traffic far from the ego is simulated; by default like all other traffic.
+    /// The level of detail of traffic far from the ego; by default that of all other traffic.
     #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "within_m": 150.0 }))]
     pub detail: Option<Stated<Detail>>,
     /// Traffic lights at the ends of lanes with names, one `[[light]]` each.
     #[serde(rename = "light", default)]
     #[schemars(length(max = 100), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub lights: Vec<LightConfig>,
-    /// What holds for every vehicle that does not state it. Each key of a table counts for itself.
+    /// Keys for all vehicles that do not state them. Each key of a table counts separately.
     #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "class": "car" }))]
     pub defaults: Option<VehicleDefaults>,
-    /// The building; without the table there is none.
+    /// The building; without the table the scenario has none.
     #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
     pub building: Option<Stated<BuildingConfig>>,
     /// The weather around the building; by default synthetic and tropical, forecast without error.
@@ -122,11 +122,11 @@ pub struct ScenarioFile {
     #[serde(default)]
     #[schemars(length(max = 100), extend("x-concerns" = "building"))]
     pub gains: Vec<Stated<GainsConfig>>,
-    /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
+    /// Wanted temperatures and the cost of missing them; by default those of chapter 3, free at night.
     #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Stated<Setpoints>>,
-    /// Schedules of zones that have other hours, wanted temperatures or people than the others, one `[[schedule]]` each. A zone
-    /// that is named in one follows its schedules alone.
+    /// Schedules of zones whose hours, wanted temperatures or people differ from the others', one `[[schedule]]` each. A zone
+    /// that a schedule names follows only the schedules that name it.
     #[serde(rename = "schedule", default)]
     #[schemars(length(max = 1000), extend("x-concerns" = "building"))]
     pub schedules: Vec<Stated<ZoneSchedule>>,
@@ -146,20 +146,20 @@ pub struct ScenarioFile {
     /// How many days of the building are simulated; by default 10.
     #[schemars(range(min = 1, max = 10000), extend("x-concerns" = "building"), example = 10)]
     pub iterations: Option<usize>,
-    /// How much work the run may be, its counterfactuals included.
+    /// The limits on the work of the run, including its counterfactuals.
     #[schemars(with = "BudgetLimits", default = "BudgetLimits::default")]
     pub budget: Option<Stated<BudgetLimits>>,
     /// The conditions under which the run passes; none by default.
     #[serde(default)]
     pub expect: Expect,
-    /// Runs beside this one in which something is changed, one `[[counterfactual]]` each. A variant does not inherit them.
+    /// Runs beside this one with a change, one `[[counterfactual]]` each. A variant does not inherit them.
     #[serde(rename = "counterfactual", default)]
     #[schemars(length(max = 64))]
     pub counterfactuals: Vec<CounterfactualConfig>,
 }
 
 impl ScenarioFile {
-    /// A file with a title and a sentence on what it shows, which states nothing else.
+    /// A file with a title and a sentence on what it shows, and no other keys.
     pub fn new(title: &str, shows: &str) -> ScenarioFile {
         ScenarioFile { title: title.to_owned(), shows: shows.to_owned(), ..ScenarioFile::default() }
     }

@@ -1,4 +1,4 @@
-//! Where a vehicle starts: in a lane, or in world coordinates.
+//! The start of a vehicle: in a lane, or in world coordinates.
 
 use interplay_planners::State;
 use schemars::JsonSchema;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::traffic::lane_reference::LaneReference;
 
-/// Where a vehicle starts, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
+/// The start of a vehicle, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartConfig {
@@ -47,7 +47,7 @@ pub struct StartConfig {
     /// Speed of the mass centre \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: f64,
-    /// Acceleration with which it has come: comfort bounds how fast it may change; 0 if not stated \[m/s²\].
+    /// Acceleration just before the start: comfort bounds how fast it may change; 0 if not stated \[m/s²\].
     #[schemars(range(min = -20.0, max = 20.0), example = -0.5)]
     pub acceleration_mps2: Option<f64>,
 }

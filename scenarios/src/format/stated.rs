@@ -8,10 +8,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Number, Value as Json};
 
-/// A table of settings as a file states it: the keys that it has, and nothing for those that it leaves out.
+/// A table of settings as a file states it, with only the stated keys.
 ///
-/// `Settings` is what the table means once the rest is added to it: the defaults of the format, at the size of the scenario and of
-/// the vehicle's class. A table that states two keys is therefore another one than a whole value, which states them all:
+/// `Settings` is the table completed by the defaults of the format, at the size of the scenario and of
+/// the vehicle's class. A table that states two keys therefore differs from a whole value, which states them all:
 ///
 /// ```
 /// use interplay_planners::Limits;
@@ -56,7 +56,7 @@ impl<Settings> Stated<Settings> {
         self.keys
     }
 
-    /// The settings that the table describes, once nothing that depends on the size of the scenario is missing in it.
+    /// The settings that the table describes, once all size-dependent defaults were added to it.
     pub(crate) fn settings(self) -> Result<Settings, serde_json::Error>
     where
         Settings: DeserializeOwned,
@@ -113,7 +113,7 @@ impl<Settings: JsonSchema> JsonSchema for Stated<Settings> {
     }
 }
 
-/// What a value states: keys without a value are left out, and a number that is none becomes a text, which the check refuses by its
+/// The table of a value: keys without a value are left out, and a number that is not finite becomes a text, which the check refuses by its
 /// key. JSON has neither.
 pub(crate) fn stated_by(value: &impl Serialize) -> Json {
     match toml::Value::try_from(value) {

@@ -1,4 +1,4 @@
-//! The keys of vehicles, each declared once: what a file states of one vehicle and of all, what becomes of it in the run, and the
+//! The keys of vehicles, each declared once: the key in a file for one vehicle and for all, its value in the run, and the
 //! way back.
 
 use interplay_planners::drivers::human;
@@ -21,7 +21,7 @@ use crate::text::name;
 
 /// Declares the keys of vehicles. A key is
 ///
-/// - a field of [`VehicleConfig`], with what the schema and the reference say of it;
+/// - a field of [`VehicleConfig`], whose comment is its description in the schema and the reference;
 /// - `=> place`: the field of [`Vehicle`] that it becomes, by the rule for its type ([`Key`]). A key without a place is resolved
 ///   by hand (`resolve`) and written by hand (`write`), because it depends on the road or on the registry;
 /// - `for_all`: the same key of [`VehicleDefaults`], for all vehicles.
@@ -38,7 +38,7 @@ macro_rules! vehicle_keys {
             $($(#[$about])* pub $key: $Stated,)*
         }
 
-        /// What holds for every vehicle that does not state it.
+        /// Keys for all vehicles that do not state them.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, default)]
         pub struct VehicleDefaults {
@@ -55,7 +55,7 @@ macro_rules! vehicle_keys {
                 Ok(())
             }
 
-            /// What a file states of the keys that have a place in a vehicle.
+            /// The stated values of the keys that have a place in a vehicle.
             pub(crate) fn of_settled(vehicle: &Vehicle) -> VehicleConfig {
                 VehicleConfig { $($($key: Key::of_settled(&vehicle.$($place).+),)?)* ..VehicleConfig::default() }
             }
@@ -67,30 +67,30 @@ vehicle_keys! {
     /// Its name, unique in the file; it becomes part of paths in the recording.
     #[schemars(extend("pattern" = name::pattern()), example = &"ego")]
     name: String => name;
-    /// What sort of vehicle it is: the default of `body`, `limits` and `safety`, and the size to which the defaults of its
-    /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`, which the width of the lanes
-    /// may say.
+    /// Its class of vehicle: the default of `body`, `limits` and `safety`, and the size to which the defaults of its
+    /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`, which may follow from the width of
+    /// the lanes.
     #[schemars(example = &"car")]
     class: Option<VehicleClass> => class, for_all {
-        /// The class of each vehicle that states none.
+        /// The class of each vehicle that does not state one.
         #[schemars(example = &"car")]
         Option<VehicleClass>
     };
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]
     road: Branch => road;
-    /// Where it starts, in a lane or in world coordinates, and its speed there.
+    /// Its start, in a lane or in world coordinates, and its speed there.
     #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     start: StartConfig;
     /// The names of the lanes on which it drives, from that of its start on, each a successor of the one before or a lane
-    /// beside it. By default the shortest way to the lane of its goal, or without one the only way there is.
+    /// beside it. By default the shortest route to the lane of its goal, or, without a goal, the only route.
     #[serde(default)]
     #[schemars(length(max = 1000), example = vec!["west-in", "west-to-north", "north-out"])]
     route: Vec<String>;
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
     goal: GoalConfig => goal, for_all {
-        /// What the goals of vehicles have in common.
+        /// The common keys of the goals of vehicles.
         #[schemars(example = json!({ "speed_mps": 13.9 }))]
         Option<GoalDefaults>
     };
@@ -123,24 +123,24 @@ vehicle_keys! {
         #[schemars(example = json!({ "along_m": 0.75 }))]
         Option<Stated<SafetyEllipse>>
     };
-    /// Its driver, `kind` choosing; by default a nice human.
+    /// Its driver; `kind` chooses. By default a nice human.
     #[schemars(with = "Driver", default = "default_driver")]
     driver: Option<Stated<Driver>>, for_all {
-        /// The driver. A vehicle with a driver of another `kind` takes nothing from it.
+        /// The driver. A vehicle with a driver of another `kind` ignores it.
         #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
         Option<Stated<Driver>>
     };
-    /// Whether it keeps all rules of roads whose lanes have names, whoever drives it: speed limits, stop signs and right of way. It then
-    /// drives no faster than it wants, and a human or a driver after the intelligent driver model passes what stands in its way. Without
-    /// it these two keep right of way and signs, and planners settle the order themselves.
+    /// Whether it keeps all rules of roads whose lanes have names, with any driver: speed limits, stop signs and right of way. It then
+    /// never exceeds its desired speed, and a human or an IDM driver passes obstacles in its way. Without this key, these two drivers
+    /// keep right of way and signs, and planners settle the order themselves.
     #[schemars(example = json!("kept"))]
     rules: Option<RuleKeeping> => rules, for_all {
         /// Whether vehicles keep the rules of the road.
         #[schemars(example = json!("kept"))]
         Option<RuleKeeping>
     };
-    /// When it comes on the road; by default it is there from the start. It comes once there is room: nobody stands or drives so near
-    /// before it that it would have to brake at once \[s\].
+    /// When it enters the road; by default it is there from the start. It waits until there is room: no vehicle ahead is so near
+    /// that it would have to brake at once \[s\].
     #[schemars(range(min = 0.0), example = 12.0)]
     enters_s: Option<f64> => stay.enters_s;
     /// When it leaves the road; by default never \[s\].
@@ -153,10 +153,10 @@ vehicle_keys! {
         #[schemars(example = true)]
         Option<bool>
     };
-    /// What it senses of the others; without it, it sees every state as it is.
+    /// Its sensing of the other vehicles; without it, it sees the exact states.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
     sensing: Option<Stated<sensing::Settings>> => sensing;
-    /// How it learns from the others' motion what they will do, where its driver says `prediction = "inferred"`.
+    /// How it infers the others' plans from their motion, if its driver has `prediction = "inferred"`.
     #[schemars(example = json!({ "prior": "tough" }))]
     inference: Option<Stated<belief::Settings>> => inference;
 }
@@ -168,28 +168,28 @@ impl VehicleConfig {
     }
 }
 
-/// Who drives a vehicle that states no driver.
+/// The driver of a vehicle that does not state one.
 pub(crate) fn default_driver() -> Driver {
     Driver::Human(human::Settings::default())
 }
 
-/// What the goals of vehicles have in common.
+/// The common keys of the goals of vehicles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalDefaults {
-    /// The speed that a vehicle aims at \[m/s\].
+    /// The desired speed of a vehicle \[m/s\].
     #[schemars(example = 13.9)]
     pub speed_mps: Option<f64>,
 }
 
-/// How the value of a key in a file, to which all defaults that depend on size were added, becomes that of the vehicle, and back.
+/// How the value of a key in a file, completed by all size-dependent defaults, becomes that of the vehicle, and back.
 trait Key<Settled>: Sized {
     fn settled(self) -> Result<Settled, Error>;
 
     fn of_settled(settled: &Settled) -> Self;
 }
 
-/// The vehicle has what the file states.
+/// A key whose value the vehicle takes over.
 impl<T: Clone> Key<T> for T {
     fn settled(self) -> Result<T, Error> {
         Ok(self)
@@ -211,7 +211,7 @@ impl<T: Clone + Default + DeserializeOwned + Serialize> Key<T> for Option<Stated
     }
 }
 
-/// A table without which the vehicle does not have what it describes.
+/// A table without which the vehicle lacks the feature that it describes.
 impl<T: Clone + DeserializeOwned + Serialize> Key<Option<T>> for Option<Stated<T>> {
     fn settled(self) -> Result<Option<T>, Error> {
         self.map(Stated::settings).transpose()
@@ -222,7 +222,7 @@ impl<T: Clone + DeserializeOwned + Serialize> Key<Option<T>> for Option<Stated<T
     }
 }
 
-/// A claim that is false by default.
+/// A flag that is false by default.
 impl Key<bool> for Option<bool> {
     fn settled(self) -> Result<bool, Error> {
         Ok(self.unwrap_or(false))

@@ -1,4 +1,4 @@
-//! A file and all that it extends, as one tree.
+//! A file and all that it extends, merged into one tree.
 
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
 use crate::format::json_schema::SchemaNode;
@@ -7,19 +7,19 @@ use crate::format::read::source::Source;
 use crate::format::read::tree::{self, Table, TomlNode, TomlValue};
 use crate::text::error::{Fault, Place, quoted};
 
-/// How many files may extend one another.
+/// The most files of a chain of `extends`.
 const MAX_CHAIN_LENGTH: usize = 16;
 
-/// Who names a source.
+/// What names a source.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum NamedBy {
-    /// Whoever gave the command: errors may show what is written in it.
+    /// The user of the command: errors may show the text of the source.
     Command,
-    /// Another file, whose author need not be who runs it: of a file that is no scenario, errors show no text.
+    /// Another file, whose author may not be the user: errors show no text of a file that is not a scenario.
     File,
 }
 
-/// Whether the faults are about the source as a whole, so that whoever refers to it is to blame.
+/// Whether the faults are about the source as a whole, so that the reference to it is to blame.
 pub(super) type Refusal = (bool, Vec<Fault>);
 
 /// The faults of a source that is named at `place`.
@@ -50,15 +50,15 @@ pub(super) fn read_link(
     extended(source, node, chain, schema).map_err(|faults| (false, faults))
 }
 
-/// That a source is no TOML, without its text.
+/// The fault of a source that is not TOML, without its text.
 fn no_scenario(source: &Source, faults: Vec<Fault>) -> Fault {
     let title = quoted(&source.title());
     let line = faults.iter().filter_map(Fault::line_and_column).map(|(line, _)| line).min().unwrap_or(1);
-    Fault::new(format!("{title} is no scenario: its line {line} is not valid TOML"))
+    Fault::new(format!("{title} is not a scenario: its line {line} is not valid TOML"))
         .help(format!("name a scenario; if it is one, `interplay check` of {title} itself shows what is wrong there"))
 }
 
-/// The tree laid over the one that it extends, if it extends any.
+/// The tree merged into the one that it extends, if any.
 pub(super) fn extended(
     source: &Source,
     mut node: TomlNode,
@@ -82,8 +82,8 @@ pub(super) fn extended(
     Ok(node)
 }
 
-/// What a file takes over from the one that it extends: all but the figure, since a variant is another picture, and the
-/// counterfactuals, which say what that one's outcome is owed to.
+/// The keys that a file inherits from the one that it extends: all but the figure, which a variant does not reproduce, and the
+/// counterfactuals, which explain the outcome of the parent.
 fn inherited(mut under: Table) -> Table {
     under.remove("figure");
     under.remove("counterfactual");

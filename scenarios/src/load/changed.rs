@@ -1,6 +1,6 @@
 //! The tree of the scenario that is run for a counterfactual.
 //!
-//! It is the tree of the scenario itself, what it extends and the flags included, changed by `planner` and then by `set`, and
+//! It is the tree of the scenario itself, including what it extends and the flags, changed by `planner` and then by `set`,
 //! with the counterfactual's expectations in place of its own. It is then checked like any other.
 
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use crate::format::registry::Registry;
 use crate::model::scenario::Scenario;
 use crate::text::error::{Document, Fault, Place};
 
-/// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
+/// The rank of a counterfactual's keys: like a flag, they are blamed before the file that they change.
 const RANK: usize = 0;
 
-/// The tree of a counterfactual, `stated` being its table and `schema` that of a whole scenario.
+/// The tree of a counterfactual; `stated` is its table and `schema` that of a whole scenario.
 ///
 /// # Errors
-/// Paths that lead nowhere, and keys that a counterfactual cannot change.
+/// For paths that do not exist, and for keys that a counterfactual cannot change.
 pub(crate) fn tree(of: &TomlNode, stated: &Table, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &of.value else { return Ok(of.clone()) };
     let mut root = root.clone();
@@ -46,8 +46,8 @@ pub(crate) fn tree(of: &TomlNode, stated: &Table, schema: SchemaNode) -> Result<
     Ok(TomlNode { place: of.place.clone(), value: TomlValue::Table(root) })
 }
 
-/// What is wrong with the counterfactuals of a scenario that cannot be run itself: what they state themselves, and nothing of what the
-/// scenario states. `assemble` makes a scenario of a tree.
+/// The faults of the counterfactuals of a scenario that cannot be run: those of their own keys, and none of the scenario's.
+/// `assemble` makes a scenario from a tree.
 pub(super) fn faults(
     registry: &Registry,
     of: &TomlNode,
@@ -68,7 +68,7 @@ pub(super) fn faults(
     own
 }
 
-/// A fault if `set` changes what is no condition of a run.
+/// A fault if `set` changes a key that is not a condition of a run.
 fn refused(key: &str, entry: &TomlEntry) -> Option<Fault> {
     let first = key.split('.').next().unwrap_or_default().trim();
     let help = match first {
@@ -80,7 +80,7 @@ fn refused(key: &str, entry: &TomlEntry) -> Option<Fault> {
     Some(Fault::at(&entry.key, "cannot be changed", format!("a counterfactual cannot change `{first}`")).help(help))
 }
 
-/// The expectations that any run may have.
+/// The keys of expectations that any run may have.
 fn without_comparisons(mut expect: TomlEntry, schema: SchemaNode) -> TomlEntry {
     let known = schema.property("expect");
     if let TomlValue::Table(table) = &mut expect.node.value {

@@ -11,7 +11,7 @@ use crate::format::read::tree::{self, TomlNode, TomlValue};
 use crate::format::registry::Registry;
 use crate::load;
 
-/// The files of which a scenario is made, as far as they can be read: its own, those that it extends, and those that any of them or
+/// The files of a scenario, as far as they can be read: its own, those that it extends, and those that any of them or
 /// of `overrides` names, such as its weather. Scenarios in the binary never change and are not among them.
 pub fn files(registry: &Registry, name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -25,14 +25,14 @@ pub fn files(registry: &Registry, name_or_path: &str, overrides: &[Override]) ->
     }
     let Ok(mut tree) = load::tree(registry, name_or_path) else { return found };
     if let TomlValue::Table(root) = &mut tree.value {
-        // One that is wrong is refused when the scenario is loaded.
+        // A wrong file is refused when the scenario is loaded.
         overrides.iter().for_each(|change| drop(change.apply(root, registry.complete())));
     }
     add_named(&tree, &mut found);
     found
 }
 
-/// Adds the files that a tree names, wherever it does.
+/// Adds all files that a tree names.
 fn add_named(node: &TomlNode, found: &mut Vec<PathBuf>) {
     match &node.value {
         TomlValue::Table(table) => {
@@ -58,7 +58,7 @@ fn parent(source: &Source) -> Option<Source> {
     source.parent(node.table()?.get("extends")?.node.text()?).ok()
 }
 
-/// Whether a file is to be taken for a scenario: TOML, or XML of CommonRoad.
+/// Whether a file counts as a scenario: TOML, or XML of CommonRoad.
 fn is_scenario(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "toml") || is_commonroad(path)
 }
@@ -66,7 +66,7 @@ fn is_scenario(path: &Path) -> bool {
 /// All .toml files below a folder, and scenarios of CommonRoad, sorted by name.
 ///
 /// # Errors
-/// That of the system, if a folder cannot be read.
+/// The system's error, if a folder cannot be read.
 pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
     while let Some(folder) = folders.pop() {

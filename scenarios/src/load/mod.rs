@@ -31,10 +31,10 @@ use crate::resolve::resolve;
 use crate::resolve::weather_file::is_embedded_weather;
 use crate::text::error::{Document, Fault, LoadError, Place};
 
-/// How errors call a scenario without title.
+/// The name of a scenario without a title in errors.
 const UNTITLED: &str = "without title";
 
-/// [`Registry::load`] with what Interplay has.
+/// [`Registry::load`] with the standard registry.
 ///
 /// # Errors
 ///
@@ -43,7 +43,7 @@ pub fn load(name_or_path: &str, overrides: &[Override]) -> Result<Scenario, Load
     Registry::standard().load(name_or_path, overrides)
 }
 
-/// [`Registry::from_text`] with what Interplay has.
+/// [`Registry::from_text`] with the standard registry.
 ///
 /// # Errors
 ///
@@ -53,7 +53,7 @@ pub fn from_text(name: &str, text: &str, overrides: &[Override]) -> Result<Scena
 }
 
 impl ScenarioFile {
-    /// [`Registry::file`] with what Interplay has.
+    /// [`Registry::file`] with the standard registry.
     ///
     /// # Errors
     /// As [`Registry::file`].
@@ -61,7 +61,7 @@ impl ScenarioFile {
         Registry::standard().file(name_or_path, overrides)
     }
 
-    /// [`Registry::file_from_json`] with what Interplay has.
+    /// [`Registry::file_from_json`] with the standard registry.
     ///
     /// # Errors
     /// As [`Registry::file_from_json`].
@@ -69,7 +69,7 @@ impl ScenarioFile {
         Registry::standard().file_from_json(table)
     }
 
-    /// [`Registry::resolve`] with what Interplay has.
+    /// [`Registry::resolve`] with the standard registry.
     ///
     /// # Errors
     /// As [`Registry::resolve`].
@@ -80,11 +80,11 @@ impl ScenarioFile {
 
 impl Registry {
     /// Loads the authored scenario of that name, otherwise the file at that path, changed by `overrides` in their order. A file of
-    /// CommonRoad is imported first, and what could not be carried over is among the scenario's remarks.
+    /// CommonRoad is imported first, and the parts that could not be carried over are among the scenario's remarks.
     ///
     /// # Errors
     ///
-    /// Whatever is wrong with the file, the ones that it extends, or the overrides, each error located.
+    /// All faults of the file, of those that it extends, and of the overrides, each located.
     pub fn load(&self, name_or_path: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
         let path = Path::new(name_or_path);
         if !is_commonroad(path) {
@@ -98,7 +98,7 @@ impl Registry {
         Ok(scenario)
     }
 
-    /// Loads a scenario from a text; `name` is what errors call it. It may extend authored scenarios, and
+    /// Loads a scenario from a text; `name` is its name in errors. It may extend authored scenarios, and
     /// files relative to `name` taken as a path.
     ///
     /// # Errors
@@ -110,11 +110,11 @@ impl Registry {
         finish(self, name, tree.map_err(|faults| LoadError::new(name, faults))?, overrides)
     }
 
-    /// The authored scenario of that name, otherwise the file at that path, as it is written: changed by `overrides`, laid over what
-    /// it extends, and nothing added to it. Files that it names are named by paths that start from the current folder.
+    /// The authored scenario of that name, otherwise the file at that path, as it is written: changed by `overrides`, merged into what
+    /// it extends, without defaults. Paths of files in it are relative to the current folder.
     ///
     /// # Errors
-    /// What [`Registry::load`] refuses, as far as it is seen from the keys and their values alone.
+    /// Those of [`Registry::load`] that are found from the keys and their values alone.
     pub fn file(&self, name_or_path: &str, overrides: &[Override]) -> Result<ScenarioFile, LoadError> {
         let mut tree = tree(self, name_or_path)?;
         let changed = apply(overrides, &mut tree, self.complete());
@@ -131,11 +131,11 @@ impl Registry {
         tree.and_then(|tree| as_stated(tree, self.complete())).map_err(|faults| LoadError::new(name, faults))
     }
 
-    /// The scenario that a file describes: what it leaves out is added, the road is built, the vehicles are placed on it, the files
-    /// that it names are read, and all of it is checked.
+    /// The scenario that a file describes: defaults are added, the road is built, the vehicles are placed on it, the named files
+    /// are read, and the result is checked.
     ///
     /// # Errors
-    /// Everything that keeps it from being run. Each error names the path of its key.
+    /// All reasons why it cannot be run. Each error names the path of its key.
     pub fn resolve(&self, file: &ScenarioFile) -> Result<Scenario, LoadError> {
         let name = if file.title.is_empty() { UNTITLED } else { &file.title };
         finish(self, name, tree::of_value(&Json::Object(file.stated())), &[])
@@ -146,7 +146,7 @@ impl Imported {
     /// The scenario that is run. Every error has its place in the imported text.
     ///
     /// # Errors
-    /// Everything that keeps it from being run.
+    /// All reasons why it cannot be run.
     pub fn resolve(&self, registry: &Registry) -> Result<Scenario, LoadError> {
         finish(registry, &self.name, self.clone().into_tree(), &[])
     }
@@ -170,31 +170,31 @@ pub(crate) fn changed_tree(
     Ok(tree)
 }
 
-/// The same of a source that a plan names at `place`, which is to blame for a file that is no scenario.
+/// The same for a source that a plan names at `place`, which is to blame for a file that is not a scenario.
 pub(crate) fn tree_named_at(registry: &Registry, source: &str, place: &Place) -> Result<TomlNode, Vec<Fault>> {
     let source = Source::find(source).map_err(|error| error.faults().to_vec())?;
     read_link(&source, NamedBy::File, &mut Vec::new(), registry.complete()).map_err(|refusal| blamed_on(place, refusal))
 }
 
-/// A tree laid over what it extends; `name` is the path from which that starts.
+/// A tree merged into what it extends; paths are relative to `name`.
 fn whole(name: &str, tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let source = Source::File(PathBuf::from(name));
     extended(&source, tree, &mut vec![source.clone()], schema)
 }
 
-/// What a whole tree states, and no more.
+/// The value that a whole tree states, without defaults.
 fn as_stated(mut tree: TomlNode, schema: SchemaNode) -> Result<ScenarioFile, Vec<Fault>> {
     make_paths_absolute(&mut tree, Path::new(""));
     let faults = shape::check(&tree, schema);
     if faults.is_empty() { Ok(read(tree.to_json(), &tree)?) } else { Err(faults) }
 }
 
-/// What a value of the format, which the schema has admitted, states.
+/// The value of a tree that fits the schema.
 fn read<T: DeserializeOwned>(stated: Json, tree: &TomlNode) -> Result<T, Fault> {
     serde_json::from_value(stated).map_err(|error| Fault::at(&tree.place, "in this file", error.to_string()))
 }
 
-/// Lays overrides over a tree, in their order.
+/// Merges overrides into a tree, in their order.
 fn apply(overrides: &[Override], tree: &mut TomlNode, schema: SchemaNode) -> Result<(), Vec<Fault>> {
     let TomlValue::Table(root) = &mut tree.value else { return Ok(()) };
     let faults: Vec<Fault> = overrides.iter().filter_map(|change| change.apply(root, schema).err()).collect();
@@ -220,7 +220,7 @@ pub(crate) fn assemble(registry: &Registry, tree: &TomlNode) -> Result<Scenario,
     assemble_on(registry, tree, &KnownRoads::default())
 }
 
-/// The same; what is known of its road is not computed again.
+/// The same, with a road that may be known already.
 pub(crate) fn assemble_on(
     registry: &Registry,
     tree: &TomlNode,
@@ -241,7 +241,7 @@ pub(crate) fn assemble_on(
     resolve(registry, read(stated, tree)?, tree, known_roads)
 }
 
-/// The fault of a file that is a plan of many runs and no scenario.
+/// The fault of a file that is a plan of many runs and not a scenario.
 fn plan_in_its_place(tree: &TomlNode) -> Option<Fault> {
     let table =
         tree.table().filter(|table| !["shows", "vehicle", "building"].iter().any(|key| table.contains_key(*key)))?;
@@ -255,7 +255,7 @@ pub(crate) fn stated_counterfactuals(tree: &TomlNode) -> Result<Vec<Counterfactu
     tree.at("counterfactual").map_or_else(|| Ok(Vec::new()), |stated| read(stated.to_json(), stated))
 }
 
-/// Gives a scenario the counterfactuals that its tree states, each with the scenario that is run for it. One that flags have made
+/// Gives a scenario the counterfactuals of its tree, each with the scenario that is run for it. A counterfactual that flags have made
 /// impossible is left out: `as_written` is the tree without these flags, if there are any.
 fn add_counterfactuals(
     registry: &Registry,
@@ -311,7 +311,7 @@ pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     }
 }
 
-/// An entry of a table; none of anything else.
+/// An entry of a table; `None` for other values.
 fn entry_of<'a>(node: &'a mut TomlNode, key: &str) -> Option<&'a mut TomlNode> {
     match &mut node.value {
         TomlValue::Table(table) => table.get_mut(key).map(|entry| &mut entry.node),
@@ -319,7 +319,7 @@ fn entry_of<'a>(node: &'a mut TomlNode, key: &str) -> Option<&'a mut TomlNode> {
     }
 }
 
-/// Where a scenario names files: its weather, its prices, its gains, the unit that is its building, and the records of its vehicles.
+/// The keys that name files: the weather, the prices, the gains, the unit of the building, and the records of the vehicles.
 fn named_files(root: &mut Table) -> Vec<&mut TomlNode> {
     let mut found = Vec::new();
     for (key, entry) in root {

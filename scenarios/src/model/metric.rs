@@ -1,7 +1,7 @@
-//! What is said of a metric: all that reports, rows of sweeps, comparisons and expectations need to know of it.
+//! The declaration of a metric: all that reports, rows of sweeps, comparisons and expectations need to know about it.
 //!
-//! How a metric follows from the ticks of a run is declared in the same place, by whoever steps a scenario. This crate
-//! knows only what is said of it.
+//! The simulation declares in the same place how a metric follows from the ticks of a run. This crate knows only the
+//! declaration.
 
 use std::any::Any;
 use std::collections::BTreeSet;
@@ -10,12 +10,12 @@ use std::sync::Arc;
 
 use interplay_common::units::{quantity_of, unit_of};
 
-/// What is said of a metric.
+/// The declaration of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MetricDeclaration {
     /// Its name, which ends with its unit as the keys of settings do: the column in rows of sweeps, and its key in reports.
     pub name: &'static str,
-    /// What it is, in one sentence without a full stop.
+    /// Its meaning, in one sentence without a full stop.
     pub doc: &'static str,
     /// The type of its value.
     pub kind: MetricKind,
@@ -23,11 +23,11 @@ pub struct MetricDeclaration {
     pub of: MetricSubject,
     /// Its key in reports, if that is not its name.
     pub report_key: Option<&'static str>,
-    /// How `compare` puts the values of many runs together; none where it does not tell it.
+    /// How `compare` summarises the values of many runs; `None` if it leaves the metric out.
     pub comparison: Option<MetricComparison>,
     /// Its key in comparisons, if that is not its name.
     pub comparison_key: Option<&'static str>,
-    /// Which of two values under the same conditions is the better one; none where neither is.
+    /// Which of two values under the same conditions is better; `None` if neither is.
     pub better: Option<Better>,
     /// Whether rows, which are about the ego, also have a column `others_NAME` with the worst value of the others: any of flags,
     /// the sum of counts.
@@ -45,7 +45,7 @@ pub enum MetricKind {
     Number,
 }
 
-/// What has a value of a metric.
+/// The subject of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MetricSubject {
     /// Each vehicle; rows of sweeps have that of the ego.
@@ -54,7 +54,7 @@ pub enum MetricSubject {
     Run,
 }
 
-/// How the values of many runs are put together.
+/// How the values of many runs are summarised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MetricComparison {
     /// The share of the runs in which a flag is true, with Wilson's interval.
@@ -63,11 +63,11 @@ pub enum MetricComparison {
     Sum,
     /// The mean of numbers, with a bootstrap interval.
     Mean,
-    /// The least of numbers, their quantile at 5 % and their median: of gaps, and whatever is the more critical the smaller it is.
+    /// The minimum of numbers, their quantile at 5 % and their median: for gaps, and for other metrics whose small values are critical.
     Quantiles,
 }
 
-/// Which of two values is the better one; of flags, `false` is the lower one.
+/// Which of two values is better; of flags, `false` is the lower one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
     /// The lower one.
@@ -97,13 +97,13 @@ impl MetricDeclaration {
         MetricDeclaration { of: MetricSubject::Run, ..Self::of_vehicle(name, kind, doc) }
     }
 
-    /// The same, told by `compare`.
+    /// The same, summarised by `compare`.
     #[must_use]
     pub const fn compared(self, comparison: MetricComparison) -> Self {
         MetricDeclaration { comparison: Some(comparison), ..self }
     }
 
-    /// The same, of which one value is better than another.
+    /// The same, with a better direction.
     #[must_use]
     pub const fn better(self, better: Better) -> Self {
         MetricDeclaration { better: Some(better), ..self }
@@ -115,7 +115,7 @@ impl MetricDeclaration {
         MetricDeclaration { others: true, ..self }
     }
 
-    /// Its unit, by the end of its name; none for what has none.
+    /// Its unit, by the end of its name; `None` without a unit.
     pub fn unit(&self) -> Option<&'static str> {
         unit_of(self.name)
     }
@@ -130,7 +130,7 @@ impl MetricDeclaration {
         self.name.strip_prefix(self.quantity()).and_then(|rest| rest.strip_prefix('_')).unwrap_or("value")
     }
 
-    /// Its name, its key in reports, and the column of the others: what nothing else may be called.
+    /// Its name, its key in reports, and the column of the others: the names that it reserves.
     pub(crate) fn keys(&self) -> BTreeSet<String> {
         let others = self.others.then(|| self.others_name());
         [Some(self.name), self.report_key].into_iter().flatten().map(str::to_owned).chain(others).collect()
@@ -147,13 +147,13 @@ impl MetricDeclaration {
     }
 }
 
-/// A metric as this crate knows it: what is said of it. What computes it is behind the same value, for who knows its type.
+/// A metric as this crate knows it: its declaration. The simulation downcasts the value to compute it.
 pub trait DeclaredMetric: Any + Debug + Send + Sync {
-    /// What is said of it.
+    /// Its declaration.
     fn declaration(&self) -> MetricDeclaration;
 
-    /// What tells its values from those of earlier versions: rows of sweeps made with another one are made anew. None for a metric
-    /// of Interplay, whose own version tells that.
+    /// Its version, which distinguishes its values from those of earlier ones: rows of sweeps with another version are computed again.
+    /// `None` for a metric of Interplay, whose own version does that.
     fn version(&self) -> Option<&'static str>;
 }
 
@@ -162,7 +162,7 @@ pub trait DeclaredMetric: Any + Debug + Send + Sync {
 pub struct RegisteredMetrics(pub Vec<Arc<dyn DeclaredMetric>>);
 
 impl PartialEq for RegisteredMetrics {
-    /// Metrics with equal declarations are the same.
+    /// Metrics are equal if their declarations are.
     fn eq(&self, other: &Self) -> bool {
         self.0.iter().map(|one| one.declaration()).eq(other.0.iter().map(|one| one.declaration()))
     }

@@ -1,7 +1,7 @@
 //! The scenario as it is run: plain values in SI units, whatever file they came from.
 //!
-//! A [`Scenario`](scenario::Scenario) that came from [`load`](crate::load) has been checked: it keeps every promise of the format.
-//! Values that a file states and a run takes as they are stand here; what only a file has is in `format`.
+//! A [`Scenario`](scenario::Scenario) that came from [`load`](crate::load) has been checked and satisfies all rules of the format.
+//! Types that both files and runs use are here; types that only files use are in `format`.
 
 pub(crate) mod budget_limits;
 pub(crate) mod building;

@@ -1,14 +1,14 @@
-//! Something that a file may say and may not have meant.
+//! Remarks on keys that are allowed but probably not intended.
 
 use std::fmt;
 
 use crate::text::error::Fault;
 
-/// The remarks on a loaded scenario. They do not make it another scenario: all are equal.
+/// The remarks on a loaded scenario. They do not distinguish scenarios: all are equal.
 #[derive(Clone, Debug, Default)]
 pub struct ScenarioRemarks(pub(crate) Vec<ScenarioRemark>);
 
-/// Something that is allowed and may not have been meant.
+/// A remark on a key that is allowed but probably not intended.
 #[derive(Clone, Debug)]
 pub struct ScenarioRemark(pub(crate) Fault);
 

@@ -1,7 +1,7 @@
-//! The nouns of a scenario that is ready to run: what is simulated, on which road, by which vehicles.
+//! The parts of a scenario that is ready to run: agents, road, vehicles and building.
 //!
 //! Everything here is plain data in SI units. A [`Scenario`] that came from [`load`](crate::load) or
-//! [`ScenarioFile::resolve`](crate::ScenarioFile::resolve) has been checked: it keeps every promise of the format.
+//! [`ScenarioFile::resolve`](crate::ScenarioFile::resolve) has been checked and satisfies all rules of the format.
 
 use std::sync::Arc;
 
@@ -42,45 +42,45 @@ use crate::model::traffic::weights::Weights;
 use crate::roads::{Branch, Road};
 use crate::text::name::EGO;
 
-/// So many vehicles and fewer are no crowd.
+/// The most vehicles that are not yet a crowd.
 pub(crate) const MOST_TOLD: usize = 40;
 
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// What the scenario is called, in a few words.
+    /// The title of the scenario, in a few words.
     pub title: String,
     /// What it shows, in one sentence.
     pub shows: String,
     /// The figure of the dissertation that it reproduces.
     pub figure: Option<String>,
-    /// The size to which its defaults are scaled; none for the defaults of 1/10 scale as they are.
+    /// The size to which its defaults are scaled; `None` for the unscaled defaults of 1/10 scale.
     pub scale: Option<ScenarioScale>,
-    /// How drivers behave where the file says nothing of it, if it states that.
+    /// The default behaviour of drivers, if the file states it.
     pub conduct: Option<Conduct>,
     /// Simulated time of the vehicles \[s\].
     pub duration_s: f64,
     /// Time from one tick of the vehicles to the next \[s\].
     pub step_s: f64,
-    /// How many ticks there are from one plan to the next.
+    /// The number of ticks from one plan to the next.
     pub ticks_per_plan: usize,
     /// Horizon of every plan, in ticks.
     pub horizon_steps: usize,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// How long a plan may take; none where there is no limit.
+    /// The time limit of a plan; `None` if there is none.
     pub real_time: Option<RealTime>,
-    /// What moves the vehicles.
+    /// The plant that moves the vehicles.
     pub plant: Plant,
-    /// Where vehicles may drive.
+    /// The road.
     pub road: Road,
     /// The lanes of the road, if they have names.
     pub network: Option<Arc<RoadNetwork>>,
     /// Its traffic lights; the lanes of the network hold them.
     pub lights: Vec<LightConfig>,
-    /// Where traffic is counted.
+    /// The lines at which traffic is counted.
     pub detectors: Vec<DetectorConfig>,
-    /// How closely the traffic far from the ego is simulated; like all other traffic without it.
+    /// The level of detail of traffic far from the ego; without it, that of all other traffic.
     pub detail: Option<Detail>,
     /// Random change of every start, drawn from the seed.
     pub start_jitter: StartJitter,
@@ -94,9 +94,9 @@ pub struct Scenario {
     pub occupancy: Option<Occupancy>,
     /// Recorded heat of people and machines.
     pub gains: Vec<RecordedGainsFile>,
-    /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
+    /// Wanted temperatures and the cost of missing them; by default those of chapter 3, free at night.
     pub setpoints: Option<Setpoints>,
-    /// Schedules of zones that have other hours, wanted temperatures or people than the others.
+    /// Schedules of zones whose hours, wanted temperatures or people differ from the others'.
     pub schedules: Vec<ZoneSchedule>,
     /// The date of the first day and the holidays.
     pub calendar: Option<Calendar>,
@@ -108,21 +108,21 @@ pub struct Scenario {
     pub controller: Option<Controller>,
     /// How many days of the building are simulated; by default 10.
     pub iterations: Option<usize>,
-    /// How much work the run may be, its counterfactuals included.
+    /// The limits on the work of the run, including its counterfactuals.
     pub budget: BudgetLimits,
     /// The conditions under which the run passes.
     pub expect: Expect,
-    /// Runs beside this one in which something is changed, each with the scenario that is run.
+    /// Runs beside this one with a change, each with the scenario that is run.
     pub counterfactuals: Vec<Counterfactual>,
     /// Counterfactuals that flags have made impossible, each with the reason: a setting that another planner does not have.
     pub left_out: Vec<[String; 2]>,
-    /// What is allowed and may not have been meant.
+    /// Remarks on keys that are allowed but probably not intended.
     pub remarks: ScenarioRemarks,
-    /// The metrics of the registry that it was loaded with; a run measures them beside those that Interplay has.
+    /// The metrics of the registry that it was loaded with; a run measures them besides those of Interplay.
     pub metrics: RegisteredMetrics,
 }
 
-/// How many days are simulated unless the scenario says so.
+/// The default number of days that are simulated.
 const ITERATIONS: usize = 10;
 
 impl Scenario {
@@ -131,12 +131,12 @@ impl Scenario {
         self.index_of(EGO).unwrap_or(0)
     }
 
-    /// The scenario without its counterfactuals: they are claims about its own planner, and nothing to somebody else at the wheel.
+    /// The scenario without its counterfactuals: they are claims about its own planner and do not apply to another driver.
     pub fn without_counterfactuals(self) -> Scenario {
         Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..self }
     }
 
-    /// The scenario's traffic alone, without its building and what is stated for that.
+    /// The scenario's traffic alone, without its building and the keys about it.
     pub fn without_building(self) -> Scenario {
         Scenario {
             building: None,
@@ -154,12 +154,12 @@ impl Scenario {
         }
     }
 
-    /// Whether there are so many vehicles that recordings and pictures tell of those near the ego alone.
+    /// Whether recordings and pictures show only the vehicles near the ego, because there are too many.
     pub fn is_crowd(&self) -> bool {
         self.vehicles.len() > MOST_TOLD
     }
 
-    /// The level of detail of a vehicle: it concerns humans beside the ego; none for all others.
+    /// The level of detail of a vehicle: for humans other than the ego; `None` for all others.
     pub fn detail_of(&self, index: usize) -> Option<Detail> {
         let is_concerned = index != self.ego_index() && matches!(self.vehicles[index].driver, Driver::Human(_));
         self.detail.filter(|_| is_concerned)
@@ -180,12 +180,12 @@ impl Scenario {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
 
-    /// A vehicle whose driver needs inputs from outside while the run goes on.
+    /// A vehicle whose driver needs inputs from outside during the run.
     pub fn awaiting_inputs(&self) -> Option<&Vehicle> {
         self.vehicles.iter().find(|vehicle| vehicle.driver.awaits_inputs())
     }
 
-    /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
+    /// The number of ticks of the vehicles: `duration_s / step_s`, rounded; 0 without vehicles.
     pub fn tick_count(&self) -> usize {
         if self.vehicles.is_empty() {
             return 0;
@@ -208,7 +208,7 @@ impl Scenario {
         if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
     }
 
-    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    /// The controller of the building; by default a PID controller in each zone.
     pub fn controller(&self) -> Controller {
         self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
@@ -221,8 +221,8 @@ impl Scenario {
         route.or_else(|| self.road.route(Branch::Main)).unwrap_or_else(straight_route)
     }
 
-    /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
-    /// same seed gives the same starts. Who follows a record starts where it begins.
+    /// The state in which each vehicle starts: as written, plus the random change by `start_jitter`. The
+    /// same seed gives the same starts. A recorded vehicle starts where its record begins.
     pub fn starts(&self) -> Vec<State> {
         let mut random = SplitMix64::new(self.seed);
         let jitter = self.start_jitter;
@@ -244,15 +244,15 @@ fn straight_route() -> Arc<Route> {
 pub struct Vehicle {
     /// Its name, unique in the scenario; it becomes part of paths in the recording.
     pub name: String,
-    /// What sort of vehicle it is, if that is stated.
+    /// Its class, if stated.
     pub class: Option<VehicleClass>,
-    /// The road it drives on; there is another than the main one at intersections only.
+    /// The road it drives on; only intersections have another than the main one.
     pub road: Branch,
-    /// Where it starts, in world coordinates, and its speed there.
+    /// Its start in world coordinates, and its speed there.
     pub start: State,
-    /// The acceleration with which it has come to its start \[m/s²\].
+    /// Its acceleration just before the start \[m/s²\].
     pub start_acceleration_mps2: f64,
-    /// Its way along the road.
+    /// Its route along the road.
     pub route: Arc<Route>,
     /// Its goal; what is not stated stays as at the start.
     pub goal: GoalConfig,
@@ -266,15 +266,15 @@ pub struct Vehicle {
     pub safety: SafetyEllipse,
     /// Its driver.
     pub driver: Driver,
-    /// Whether it keeps the rules of the road, if that is stated; otherwise its kind of driver says so.
+    /// Whether it keeps the rules of the road, if stated; otherwise its kind of driver decides.
     pub rules: Option<RuleKeeping>,
     /// When it is on the road.
     pub stay: Stay,
-    /// What it is if nobody drives it.
+    /// The obstacle that it is, if it has no driver.
     pub obstacle: Option<ObstacleForm>,
-    /// What it senses of the others; without it, it sees every state as it is.
+    /// Its sensing of the other vehicles; without it, it sees the exact states.
     pub sensing: Option<sensing::Settings>,
-    /// How it learns from the others' motion what they will do, where its driver infers that.
+    /// How it infers the others' plans from their motion, if its driver does.
     pub inference: Option<belief::Settings>,
 }
 
@@ -302,9 +302,9 @@ impl Vehicle {
         }
     }
 
-    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
-    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
-    /// tracks it.
+    /// The desired state of the vehicle: the lateral position of its goal (that of its start without one, and on a network the
+    /// middle of its route), along the road, at the desired speed. The coordinate along the road is that of the start; no
+    /// controller tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
@@ -331,17 +331,17 @@ impl Vehicle {
         self.rules == Some(RuleKeeping::Kept)
     }
 
-    /// Its planner, which has not planned yet.
+    /// Its planner, before its first plan.
     pub fn planner(&self) -> Planner {
         self.driver.planner_believing(&self.inference.unwrap_or_default())
     }
 
-    /// Its sensor with the errors of a seed; none where it sees everybody as it is.
+    /// Its sensor with the errors of a seed; `None` if it sees the exact states.
     pub fn sensor(&self, seed: u64) -> Option<Sensor> {
         self.sensing.map(|settings| Sensor::new(settings, seed))
     }
 
-    /// Lateral coordinate of the lane that is the goal, if parallel lanes have one \[m\].
+    /// Lateral coordinate of the goal lane, on parallel lanes \[m\].
     pub(crate) fn goal_lane_centre_m(&self, road: &Road) -> Option<f64> {
         road.lane_centre_m(self.road, self.goal.lane.as_ref()?.number()?)
     }
@@ -350,7 +350,7 @@ impl Vehicle {
 /// A counterfactual with the scenario that is run for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterfactual {
-    /// What it claims, what it changes, and what it expects of that.
+    /// Its claim, its changes, and its expectations.
     pub stated: CounterfactualConfig,
     /// The changed scenario; its expectations are the counterfactual's.
     pub scenario: Scenario,

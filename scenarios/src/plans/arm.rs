@@ -1,4 +1,4 @@
-//! What is compared: planners of the ego, and drivers of the other vehicles.
+//! The compared arms: planners of the ego, and drivers of the other vehicles.
 
 use interplay_common::spelling::suggestion;
 use interplay_planners::drivers::human::Style;
@@ -18,15 +18,15 @@ pub(super) struct Arm {
     /// The kind of driver of the ego, if it is changed.
     kind: Option<TomlNode>,
     changes: Vec<(SettingPath, TomlNode)>,
-    /// What varies with it.
+    /// The factors that vary with it.
     pub factors: Vec<Factor>,
 }
 
-/// The name of what is left as the scenario has it.
+/// The name of an arm that leaves the scenario as it is.
 const AS_WRITTEN: &str = "as-written";
 
 impl Arm {
-    /// Everything as the scenario has it.
+    /// The scenario as it is.
     pub fn as_written() -> Arm {
         Arm { name: AS_WRITTEN.to_owned(), kind: None, changes: Vec::new(), factors: Vec::new() }
     }
@@ -51,7 +51,7 @@ impl Arm {
         }
     }
 
-    /// A counterfactual of a scenario, whose name it has.
+    /// A counterfactual of a scenario, under its name.
     pub fn counterfactual(table: &Table, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         let kind = table.get("planner").map(|entry| entry.node.clone());
         Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0), registry)? })
@@ -76,7 +76,7 @@ impl Arm {
             Table::from([("kind".to_owned(), entry(word))])
         } else {
             let words: Vec<&str> = styles.into_iter().chain(kinds).collect();
-            let message = format!("{} is no style and no kind of driver", quoted(word));
+            let message = format!("{} is neither a style nor a kind of driver", quoted(word));
             return Err(vec![Fault::at(&node.place, "unknown", message).help(suggestion(word, "choose from", &words))]);
         };
         let path = path_of("vehicle.*.driver", &node.place).map_err(|fault| vec![fault])?;
@@ -103,13 +103,13 @@ impl Arm {
         self.kind.as_ref()
     }
 
-    /// What it changes: who drives the ego, then its settings.
+    /// Its changes: the driver of the ego, then its settings.
     pub fn assignments(&self) -> impl Iterator<Item = Assignment<'_>> {
         let kind = self.kind.iter().map(Assignment::driver);
         kind.chain(self.changes.iter().map(|(path, value)| Assignment::setting(path, value)))
     }
 
-    /// Its changes, in words of which no two arms that differ have the same.
+    /// Its changes in words; different arms have different words.
     pub fn canonical(&self) -> String {
         let kind = self.kind.iter().map(|kind| format!("kind={}", kind.to_json()));
         let changes = self.changes.iter().map(|(path, value)| format!("{}={}", path.written(), value.to_json()));

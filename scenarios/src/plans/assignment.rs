@@ -11,7 +11,7 @@ use crate::text::error::{Fault, Place};
 /// A setting of a scenario, or the driver of its ego, and the value that a plan gives it.
 #[derive(Clone)]
 pub(super) struct Assignment<'a> {
-    /// The path; none for the kind of driver of the ego.
+    /// The path; `None` for the kind of driver of the ego.
     path: Option<Cow<'a, SettingPath>>,
     value: Cow<'a, TomlNode>,
     /// Whether the value differs from run to run.
@@ -45,7 +45,7 @@ impl<'a> Assignment<'a> {
         amounts.into_iter().filter_map(assignment).collect()
     }
 
-    /// Lays the value over a scenario.
+    /// Merges the value into a scenario.
     pub fn lay(&self, root: &mut Table, schema: SchemaNode) -> Result<(), Fault> {
         let Some(path) = &self.path else {
             if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
@@ -57,13 +57,13 @@ impl<'a> Assignment<'a> {
         path.lay(root, &self.value, schema)
     }
 
-    /// Whether the setting is one of these or stands below one, by the first key of its path.
+    /// Whether the setting is one of these or is below one, by the first key of its path.
     pub fn is_below(&self, first_keys: &[&str]) -> bool {
         let written = self.path.as_ref().map(|path| path.written()).unwrap_or_default();
         first_keys.iter().any(|key| written.split('.').next() == Some(key))
     }
 
-    /// Where the value is written.
+    /// The place of the value.
     pub fn place(&self) -> &Place {
         &self.value.place
     }

@@ -1,4 +1,4 @@
-//! Which change of a plan a fault of a run is owed to.
+//! Which change of a plan causes a fault of a run.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ impl SweepPlan {
     /// The scenario of a run.
     ///
     /// # Errors
-    /// What is wrong with it, located in the plan.
+    /// Its faults, located in the plan.
     pub fn scenario(&self, point: &SweepPoint) -> Result<Scenario, LoadError> {
         let assignments = self.assignments(&point.place, None);
         self.assembled(&point.place, &assignments).map_err(|faults| {
@@ -20,14 +20,14 @@ impl SweepPlan {
         })
     }
 
-    /// A fault of a run, located at the change that it is owed to, with the run in which it shows. `faults` are all of the run.
+    /// A fault of a run, located at the change that causes it, with the run in which it shows. `faults` are all of the run.
     pub(super) fn blamed(&self, place: &Indices, faults: &[Fault], fault: &Fault) -> Fault {
         let assignments = self.assignments(place, None);
         let culprit = self.culprit(place, &assignments, faults, fault);
         self.located(fault, place, &assignments, culprit, Some(place.cell * self.samples + place.draw))
     }
 
-    /// The same, unless the change differs from run to run; a path that leads nowhere does so in all runs.
+    /// The same, unless the change differs from run to run; a path that does not exist is wrong in all runs.
     pub(super) fn blamed_on_what_is_fixed(&self, place: &Indices, faults: &[Fault], fault: &Fault) -> Option<Fault> {
         let assignments = self.assignments(place, None);
         let culprit = self.culprit(place, &assignments, faults, fault);
@@ -44,7 +44,7 @@ impl SweepPlan {
         self.jitter_place.as_ref().is_some_and(|jitter| assignment.is_written_at(jitter))
     }
 
-    /// A fault of a run that is as sound as it is written, but for another value of one of its factors.
+    /// A fault of a run that is sound as written, but not for another value of one of its factors.
     pub(super) fn blamed_on_value(&self, place: &Indices, instead: &OtherValue, fault: &Fault) -> Fault {
         let assignments = self.assignments(place, Some(instead));
         let culprit =
@@ -52,12 +52,12 @@ impl SweepPlan {
         self.located(fault, place, &assignments, culprit, None)
     }
 
-    /// A change without which the scenario of the run is sound; or else without which it has the other faults only; or else the
+    /// A change without which the scenario of the run is sound; or else without which it only has the other faults; or else the
     /// first with which it has the fault.
     ///
-    /// Of several it is one that varies, if any does, since other values of it are sound; of these the one where the fault is
-    /// located, or else the last, since all before it are sound without it. In place of a value that varies, that of the first run
-    /// will also do: a plan whose first run has a fault is not run at all.
+    /// Of several candidates it is one that varies, if any does, since its other values are sound; of these the one where the fault is
+    /// located, or else the last, since all before it are sound without it. The value of the first run may replace a value that
+    /// varies: a plan whose first run has a fault is not run at all.
     fn culprit(
         &self,
         place: &Indices,
@@ -94,7 +94,7 @@ impl SweepPlan {
         chosen(&BTreeSet::is_empty).or_else(|| chosen(&has_others_only)).or_else(begins)
     }
 
-    /// A fault at the culprit, unless it already is within what is written of it.
+    /// A fault at the culprit, unless its place is already within the culprit's text.
     fn located(
         &self,
         fault: &Fault,
@@ -121,7 +121,7 @@ impl SweepPlan {
     }
 }
 
-/// What is wrong with a scenario.
+/// The faults of a scenario.
 fn messages(outcome: Result<Scenario, Vec<Fault>>) -> BTreeSet<String> {
     outcome.err().into_iter().flatten().map(|fault| fault.message().to_owned()).collect()
 }

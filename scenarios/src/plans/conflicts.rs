@@ -1,4 +1,4 @@
-//! What is wrong with the changes of a plan whatever its scenarios are.
+//! The faults of a plan's changes that do not depend on its scenarios.
 
 use super::arm::Arm;
 use super::plan::SweepPlan;
@@ -7,11 +7,11 @@ use crate::format::read::overrides::SettingPath;
 use crate::format::read::tree::TomlNode;
 use crate::text::error::{Fault, Place};
 
-/// What stands beside a change without effect.
+/// The label of a change without effect.
 pub(super) const NO_EFFECT: &str = "without effect";
 
 impl SweepPlan {
-    /// What is wrong with the plan whatever its scenarios are.
+    /// The faults of the plan that do not depend on its scenarios.
     pub(super) fn conflicts(&self) -> Vec<Fault> {
         let arms = || [&self.changes].into_iter().chain(&self.styles).chain(&self.planners);
         let seeds = arms().flat_map(Arm::settings).filter(|(path, _)| path.written() == "seed");
@@ -24,7 +24,7 @@ impl SweepPlan {
         faults
     }
 
-    /// What varies in all runs and with a style, too.
+    /// Paths that vary both in all runs and with a style.
     fn varied_twice(&self) -> Vec<Fault> {
         let of_styles = self.styles.iter().flat_map(|style| &style.factors);
         let again = of_styles.filter_map(|factor| {
@@ -37,7 +37,7 @@ impl SweepPlan {
         again.collect()
     }
 
-    /// What states the random change of the starts in all runs beside the plan's own.
+    /// Changes that state the random change of the starts in all runs besides the plan's own.
     fn jitter_twice(&self) -> Vec<Fault> {
         let Some(jitter) = &self.jitter_place else { return Vec::new() };
         let again = changed(&self.changes).filter(|(path, _)| is_within("start_jitter", path)).map(|(_, key)| {
@@ -48,7 +48,7 @@ impl SweepPlan {
         again.collect()
     }
 
-    /// What sets a limit of the time of plans that no run of the plan enforces.
+    /// Changes that set a time limit of plans that no run of the plan enforces.
     pub(super) fn idle_deadlines(&self) -> Vec<Fault> {
         let enforced = |node: &TomlNode| node.to_json().to_string().contains("\"enforced\"");
         let arms = || [&self.changes].into_iter().chain(&self.styles).chain(&self.planners);
@@ -74,13 +74,13 @@ impl SweepPlan {
     }
 }
 
-/// What an arm sets and varies: each path, and where it is written.
+/// The paths that an arm sets and varies, with their places.
 fn changed(arm: &Arm) -> impl Iterator<Item = (String, &Place)> {
     let set = arm.settings().iter().map(|(path, value)| (path.written(), key_of(path, value)));
     set.chain(arm.factors.iter().map(|factor| (factor.path.written(), factor.key())))
 }
 
-/// Where the last word of a path is written.
+/// The place of the last word of a path.
 pub(super) fn key_of<'a>(path: &'a SettingPath, value: &'a TomlNode) -> &'a Place {
     path.places().last().unwrap_or(&value.place)
 }

@@ -9,7 +9,7 @@ use crate::plans::plan_file::Sampling;
 pub(super) struct UnitDraws {
     /// The seed of the path's streams; each sample has a stream of its own.
     seed: u64,
-    /// Of a Latin hypercube, the part of the unit interval that each sample is drawn from.
+    /// In a Latin hypercube, the part of the unit interval from which each sample is drawn.
     strata: Vec<u32>,
 }
 
@@ -33,7 +33,7 @@ impl UnitDraws {
 
     /// The number of a sample, in the open interval (0, 1).
     pub fn at(&self, sample: u64) -> f64 {
-        // Half a step away from zero: the quantiles of a normal distribution are infinite at both ends.
+        // Half a step away from zero: a normal distribution has infinite quantiles at both ends.
         let unit = Random::new(self.seed, sample).uniform(0.0, 1.0) + 0.5_f64.powi(54);
         let stratum = usize::try_from(sample).ok().and_then(|sample| self.strata.get(sample));
         let drawn = stratum.map_or(unit, |stratum| (f64::from(*stratum) + unit) / self.strata.len() as f64);
@@ -41,7 +41,7 @@ impl UnitDraws {
     }
 }
 
-/// A number for a text (FNV-1a).
+/// The FNV-1a hash of a text.
 fn hash(text: &str) -> u64 {
     text.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3))
 }

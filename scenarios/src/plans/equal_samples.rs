@@ -1,4 +1,4 @@
-//! Samples of a plan that would be the same run.
+//! Samples of a plan that would repeat the same run.
 
 use super::assignment::Assignment;
 use super::factor::Factor;
@@ -8,7 +8,7 @@ use crate::plans::plan_file::Sampling;
 use crate::text::error::{Fault, quoted};
 
 impl SweepPlan {
-    /// What is wrong with several samples of a run if nothing is drawn for it. `instead`, if stated, is the value of one of its
+    /// The fault of several samples of a run in which nothing is drawn. `instead`, if stated, is the value of one of its
     /// factors, which the scenario has.
     pub(super) fn equal_samples(
         &self,

@@ -1,4 +1,4 @@
-//! A path whose value varies, and the values that it takes.
+//! A path whose value varies, and its values.
 
 use interplay_building::control::uncertainty::normal_quantile;
 use interplay_common::spelling::nearest;
@@ -15,7 +15,7 @@ use crate::text::error::{Fault, Place, quoted};
 pub(super) struct Factor {
     /// The path.
     pub path: SettingPath,
-    /// Where its values are written.
+    /// The place of its values.
     pub place: Place,
     values: Values,
     draws: UnitDraws,
@@ -24,15 +24,15 @@ pub(super) struct Factor {
 /// The values of a path.
 #[derive(Clone)]
 enum Values {
-    /// One after the other.
+    /// A list.
     List(Vec<TomlNode>),
     /// Evenly spaced whole numbers: the first, the step, and how many.
     Integers(i128, i128, usize),
     /// Evenly spaced numbers: the first, the last, and how many.
     Numbers(f64, f64, usize),
-    /// Evenly distributed between two bounds.
+    /// Uniformly distributed between two bounds.
     Uniform(f64, f64),
-    /// With an evenly distributed logarithm.
+    /// Log-uniformly distributed between two bounds.
     LogUniform(f64, f64),
     /// Normally distributed: mean and standard deviation.
     Normal(f64, f64),
@@ -42,11 +42,11 @@ enum Values {
 const DISTRIBUTIONS: [&str; 4] = ["range", "uniform", "normal", "log_uniform"];
 /// The most values of a range.
 const MAX_VALUES: usize = 1_000_000;
-/// What a value may be.
+/// The forms of a value, for errors.
 const EXAMPLE: &str = "write a list of values, or for example `{ range = [0.0, 1.0], count = 11 }`, `{ uniform = [0.0, 1.0] }`, \
     `{ normal = { mean = 1.0, sd = 0.1 } }` or `{ log_uniform = [0.1, 10.0] }`";
 
-/// How numbers are drawn: the sampling, the seed, and how many samples there are.
+/// The sampling, the seed, and the number of samples.
 pub(super) type DrawSettings = (Sampling, u64, u64);
 
 /// The factors of a `vary` table, in the order of their paths.
@@ -96,8 +96,8 @@ fn collect(
     }
 }
 
-/// The refusal of a table that can only be meant as a distribution: it stands for a setting below which there is none, or its
-/// first key is all but the name of one.
+/// The refusal of a table that is meant as a distribution: it replaces a setting that is not a table, or its
+/// first key is nearly the name of one.
 fn misspelt(path: &SettingPath, table: &Table, schema: SchemaNode) -> Option<Fault> {
     let (key, entry) =
         table.iter().find(|(key, _)| nearest(key, DISTRIBUTIONS).is_some()).or_else(|| table.iter().next())?;
@@ -108,7 +108,7 @@ fn misspelt(path: &SettingPath, table: &Table, schema: SchemaNode) -> Option<Fau
     if !is_value && (!is_close || property.is_none_or(|schema| schema.property(key).is_some())) {
         return None;
     }
-    let message = format!("{} is no distribution of the values of {}", quoted(key), quoted(&path.written()));
+    let message = format!("{} is not a distribution of the values of {}", quoted(key), quoted(&path.written()));
     let near = nearest(key, DISTRIBUTIONS).map(|near| format!("did you mean `{near}`? "));
     Some(Fault::at(&entry.key, "unknown", message).help(format!("{}{EXAMPLE}", near.unwrap_or_default())))
 }
@@ -121,7 +121,7 @@ fn values_of(node: &TomlNode) -> Result<Values, Fault> {
         TomlValue::Array(items) => Ok(Values::List(items.clone())),
         TomlValue::Table(table) => distribution(node, table),
         other => {
-            let message = format!("{} is no list and no distribution", kind_of(other));
+            let message = format!("{} is neither a list nor a distribution", kind_of(other));
             Err(Fault::at(&node.place, "does not vary", message)
                 .help(format!("{EXAMPLE}; one value belongs in `[set]`")))
         }
@@ -170,7 +170,7 @@ fn distribution(node: &TomlNode, table: &Table) -> Result<Values, Fault> {
     }
 }
 
-/// Evenly spaced values between two ends: so many, or by a step.
+/// Evenly spaced values between two ends, by a count or by a step.
 fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> Result<Values, Fault> {
     let integers = match &ends.value {
         TomlValue::Array(items) => items.iter().filter_map(integer).collect(),
@@ -193,7 +193,7 @@ fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> 
         }
         (None, Some(step), _) => match number(&step.node) {
             Some(width) if width > 0.0 && (to - from) / width < MAX_VALUES as f64 => {
-                // A step that divides the range up to rounding reaches its end.
+                // A step that divides the range, up to rounding, reaches its end.
                 let steps = ((to - from) / width + 1e-9).floor();
                 Ok(Values::Numbers(from, from + steps * width, steps as usize + 1))
             }
@@ -240,7 +240,7 @@ impl Factor {
         }
     }
 
-    /// How many values there are, if they can be counted.
+    /// The number of values, if finite.
     pub fn count(&self) -> Option<usize> {
         match &self.values {
             Values::List(items) => Some(items.len()),
@@ -249,7 +249,7 @@ impl Factor {
         }
     }
 
-    /// One of the values that can be counted.
+    /// One of finitely many values.
     pub fn value(&self, index: usize) -> TomlNode {
         match &self.values {
             Values::List(items) => items[index].clone(),
@@ -277,14 +277,14 @@ impl Factor {
         self.node(TomlValue::Float(number))
     }
 
-    /// The values at the ends of what can occur; of a list all values, up to `limit`.
+    /// The extreme values; of a list all values, up to `limit`.
     pub fn extremes(&self, limit: usize) -> Vec<TomlNode> {
         let ends = |ends: [f64; 2]| ends.map(|end| self.node(TomlValue::Float(end))).to_vec();
         match &self.values {
             Values::List(items) => items.iter().take(limit).cloned().collect(),
             Values::Integers(_, _, count) | Values::Numbers(_, _, count) => vec![self.value(0), self.value(count - 1)],
             Values::Uniform(from, to) | Values::LogUniform(from, to) => ends([*from, *to]),
-            // Its tails have no end: every drawn value is checked.
+            // Its tails are unbounded: every drawn value is checked.
             Values::Normal(mean, _) => vec![self.node(TomlValue::Float(*mean))],
         }
     }

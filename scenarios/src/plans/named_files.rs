@@ -1,4 +1,4 @@
-//! What the files say that a scenario only names: whoever compares scenarios must compare it, too.
+//! The contents of the files that a scenario names: a comparison of scenarios must compare them, too.
 
 use interplay_building::energy::Tariff;
 
@@ -16,7 +16,7 @@ pub(super) fn contents(scenario: &Scenario) -> String {
         WeatherSource::Csv(weather) => format!("{:?}{:?}", weather.stated, weather.weather),
         WeatherSource::Synthetic(_) => String::new(),
     };
-    // Of prices by the hour the interval is not told, so that plans keep the keys of their runs.
+    // The interval of hourly prices is left out, so that plans keep the keys of their runs.
     let by_the_hour = |tariff: &Tariff| tariff.interval_s == 3600.0;
     let interval = |tariff: &Tariff| if by_the_hour(tariff) { String::new() } else { tariff.interval_s.to_string() };
     let told = |tariff: &Tariff| format!("{:?}{}", tariff.prices_per_kwh, interval(tariff));

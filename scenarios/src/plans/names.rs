@@ -13,9 +13,9 @@ use crate::text::pattern::fits;
 /// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedScenario {
-    /// What it is called in the results.
+    /// Its name in the results.
     pub name: String,
-    /// What it is compared with: the folder of an embedded scenario, otherwise its name.
+    /// Its family: the folder of an embedded scenario, otherwise its name.
     pub family: String,
     /// The name of the embedded scenario, or the path of the file.
     pub source: String,

@@ -32,22 +32,22 @@ pub struct SweepPlan {
     pub(super) changes: Arm,
     pub(super) sampling: Sampling,
     pub(super) samples: u64,
-    /// Where their number is stated, if it is.
+    /// The place of their number, if stated.
     pub(super) samples_place: Option<Place>,
     pub(super) seed: u64,
-    /// Where a key that no line states is blamed.
+    /// The place to blame for a key that no line states.
     pub(super) place: Place,
-    /// Where the random change of the starts is stated, if it is.
+    /// The place of the random change of the starts, if stated.
     pub(super) jitter_place: Option<Place>,
-    /// What its scenarios have in common of their roads.
+    /// The known roads of its scenarios.
     pub(super) known_roads: KnownRoads,
 }
 
-/// A scenario of a plan, without what the plan changes.
+/// A scenario of a plan, without the plan's changes.
 pub(super) struct PlannedScenario {
     pub named: NamedScenario,
     pub tree: TomlNode,
-    /// What the scenario is, in words of which no two that differ have the same.
+    /// The scenario in words; different scenarios have different words.
     pub canonical: String,
     /// The random change of its starts, scaled to its vehicles.
     pub jitter: Option<StartJitter>,
@@ -72,7 +72,7 @@ pub struct SweepPoint {
     pub sample: u64,
     /// The seed of the run.
     pub seed: u64,
-    /// What varies, and its value.
+    /// The paths that vary, with their values.
     pub inputs: Vec<(String, Json)>,
     pub(super) place: Indices,
 }
@@ -89,7 +89,7 @@ pub(super) struct Indices {
     pub draw: u64,
 }
 
-/// A value of one of the factors that vary, in place of the one that a run has.
+/// A value of one of the factors that replaces the one in a run.
 pub(super) struct OtherValue {
     /// Index of the factor among those of the run.
     pub factor: usize,
@@ -103,7 +103,7 @@ impl SweepPlan {
         self.registry.metrics()
     }
 
-    /// What the plan is for.
+    /// The title of the plan.
     pub fn title(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.name)
     }
@@ -113,18 +113,18 @@ impl SweepPlan {
         &self.text
     }
 
-    /// How many runs it stands for.
+    /// The number of its runs.
     pub fn run_count(&self) -> u64 {
         self.count().unwrap_or(u64::MAX)
     }
 
-    /// The same; none if they are more than can be counted.
+    /// The same; `None` if the number overflows.
     pub(super) fn count(&self) -> Option<u64> {
         let planners = (0..self.scenarios.len()).map(|scenario| self.planner_count(scenario)).sum();
         self.samples_of_all_styles()?.checked_mul(planners)
     }
 
-    /// How many runs there are with so many scenarios; none if they are more than can be counted.
+    /// How many runs there are with `scenarios` scenarios; `None` if the number overflows.
     pub(super) fn count_for(&self, scenarios: usize) -> Option<u64> {
         self.samples_of_all_styles()?.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
     }
@@ -133,7 +133,7 @@ impl SweepPlan {
         (0..self.styles.len()).try_fold(0_u64, |sum, style| sum.checked_add(self.samples_of(style)?))
     }
 
-    /// How many planners there are in a scenario: those of the plan, then the scenario's counterfactuals.
+    /// The number of planners in a scenario: those of the plan, then the scenario's counterfactuals.
     pub(super) fn planner_count(&self, scenario: usize) -> u64 {
         (self.planners.len() + self.scenarios[scenario].counterfactuals.len()) as u64
     }
@@ -143,12 +143,12 @@ impl SweepPlan {
         self.planners.get(place.planner).unwrap_or_else(own)
     }
 
-    /// How many counterfactuals of scenarios are run besides the planners.
+    /// The number of counterfactuals of scenarios that are run besides the planners.
     pub fn counterfactual_count(&self) -> usize {
         self.scenarios.iter().map(|scenario| scenario.counterfactuals.len()).sum()
     }
 
-    /// The paths of everything that varies, sorted, each with whether all of its values are numbers.
+    /// The paths of all factors, sorted, each with whether all its values are numbers.
     pub fn inputs(&self) -> Vec<(String, bool)> {
         let mut found = BTreeMap::new();
         for factor in self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors) {
@@ -166,7 +166,7 @@ impl SweepPlan {
         ]
     }
 
-    /// How many combinations there are with a style.
+    /// The number of combinations with a style.
     fn cells(&self, style: usize) -> Option<u64> {
         if self.sampling != Sampling::Grid {
             return Some(1);
@@ -186,7 +186,7 @@ impl SweepPlan {
     /// A run.
     ///
     /// # Panics
-    /// If there are not so many runs.
+    /// If `index` is not below the number of runs.
     pub fn point(&self, index: u64) -> SweepPoint {
         assert!(index < self.run_count(), "the plan has no run {index}");
         let mut rest = index;
@@ -236,12 +236,12 @@ impl SweepPlan {
         })
     }
 
-    /// What the scenario of a run is, without what the plan changes, in words of which no two that differ have the same.
+    /// The scenario of a run without the plan's changes, in words; different scenarios have different words.
     pub fn canonical_scenario(&self, point: &SweepPoint) -> &str {
         &self.scenarios[point.place.scenario].canonical
     }
 
-    /// What is changed for a run, likewise.
+    /// The changes of a run, likewise.
     pub fn canonical_changes(&self, point: &SweepPoint) -> String {
         let place = &point.place;
         let jitter = self.scenarios[place.scenario].jitter;
@@ -253,7 +253,7 @@ impl SweepPlan {
         format!("{jitter}{arms}\n;\n{}\n;\nseed={}\n;\n{files}", inputs.join("\n"), point.seed)
     }
 
-    /// What the files say that a run names because of the plan; nothing where the plan changes none of them.
+    /// The contents of the files that a run names because of the plan; `None` if the plan changes none of them.
     fn named_files(&self, place: &Indices) -> String {
         let assignments = self.assignments(place, None);
         if !assignments.iter().any(|assignment| assignment.is_below(&named_files::SETTINGS)) {
@@ -262,8 +262,8 @@ impl SweepPlan {
         self.assembled(place, &assignments).map_or_else(|_| String::new(), |scenario| named_files::contents(&scenario))
     }
 
-    /// What the plan changes of the scenario in a run, in the order in which it is laid over it: the random change of the starts,
-    /// what is set in all runs, the style, the planner, and what varies; `instead`, if stated, is the value of one of the factors.
+    /// The plan's changes of the scenario in a run, in the order in which they are merged into it: the random change of the starts,
+    /// the settings of all runs, the style, the planner, and the factors; `instead`, if stated, replaces the value of one of them.
     pub(super) fn assignments(&self, place: &Indices, instead: Option<&OtherValue>) -> Vec<Assignment<'_>> {
         let jitter = self.jitter_place.as_ref().zip(self.scenarios[place.scenario].jitter);
         let jitter = jitter.into_iter().flat_map(|(written, jitter)| Assignment::of_jitter(jitter, written));

@@ -10,7 +10,7 @@ use crate::model::traffic::start_jitter::StartJitter;
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlanFile {
-    /// What the plan is for, in a few words.
+    /// The title of the plan, in a few words.
     #[serde(default)]
     #[schemars(example = &"Planners against styles")]
     pub title: Option<String>,
@@ -18,24 +18,24 @@ pub(crate) struct PlanFile {
     /// `streets/ring/0-19`, files, or folders of files.
     #[schemars(length(min = 1, max = 1000), example = vec!["lane-change/front-nice", "intersection"])]
     pub scenario: Vec<String>,
-    /// Who drives the ego: kinds of drivers, or tables with a `name`, a `kind` and changes. Without it, as each file says.
+    /// The planners of the ego: kinds of drivers, or tables with a `name`, a `kind` and changes. Without it, as each file states.
     #[serde(default)]
     #[schemars(length(max = 1000), example = vec!["negotiation", "conservative"])]
     pub planner: Vec<PlannerEntry>,
-    /// Who drives the other vehicles: styles of humans, kinds of drivers, or tables with a `name` and changes. Without it, as
-    /// each file says.
+    /// The drivers of the other vehicles: styles of humans, kinds of drivers, or tables with a `name` and changes. Without it, as
+    /// each file states.
     #[serde(default)]
     #[schemars(length(max = 1000), example = vec!["nice", "tough"])]
     pub style: Vec<StyleEntry>,
-    /// Whether each scenario's own counterfactuals are run besides, as planners of that scenario alone that are called like them.
+    /// Whether each scenario's own counterfactuals are also run, as planners of that scenario alone, under their names.
     #[serde(default)]
     pub counterfactuals: bool,
-    /// What is changed in all runs: paths as `--set` has them, each with its new value; `vehicle.*` is every vehicle but the
+    /// Changes in all runs: paths as in `--set`, each with its new value; `vehicle.*` is every vehicle but the
     /// ego.
     #[serde(default)]
     #[schemars(extend("x-paths" = true))]
     pub set: Map<String, Json>,
-    /// What varies: paths, each with a list of values, or with a table `{ range = [from, to], count = n }`,
+    /// The factors: paths, each with a list of values, or with a table `{ range = [from, to], count = n }`,
     /// `{ uniform = [from, to] }`, `{ normal = { mean = m, sd = s } }` or `{ log_uniform = [from, to] }`.
     #[serde(default)]
     #[schemars(extend("x-paths" = true))]
@@ -45,18 +45,18 @@ pub(crate) struct PlanFile {
     #[serde(default)]
     #[schemars(example = json!({ "position_m": 0.1, "speed_mps": 0.1 }))]
     pub jitter: Option<StartJitter>,
-    /// How values are chosen: `grid` runs every combination of lists and ranges, and of each as many samples of the
+    /// How values are chosen: `grid` runs every combination of lists and ranges, each with as many samples of the
     /// distributions; `random` and `latin-hypercube` draw all values for each sample.
     #[serde(default)]
     pub sampling: Sampling,
-    /// How many samples there are; on a grid, of every combination.
+    /// The number of samples; on a grid, of every combination.
     #[serde(default = "one")]
     #[schemars(range(min = 1))]
     pub samples: u64,
-    /// The seed of the first sample; the next samples have the seeds after it. All that is drawn is drawn from it.
+    /// The seed of the first sample; the next samples have the seeds after it. All random values follow from it.
     #[serde(default = "one")]
     pub seed: u64,
-    /// The most runs that the plan may stand for.
+    /// The most runs of the plan.
     #[serde(default = "million")]
     #[schemars(range(min = 1))]
     pub max_runs: u64,
@@ -79,17 +79,17 @@ pub(crate) struct PlannerArm {
     /// Its name, unique in the plan.
     #[schemars(length(min = 1), example = &"patient")]
     pub name: String,
-    /// The kind of driver, as `--planner` has it; without it, the scenario's own.
+    /// The kind of driver, as in `--planner`; without it, the scenario's own.
     #[serde(default)]
     #[schemars(example = &"negotiation")]
     pub kind: Option<String>,
-    /// What is changed besides.
+    /// Further changes.
     #[serde(default)]
     #[schemars(example = json!({ "vehicle.ego.driver.settled_steps": 29 }), extend("x-paths" = true))]
     pub set: Map<String, Json>,
 }
 
-/// Who drives the other vehicles.
+/// The drivers of the other vehicles.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(crate) enum StyleEntry {
@@ -106,11 +106,11 @@ pub(crate) struct StyleArm {
     /// Its name, unique in the plan.
     #[schemars(length(min = 1), example = &"continuum")]
     pub name: String,
-    /// What is changed.
+    /// The changes.
     #[serde(default)]
     #[schemars(example = json!({ "vehicle.*.driver": { "kind": "human" } }), extend("x-paths" = true))]
     pub set: Map<String, Json>,
-    /// What varies with these drivers, besides what varies in all runs.
+    /// The factors with these drivers, besides those of all runs.
     #[serde(default)]
     #[schemars(example = json!({ "vehicle.*.driver.safety_weight": { "log_uniform": [0.2, 50.0] } }), extend("x-paths" = true))]
     pub vary: Map<String, Json>,

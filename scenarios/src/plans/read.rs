@@ -48,7 +48,7 @@ pub fn embedded_plans() -> Vec<&'static str> {
 }
 
 impl SweepPlan {
-    /// [`Registry::sweep_plan`] with what Interplay has.
+    /// [`Registry::sweep_plan`] with the standard registry.
     ///
     /// # Errors
     /// As [`Registry::sweep_plan`].
@@ -56,7 +56,7 @@ impl SweepPlan {
         Registry::standard().sweep_plan(name_or_path, samples)
     }
 
-    /// [`Registry::sweep_plan_from_text`] with what Interplay has.
+    /// [`Registry::sweep_plan_from_text`] with the standard registry.
     ///
     /// # Errors
     /// As [`Registry::sweep_plan`].
@@ -66,11 +66,11 @@ impl SweepPlan {
 }
 
 impl Registry {
-    /// The plan of that name in the binary, otherwise the file at that path; with a number of samples, with so many instead of
-    /// its own.
+    /// The plan of that name in the binary, otherwise the file at that path; `samples`, if stated, replaces its own number of
+    /// samples.
     ///
     /// # Errors
-    /// Whatever is wrong with it, each error located.
+    /// All its faults, each located.
     pub fn sweep_plan(&self, name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
         if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
             return with_samples(self, name, text, Path::new(""), samples);
@@ -89,7 +89,7 @@ impl Registry {
         with_samples(self, name_or_path, &text, path.parent().unwrap_or(Path::new("")), samples)
     }
 
-    /// The plan of a text that errors call `name`; paths in it are relative to `folder`.
+    /// The plan of a text whose name in errors is `name`; paths in it are relative to `folder`.
     ///
     /// # Errors
     /// As [`Registry::sweep_plan`].
@@ -114,7 +114,7 @@ fn with_samples(
     plan.map_err(|faults| LoadError::of_plan(name, faults))
 }
 
-/// The fault of a file that is a scenario and no plan.
+/// The fault of a file that is a scenario and not a plan.
 fn scenario_in_its_place(tree: &TomlNode, name: &str) -> Option<Fault> {
     let table = tree.table().filter(|table| !table.contains_key("scenario"))?;
     let entry = ["vehicle", "building", "extends", "road"].into_iter().find_map(|key| table.get(key))?;
@@ -181,7 +181,7 @@ fn refuse(faults: Vec<Fault>) -> Result<(), Vec<Fault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// The entries of a list of arms; without any, everything as written.
+/// The entries of a list of arms; without any, the scenario as it is.
 fn arms(
     tree: &TomlNode,
     key: &str,
@@ -203,14 +203,14 @@ fn arms(
     Ok(if found.is_empty() { vec![Arm::as_written()] } else { found })
 }
 
-/// What is changed, and varies, in all runs.
+/// The changes and factors of all runs.
 fn changes(tree: &TomlNode, settings: DrawSettings, schema: SchemaNode) -> Result<Arm, Vec<Fault>> {
     let table = |key: &str| tree.at(key).and_then(TomlNode::table).cloned().unwrap_or_default();
     let (set, vary) = (settings_of(table("set"), schema)?, factors(&table("vary"), settings, schema)?);
     Ok(Arm::changing("everywhere", set, vary))
 }
 
-/// The scenarios of a plan, and where each is named. Two of one name are refused.
+/// The scenarios of a plan with their places. Two of one name are refused.
 fn scenarios<'a>(tree: &'a TomlNode, folder: &Path) -> Result<Vec<(NamedScenario, &'a Place)>, Vec<Fault>> {
     let Some(TomlValue::Array(items)) = tree.at("scenario").map(|node| &node.value) else { return Ok(Vec::new()) };
     let (mut found, mut faults) = (BTreeMap::new(), Vec::new());
@@ -236,7 +236,7 @@ fn scenarios<'a>(tree: &'a TomlNode, folder: &Path) -> Result<Vec<(NamedScenario
     if faults.is_empty() { Ok(order) } else { Err(faults) }
 }
 
-/// A counterfactual that is called like a planner of the plan could not be told from it.
+/// Refuses a counterfactual with the name of a planner of the plan, since the results could not distinguish them.
 fn refuse_equal_names(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault>> {
     let counterfactuals = plan.scenarios.iter().flat_map(|scenario| {
         scenario.counterfactuals.iter().map(|counterfactual| (&scenario.named.name, &counterfactual.name))
@@ -248,7 +248,7 @@ fn refuse_equal_names(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault
     Err(vec![Fault::at(place, "could not be told apart", message).help("give the planner another `name`")])
 }
 
-/// The seed of a run follows from its sample, and a counterfactual that sets its own would be one run in all of them.
+/// Refuses a counterfactual that sets the seed: the seed of a run follows from its sample, so it would repeat one run.
 fn refuse_seeded_counterfactuals(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault>> {
     let is_seeded = |arm: &&Arm| arm.settings().iter().any(|(path, _)| path.written() == "seed");
     let seeded = plan.scenarios.iter().find_map(|scenario| {
@@ -269,11 +269,11 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
     let asked = count.map_or("more runs than can be counted".to_owned(), |count| format!("{count} runs"));
     let blamed = ["samples", "vary", "max_runs", "scenario"].iter().find_map(|key| tree.at(key));
     let message = format!("the plan asks for {asked}, and at most {most} are allowed");
-    let help = "state fewer samples or values; if so many are meant, state a larger `max_runs`";
+    let help = "state fewer samples or values, or a larger `max_runs`";
     Err(vec![Fault::at(blamed.map_or(&tree.place, |node| &node.place), "too many", message).help(help)])
 }
 
-/// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
+/// Reads a scenario and what it extends, with its counterfactuals only if the plan runs them.
 fn planned(
     registry: &Registry,
     named: NamedScenario,

@@ -1,4 +1,4 @@
-//! What is wrong with the runs of a plan: each fault once.
+//! The faults of the runs of a plan, each once.
 
 use std::collections::BTreeMap;
 
@@ -6,16 +6,16 @@ use super::assignment::Assignment;
 use super::plan::{Indices, OtherValue, SweepPlan, SweepPoint};
 use crate::text::error::{Fault, LoadError};
 
-/// How many values of a list are checked as extremes; every value that is run is checked besides.
+/// The most values of a list that are checked as extremes; every value that is run is also checked.
 const MAX_LISTED: usize = 100;
 
-/// What is wrong with some runs of a plan: of each fault, the first run that has it and how many have it.
+/// The faults of some runs of a plan: of each, the first run that has it and how many have it.
 ///
-/// Faults of several runs are the same if their words are, but for numbers.
+/// Faults of several runs are the same if their words are, apart from numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunRefusals(BTreeMap<FaultKey, Count>);
 
-/// Where in the plan a fault lies, as line and column, and its words without numbers.
+/// The place of a fault in the plan, as line and column, and its words without numbers.
 type FaultKey = (Option<(usize, usize)>, String);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,12 +25,12 @@ struct Count {
 }
 
 impl RunRefusals {
-    /// Whether nothing is wrong.
+    /// Whether there are no faults.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What is wrong with these runs or with those, no run being among both.
+    /// The faults of two disjoint sets of runs.
     #[must_use]
     pub fn and(mut self, other: RunRefusals) -> RunRefusals {
         for (key, count) in other.0 {
@@ -45,7 +45,7 @@ impl SweepPlan {
     /// Checks a run.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Its faults.
     pub fn check(&self, point: &SweepPoint) -> Result<(), RunRefusals> {
         let outcome = self.assembled(&point.place, &self.assignments(&point.place, None));
         let count = Count { first_run: point.index, runs: 1 };
@@ -53,7 +53,7 @@ impl SweepPlan {
         outcome.map(|_| ()).map_err(|faults| RunRefusals(keyed(faults)))
     }
 
-    /// What is wrong with runs of the plan, each fault located in the plan, with the first run that has it.
+    /// The faults of runs of the plan, each located in the plan, with the first run that has it.
     pub fn refusal(&self, refusals: &RunRefusals) -> LoadError {
         let mut found = Vec::new();
         for (key, count) in &refusals.0 {
@@ -70,10 +70,10 @@ impl SweepPlan {
         LoadError::of_plan(&self.name, found)
     }
 
-    /// What is wrong with the plan's arms, with the values at the ends of what can be drawn, and with the number of samples. It
-    /// stops at the first combination of scenario, style and planner in which something is.
+    /// The faults of the plan's arms, of the extreme values, and of the number of samples. The check
+    /// stops at the first combination of scenario, style and planner with a fault.
     ///
-    /// What is owed to a value that differs from run to run, or to the change of the starts, and shows in the first run, is left to
+    /// Faults caused by a value that differs from run to run, or by the change of the starts, that show in the first run are left to
     /// the check of all runs, which counts those that have it.
     pub(super) fn check_extremes(&self) -> Vec<Fault> {
         for scenario in 0..self.scenarios.len() {
@@ -89,7 +89,7 @@ impl SweepPlan {
         Vec::new()
     }
 
-    /// The same of one combination, each fault once.
+    /// The same for one combination, each fault once.
     fn extremes_of(&self, place: &Indices) -> Vec<Fault> {
         match self.assembled(place, &self.assignments(place, None)) {
             Err(faults) => {
@@ -132,7 +132,6 @@ impl SweepPlan {
     }
 }
 
-/// A message without its numbers.
 fn without_numbers(message: &str) -> String {
     let is_number = |word: &&str| word.trim_matches(|letter| "`(),;:".contains(letter)).parse::<f64>().is_ok();
     message.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ")

@@ -1,15 +1,15 @@
-//! Another number of samples than a plan's own.
+//! A replacement of a plan's number of samples.
 
 use crate::format::read::tree::{TomlEntry, TomlNode, TomlValue};
 use crate::text::error::{Document, Place};
 
-/// The key of a plan that says how many samples there are.
+/// The key of a plan that states its number of samples.
 const KEY: &str = "samples";
 
-/// Replaces the number of samples of a plan by that of the flag `--samples`, which errors then name. Returns the text that says
-/// the same, in which only this number differs.
+/// Replaces the number of samples of a plan by that of the flag `--samples`, which errors then name. Returns the text of the
+/// plan with only this number changed.
 ///
-/// A table in place of the number stays: it is refused.
+/// A table in place of the number is kept: the check refuses it.
 pub(super) fn replace(tree: &mut TomlNode, text: &str, samples: u64) -> String {
     let TomlValue::Table(root) = &mut tree.value else { return text.to_owned() };
     let written = samples.to_string();
@@ -27,7 +27,7 @@ pub(super) fn replace(tree: &mut TomlNode, text: &str, samples: u64) -> String {
         }
         None => {
             root.insert(KEY.to_owned(), TomlEntry { key: whole, node });
-            // At the end it would belong to a table. A byte order mark stays in front.
+            // At the end it would belong to a table. A byte order mark stays first.
             let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
             format!("{mark}{KEY} = {written} # --samples\n{rest}")
         }

@@ -6,9 +6,9 @@ use crate::format::json_schema::SchemaNode;
 use crate::format::read::overrides::schema_at;
 use crate::format::read::tree::{TomlNode, TomlValue};
 
-/// The paths of the settings that a value replaces when it is laid over a scenario at a path; of a `kind`, with its word.
+/// The paths of the settings that a value replaces when it is merged into a scenario at a path; of a `kind`, with its word.
 ///
-/// Tables, and lists whose entries have names, are merged with what is there: an empty one replaces nothing.
+/// Tables, and lists whose entries have names, are merged with existing ones: an empty one replaces nothing.
 pub(super) fn settings_below(path: &str, value: &TomlNode, schema: SchemaNode) -> BTreeMap<String, Option<String>> {
     let mut found = BTreeMap::new();
     collect(path, value, schema, &mut found);
@@ -29,16 +29,16 @@ fn collect(path: &str, value: &TomlNode, schema: SchemaNode, found: &mut BTreeMa
     }
 }
 
-/// Whether a path is another or goes on below it.
+/// Whether a path is another or continues below it.
 pub(super) fn is_within(above: &str, path: &str) -> bool {
     path.strip_prefix(above).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// What removes the setting at a path when it is laid over it.
+/// The ways to remove the setting at a path.
 pub(super) struct Rivals<'s> {
-    /// The setting itself and all that it is below.
+    /// The setting itself and all tables around it.
     above: Vec<String>,
-    /// Keys that exclude the key of a table on the way to the setting: the key, and those.
+    /// Keys that exclude the key of a table on the way to the setting: the key, and the excluding ones.
     excluding: Vec<(String, Vec<String>)>,
     /// The `kind` of a table on the way, and the kinds that do not know the setting.
     kinds: Vec<(String, Vec<&'s str>)>,
@@ -77,7 +77,7 @@ impl<'s> Rivals<'s> {
         rivals
     }
 
-    /// How settings that are laid over this one remove it, if they do.
+    /// How later settings remove this one, if they do.
     pub fn removal(&self, laid: &BTreeMap<String, Option<String>>) -> Option<Removal> {
         let states = |path: &str| {
             laid.contains_key(path)

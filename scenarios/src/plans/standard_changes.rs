@@ -1,10 +1,10 @@
-//! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
+//! The standard list of changes with which `interplay why` finds the causes of the outcome of a drive.
 //!
-//! - the style of each human, nice or tough, and of whoever walks; instead of another driver who minds nobody's wishes, a human of either style;
+//! - the style of each human, nice or tough, and of each pedestrian; for another driver that does not interact, a human of either style;
 //! - the planner of each interactive vehicle: negotiation, conservative or cooperative (`DriverKind::replacement_in_why`);
-//! - instead of it, the intelligent driver model, which does not interact: a factor of its own;
+//! - the intelligent driver model instead, which does not interact: a separate factor;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
-//! - each other setting of such a planner to which the file gives another value than the planner has by itself: that value;
+//! - each other setting of such a planner that the file changes from the planner's default: that default;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
 use interplay_planners::drivers::human::Style;
@@ -20,7 +20,7 @@ use crate::load;
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::text::error::LoadError;
 
-/// A kind through which a driver loses the settings that its own kind has.
+/// A kind with which a driver loses the settings of its own kind.
 const OTHER_KIND: &str = "idm";
 
 /// Settings that other changes vary, or that name the planner itself.
@@ -29,9 +29,9 @@ const VARIED_OTHERWISE: [&str; 2] = ["kind", "prediction"];
 /// One change of a scenario, and the changed scenario.
 #[derive(Clone, Debug)]
 pub struct StandardChange {
-    /// On what the outcome depends if this change changes it, such as "front's style".
+    /// The factor that the change varies, such as "front's style".
     pub factor: String,
-    /// What is changed, such as "front: style = tough".
+    /// The change, such as "front: style = tough".
     pub change: String,
     /// The same as arguments of `--set`.
     pub sets: Vec<String>,
@@ -40,7 +40,7 @@ pub struct StandardChange {
 }
 
 impl Registry {
-    /// The changed scenarios of the standard list. `scenario` is what `name_or_path` means with `overrides`.
+    /// The changed scenarios of the standard list. `scenario` is the one of `name_or_path` with `overrides`.
     ///
     /// # Errors
     /// As [`Registry::load`], if a change does not fit the scenario.
@@ -69,8 +69,8 @@ impl Registry {
 }
 
 impl Registry {
-    /// The settings that the planner of an interactive vehicle would have in a scenario whose file says nothing of them; none for
-    /// those who mind nobody's wishes.
+    /// The settings that the planner of an interactive vehicle would have in a scenario whose file does not state them; `None` for
+    /// drivers that do not interact.
     fn plain_driver(&self, name_or_path: &str, vehicle: &Vehicle, overrides: &[Override]) -> Option<Driver> {
         if vehicle.driver.goes_first() {
             return None;
@@ -88,7 +88,7 @@ impl Registry {
     }
 }
 
-/// The argument of `--set` that states the kind of a driver whose table the file leaves out: no key of it can be set without.
+/// The argument of `--set` that states the kind of a driver whose table the file omits: without it, no key of the table can be set.
 fn kind_to_state(vehicle: &Vehicle, tree: &TomlNode) -> Option<String> {
     let Some(TomlValue::Array(stated)) = tree.at("vehicle").map(|vehicles| &vehicles.value) else { return None };
     let is_it = |node: &&TomlNode| node.at("name").and_then(TomlNode::text) == Some(&vehicle.name);
@@ -106,7 +106,7 @@ fn changes(vehicle: &Vehicle, plain: Option<&Driver>, registry: &Registry) -> Ve
             let others = styles.filter(|style| style.safety_weight() != settings.weight());
             others.map(|style| style_change(vehicle, style)).collect()
         }
-        // Somebody on foot is no driver, and keeps what makes it begin to walk.
+        // A pedestrian cannot become a driver, and keeps its trigger.
         Driver::Walker(settings) => {
             let styles = [WalkerStyle::Careful, WalkerStyle::Normal, WalkerStyle::Bold].into_iter();
             styles.filter(|style| *style != settings.style).filter_map(|style| walker_change(vehicle, style)).collect()
@@ -176,7 +176,7 @@ fn mechanism_change(vehicle: &Vehicle, key: &str, property: SchemaNode, value: &
     (value != off).then(|| (format!("{name}'s {mechanism}"), format!("{name}: without {mechanism}{how}"), set))
 }
 
-/// Gives a setting the value that the planner has by itself; a mechanism that the file switches off is switched on.
+/// Gives a setting the planner's default; a mechanism that the file switches off is switched on.
 fn plain_change(
     Vehicle { name, .. }: &Vehicle,
     key: &str,

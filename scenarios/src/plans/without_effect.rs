@@ -1,10 +1,10 @@
-//! Changes of a plan that others, laid over them, undo.
+//! Changes of a plan that later changes undo.
 //!
-//! In each run a plan lays over the scenario, in this order: the change of the starts, what is set in all runs, the style, the
-//! planner, what varies in all runs, and what varies with the style. A setting is undone by a later one if that states it or what
-//! it is below, excludes it, or is of a kind that does not know it.
+//! In each run a plan merges into the scenario, in this order: the change of the starts, the settings of all runs, the style, the
+//! planner, the factors of all runs, and the factors of the style. A later setting undoes an earlier one if it states it or a table
+//! around it, excludes it, or is of a kind that does not know it.
 //!
-//! What is set must have an effect in a run at least. What varies must have one wherever it varies, since the rows of all these
+//! A setting must have an effect in at least one run. A factor must have an effect wherever it varies, since the rows of all these
 //! runs state its value.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,30 +32,29 @@ struct Change<'a> {
     /// Where it is written.
     key: &'a Place,
     is_varied: bool,
-    /// Whether it is of every vehicle but the ego.
+    /// Whether it applies to every vehicle but the ego.
     is_of_others: bool,
-    /// The settings that it states, as the plan writes them, each with what removes it from the vehicles that it is about.
+    /// Its settings, as the plan writes them, each with the ways to remove it from the vehicles that it applies to.
     settings: BTreeMap<String, Vec<Rivals<'a>>>,
-    /// What each of its values replaces, equal ones once.
+    /// The settings that each of its values replaces, equal ones once.
     values: BTreeSet<Settings>,
 }
 
-/// The changes of one arm.
 type Changes<'a> = Vec<Change<'a>>;
 
-/// What becomes of a setting that a plan states at a place.
+/// The effect of a setting at a place of the plan.
 #[derive(Default)]
 struct Effect {
     is_seen: bool,
-    /// Why it has none, in the first run without.
+    /// Why it has no effect, in the first such run.
     undone: Option<Fault>,
 }
 
-/// The settings of a plan by where they are written.
+/// The settings of a plan by their places.
 type Effects = BTreeMap<(usize, usize, String), Effect>;
 
 impl SweepPlan {
-    /// What the plan sets without effect in any run, and what varies without effect in some.
+    /// The settings without effect in any run, and the factors without effect in some.
     pub(super) fn without_effect(&self) -> Vec<Fault> {
         let mut effects = Effects::new();
         let mut varied: BTreeMap<(usize, usize), Fault> = BTreeMap::new();
@@ -90,7 +89,7 @@ impl SweepPlan {
             }
         }
         let idle = effects.into_values().filter(|effect| !effect.is_seen).filter_map(|effect| effect.undone);
-        // One for each change, though it states several settings.
+        // One refusal for each change, even if it states several settings.
         let mut found: BTreeMap<(usize, usize), Fault> = varied;
         for fault in idle {
             if let Some(place) = fault.place() {
@@ -114,7 +113,7 @@ impl SweepPlan {
     }
 }
 
-/// Notes of each setting of the first `count` changes of one run whether it has an effect.
+/// Notes for each setting of the first `count` changes of one run whether it has an effect.
 fn note(laid: &[&Change], count: usize, factors: &[&Change], effects: &mut Effects) {
     for (index, change) in laid[..count].iter().enumerate() {
         let later = || laid[index + 1..].iter().chain(factors).copied();
@@ -140,7 +139,7 @@ fn span(place: &Place) -> (usize, usize) {
     (place.span.start, place.span.end)
 }
 
-/// The changes of an arm in a scenario: who drives the ego, its settings, then what varies.
+/// The changes of an arm in a scenario: the driver of the ego, its settings, then the factors.
 fn changes<'a>(arm: &'a Arm, by: &str, root: Root<'a, '_>) -> Changes<'a> {
     let change = |path: &SettingPath, key, values: &mut dyn Iterator<Item = &TomlNode>, is_varied| {
         Change::new(by, path, key, values, is_varied, root)
@@ -189,13 +188,13 @@ impl<'a> Change<'a> {
         words.join(".")
     }
 
-    /// How all of its values remove a setting, if they do: as the first does.
+    /// How all its values remove a setting, if they do: as the first does.
     fn removal_by_all(&self, rivals: &Rivals) -> Option<Removal> {
         let removals: Option<Vec<Removal>> = self.values.iter().map(|value| rivals.removal(value)).collect();
         removals?.into_iter().next()
     }
 
-    /// What is wrong with a factor of which some value is undone in all vehicles by some value of later ones.
+    /// The fault of a factor of which a value is undone in all vehicles by a value of later ones.
     fn undone_in_part(&self, later: &[&Change]) -> Option<Fault> {
         self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
             let by = |rivals: &Rivals| {
@@ -209,7 +208,7 @@ impl<'a> Change<'a> {
         })
     }
 
-    /// What is wrong with a factor that undoes this change of a counterfactual.
+    /// The fault of a factor that undoes this change of a counterfactual.
     fn undone_by_factor<'b>(&self, factors: &[&'b Change<'b>]) -> Option<(&'b Change<'b>, Fault)> {
         self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
             let by = |rivals: &Rivals| factors.iter().find(|factor| factor.removal_by_all(rivals).is_some()).copied();
@@ -242,6 +241,6 @@ impl<'a> Change<'a> {
     }
 }
 
-/// What to do about a change without effect.
+/// The help for a change without effect.
 const HELP: &str = "leave one of both out; the later wins of: `set` of all runs, the style, the planner with its `kind` before its \
     `set`, what varies in all runs, what varies with the style";

@@ -1,4 +1,4 @@
-//! Reads the tables of gains of a scenario, when the scenario is loaded: whatever is wrong with them is said then, with its line.
+//! Reads the tables of gains of a scenario when the scenario is loaded; their faults are reported then, with their lines.
 
 use interplay_building::occupancy::ZoneRecord;
 use interplay_building::series::SeriesError;
@@ -13,7 +13,7 @@ use crate::text::error::Fault;
 /// Errors in gains are listed after those in the scenario.
 const RANK: usize = 1002;
 
-/// Reads table `index` of the gains; and a remark on the columns that are no zones.
+/// Reads table `index` of the gains; and a remark on the columns that are not zones.
 pub(crate) fn read(
     stated: GainsConfig,
     index: usize,

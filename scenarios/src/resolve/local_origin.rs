@@ -2,7 +2,7 @@
 //!
 //! Maps of real places have coordinates of 10⁵ to 10⁷ m. Curves, projections and bodies in single precision are exact to a
 //! micrometre within some kilometres only. So a network with large coordinates is moved, with everything on it, by a whole
-//! number of kilometres; it loads, plans and is recorded as if it stood there.
+//! number of kilometres; it is loaded, planned and recorded as if it were there.
 
 use interplay_planners::Driver;
 use serde_json::{Value as Json, json};
@@ -15,7 +15,7 @@ use crate::format::vehicle_config::VehicleConfig;
 use crate::roads::{LaneConfig, Road};
 use crate::text::error::Fault;
 
-/// Coordinates up to this are left as they are \[m\].
+/// Coordinates up to this are unchanged \[m\].
 const MAX_COORDINATE_M: f64 = 10_000.0;
 /// Roads are moved by multiples of this \[m\].
 const GRID_M: f64 = 1000.0;
@@ -52,20 +52,20 @@ pub(super) fn move_near_origin(
     Some(origin)
 }
 
-/// The origin for a road that begins at a place; none where it is near enough to (0, 0) \[m\].
+/// The origin for a road that begins at a point; `None` if it is near enough to (0, 0) \[m\].
 pub(crate) fn of(first: [f64; 2]) -> Option<[f64; 2]> {
     let is_near = first.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE_M);
     (!is_near).then(|| first.map(|coordinate| (coordinate / GRID_M).round() * GRID_M))
 }
 
-/// That a road was moved, for whoever reads positions in reports and recordings.
+/// The remark that a road was moved, for readers of positions in reports and recordings.
 pub(super) fn remark([x_m, y_m]: [f64; 2], tree: &TomlNode) -> Fault {
     let message =
         format!("the road is far from the origin, so that all is moved: ({x_m:.0}, {y_m:.0}) is (0, 0) in this run");
     Fault::at(tree.place_of("road"), "far away", message)
 }
 
-/// Where a lane begins \[m\].
+/// The first point of a lane \[m\].
 fn first_point(lane: &LaneConfig) -> Option<[f64; 2]> {
     lane.points.first().copied().or_else(|| lane.start.map(|start| [start.x_m, start.y_m]))
 }

@@ -1,5 +1,5 @@
-//! Which of the measured drivers somebody is whose style is `measured`: drawn from the seed of the scenario and the vehicle's name, so that
-//! another vehicle in the file changes nobody.
+//! Which of the measured drivers a vehicle has whose style is `measured`: drawn from the seed of the scenario and the vehicle's name, so
+//! that another vehicle in the file changes none of the draws.
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::Driver;
@@ -7,7 +7,7 @@ use interplay_planners::drivers::human::Style;
 
 use crate::model::scenario::Vehicle;
 
-/// Writes into the settings of measured drivers which member of the population they are, where none is stated.
+/// Writes into the settings of measured drivers which member of the population they are, if not stated.
 pub(super) fn draw(vehicles: &mut [Vehicle], seed: u64) {
     for vehicle in vehicles {
         let Driver::Human(settings) = &mut vehicle.driver else { continue };
@@ -23,7 +23,7 @@ fn member(seed: u64, name: &str) -> u32 {
     for byte in name.bytes() {
         mixed = SplitMix64::new(mixed ^ u64::from(byte)).next_u64();
     }
-    // A number that files can state.
+    // A number that a file can state.
     (mixed >> 33) as u32
 }
 

@@ -1,5 +1,5 @@
-//! From the file to the scenario: flows become vehicles (`flows`), what is left out is added (`defaults`), what is stated is read, the road is
-//! built, the vehicles are placed on it, and all is checked (`check`, `budget`).
+//! From the file to the scenario: flows become vehicles (`flows`), defaults are added (`defaults`), the keys are read, the road is
+//! built, the vehicles are placed on it, and the result is checked (`check`, `budget`).
 
 pub(crate) mod budget;
 pub(crate) mod check;
@@ -40,11 +40,11 @@ use crate::roads::Road;
 use crate::text::error::Fault;
 use crate::text::readable::readable;
 
-/// The scenario that a file describes in which nothing is missing that depends on its size, but for what its counterfactuals run.
-/// `tree` says where it is written.
+/// The scenario of a file whose size-dependent keys are all stated, without the scenarios of its counterfactuals.
+/// `tree` holds the places of its values.
 ///
 /// # Errors
-/// Everything that keeps it from being run.
+/// All reasons why it cannot be run.
 pub(crate) fn resolve(
     registry: &Registry,
     file: ScenarioFile,
@@ -55,7 +55,7 @@ pub(crate) fn resolve(
     if is_placed {
         faults.extend(consistency::check(&scenario, tree, registry.complete()));
     } else {
-        // Without its vehicles no more can be said of it.
+        // Without its vehicles, no further check is possible.
         faults.extend(consistency::check_times(&scenario, tree));
         return Err(faults);
     }
@@ -69,21 +69,21 @@ pub(crate) fn resolve(
 
 /// A scenario as far as it could be read.
 struct ReadScenario {
-    /// Unchecked. In the place of what could not be read it has defaults.
+    /// Unchecked. Parts that could not be read have defaults.
     scenario: Scenario,
-    /// Whether its vehicles are on its road; without, it has none.
+    /// Whether its vehicles are on its road; otherwise it has none.
     is_placed: bool,
-    /// What could not be read.
+    /// The faults of the parts that could not be read.
     faults: Vec<Fault>,
 }
 
-/// The road of a scenario, and who is on it.
+/// The road of a scenario, with its vehicles.
 #[derive(Default)]
 struct PlacedVehicles {
     road: Road,
     network: Option<Arc<RoadNetwork>>,
     vehicles: Vec<Vehicle>,
-    /// What is said where everything was moved near the origin.
+    /// The remark if everything was moved near the origin.
     moved: Option<Fault>,
 }
 
@@ -112,7 +112,7 @@ impl Reader<'_> {
     }
 }
 
-/// The same, unchecked; and what is wrong with its vehicles, and with the files that it names.
+/// The same, unchecked; and the faults of its vehicles and of the files that it names.
 fn read(
     registry: &Registry,
     mut file: ScenarioFile,
@@ -172,23 +172,20 @@ fn read(
     Ok(ReadScenario { scenario, is_placed, faults })
 }
 
-/// How many ticks there are from one plan to the next.
+/// The number of ticks from one plan to the next.
 fn ticks_per_plan(stated_s: Option<f64>, step_s: f64, tree: &TomlNode) -> Result<usize, Fault> {
     let Some(period_s) = stated_s else { return Ok(1) };
     let ticks = (period_s / step_s).round();
     if ticks >= 1.0 && (ticks * step_s - period_s).abs() <= 1e-6 * period_s {
         return Ok(ticks as usize);
     }
-    let message = format!(
-        "`planning_period_s` ({}) is no whole number of times `step_s` ({})",
-        readable(period_s),
-        readable(step_s)
-    );
+    let message =
+        format!("`planning_period_s` ({}) is not a multiple of `step_s` ({})", readable(period_s), readable(step_s));
     let help = format!("{} works", readable(step_s * ticks.max(1.0)));
     Err(Fault::at(tree.place_of("planning_period_s"), "no multiple", message).help(help))
 }
 
-/// The scenario with what the weather file and the tables of prices and gains say in the place of their names; and what is wrong with them.
+/// The scenario with the contents of the weather file and of the tables of prices and gains in place of their names; and their faults.
 fn with_named_files(
     mut scenario: Scenario,
     weather: WeatherConfig,
@@ -239,7 +236,6 @@ fn with_named_files(
     (scenario, unread)
 }
 
-/// Reads tables of settings.
 struct Reader<'a> {
     registry: &'a Registry,
     tree: &'a TomlNode,
@@ -250,7 +246,7 @@ impl Reader<'_> {
         stated.settings().map_err(|error| self.refused(path, &error))
     }
 
-    /// The schema has admitted the table, so this happens only where it says less than the type.
+    /// The schema has admitted the table, so this happens only if it is less strict than the type.
     fn refused(&self, path: &str, error: &serde_json::Error) -> Fault {
         Fault::at(self.tree.place_of(path), "in this table", error.to_string())
     }

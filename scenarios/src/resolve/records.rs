@@ -1,5 +1,5 @@
-//! Reads the tables of recorded vehicles that a scenario names, when the scenario is loaded: whatever is wrong with one is said then,
-//! with its line.
+//! Reads the tables of recorded vehicles that a scenario names when the scenario is loaded; their faults are reported then,
+//! with their lines.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ const MAX_NUMBER: f64 = 1e9;
 const RANK: usize = 1002;
 /// The columns of a table, in the order of a driver's `points`.
 pub(crate) const COLUMNS: [&str; 5] = ["time_s", "x_m", "y_m", "heading_rad", "speed_mps"];
-/// The column that tells vehicles apart.
+/// The column that distinguishes vehicles.
 pub(crate) const ID_COLUMN: &str = "id";
 /// The kind of driver that follows a record.
 pub(crate) const KIND: &str = "recorded";
@@ -34,10 +34,10 @@ const MAX_NAMES: usize = 12;
 /// The rows of each vehicle of a table, by its `id`; without such a column, of one vehicle without a name.
 pub(crate) type Records = BTreeMap<String, Vec<[f64; 5]>>;
 
-/// Puts the rows of the tables that recorded drivers name in the place of their names.
+/// Replaces the names of tables in recorded drivers by their rows.
 ///
 /// # Errors
-/// What is wrong with the tables.
+/// The faults of the tables.
 pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<(), Vec<Fault>> {
     let mut tables: BTreeMap<PathBuf, Arc<Records>> = BTreeMap::new();
     let mut faults = Vec::new();
@@ -58,7 +58,6 @@ pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<()
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// The rows of one vehicle.
 fn rows(
     tables: &mut BTreeMap<PathBuf, Arc<Records>>,
     file: &str,
@@ -78,9 +77,9 @@ fn rows(
             };
             let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
             let bytes = bytes.ok_or_else(|| refused("it is larger than 64 MiB".to_owned()))?;
-            let text = String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".to_owned()))?;
+            let text = String::from_utf8(bytes).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
             let records = Arc::new(parse(&text).map_err(|(line, problem)| {
-                let message = format!("{} is no table of recorded vehicles: line {line}: {problem}", quoted(&title));
+                let message = format!("{} is not a table of recorded vehicles: line {line}: {problem}", quoted(&title));
                 let help = format!(
                     "the first line is `{ID_COLUMN},{}`, then there is a row for each moment",
                     COLUMNS.join(",")
@@ -107,7 +106,7 @@ fn rows(
     })
 }
 
-/// The records of a table; or the line, from 1, and what is wrong with it.
+/// The records of a table; or the line, from 1, and its problem.
 pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let mut lines = lines.map(|(index, line)| (index + 1, line.trim())).filter(|(_, row)| !row.is_empty());
@@ -128,7 +127,7 @@ pub(crate) fn parse(text: &str) -> Result<Records, (usize, String)> {
         for ((number, place), name) in numbers.iter_mut().zip(places).zip(COLUMNS) {
             let value: Option<f64> = cells[place].parse().ok();
             *number = value.filter(|value| value.abs() <= MAX_NUMBER).ok_or_else(|| {
-                (line, format!("`{name}` is {}, which is no number up to {MAX_NUMBER:.0}", shown_cell(cells[place])))
+                (line, format!("`{name}` is {}, which is not a number up to {MAX_NUMBER:.0}", shown_cell(cells[place])))
             })?;
         }
         let rows = records.entry(id.map_or_else(String::new, |id| cells[id].to_owned())).or_default();

@@ -1,4 +1,4 @@
-//! Tables of series that a scenario names: their text, their rows, and where the run begins in them.
+//! Tables of series that a scenario names: their text, their rows, and the row at which the run begins.
 
 use interplay_building::calendar::local_days;
 use interplay_building::series::{HeldSeries, SeriesColumn, SeriesError, SeriesTable};
@@ -11,12 +11,12 @@ use crate::model::building::config::DAY_S;
 use crate::model::scenario::Scenario;
 use crate::text::error::{Fault, Place, quoted};
 
-/// The largest table that is read; a year by the minute takes less \[bytes\].
+/// The largest table that is read; a year of minutes needs less \[bytes\].
 const MAX_FILE_BYTES: u64 = 1 << 27;
 
 /// A table that a scenario names.
 pub(crate) struct SeriesFile {
-    /// How errors call it.
+    /// Its name in errors.
     pub title: String,
     /// Its absolute path.
     pub found: String,
@@ -24,21 +24,21 @@ pub(crate) struct SeriesFile {
     text: String,
     /// Errors in it are listed after those in the scenario, by this rank.
     rank: usize,
-    /// What it should be, in words.
+    /// Its type, in words.
     what: &'static str,
 }
 
-/// Where a run begins in a table, and when that is.
+/// The row of a table at which a run begins, and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RunStart {
     /// Midnight at the start of the first day, after that of the table's first \[s\].
     pub start_s: f64,
-    /// The same midnight in days since noon of the 1st of January 2000, where a date is known.
+    /// The same midnight in days since noon of the 1st of January 2000, if a date is known.
     pub local_days: Option<f64>,
 }
 
 impl SeriesFile {
-    /// Reads the table that is called `file` at the key `path`. `what` says what it should be: `table of prices`.
+    /// Reads the table that is called `file` at the key `path`. `what` is its type: `table of prices`.
     pub fn read(file: &str, path: &str, tree: &TomlNode, what: &'static str, rank: usize) -> Result<Self, Fault> {
         let place = tree.place_of(path);
         let beside = path_beside(place, file);
@@ -49,7 +49,7 @@ impl SeriesFile {
         };
         let bytes = read_regular(&beside, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
         let bytes = bytes.ok_or_else(|| refused(format!("it is larger than 128 MiB, and no {what} is")))?;
-        let text = String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".to_owned()))?;
+        let text = String::from_utf8(bytes).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
         let found = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
         let empty = SeriesTable {
             first_s: 0.0,
@@ -65,13 +65,13 @@ impl SeriesFile {
         Ok(file)
     }
 
-    /// What is wrong with the table, at its line.
+    /// The fault of the table, at its line.
     pub fn fault(&self, error: &SeriesError) -> Fault {
         self.refused(error, &self.line(error.line))
     }
 
     fn refused(&self, error: &SeriesError, place: &Place) -> Fault {
-        let message = format!("{} is no {}: line {}: {}", quoted(&self.title), self.what, error.line, error.problem);
+        let message = format!("{} is not a {}: line {}: {}", quoted(&self.title), self.what, error.line, error.problem);
         let help = "the first line names the columns, the first of them `hour`, `time_s` or one of dates; then come rows at \
                     equal intervals";
         Fault::at(place, "this line", message).help(help)
@@ -87,9 +87,9 @@ impl SeriesFile {
         line_of(&self.title, &self.text, line, self.rank)
     }
 
-    /// Where the run begins: on the date of the scenario's calendar where the table has dates, or else on the table's first day.
+    /// The start of the run: on the date of the scenario's calendar if the table has dates, or else on the table's first day.
     pub fn start(&self, scenario: &Scenario, skip_days: usize) -> RunStart {
-        // What is no date is refused by the check of the calendar.
+        // A text that is not a date is refused by the check of the calendar.
         let stated = scenario.calendar.as_ref().and_then(|calendar| calendar.first_date().ok().flatten());
         let first_days = self.table.first_day.map(local_days);
         let stated_days = stated.map(local_days);

@@ -1,4 +1,4 @@
-//! Reads the table of prices of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
+//! Reads the table of prices of a scenario when the scenario is loaded; its faults are reported then, with their lines.
 
 use interplay_building::energy::Tariff;
 use interplay_building::series::{SeriesColumn, SeriesError};
@@ -14,14 +14,14 @@ use crate::text::readable::readable;
 const MAX_PRICES: usize = 100_000;
 /// The largest price, as of a list in the scenario \[currency/kWh\].
 const MAX_PRICE_PER_KWH: f64 = 1000.0;
-/// Prices above this are remarked upon: they are probably by the megawatt-hour \[currency/kWh\].
+/// Prices above this get a remark: they are probably per megawatt-hour \[currency/kWh\].
 const MAX_USUAL_PRICE_PER_KWH: f64 = 5.0;
 /// Errors in prices are listed after those in the scenario.
 const RANK: usize = 1001;
-/// The title of the prices; a table with one series may call it otherwise.
+/// The title of the column of prices; a table with one series may use another.
 const PRICE: &str = "price_per_kwh";
 
-/// The tariff with the prices of the table that it names, if it names one; and a remark on prices that are unusually high.
+/// The tariff with the prices of its table, if it names one; and a remark on unusually high prices.
 pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Result<(Tariff, Option<Fault>), Fault> {
     let Some(name) = &tariff.file else { return Ok((tariff.clone(), unusual_in_list(tariff, tree))) };
     let file = SeriesFile::read(name, "tariff.file", tree, "table of prices", RANK)?;
@@ -55,7 +55,7 @@ pub(crate) fn read(tariff: &Tariff, scenario: &Scenario, tree: &TomlNode) -> Res
     refused(file.table.header_line, format!("the rows are {interval_s} s apart; 60 s to a day work"))
 }
 
-/// A remark on the first price of a table that is unusually high.
+/// A remark on the first unusually high price of a table.
 fn unusual(file: &SeriesFile, column: &SeriesColumn) -> Option<Fault> {
     let row = column.values.iter().position(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
     let problem = in_words(column.values[row]);
@@ -63,7 +63,7 @@ fn unusual(file: &SeriesFile, column: &SeriesColumn) -> Option<Fault> {
     Some(remark.help(format!("`{PRICE}` is a price per kilowatt-hour; divide prices per megawatt-hour by 1000")))
 }
 
-/// The same of the list in the scenario.
+/// The same for the list in the scenario.
 fn unusual_in_list(tariff: &Tariff, tree: &TomlNode) -> Option<Fault> {
     const KEY: &str = "tariff.prices_per_kwh";
     let price = tariff.prices_per_kwh.iter().copied().find(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;

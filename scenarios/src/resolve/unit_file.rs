@@ -4,7 +4,7 @@ use crate::format::read::stated_path::{base_in_words, path_beside};
 use crate::format::read::tree::TomlNode;
 use crate::text::error::{Fault, quoted};
 
-/// The absolute path of the unit that is called `name` at `building.plant.fmu`. What is in it is read when the run begins.
+/// The absolute path of the unit that is called `name` at `building.plant.fmu`. Its content is read when the run begins.
 pub(crate) fn find(name: &str, tree: &TomlNode) -> Result<String, Fault> {
     let place = tree.place_of("building.plant.fmu");
     let beside = path_beside(place, name);

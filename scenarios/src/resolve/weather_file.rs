@@ -1,4 +1,4 @@
-//! Reads the weather file of a scenario, EPW or a table, when the scenario is loaded: whatever is wrong with it is said then, with its line.
+//! Reads the weather file of a scenario, EPW or a table, when the scenario is loaded; its faults are reported then, with their lines.
 
 use std::sync::Arc;
 
@@ -21,13 +21,13 @@ use crate::text::error::{Fault, Place, quoted};
 
 /// Weather files in the binary, by the name that a scenario gives as `file`.
 static EMBEDDED: &[(&str, &str)] = &[("tropical-july.epw", include_str!("../../weather/tropical-july.epw"))];
-/// The largest file that is read; a year by the minute takes less \[bytes\].
+/// The largest file that is read; a year of minutes needs less \[bytes\].
 const MAX_FILE_BYTES: u64 = 1 << 27;
 /// Errors in weather are listed after those in the scenario.
 const RANK: usize = 1000;
 
-/// Reads an EPW file and checks that it covers the days of the simulation and is right where these use it; what is wrong elsewhere is
-/// remarked upon.
+/// Reads an EPW file and checks that it covers the days of the simulation and is correct on them; faults elsewhere are
+/// remarks.
 pub(crate) fn read(
     stated: EpwFile,
     scenario: &Scenario,
@@ -65,7 +65,7 @@ pub(crate) fn read(
     Ok((EpwWeather { stated, found, rows: Arc::new(epw), start_s }, remarks))
 }
 
-/// What the run takes from a weather file: temperatures, and of the sun what its building lets in.
+/// The columns of a weather file that a run uses: temperatures, and solar radiation if the building has windows.
 fn used_fields(scenario: &Scenario) -> &'static [Field] {
     const ALL: [Field; 4] = [Field::DryBulb, Field::GlobalHorizontal, Field::DirectNormal, Field::DiffuseHorizontal];
     let building = scenario.building.as_ref();
@@ -104,7 +104,7 @@ pub(crate) fn is_embedded_weather(name: &str) -> bool {
 
 /// The text of an EPW file.
 struct EpwText {
-    /// How errors call the file.
+    /// The name of the file in errors.
     title: String,
     /// Its absolute path, or its name in the binary.
     found: String,
@@ -131,7 +131,7 @@ fn text_of(file: &str, place: &Place) -> Result<EpwText, Fault> {
     Ok(EpwText { title, found, text: String::from_utf8_lossy(&bytes).into_owned() })
 }
 
-/// A fault in what a run uses of an EPW file.
+/// A fault in the part of an EPW file that a run uses.
 fn unusable(title: &str, text: &str, error: &EpwError) -> Fault {
     let message = format!("{}: line {}: {}", quoted(title), error.line, error.problem);
     let help = match error.problem {
@@ -146,7 +146,7 @@ fn unusable(title: &str, text: &str, error: &EpwError) -> Fault {
 
 /// A fault in a line of an EPW file, counted from 1.
 fn located(title: &str, line: usize, fault: &str) -> Fault {
-    let message = format!("{} is no whole EPW file: line {line}: {fault}", quoted(title));
+    let message = format!("{} is not a complete EPW file: line {line}: {fault}", quoted(title));
     let help =
         "`weather.file` must name an EPW file as EnergyPlus reads it: 8 lines of header, then a row for each interval";
     Fault::at(&line_without_text(title, line, RANK), "this line", message).help(help)

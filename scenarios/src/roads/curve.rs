@@ -57,7 +57,7 @@ mod defaults {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLaneEnd {
-    /// Where the lane has ended, along the road \[m\].
+    /// The end of the lane, along the road \[m\].
     #[schemars(range(min = 0.001), example = 6.0)]
     pub end_m: f64,
     /// Length scale `w` of the taper: the edge moves by the lane's width between about `4w` before the end and the end,
@@ -84,16 +84,16 @@ impl Turn {
     }
 }
 
-/// What is wrong with a curved road. Pieces are counted from 0.
+/// The faults of a curved road. Pieces are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CurveFault {
-    /// A piece is no piece of a road.
+    /// A piece is not a valid piece of a road.
     Piece { piece: usize, fault: PieceFault },
-    /// The road is longer than its geometry is checked for.
+    /// The road is longer than the checked geometry.
     TooLong { length_m: f64, most_m: f64 },
     /// A piece is shorter than the transitions at its ends.
     NoRoom { piece: usize, length_m: f64, transition_m: f64, most_m: f64 },
-    /// The road comes back to a place where it already is; both arc lengths.
+    /// The road crosses itself; both arc lengths.
     MeetsItself { first_m: f64, again_m: f64 },
     /// Lane 0 ends, but there is no lane beside it.
     NoLaneBeside,
@@ -104,7 +104,7 @@ pub(crate) enum CurveFault {
 /// Longest road, as a multiple of its width: bounds the cost of loading it.
 const MAX_LENGTH_WIDTHS: f64 = 20_000.0;
 
-/// Most of the length that a transition could have which it has by default.
+/// The default length of a transition, as a share of the longest possible one.
 const DEFAULT_TRANSITION_SHARE: f64 = 0.5;
 
 impl RoadCurve {
@@ -134,7 +134,7 @@ impl RoadCurve {
         let right = self.lane_end().map_or_else(|| Profile::constant(-half_m), |end| Profile::lane_end(-half_m, end));
         let to_m = centre.length_m();
         let mut route = Route::curved(centre, right, Profile::constant(half_m), Profile::constant(half_m));
-        // With a leg, the route can say where it turns most.
+        // With a leg, the route can return its tightest turn.
         route.legs.push(RouteLeg { lane: "road".to_owned(), to_m, ..RouteLeg::default() });
         Ok(Arc::new(route))
     }
@@ -153,7 +153,7 @@ impl RoadCurve {
         if end_m > length_m { Err(CurveFault::EndsBeyond { end_m, length_m }) } else { Ok(()) }
     }
 
-    /// The line of the road's middle, from the begin of its first piece to the end of its last one.
+    /// The line of the road's middle, from the start of its first piece to the end of its last one.
     fn centre(&self) -> Result<CentreLine, CurveFault> {
         let pieces = self.piece_list()?;
         let length_m = pieces.iter().map(Piece::length_m).sum::<f64>();
@@ -162,7 +162,7 @@ impl RoadCurve {
             return Err(CurveFault::TooLong { length_m, most_m });
         }
         let transition_m = self.transition_m.unwrap_or_else(|| self.default_transition_m(&pieces));
-        // Beyond its ends the road is straight. A turn there needs a transition, too, which this piece makes room for.
+        // Beyond its ends the road is straight. A turn at an end also needs a transition, for which this piece makes room.
         let straight = Piece::Straight { length_m: 0.5 * transition_m };
         let is_turn = |piece: Option<&Piece>| matches!(piece, Some(Piece::Arc { .. }));
         let before = is_turn(pieces.first()).then_some(straight);
@@ -197,7 +197,6 @@ impl RoadCurve {
         self.pieces.iter().enumerate().map(located).collect()
     }
 
-    /// The length of transitions where the file says nothing.
     fn default_transition_m(&self, pieces: &[Piece]) -> f64 {
         let radius_m = self.turns().map(|turn| turn.radius_m).fold(f64::INFINITY, f64::min);
         let most_m = DEFAULT_TRANSITION_SHARE * longest_transition_m(pieces).min(radius_m);
@@ -205,7 +204,7 @@ impl RoadCurve {
     }
 }
 
-/// The longest transition that every piece has room for; infinite without a turn \[m\].
+/// The longest transition for which every piece has room; infinite without a turn \[m\].
 fn longest_transition_m(pieces: &[Piece]) -> f64 {
     let curvature = |piece: Option<&Piece>| piece.map_or(0.0, |piece| piece.curvatures_1pm()[0]);
     let room_m = |index: usize| {
@@ -217,10 +216,10 @@ fn longest_transition_m(pieces: &[Piece]) -> f64 {
     (0..pieces.len()).map(room_m).fold(f64::INFINITY, f64::min)
 }
 
-/// Two arc lengths at which a road of a width covers the same place, if there are any. Beyond both ends, where it goes on
+/// Two arc lengths at which a road of a width covers the same point, if any. Beyond both ends, where it continues
 /// straight, the road is examined over its own length.
 ///
-/// Along a turn whose inner edge does not cross itself, places at least `π/2` widths apart are at least a width apart.
+/// Along a turn whose inner edge does not cross itself, points at least `π/2` widths apart are at least a width apart.
 fn meeting_m(centre: &CentreLine, width_m: f64) -> Option<[f64; 2]> {
     let (step_m, length_m) = (0.5 * width_m, centre.length_m());
     let apart_m = 0.5 * std::f64::consts::PI * width_m + step_m;

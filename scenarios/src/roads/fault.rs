@@ -1,13 +1,13 @@
-//! What keeps a table from being a road.
+//! The reasons why a table is not a valid road.
 
-/// What is wrong with a road, and where it is written.
+/// A fault of a road, and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadFault {
     /// The path of the key below `road`; empty for the whole table.
     pub path: String,
-    /// What stands beside the underlined text.
+    /// The label of the underlined text.
     pub label: String,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
     /// What would work.
     pub help: String,
@@ -19,7 +19,7 @@ impl RoadFault {
         RoadFault { path: path.into(), label: label.to_owned(), message, help: String::new() }
     }
 
-    /// With what would work.
+    /// The same with a help text.
     pub fn help(self, help: impl Into<String>) -> RoadFault {
         RoadFault { help: help.into(), ..self }
     }

@@ -6,13 +6,13 @@ use interplay_planners::road::network::Lane;
 
 use super::fault::RoadFault;
 
-/// A form of road: a table with a few numbers, of which it makes the lanes of a network. The schema of its settings says what a file may
-/// state; a key `lane_width_m` with a default also tells the size of the road.
+/// A form of road: a table with a few numbers that determine the lanes of a network. The schema of its settings lists its
+/// keys; a key `lane_width_m` with a default also determines the size of the road.
 pub trait RoadForm: fmt::Debug + Send + Sync {
     /// The word for this form in a scenario file: small letters, digits and hyphens.
     fn kind(&self) -> &'static str;
 
-    /// What tells the results of this form from those of its earlier versions, such as `env!("CARGO_PKG_VERSION")`.
+    /// The version that distinguishes the results of this form from earlier ones, such as `env!("CARGO_PKG_VERSION")`.
     fn version(&self) -> &'static str {
         ""
     }
@@ -20,7 +20,7 @@ pub trait RoadForm: fmt::Debug + Send + Sync {
     /// The lanes of the network.
     ///
     /// # Errors
-    /// [`RoadFault`] for numbers of which no lanes can be made.
+    /// [`RoadFault`] for numbers that do not determine valid lanes.
     fn lanes(&self) -> Result<Vec<Lane>, RoadFault>;
 
     /// Width of one lane; where lanes differ, of the first of them where it begins \[m\].

@@ -14,7 +14,7 @@ pub struct Intersection {
     /// Width of each lane \[m\].
     #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
-    /// Direction of the crossing road, counter-clockwise from x: who drives on it comes from the right of the main one, or, if
+    /// Direction of the crossing road, counter-clockwise from x: its vehicles come from the right of the main one, or, if
     /// it is negative, from its left. From 20 to 160 to either side \[deg\].
     pub angle_deg: f64,
 }

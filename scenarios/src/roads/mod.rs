@@ -1,7 +1,7 @@
-//! Where vehicles may drive, one file for each form of road.
+//! Roads, one file for each form.
 //!
 //! A road of parallel lanes begins along x and its right edge there is y = 0; another one may cross it. Lanes are counted from
-//! the right of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
+//! the right in driving direction: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
 //!
 //! Other roads are networks of lanes with names.
 //!
@@ -43,7 +43,7 @@ pub use ramp_merge::RampMerge;
 /// The settings of a road whose form another crate provides.
 pub type ForeignRoad = ForeignSettings<dyn RoadForm>;
 
-/// Declares [`Road`] with the forms in `junctions`, and what is asked of every form.
+/// Declares [`Road`] with the forms in `junctions`, and the methods of every form.
 macro_rules! road {
     ($($file:ident::$Form:ident: $about:literal;)*) => {
         /// A road; `kind` chooses.
@@ -52,9 +52,9 @@ macro_rules! road {
         pub enum Road {
             /// A straight road along x with parallel lanes; its right edge is y = 0.
             Lanes(Lanes),
-            /// The same, but lane 0 is a ramp that ends: who drives on it must merge into lane 1 before, or stop.
+            /// The same, but lane 0 is a ramp that ends: its vehicles must merge into lane 1 before, or stop.
             RampMerge(RampMerge),
-            /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
+            /// Two roads that cross, each with lanes in one direction; the key `road` of a vehicle selects the one on which it drives.
             Intersection(Intersection),
             /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
             Curve(RoadCurve),
@@ -84,10 +84,10 @@ macro_rules! road {
         }
 
         impl Road {
-            /// The lanes of a network, unchecked; none on a road of parallel lanes.
+            /// The lanes of a network, unchecked; `None` on a road of parallel lanes.
             ///
             /// # Errors
-            /// For lanes that have no line or no width.
+            /// For lanes without a line or a width.
             pub(crate) fn network_lanes(&self) -> Option<Result<Vec<Lane>, RoadFault>> {
                 match self {
                     Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) | Road::Curve(_) => None,
@@ -142,12 +142,12 @@ impl Default for Road {
 }
 
 impl Road {
-    /// The kind of road where none is stated.
+    /// The default kind of road.
     pub(crate) const DEFAULT_KIND: &'static str = "lanes";
     /// The kinds with parallel lanes; the others are networks.
     pub(crate) const PARALLEL_KINDS: [&'static str; 4] = ["lanes", "ramp-merge", "intersection", "curve"];
 
-    /// The way along a road of parallel lanes, from one edge to the other; none on a network, where each vehicle has its own,
+    /// The route along a road of parallel lanes, from one edge to the other; `None` on a network, where each vehicle has its own,
     /// and on a curve with a fault.
     ///
     /// It is computed anew each time: a loaded [`Vehicle`](crate::Vehicle) has its own.
@@ -158,7 +158,7 @@ impl Road {
         }
     }
 
-    /// The straight strip that a vehicle on `branch` may use; none on a curve and on a network.
+    /// The straight strip that a vehicle on `branch` may use; `None` on a curve and on a network.
     pub fn corridor(&self, branch: Branch) -> Option<Corridor> {
         if matches!(self, Road::Curve(_)) {
             return None;
@@ -205,7 +205,7 @@ impl Road {
         }
     }
 
-    /// Between which longitudinal coordinates of `branch` any part of it lies on the other road; none where no roads cross
+    /// The interval of longitudinal coordinates of `branch` in which any part of it lies on the other road; `None` if no roads cross
     /// \[m\].
     pub fn conflict_zone_m(&self, branch: Branch) -> Option<[f64; 2]> {
         let corridor = self.corridor(branch)?;
@@ -213,8 +213,8 @@ impl Road {
         Some([right[0].min(left[0]), right[1].max(left[1])])
     }
 
-    /// Between which longitudinal coordinates of `branch` its points at a lateral coordinate lie on the other road; none where
-    /// no roads cross \[m\].
+    /// The interval of longitudinal coordinates of `branch` in which its points at a lateral coordinate lie on the other road; `None`
+    /// if no roads cross \[m\].
     ///
     /// A point `(s, n)` has the lateral coordinate `n′ = n cos γ − s sin γ` on a road that is turned by `γ` against its own.
     pub fn crossed_m(&self, branch: Branch, lateral_m: f64) -> Option<[f64; 2]> {
@@ -229,7 +229,7 @@ impl Road {
         Some([reaches[0].min(reaches[1]), reaches[0].max(reaches[1])])
     }
 
-    /// The lanes of a road that is no network.
+    /// The lanes of a road that is not a network.
     pub fn parallel_lanes(&self) -> Option<ParallelLanes> {
         let (count, width_m) = match self {
             Road::Lanes(lanes) => (lanes.lane_count, lanes.lane_width_m),
@@ -260,7 +260,7 @@ impl Road {
         self.parallel_lanes().map_or(1.0, |lanes| lanes.count as f64) * self.lane_width_m()
     }
 
-    /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost; none on a network \[m\].
+    /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost; `None` on a network \[m\].
     pub fn lane_centre_m(&self, branch: Branch, lane: usize) -> Option<f64> {
         self.parallel_lanes()?;
         let right_m = self.corridor(branch).map_or(-0.5 * self.width_m(), |corridor| corridor.right_m);
@@ -292,7 +292,7 @@ mod tests {
         assert_eq!(road.lane_centre_m(Branch::Main, 4), Some(15.75));
     }
 
-    /// Whatever the direction, the point in the middle of one road is in the middle of the other.
+    /// At any crossing angle, the point in the middle of one road is in the middle of the other.
     #[test]
     fn the_middles_of_crossing_roads_meet() {
         for angle_deg in [90.0, -90.0, 60.0, 120.0, -30.0] {
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn past_its_end_nothing_of_the_ramp_is_left() {
+    fn the_ramp_has_no_width_past_its_end() {
         let road = Road::RampMerge(RampMerge::default());
         let edge = |along_m| straight(&road, Branch::Main).right_edge_m(along_m);
         assert!(edge(1.0) < 1e-4 && edge(3.5) > 0.36 && edge(9.0) <= 0.37);

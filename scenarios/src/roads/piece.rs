@@ -19,12 +19,12 @@ pub struct CurvePiece {
     pub radius_m: Option<f64>,
 }
 
-/// What is wrong with a piece of a curved road.
+/// The fault of a piece of a curved road.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PieceFault {
     /// It is neither straight nor a turn.
     NoPiece,
-    /// It does not say both the angle and the radius of a turn; this key is missing.
+    /// It does not state both the angle and the radius of a turn; this key is missing.
     HalfTurn { key: &'static str },
     /// A turn by 0.
     NoTurn,

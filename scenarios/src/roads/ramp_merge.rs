@@ -13,7 +13,7 @@ pub struct RampMerge {
     /// Width of each lane \[m\].
     #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
-    /// Where lane 0 has ended, along x \[m\].
+    /// The end of lane 0, along x \[m\].
     pub ramp_end_m: f64,
     /// Length scale `w` of the taper: the edge moves by the lane's width between about `4w` before the end and the end,
     /// as `½ (1 + tanh((x − (ramp_end_m − 2w))/w))` \[m\].

@@ -1,10 +1,10 @@
-//! A scenario file that is being written.
+//! A scenario file under construction.
 
 use std::fmt::Write;
 
 use interplay_common::random::Random;
 
-/// Drivers of the others: people of all styles, and now and then one after the intelligent driver model.
+/// Drivers of the other vehicles: people of all styles, and occasionally an IDM driver.
 const DRIVERS: [&str; 6] = [
     "{ kind = \"human\", style = \"nice\" }",
     "{ kind = \"human\", style = \"considerate\" }",
@@ -14,24 +14,23 @@ const DRIVERS: [&str; 6] = [
     "{ kind = \"idm\" }",
 ];
 
-/// A driver who does nothing but keep its speed, or stand.
+/// A driver that keeps its speed, or stands.
 pub(super) const SCRIPTED: &str = "{ kind = \"scripted\" }";
 
-/// A vehicle that is being described.
 pub(super) struct Draftee<'a> {
     pub name: &'a str,
     pub class: &'a str,
     pub lane: &'a str,
     pub along_m: f64,
     pub speed_mps: f64,
-    /// The lane to which it drives; none if its way has no choice.
+    /// The lane to which it drives; `None` if its route is unique.
     pub to: Option<&'a str>,
     pub wanted_mps: f64,
-    /// Its driver; one of all kinds is drawn otherwise.
+    /// Its driver; `None` draws one of all kinds.
     pub driver: Option<String>,
 }
 
-/// A scenario file that is being written, and the numbers that it is drawn from.
+/// A scenario file under construction, and the random numbers for it.
 pub(super) struct Draft {
     random: Random,
     road: String,
@@ -65,13 +64,13 @@ impl Draft {
         words[self.count(0, words.len() - 1)]
     }
 
-    /// Lines about the road.
+    /// Adds lines about the road.
     pub fn road(&mut self, lines: &str) {
         self.road.push_str(lines);
         self.road.push('\n');
     }
 
-    /// One more vehicle.
+    /// Adds a vehicle.
     pub fn vehicle(&mut self, vehicle: Draftee<'_>) {
         let Draftee { name, class, lane, along_m, speed_mps, to, wanted_mps, driver } = vehicle;
         let driver = driver.unwrap_or_else(|| self.one_of(&DRIVERS).to_owned());
@@ -85,7 +84,7 @@ impl Draft {
         );
     }
 
-    /// The ego: a human of a drawn style, in a car.
+    /// Adds the ego: a human of a drawn style, in a car.
     pub fn ego(&mut self, lane: &str, along_m: f64, speed_mps: f64, to: Option<&str>, wanted_mps: f64) {
         let driver = Some(self.one_of(&DRIVERS[..5]).to_owned());
         self.vehicle(Draftee { name: "ego", class: "car", lane, along_m, speed_mps, to, wanted_mps, driver });

@@ -1,14 +1,14 @@
-//! Streets that meet.
+//! Streets with junctions.
 
 use super::draft::{Draft, Draftee};
 
 /// The arms of a junction with four of them, counter-clockwise.
 const ARMS: [&str; 4] = ["south", "east", "north", "west"];
 
-/// The names of the others.
+/// The names of the other vehicles.
 const NAMES: [&str; 5] = ["a", "b", "c", "d", "e"];
 
-/// Puts the ego on one arm and some others on arms that are still free, each to an arm that it can reach; `suffix` follows the words
+/// Adds the ego on one arm and other vehicles on free arms, each to an arm that it can reach; `suffix` follows the words
 /// for lanes that lead in and out.
 fn approach(draft: &mut Draft, arms: &[&str], others: usize, suffix: &str, limit_mps: f64) {
     let mut free: Vec<&str> = arms.to_vec();
@@ -31,7 +31,7 @@ pub(super) fn ring(draft: &mut Draft) {
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// A roundabout with two lanes; everybody stays in the outer one or the inner one.
+/// A roundabout with two lanes; each vehicle stays in the outer one or the inner one.
 pub(super) fn wide_ring(draft: &mut Draft) {
     let radius_m = draft.between(18.0, 28.0);
     draft.road(&format!("kind = \"roundabout\"\nlane_count = 2\nradius_m = {radius_m:.1}"));
@@ -55,14 +55,13 @@ pub(super) fn crossing(draft: &mut Draft) {
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// A crossing where everybody stops.
 pub(super) fn all_way_stop(draft: &mut Draft) {
     draft.road("kind = \"all-way-stop\"");
     let others = draft.count(1, 3);
     approach(draft, &ARMS, others, "", 11.0);
 }
 
-/// A road whose two directions share one lane for a while.
+/// A road whose two directions share one lane for a stretch.
 pub(super) fn narrow_passage(draft: &mut Draft) {
     let direction = draft.one_of(&["east", "west"]);
     draft.road(&format!("kind = \"narrow-passage\"\npriority_to = \"{direction}\""));
@@ -86,7 +85,7 @@ pub(super) fn narrow_passage(draft: &mut Draft) {
     }
 }
 
-/// Four roads that meet without signs, everybody straight on: whoever comes from the right goes first.
+/// Four roads that meet without signs, all vehicles straight on: a vehicle from the right goes first.
 pub(super) fn equal(draft: &mut Draft) {
     let limit_mps = [8.3, 13.9][draft.count(0, 1)];
     let lane = |name: &str, ends: [[f64; 2]; 2], more: &str| {
@@ -97,7 +96,7 @@ pub(super) fn equal(draft: &mut Draft) {
              width_m = 3.5\nspeed_limit_mps = {limit_mps}\n{more}"
         )
     };
-    // A lane that comes from each side; its direction, and the side to its right where it drives.
+    // A lane from each side: its direction, and the side to its right on which it runs.
     let directions = [("west", [1.0, 0.0]), ("east", [-1.0, 0.0]), ("south", [0.0, 1.0]), ("north", [0.0, -1.0])];
     let mut lanes = String::from("kind = \"network\"\n");
     for (side, [dx, dy]) in directions {
@@ -118,7 +117,7 @@ pub(super) fn equal(draft: &mut Draft) {
     }
 }
 
-/// Somebody on its way from one lane to another: the ego, or one of the others.
+/// Adds a vehicle that drives from one lane to another: the ego, or one of the others.
 fn drive_through(
     draft: &mut Draft,
     name: &str,

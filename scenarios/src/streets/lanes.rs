@@ -2,12 +2,11 @@
 
 use super::draft::{Draft, Draftee};
 
-/// Somebody in a lane.
 fn car<'a>(name: &'a str, lane: &'a str, along_m: f64, speed_mps: f64) -> Draftee<'a> {
     Draftee { name, class: "car", lane, along_m, speed_mps, to: None, wanted_mps: speed_mps, driver: None }
 }
 
-/// The names of those who come one after the other.
+/// The names of vehicles that follow each other.
 const NAMES: [&str; 11] = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k"];
 
 /// A slow truck ahead on a road with two directions, on which overtaking is allowed.
@@ -81,7 +80,7 @@ pub(super) fn lane_drop(draft: &mut Draft) {
     }
 }
 
-/// The ego comes from a ramp among those on the right lane of a motorway.
+/// The ego merges from a ramp between vehicles on the right lane of a motorway.
 pub(super) fn on_ramp(draft: &mut Draft) {
     draft.road("kind = \"on-ramp\"");
     let (ego_m, ego_mps) = (draft.between(50.0, 90.0), draft.between(15.0, 21.0));

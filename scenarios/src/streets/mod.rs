@@ -1,11 +1,11 @@
-//! Streets that nobody tuned for: ordinary scenes, each drawn from a seed.
+//! Streets for which no planner was tuned: ordinary scenes, each drawn from a seed.
 //!
 //! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario has a name: in `run`, `why`, plans of
-//! sweeps and `extends`. The same name is the same file for ever. Whoever changes a kind so that its draws change gives it another
-//! word, since rows of sweeps are compared by name.
+//! sweeps and `extends`. The same name is the same file for ever. A change of a kind that changes its draws needs another word, since
+//! rows of sweeps are compared by name.
 //!
 //! The ego of each street is a human of a drawn style; `--planner` gives it another driver. Each scene has a conflict in most of its
-//! draws: somebody stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
+//! draws: a road user stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
 
 mod draft;
 mod junctions;
@@ -16,14 +16,13 @@ use draft::Draft;
 
 use crate::text::pattern::fits;
 
-/// One kind of street: its word, what it shows, and how a scene is drawn.
+/// One kind of street: its word, its description, and the function that draws a scene.
 struct StreetKind {
     word: &'static str,
     shows: &'static str,
     draw: fn(&mut Draft),
 }
 
-/// All kinds.
 const KINDS: [StreetKind; 15] = [
     StreetKind { word: "van", shows: "A van stands in the ego's lane", draw: obstacles::standing_van },
     StreetKind {
@@ -34,7 +33,7 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "bus", shows: "A bus stops, and goes on", draw: obstacles::bus },
     StreetKind {
         word: "crosser",
-        shows: "Somebody slow crosses the street and has priority",
+        shows: "A slow road user crosses the street and has priority",
         draw: obstacles::crosser,
     },
     StreetKind {
@@ -51,10 +50,10 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "tee", shows: "A minor road joins a main one", draw: junctions::tee },
     StreetKind { word: "crossing", shows: "A minor road crosses a main one", draw: junctions::crossing },
     StreetKind { word: "equal", shows: "Four roads meet without signs: right before left", draw: junctions::equal },
-    StreetKind { word: "stop", shows: "A crossing where everybody stops", draw: junctions::all_way_stop },
+    StreetKind { word: "stop", shows: "An all-way stop", draw: junctions::all_way_stop },
 ];
 
-/// A pattern stands for at most so many numbers of each kind.
+/// The most numbers of each kind that a pattern stands for.
 const MAX_NUMBERS: usize = 100_000;
 
 /// The folder of names.
@@ -73,7 +72,7 @@ impl Street {
         KINDS.iter().map(|kind| kind.word)
     }
 
-    /// The street of a name such as `streets/ring/17`; none if it names no street.
+    /// The street of a name such as `streets/ring/17`; `None` if the name is not that of a street.
     pub fn named(name: &str) -> Option<Street> {
         let (word, number) = name.strip_prefix(FOLDER)?.split_once('/')?;
         let kind = KINDS.iter().position(|kind| kind.word == word)?;
@@ -83,7 +82,7 @@ impl Street {
     }
 
     /// The streets of a pattern such as `streets/ring/0-19`, `streets/*/7` or `streets/t*/3`: of the kinds that fit, each number from the
-    /// first to the last. Empty if it is no such pattern.
+    /// first to the last. Empty if it is not such a pattern.
     pub(crate) fn matching(pattern: &str) -> Vec<Street> {
         let Some((kinds, numbers)) = pattern.strip_prefix(FOLDER).and_then(|rest| rest.split_once('/')) else {
             return Vec::new();
@@ -94,7 +93,7 @@ impl Street {
         fitting.flat_map(|kind| (first..=last).take(MAX_NUMBERS).map(move |number| Street { kind, number })).collect()
     }
 
-    /// What rows of sweeps call its kind.
+    /// The name of its kind in rows of sweeps.
     pub(crate) fn family(&self) -> String {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
@@ -141,7 +140,7 @@ mod tests {
         }
     }
 
-    /// Every street loads without a fault, with an ego that has something to do.
+    /// Every street loads without a fault, with an ego that moves.
     #[test]
     fn every_street_is_a_sound_scenario() {
         for kind in Street::kinds() {
@@ -154,7 +153,7 @@ mod tests {
         }
     }
 
-    /// Draws differ from number to number, and stay.
+    /// Draws differ from number to number, and are repeatable.
     #[test]
     fn numbers_give_different_streets() {
         let text = |name: &str| Street::named(name).expect("a street").text();

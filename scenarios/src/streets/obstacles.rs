@@ -1,4 +1,4 @@
-//! Streets on which something stands, stops or crosses.
+//! Streets with standing, stopping or crossing road users.
 
 use super::draft::{Draft, Draftee, SCRIPTED};
 
@@ -23,7 +23,7 @@ fn standing<'a>(name: &'a str, lane: &'a str, along_m: f64) -> Draftee<'a> {
     }
 }
 
-/// Somebody who comes the other way.
+/// Adds a vehicle that comes the other way.
 fn oncoming(draft: &mut Draft, name: &str, along_m: f64, limit_mps: f64) {
     let speed_mps = draft.between(0.6, 0.95) * limit_mps;
     draft.vehicle(Draftee {
@@ -38,7 +38,7 @@ fn oncoming(draft: &mut Draft, name: &str, along_m: f64, limit_mps: f64) {
     });
 }
 
-/// A van stands in the ego's lane; in half of the draws somebody comes the other way.
+/// A van stands in the ego's lane; in half of the draws a vehicle comes the other way.
 pub(super) fn standing_van(draft: &mut Draft) {
     let limit_mps = two_way(draft, 300.0);
     let (along_m, van_m) = (draft.between(15.0, 40.0), draft.between(100.0, 150.0));
@@ -69,7 +69,7 @@ pub(super) fn parked_vans(draft: &mut Draft) {
     }
 }
 
-/// A bus ahead stops for some seconds and goes on; somebody comes the other way.
+/// A bus ahead stops for some seconds and goes on; a vehicle comes the other way.
 pub(super) fn bus(draft: &mut Draft) {
     let limit_mps = two_way(draft, 400.0);
     draft.duration_s = 60.0;
@@ -98,7 +98,7 @@ pub(super) fn bus(draft: &mut Draft) {
     }
 }
 
-/// Somebody on a crossing path, slow, with priority; the path is a lane of its own.
+/// A slow road user with priority on a crossing path; the path is a lane of its own.
 pub(super) fn crosser(draft: &mut Draft) {
     let limit_mps = draft.between(8.0, 13.9);
     draft.duration_s = 30.0;
@@ -127,7 +127,7 @@ pub(super) fn crosser(draft: &mut Draft) {
     }
 }
 
-/// What people want on a street with a limit: nearly that.
+/// The desired speed of people on a street with a limit: slightly below it.
 fn draft_wanted(limit_mps: f64) -> f64 {
     0.95 * limit_mps
 }

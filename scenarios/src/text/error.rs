@@ -1,7 +1,7 @@
 //! Located errors.
 //!
 //! A [`Fault`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
-//! Both are `miette` diagnostics, so that whoever shows them decides how.
+//! Both are `miette` diagnostics, so the caller decides how to show them.
 
 use std::{fmt, ops::Range, sync::Arc};
 

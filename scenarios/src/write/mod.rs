@@ -103,7 +103,7 @@ impl Vehicle {
         }
     }
 
-    /// What a file states of an obstacle; none of a vehicle that somebody drives.
+    /// What a file states about an obstacle; `None` for a vehicle with a driver.
     fn to_obstacle(&self) -> Option<ObstacleConfig> {
         let ObstacleForm { kind, outline } = self.obstacle.clone()?;
         let Driver::Recorded(record) = &self.driver else { return None };

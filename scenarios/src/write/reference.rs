@@ -207,7 +207,7 @@ fn cell(text: &str) -> String {
 mod tests {
     use super::HEAD;
 
-    /// Whoever makes a new version states which keys came with it.
+    /// Each new version states which keys came with it.
     #[test]
     fn the_page_says_which_keys_are_new() {
         assert!(HEAD.contains(concat!("those of version ", env!("CARGO_PKG_VERSION"))), "{HEAD}");

@@ -1,8 +1,8 @@
-//! The least that a scenario can say, and changes of it.
+//! The smallest valid scenario, and changes of it.
 
 use interplay_scenarios::{Override, Scenario, from_text};
 
-/// As little as a scenario can say.
+/// The smallest valid scenario.
 pub const LEAST: &str =
     "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { x_m = 0, y_m = 0.2, speed_mps = 1 }\n";
 

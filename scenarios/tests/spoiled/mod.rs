@@ -1,4 +1,4 @@
-//! A good scenario, and refusals of what spoils it.
+//! A valid scenario, and refusals of changes that make it invalid.
 
 use interplay_scenarios::from_text;
 

@@ -1,4 +1,4 @@
-//! What of an exported scenario is the same in every run.
+//! The parts of an exported scenario that are the same in every run.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -22,7 +22,7 @@ pub(super) struct Base {
     pub benchmark: String,
     /// Place, tags, lanelets, signs, lights and intersections.
     pub roads: String,
-    /// The planning problem; none where it follows from what was driven.
+    /// The planning problem; `None` if it follows from the driven motion.
     pub problem: Option<String>,
     /// The id of the planning problem.
     pub problem_id: u64,
@@ -32,23 +32,23 @@ pub(super) struct Base {
     pub ids: Ids,
     /// The type of each obstacle of the source, by its id.
     pub kinds: BTreeMap<u64, String>,
-    /// The place in the written coordinates that is the origin of the run \[m\].
+    /// The position in the written coordinates that is the origin of the run \[m\].
     pub origin: [f64; 2],
-    /// The step of time at which the run begins.
+    /// The time step at which the run begins.
     pub begin: i64,
-    /// A road of parallel lanes, whose length depends on where somebody drove.
+    /// A road of parallel lanes, whose length depends on where vehicles drove.
     pub parallel: Option<Box<Scenario>>,
-    /// The lanelets in which the ego's way ends; empty where that is anywhere.
+    /// The lanelets in which the ego's route ends; empty if it may end anywhere.
     pub last_lanelets: Vec<u64>,
 }
 
 impl Base {
-    /// A place of the run in the coordinates that are written \[m\].
+    /// A position of the run in the written coordinates \[m\].
     pub(super) fn written(&self, place: [f64; 2]) -> [f64; 2] {
         [place[0] + self.origin[0], place[1] + self.origin[1]]
     }
 
-    /// The scenario with what was driven.
+    /// The scenario with the driven motion.
     pub(super) fn scenario(&self, others: &[DrivenVehicle], ego: Option<&DrivenVehicle>) -> String {
         let mut text = format!("<?xml version='1.0' encoding='UTF-8'?>\n<{ROOT}");
         for (name, value) in &self.attributes {
@@ -92,7 +92,7 @@ impl Base {
         text
     }
 
-    /// The planning problem of an ego that has none: where it began, and the lanelets in which its way ends.
+    /// The planning problem of an ego without one: its first state, and the lanelets in which its route ends.
     fn problem_of(&self, ego: &DrivenVehicle) -> String {
         let Some(start) = ego.states.first() else { return String::new() };
         let initial = state(start, self.written(middle(ego, start)), self.begin);

@@ -1,4 +1,4 @@
-//! What is exported, and what of a run it is made of.
+//! The exported files, and the parts of a run that they contain.
 
 use interplay_planners::{Body, State};
 
@@ -7,24 +7,24 @@ use crate::model::classes::VehicleClass;
 /// The version of the format that is written.
 pub(super) const VERSION: &str = "2020a";
 
-/// What a vehicle did.
+/// The motion of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenVehicle {
     /// Its name.
     pub name: String,
-    /// What sort of vehicle it is, if that is known.
+    /// Its class of vehicle, if known.
     pub class: Option<VehicleClass>,
     /// Its size and axles.
     pub body: Body,
-    /// The tick at which it came onto the road.
+    /// The tick at which it entered the road.
     pub first_step: usize,
-    /// Its states at the begin of each tick from then on, and at the end of the last on the road; none, if it never came.
+    /// Its states at the start of each tick from then on, and at the end of its last tick; empty if it never entered.
     pub states: Vec<State>,
     /// Its steering angle during each tick \[rad\].
     pub steering_rad: Vec<f64>,
 }
 
-/// What is written of a run.
+/// The exported texts of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
     /// The scenario as it was driven: all vehicles but the ego are obstacles.

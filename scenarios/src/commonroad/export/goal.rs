@@ -13,7 +13,7 @@ pub(super) struct GoalPlaces {
     outlines: BTreeMap<String, Vec<[f64; 2]>>,
 }
 
-/// What of a state goals speak of, as the referee sees it.
+/// The quantities of a state that goals bound, as CommonRoad's referee computes them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arrival {
     pub time: f64,
@@ -30,7 +30,7 @@ impl GoalPlaces {
         GoalPlaces { goals: goals.to_vec(), outlines }
     }
 
-    /// Whether one of the goals is reached; a problem without any is never solved.
+    /// Whether one of the goals is reached; a problem without goals is never solved.
     pub(super) fn are_reached(&self, at: &Arrival) -> bool {
         self.goals.iter().any(|goal| self.is_reached(goal, at))
     }
@@ -63,7 +63,7 @@ impl GoalPlaces {
     }
 }
 
-/// Whether an angle lies in an interval of angles, by whole turns.
+/// Whether an angle lies in an interval of angles, modulo full turns.
 fn contains_angle([from_rad, to_rad]: [f64; 2], angle_rad: f64) -> bool {
     let middle_rad = 0.5 * (from_rad + to_rad);
     let away_rad = (angle_rad - middle_rad + PI).rem_euclid(TAU) - PI;

@@ -1,4 +1,4 @@
-//! Ids of elements, each given once.
+//! Unique ids of elements.
 
 use std::collections::BTreeSet;
 
@@ -6,16 +6,16 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ids(BTreeSet<u64>);
 
-/// The first id of what has none of its own.
+/// The first id of an element without its own.
 const FIRST: u64 = 1;
 
 impl Ids {
-    /// The ids that stand in a file.
+    /// The ids in a file.
     pub(super) fn taken(ids: impl Iterator<Item = u64>) -> Ids {
         Ids(ids.collect())
     }
 
-    /// The wanted id if nobody has it, otherwise one above all others.
+    /// Returns the wanted id if it is free, otherwise one above all others.
     pub(super) fn give(&mut self, wanted: Option<u64>) -> u64 {
         let free = || self.0.last().map_or(FIRST, |last| last.saturating_add(1));
         let id = wanted.filter(|id| *id > 0 && !self.0.contains(id)).unwrap_or_else(free);

@@ -15,7 +15,7 @@ const POINTS_M: f64 = 1.0;
 /// The most points of a bound.
 const MAX_POINTS: f64 = 1000.0;
 
-/// A lanelet with everything that it says of others.
+/// A lanelet with its references to others.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LaneletText {
     pub id: u64,
@@ -28,7 +28,6 @@ pub(super) struct LaneletText {
 }
 
 impl LaneletText {
-    /// The lanelet as text.
     pub(super) fn written(&self) -> String {
         let [left, right] = &self.bounds;
         let mut text =

@@ -4,8 +4,8 @@
 //! scenario, or the XML that it was imported from -> what stays (`Base`) -> with what was driven: two texts of XML
 //! ```
 //!
-//! Of a scenario that was imported, the roads and the planning problem stay as they were written, in their own coordinates. Of
-//! another one, the lanes of its road become lanelets.
+//! The roads and the planning problem of an imported scenario stay as they were written, in their own coordinates. The lanes of
+//! any other scenario become lanelets.
 
 mod base;
 mod driven;
@@ -34,10 +34,10 @@ pub struct CommonRoadExport {
 }
 
 impl CommonRoadExport {
-    /// Looks at what stays the same in every run: roads and planning problem. `name_or_path` is what the scenario was loaded from.
+    /// Reads the parts that are the same in every run: roads and planning problem. `name_or_path` is the source of the scenario.
     ///
     /// # Errors
-    /// Where the XML cannot be read, or the run has another step of time than it.
+    /// If the XML cannot be read, or the run has a different time step.
     pub fn new(scenario: &Scenario, name_or_path: &str) -> Result<CommonRoadExport, LoadError> {
         let path = Path::new(name_or_path);
         let base = if super::is_commonroad(path) {
@@ -48,7 +48,7 @@ impl CommonRoadExport {
         Ok(CommonRoadExport { base, ego: scenario.ego_index() })
     }
 
-    /// Writes what was driven; vehicles in the order of the scenario.
+    /// Writes the driven motion; `vehicles` are in the order of the scenario.
     pub fn export(&self, vehicles: &[DrivenVehicle]) -> Exported {
         let mut others = vehicles.to_vec();
         let ego = (self.ego < others.len()).then(|| others.remove(self.ego));

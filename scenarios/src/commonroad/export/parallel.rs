@@ -1,4 +1,4 @@
-//! Parallel lanes as lanelets, as long as what was driven on them.
+//! Parallel lanes as lanelets, as long as the driven part of the road.
 
 use super::base::Base;
 use super::driven::DrivenVehicle;
@@ -6,7 +6,7 @@ use super::lanelets::LaneletText;
 use crate::model::scenario::Scenario;
 use crate::roads::Branch;
 
-/// How far lanelets go on beyond the places where somebody was \[m\].
+/// How far lanelets extend beyond the positions of all vehicles \[m\].
 const BEYOND_M: f64 = 50.0;
 /// The largest distance between two points of a bound \[m\].
 const POINTS_M: f64 = 2.0;
@@ -14,7 +14,7 @@ const POINTS_M: f64 = 2.0;
 const MAX_POINTS: f64 = 2000.0;
 
 impl Base {
-    /// Adds the lanes of a road without names, each from the rearmost to the foremost place of anybody.
+    /// Adds the lanes of a road without names, each from the rearmost to the foremost position of any vehicle.
     pub(super) fn add_parallel(&mut self, scenario: &Scenario, vehicles: &[DrivenVehicle]) {
         let Some(lanes) = scenario.road.parallel_lanes() else { return };
         for branch in [Branch::Main, Branch::Cross] {

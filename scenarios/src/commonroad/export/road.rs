@@ -1,4 +1,4 @@
-//! What is exported of the road of a scenario that was not imported.
+//! The exported road of a scenario that was not imported.
 
 use super::base::Base;
 use super::driven::{DrivenVehicle, VERSION};
@@ -20,7 +20,7 @@ pub(super) fn base(scenario: &Scenario, name: &str) -> Base {
     base
 }
 
-/// The same with roads that are as long as what was driven.
+/// The same with roads as long as their driven part.
 pub(super) fn around(base: &Base, vehicles: &[DrivenVehicle]) -> Base {
     let mut base = base.clone();
     if let Some(scenario) = base.parallel.take() {
@@ -29,7 +29,7 @@ pub(super) fn around(base: &Base, vehicles: &[DrivenVehicle]) -> Base {
     base
 }
 
-/// A name of a benchmark in the form that its readers ask for.
+/// A benchmark name in the form that CommonRoad requires.
 fn benchmark(name: &str) -> String {
     let letters: String = name.trim_end_matches(".toml").chars().filter(char::is_ascii_alphanumeric).take(60).collect();
     format!("ZAM_{}-1_1_T-1", if letters.is_empty() { "Scenario".to_owned() } else { letters })

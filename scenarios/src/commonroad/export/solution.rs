@@ -1,14 +1,14 @@
 //! The motion of the ego as a solution, with the kinematic single-track model of a BMW 320i (`KS2`).
 //!
 //! The model is a bicycle about its rear axle, integrated exactly; a state gives the middle of the car, which is
-//! [`REAR_AXLE_M`] ahead of that axle. Ours is about the mass centre, and each step moves it at the speed and heading of its begin
-//! (eq. 6.1-6.4). So these hold at the middle of a step, and at its begin their mean with those of the step before does:
+//! [`REAR_AXLE_M`] ahead of that axle. Our model is about the mass centre, and each step moves it at its first speed and heading
+//! (eq. 6.1-6.4). So these values hold at the middle of a step; at its start, their mean with those of the step before holds:
 //!
 //! ```text
 //! θ̂ₖ = (θₖ₋₁ + θₖ)/2,   v̂ₖ = (uₖ₋₁ + uₖ)/2 with uₖ = vₖ cos βₖ, the speed of the rear axle
 //! ```
 //!
-//! with which an exact integration goes through our places: to second order in the step, and not to first.
+//! With these values an exact integration passes through our positions to second order in the step, not to first.
 
 use std::fmt::Write;
 
@@ -23,9 +23,7 @@ use super::xml_text::{escaped, number};
 const MODEL_AND_COST: &str = "KS2:WX1";
 /// The distance of the rear axle from the middle of the car \[m\].
 const REAR_AXLE_M: f64 = 1.422_717_093_6;
-/// The wheelbase \[m\].
 const WHEELBASE_M: f64 = 1.156_195_706_4 + REAR_AXLE_M;
-/// The largest steering angle \[rad\].
 const MAX_STEERING_RAD: f64 = 1.066;
 
 /// A state of the model.
@@ -48,7 +46,7 @@ pub(super) fn of(base: &Base, ego: &DrivenVehicle) -> (String, bool) {
             velocity_mps: at.velocity_mps,
         })
     };
-    // A problem that follows from what was driven is solved when the run ends.
+    // A problem that follows from the driven motion is solved when the run ends.
     let arrival =
         states.iter().enumerate().position(arrives).or_else(|| base.problem.is_none().then_some(states.len() - 1));
     let name: String = base.benchmark.chars().filter(|letter| *letter != ':' && !letter.is_whitespace()).collect();
@@ -82,7 +80,7 @@ fn states(ego: &DrivenVehicle) -> Vec<KinematicState> {
         let last = ego.steering_rad.len().saturating_sub(1);
         ego.steering_rad.get(index.min(last)).copied().unwrap_or_default()
     };
-    // What holds in the middle of each step: heading, speed of the rear axle, and the angle of wheels with the model's wheelbase.
+    // Values at the middle of each step: heading, speed of the rear axle, and the steering angle with the model's wheelbase.
     let midway: Vec<[f64; 3]> = ego
         .states
         .iter()

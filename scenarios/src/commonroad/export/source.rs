@@ -1,4 +1,4 @@
-//! What stays of the XML that a scenario was imported from.
+//! The parts of the imported XML that stay.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,10 +20,10 @@ const NO_PLACE: &str =
     "<location><geoNameId>-999</geoNameId><gpsLatitude>999</gpsLatitude><gpsLongitude>999</gpsLongitude></location>";
 const NO_TAGS: &str = "<scenarioTags><urban/></scenarioTags>";
 
-/// Reads what stays.
+/// Reads the parts that stay.
 ///
 /// # Errors
-/// For a text that is no scenario, and a run with another step of time.
+/// For a text that is not a scenario, and for a run with a different time step.
 pub(super) fn base(scenario: &Scenario, path: &Path) -> Result<Base, Fault> {
     let name = path.display().to_string();
     let text = imported_text(path)?;
@@ -38,7 +38,7 @@ pub(super) fn base(scenario: &Scenario, path: &Path) -> Result<Base, Fault> {
         return Err(Fault::at(&root.place(), "its `timeStepSize`", message));
     }
     let begin = super::super::map::begin(&source);
-    // The regions of goals are compared with what was driven, in the coordinates of the run.
+    // The regions of goals are compared with the driven motion, in the coordinates of the run.
     let origin = source.move_near_origin().unwrap_or_default();
     let problem = source.problems.first();
     let mut ids = Ids::taken(root.elements().flat_map(|it| ids_in(it, is_kept(it.name()))));
@@ -58,7 +58,7 @@ pub(super) fn base(scenario: &Scenario, path: &Path) -> Result<Base, Fault> {
     })
 }
 
-/// Whether elements of a name stay; obstacles are those that were driven.
+/// Whether elements of a name stay; the driven vehicles replace the obstacles.
 fn is_kept(name: &str) -> bool {
     ["location", "scenarioTags", "lanelet", "trafficSign", "trafficLight", "intersection"].contains(&name)
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use interplay_planners::State;
 
-/// Digits behind the point of lengths \[m\] and angles \[rad\].
+/// Decimal places of lengths \[m\] and angles \[rad\].
 const DIGITS: i32 = 6;
 
 /// A number as it is written.
@@ -15,7 +15,7 @@ pub(super) fn number(value: f64) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// A text without characters that mean something in XML, or that it does not allow.
+/// A text without characters that XML reserves or forbids.
 pub(super) fn escaped(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -31,7 +31,6 @@ pub(super) fn escaped(text: &str) -> String {
     written
 }
 
-/// A point \[m\].
 pub(super) fn point([x_m, y_m]: [f64; 2]) -> String {
     format!("<point><x>{}</x><y>{}</y></point>", number(x_m), number(y_m))
 }

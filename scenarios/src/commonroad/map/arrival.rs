@@ -1,18 +1,18 @@
-//! The speed with which the ego comes to its goal in time.
+//! The speed with which the ego reaches its goal in time.
 
 use interplay_planners::State;
 use interplay_planners::road::network::RoadNetwork;
 
 use super::super::model::{PlanningProblem, Region};
 
-/// How fast the ego comes to the speed that it wants \[m/s²\].
+/// The acceleration with which the ego reaches its desired speed \[m/s²\].
 const ACCELERATION_MPS2: f64 = 1.5;
 /// The highest speed of a car \[m/s\].
 const MAX_SPEED_MPS: f64 = 50.0;
-/// How often the range of speeds is halved: to less than 0.1 mm/s.
+/// The number of bisections of the range of speeds: to less than 0.1 mm/s.
 const HALVINGS: usize = 20;
 
-/// The speed to want so that the goal is reached in the middle of its time; none for a goal without place or time \[m/s\].
+/// The desired speed that reaches the goal in the middle of its time; `None` for a goal without position or time \[m/s\].
 pub(super) fn wanted_mps(
     problem: &PlanningProblem<'_>,
     step_s: f64,
@@ -29,7 +29,7 @@ pub(super) fn wanted_mps(
     (distance_m > 0.0 && time_s > 0.0).then(|| speed_mps(distance_m, time_s, start.speed_mps))
 }
 
-/// The speed that covers a distance in a time, if it is reached evenly from the own one and then kept \[m/s\].
+/// The speed that covers a distance in a time, if it is reached at a constant acceleration and then kept \[m/s\].
 fn speed_mps(distance_m: f64, time_s: f64, own_mps: f64) -> f64 {
     let covered_m = |wanted_mps: f64| {
         let changing_s = ((wanted_mps - own_mps).abs() / ACCELERATION_MPS2).min(time_s);
@@ -45,7 +45,7 @@ fn speed_mps(distance_m: f64, time_s: f64, own_mps: f64) -> f64 {
             high_mps = middle_mps;
         }
     }
-    // Where no speed is high enough, acceleration is what is missing, and the final speed of an even one is as good.
+    // If no speed is high enough, the acceleration is too small; the final speed of a constant one is as good.
     (0.5 * (low_mps + high_mps)).min((2.0 * distance_m / time_s - own_mps).max(own_mps))
 }
 

@@ -1,4 +1,4 @@
-//! The planning problem becomes the ego.
+//! The ego of a planning problem.
 
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, State};
@@ -15,20 +15,20 @@ use crate::model::classes::VehicleClass;
 use crate::model::traffic::goal::GoalConfig;
 use crate::text::name::EGO;
 
-/// Who is slower when the run begins wants to drive as fast as is permitted \[m/s\].
+/// A vehicle that is slower than this at the start wants to drive at the speed limit \[m/s\].
 const MIN_WANTED_MPS: f64 = 3.0;
-/// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
+/// The desired speed if the file states none: 30 km/h \[m/s\].
 const USUAL_MPS: f64 = 8.33;
 /// The largest acceleration with which the ego begins \[m/s²\].
 const MAX_ACCELERATION_MPS2: f64 = 10.0;
 /// The highest speed of a car \[m/s\].
 const MAX_SPEED_MPS: f64 = 50.0;
-/// A start that is moved by less is not mentioned \[m\].
+/// The smallest shift of a start that is noted \[m\].
 const NOTED_MOVE_M: f64 = 0.01;
-/// A planning problem with a start further from every lane is left out \[m\].
+/// A planning problem that starts farther than this from every lane is left out \[m\].
 const MAX_AWAY_M: f64 = 50.0;
 
-/// Who drives a planning problem is a BMW 320i, the car of CommonRoad's referee: 4.508 m × 1.61 m, and its axles \[m\].
+/// The ego of a planning problem is a BMW 320i, the car of CommonRoad's referee: 4.508 m × 1.61 m, and its axles \[m\].
 const BMW_320I: Body = Body {
     front_m: 2.254,
     rear_m: 2.254,
@@ -38,17 +38,16 @@ const BMW_320I: Body = Body {
     scale: Body::REAL_SCALE,
 };
 
-/// How fast its wheels are turned \[rad/s\].
+/// Its largest steering rate \[rad/s\].
 const STEERING_RATE_RADPS: f64 = 0.4;
 
-/// The ego, and its body.
 pub(super) struct Ego {
     pub config: VehicleConfig,
     pub state: State,
     pub body: Body,
 }
 
-/// The ego of a planning problem; none for one that is far from every lane, or from which no car can drive along a lane.
+/// The ego of a planning problem; `None` if it is far from every lane, or if no car can drive along a lane from there.
 pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
     let initial = &problem.initial;
     let speed_mps = initial.velocity_mps.clamp(0.0, MAX_SPEED_MPS);
@@ -99,10 +98,10 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
     Some(ego)
 }
 
-/// The way of a car from one of some lanes to one of the goals, and whether there is one; straight on if there is none.
+/// The route of a car from one of some lanes to one of the goals, and whether one exists; straight on otherwise.
 fn way(network: &RoadNetwork, starts: &[&Lane], goals: &[String], state: &State) -> Option<(OnLanes, bool)> {
     let body = &BMW_320I;
-    // Where lanes overlap, the way is the one that fits the state best, and of those the shortest list of lanes.
+    // Where lanes overlap, the route that fits the state best is taken, and of those the shortest list of lanes.
     let pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
     let ways = pairs.filter_map(|(lane, goal)| to_lane(network, lane, goal, state, body));
     let is_better = |one: &OnLanes, other: &OnLanes| {
@@ -129,7 +128,7 @@ impl Ego {
     }
 }
 
-/// The ego of a map without a planning problem and without vehicles: at the begin of the longest lane.
+/// The ego of a map without a planning problem and without vehicles: at the start of the longest lane.
 pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
     let network = &lanes.network;
     let body = VehicleClass::Car.dimensions().body;
@@ -149,7 +148,7 @@ pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
     Some(Ego { config, state, body })
 }
 
-/// The shortest way from a lane to another, with a car at its begin.
+/// The shortest route from a lane to another, with a car at its start.
 fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, state: &State, body: &Body) -> Option<OnLanes> {
     let route = network.shortest_route(&from.name, goal).ok()?;
     let names: Vec<String> = route.legs.iter().map(|leg| leg.lane.clone()).collect();
@@ -176,7 +175,7 @@ fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
     found
 }
 
-/// The speed that the ego wants: one that reaches the goal in time, or that of its goal, or its own, or what is permitted \[m/s\].
+/// The desired speed of the ego: one that reaches the goal in time, or that of its goal, or its own, or the speed limit \[m/s\].
 fn wanted_mps(
     problem: &PlanningProblem<'_>,
     own_mps: f64,
@@ -201,7 +200,7 @@ fn wanted_mps(
     limit_mps.unwrap_or(USUAL_MPS).min(MAX_SPEED_MPS)
 }
 
-/// Notes what of goals a scenario does not say.
+/// Notes the parts of goals that a scenario cannot state.
 fn note_goals(problem: &PlanningProblem<'_>, notes: &mut Notes) {
     notes.several(problem.goals.len().saturating_sub(1), ["further goal", "further goals"], NOT_YET);
     for goal in &problem.goals {
@@ -217,14 +216,14 @@ fn note_goals(problem: &PlanningProblem<'_>, notes: &mut Notes) {
     }
 }
 
-/// The step of time at which the run begins: that of the planning problem, or the first of any vehicle.
+/// The time step at which the run begins: that of the planning problem, or the first of any vehicle.
 pub(in super::super) fn begin(scenario: &CommonRoad<'_>) -> f64 {
     let of_problem = scenario.problems.first().map(|problem| problem.initial.time);
     let of_vehicles = scenario.obstacles.iter().filter_map(|obstacle| obstacle.states.first()).map(|state| state.time);
     of_problem.unwrap_or_else(|| of_vehicles.min_by(f64::total_cmp).unwrap_or_default())
 }
 
-/// The last step of time that the goals of the first planning problem, or else the records, know.
+/// The last time step of the goals of the first planning problem, or else of the records.
 pub(super) fn end(scenario: &CommonRoad<'_>) -> f64 {
     let goals = scenario.problems.first().into_iter().flat_map(|problem| &problem.goals);
     let of_goals = goals.filter_map(|goal| goal.time).map(|[_, to]| to).max_by(f64::total_cmp);

@@ -12,20 +12,19 @@ use super::rights::Signs;
 use crate::roads::{LaneConfig, LaneNetwork, LaneWidth, NeighbourConfig, NeighbourTable};
 use crate::text::error::{Fault, Place};
 
-/// The largest gap between a lane and its successor that is closed by moving the begin of the successor \[m\].
+/// The largest gap between a lane and its successor that is closed by moving the start of the successor \[m\].
 const MAX_CLOSED_GAP_M: f64 = 1.0;
 /// The most loops that are opened.
 const MAX_LOOPS: usize = 200;
 
 const LANELET: [&str; 2] = ["lanelet", "lanelets"];
 
-/// The lanes of a scenario.
 pub(super) struct Lanes {
-    /// As a file states them.
+    /// The lanes as a file states them.
     pub configs: Vec<LaneConfig>,
     /// Where each is written.
     pub places: Vec<Place>,
-    /// The network that they are.
+    /// The network of these lanes.
     pub network: RoadNetwork,
     /// The name of the lane of each lanelet, by its id.
     pub names: BTreeMap<String, String>,
@@ -35,7 +34,7 @@ impl Lanes {
     /// Makes lanes of all lanelets.
     ///
     /// # Errors
-    /// For two lanelets with one id, and where nothing is left that is a network.
+    /// For two lanelets with one id, and if the remaining lanes are not a network.
     pub(super) fn of(scenario: &CommonRoad<'_>, root: &Place, notes: &mut Notes) -> Result<Lanes, Fault> {
         let mut draft = Draft::of(scenario, notes)?;
         draft.connect(notes);
@@ -65,7 +64,7 @@ impl Lanes {
     }
 }
 
-/// Lanes that are being made, each beside its lanelet.
+/// Lanes under construction, each beside its lanelet.
 struct Draft<'a> {
     configs: Vec<LaneConfig>,
     lanelets: Vec<&'a Lanelet<'a>>,
@@ -75,7 +74,7 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    /// A lane for each lanelet that vehicles drive on, with nothing before, after or beside it.
+    /// A lane for each lanelet for vehicles, without neighbours yet.
     fn of(scenario: &'a CommonRoad<'a>, notes: &mut Notes) -> Result<Draft<'a>, Fault> {
         let signs = Signs::of(scenario, notes);
         let (known, mut names) = (BTreeSet::new(), Names::default());
@@ -105,12 +104,12 @@ impl<'a> Draft<'a> {
         Ok(draft)
     }
 
-    /// The number of the lane of a lanelet.
+    /// The index of the lane of a lanelet.
     fn number(&self, id: &str) -> Option<usize> {
         self.lanelets.iter().position(|lanelet| lanelet.id == id)
     }
 
-    /// Says which lane follows which: those that a lanelet names as successors, and those that name it as their predecessor.
+    /// Connects lanes with their successors: those that a lanelet names as successors, and those that name it as their predecessor.
     fn connect(&mut self, notes: &mut Notes) {
         let mut pairs: Vec<(usize, usize)> = Vec::new();
         for (index, lanelet) in self.lanelets.iter().enumerate() {
@@ -139,7 +138,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// Moves begins of lanes to the end of the lane before them, where both nearly touch.
+    /// Moves the starts of lanes to the ends of their predecessors, where the two nearly touch.
     fn close_gaps(&mut self, notes: &mut Notes) {
         for index in 0..self.configs.len() {
             let Some(end) = self.configs[index].points.last().copied() else { continue };
@@ -208,7 +207,7 @@ impl<'a> Draft<'a> {
         Ok(lanes)
     }
 
-    /// Leaves out what a network would not accept of two lanes after or beside one another.
+    /// Leaves out successors and neighbours that a network would not accept.
     fn check_pairs(&mut self, lanes: &mut [Lane], notes: &mut Notes) {
         let numbers: BTreeMap<String, usize> =
             lanes.iter().enumerate().map(|(number, lane)| (lane.name.clone(), number)).collect();
@@ -247,7 +246,7 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// For whom a lanelet is, by its type and its users; empty where cars may use it.
+/// The road users of a lanelet, by its type and its users; empty if cars may use it.
 fn users(lanelet: &Lanelet<'_>) -> Vec<LaneUser> {
     if lanelet.is_for_walkers() {
         return vec![LaneUser::Pedestrian];
@@ -261,10 +260,9 @@ fn users(lanelet: &Lanelet<'_>) -> Vec<LaneUser> {
     }
 }
 
-/// Lanes that are nearer are taken to touch \[m\].
+/// Lanes nearer than this are treated as touching \[m\].
 const GAP_M: f64 = 0.02;
 
-/// A lane along a line.
 fn lane_along(name: &str, line: &Line) -> LaneConfig {
     let first_m = line.widths[0][1];
     let is_constant = line.widths.iter().all(|[_, width_m]| *width_m == first_m);
@@ -275,7 +273,7 @@ fn lane_along(name: &str, line: &Line) -> LaneConfig {
     }
 }
 
-/// Notes what of a lanelet a lane does not say.
+/// Notes the parts of a lanelet that a lane cannot state.
 fn note_lanelet(lanelet: &Lanelet<'_>, line: &Line, right_of_way: RightOfWay, notes: &mut Notes) {
     if line.is_turned {
         notes

@@ -1,4 +1,4 @@
-//! Traffic lights stand at the ends of the lanes whose lanelets name them.
+//! Traffic lights, at the ends of the lanes whose lanelets name them.
 
 use interplay_planners::road::network::LightPhase;
 
@@ -14,7 +14,7 @@ const MAX_OFFSET_S: f64 = 100_000.0;
 /// The most lights of a scenario, and the most phases and lanes of each.
 const MAX_LIGHTS: usize = 100;
 
-/// The lights of a scenario, from its begin on, in steps of time.
+/// The lights of a scenario, from its start on, in time steps.
 pub(super) fn lights(scenario: &CommonRoad<'_>, lanes: &Lanes, begin: f64, notes: &mut Notes) -> Vec<LightConfig> {
     let mut taken: Vec<String> = Vec::new();
     let mut found = Vec::new();

@@ -1,29 +1,29 @@
 //! The middle of a lanelet and its width.
 //!
-//! The middle lies halfway between both bounds. Measured points make curvature of their errors, so the curve through them may miss
-//! them by a tolerance: the smallest one with which the inner edge does not cross itself and a car can follow. Where none is large
+//! The middle lies halfway between both bounds. Errors of measured points cause curvature, so the curve may miss the points by a
+//! tolerance: the smallest one with which the inner edge does not cross itself and a car can follow. If no tolerance is large
 //! enough, the lane becomes narrower in that bend.
 
 use interplay_planners::road::centre_line::smooth_points;
 use interplay_planners::{CentreLine, Profile};
 
-/// By how much a curve may miss the points, in the order in which it is tried \[m\].
+/// The tolerances between curve and points, in the order in which they are tried \[m\].
 const TOLERANCES_M: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8];
-/// Points nearer than this to one another are one \[m\].
+/// Points nearer than this to each other are merged \[m\].
 const MIN_SPACING_M: f64 = 0.02;
-/// The most points of a lane; of more, some are left out.
+/// The most points of a lane; further ones are left out.
 const MAX_POINTS: usize = 2000;
-/// The narrowest place of a lane: some begin or end in a point \[m\].
+/// The smallest width of a lane: some lanelets begin or end in a point \[m\].
 const MIN_WIDTH_M: f64 = 0.3;
-/// The widest place of a lane \[m\].
+/// The largest width of a lane \[m\].
 const MAX_WIDTH_M: f64 = 40.0;
 /// An edge is at least this share of the radius away from the centre of the bend.
 const EDGE_SHARE: f64 = 0.95;
-/// The radius that a car can drive \[m\].
+/// The smallest radius that a car can drive \[m\].
 const TURNING_RADIUS_M: f64 = 5.6;
-/// Places between two knots where a curve is judged, as the network does it.
+/// The number of points between two knots at which a curve is checked, as in the network.
 const PLACES_PER_KNOT: usize = 4;
-/// How often a lane is made narrower at most.
+/// The most times that a lane is narrowed.
 const MAX_ROUNDS: usize = 30;
 
 /// The line of a lane, as a network states it.
@@ -31,7 +31,7 @@ const MAX_ROUNDS: usize = 30;
 pub(super) struct Line {
     /// Points of the middle \[m\].
     pub points: Vec<[f64; 2]>,
-    /// By how much the curve may miss them \[m\].
+    /// The tolerance between the curve and the points \[m\].
     pub tolerance_m: f64,
     /// Pairs of a distance along the lane and the width there \[m\].
     pub widths: Vec<[f64; 2]>,
@@ -41,7 +41,7 @@ pub(super) struct Line {
     pub is_turned: bool,
 }
 
-/// The line between a left and a right bound; none for a lanelet without length, and where no curve leads through it.
+/// The line between a left and a right bound; `None` for a lanelet without length, and if no curve passes through it.
 pub(super) fn between(left: &[[f64; 2]], right: &[[f64; 2]]) -> Option<Line> {
     let (left, right, is_turned) = in_order(left, right);
     let (points, widths) = middle(&paired(&left, &right))?;
@@ -88,7 +88,7 @@ fn fitted(mut line: Line) -> Option<(Line, bool)> {
     None
 }
 
-/// Lets a width be no more than `most_m` around a place.
+/// Limits a width to `most_m` around a position.
 fn narrow_at(widths: &mut [[f64; 2]], along_m: f64, most_m: f64) {
     let after = widths.partition_point(|[at_m, _]| *at_m <= along_m);
     for knot in [after.checked_sub(1), Some(after)].into_iter().flatten() {
@@ -163,8 +163,8 @@ type Points = Vec<[f64; 2]>;
 /// Widths over the distance along a line \[m\].
 type Widths = Vec<[f64; 2]>;
 
-/// Points in the middle of pairs that are not too near to one another, and the widths over the distance along them; none where fewer
-/// than two are left.
+/// Points in the middle of pairs that are not too near to each other, and the widths over the distance along them; `None` if fewer
+/// than two remain.
 fn middle(pairs: &[([f64; 2], [f64; 2])]) -> Option<(Points, Widths)> {
     let spacing_m = if pairs.len() > MAX_POINTS { 0.25 } else { MIN_SPACING_M };
     let mut kept: Vec<([f64; 2], f64)> = Vec::new();
@@ -213,7 +213,7 @@ mod tests {
     const RIGHT: [[f64; 2]; 2] = [[0.0, 0.0], [20.0, 0.0]];
 
     #[test]
-    fn the_middle_is_halfway_whatever_the_order_of_the_bounds() {
+    fn the_middle_is_halfway_for_any_order_of_the_bounds() {
         let line = between(&LEFT, &RIGHT).expect("a line");
         assert_eq!(line.points, [[0.0, 1.5], [10.0, 1.5], [20.0, 1.5]]);
         assert_eq!(line.widths, [[0.0, 3.0], [10.0, 3.0], [20.0, 3.0]]);

@@ -1,4 +1,4 @@
-//! From a scenario of CommonRoad to a scenario of Interplay, one file a concept.
+//! From a scenario of CommonRoad to a scenario of Interplay, one file per concept.
 
 mod arrival;
 mod ego;
@@ -15,8 +15,8 @@ use interplay_planners::drivers::recorded;
 use interplay_planners::{Driver, DriverKind};
 use serde_json::{Value as Json, json};
 
+use super::ImportOptions;
 use super::model::CommonRoad;
-use super::options::ImportOptions;
 use super::xml::Unread;
 use crate::format::obstacle::ObstacleConfig;
 use crate::format::scenario_file::ScenarioFile;
@@ -36,30 +36,28 @@ use vehicles::{Follower, followers, in_world};
 
 /// The most vehicles of a scenario.
 const MAX_VEHICLES: usize = 256;
-/// The most obstacles.
 const MAX_OBSTACLES: usize = 256;
 /// The longest run \[s\], and the shortest.
 const DURATIONS_S: [f64; 2] = [1.0, 3600.0];
 /// The duration of the run of a map without vehicles \[s\].
 const MAP_DURATION_S: f64 = 10.0;
-/// The time between two plans, as near as a whole number of steps comes to it \[s\].
+/// The time between two plans, rounded to a whole number of steps \[s\].
 const PLANNING_PERIOD_S: f64 = 0.2;
-/// How far plans look ahead \[s\].
 const HORIZON_S: f64 = 8.0;
 /// The most stages of a plan.
 const MAX_STAGES: f64 = 200.0;
 
-/// A scenario as a file states it, and where in the imported text its parts are written.
+/// A scenario as a file states it, and the places of its parts in the imported text.
 pub(super) struct Mapped {
     pub file: ScenarioFile,
     /// Paths of keys, each with its place.
     pub places: Vec<(String, Place)>,
 }
 
-/// Makes a scenario of an imported one.
+/// Converts an imported scenario.
 ///
 /// # Errors
-/// For lanelets that are no lanes.
+/// For lanelets that cannot become lanes.
 pub(super) fn mapped(
     scenario: &CommonRoad<'_>,
     root: &Place,
@@ -71,8 +69,8 @@ pub(super) fn mapped(
     let begin = begin(scenario);
     let followers = followers(scenario, begin, notes);
     let ego = scenario.problems.first().and_then(|problem| ego::of_problem(problem, scenario.step_s, &lanes, notes));
-    let nobody_drives = ego.is_none() && followers.iter().all(|follower| follower.stands);
-    let ego = if nobody_drives { ego::on_longest_lane(&lanes, notes) } else { ego };
+    let has_no_driver = ego.is_none() && followers.iter().all(|follower| follower.stands);
+    let ego = if has_no_driver { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
     let lights = lights::lights(scenario, &lanes, begin, notes);
@@ -88,7 +86,7 @@ pub(super) fn mapped(
             continue;
         }
         let mut config = driven(&follower, &lanes, options, notes);
-        // A record that ends before the run is that of somebody who has left; a driver of ours drives to the end of its way.
+        // A vehicle whose record ends before the run leaves then; a vehicle with a driver of ours drives to the end of its way.
         config.leaves_at_end = (!config.route.is_empty()).then_some(true);
         config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
         vehicles.push((config, Some(follower.place)));
@@ -115,7 +113,7 @@ pub(super) fn mapped(
     Ok(Mapped { file, places })
 }
 
-/// A network whose lanes state only what is not the default, so that people find what matters.
+/// A network whose lanes state only values that differ from the defaults, so that the file stays readable.
 fn without_defaults(mut network: Stated<Road>) -> Stated<Road> {
     let Some(Json::Array(mut lanes)) = network.take("lane") else { return network };
     let usual = serde_json::to_value(LaneConfig::through("", &[], 1.0)).unwrap_or_default();
@@ -129,7 +127,7 @@ fn without_defaults(mut network: Stated<Road>) -> Stated<Road> {
     network.with("lane", Json::Array(lanes))
 }
 
-/// The limits that a long run with many vehicles needs; none where the usual ones are enough.
+/// The limits that a long run with many vehicles needs; `None` if the default ones suffice.
 fn budget(vehicles: usize, ticks: f64) -> Option<Stated<BudgetLimits>> {
     let plans = (vehicles as f64 * ticks.ceil()) as u64;
     let steps = plans * (vehicles as u64 + 1);
@@ -138,7 +136,7 @@ fn budget(vehicles: usize, ticks: f64) -> Option<Stated<BudgetLimits>> {
     is_more.then(|| Stated::default().with("plans", plans.max(usual.plans)).with("steps", steps.max(usual.steps)))
 }
 
-/// A scenario with the times of the imported one, and nothing else.
+/// A scenario with the times of the imported one only.
 fn timed(scenario: &CommonRoad<'_>, duration_s: f64) -> ScenarioFile {
     let name: String = scenario.benchmark.chars().filter(|c| !c.is_control()).take(80).collect();
     let name = if name.trim().is_empty() { "A scenario of CommonRoad".to_owned() } else { name };
@@ -154,7 +152,7 @@ fn timed(scenario: &CommonRoad<'_>, duration_s: f64) -> ScenarioFile {
     }
 }
 
-/// How long the run is: until the latest time of the goal, or else to the end of the records \[s\].
+/// The duration of the run: until the latest time of the goal, or else to the end of the records \[s\].
 fn duration_s(scenario: &CommonRoad<'_>, begin: f64) -> f64 {
     let known_s = (ego::end(scenario) - begin) * scenario.step_s;
     let is_map = scenario.problems.is_empty() && scenario.obstacles.is_empty();
@@ -163,7 +161,7 @@ fn duration_s(scenario: &CommonRoad<'_>, begin: f64) -> f64 {
     vehicles::rounded(wanted_s.max(DURATIONS_S[0]).max(scenario.step_s).min(most_s), 6)
 }
 
-/// The vehicles that a scenario has room for, those nearest to the ego first, without any in whose body the ego is.
+/// The vehicles that fit into a scenario, those nearest to the ego first, without any that overlap the ego.
 fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) -> Vec<Follower> {
     let before = followers.len();
     let meets = |follower: &Follower| {
@@ -194,7 +192,7 @@ fn near_the_ego(followers: Vec<Follower>, ego: Option<&Ego>, notes: &mut Notes) 
     kept
 }
 
-/// A vehicle with its driver: its record, or the one that the options name, which needs a way along lanes.
+/// A vehicle with its driver: its record, or the driver in the options, which needs a route along lanes.
 fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &mut Notes) -> VehicleConfig {
     let config = follower.config.clone();
     let recorded = |config| {
@@ -228,11 +226,11 @@ fn recorded_kind() -> &'static str {
 }
 
 impl ImportOptions {
-    /// The driver that takes the place of a record, if the options name one.
+    /// The driver in the options that replaces a record, if any.
     fn replacement(&self, id: &str, name: &str) -> Option<Stated<Driver>> {
         let is_it = |vehicle: &str| vehicle == id || vehicle == name;
         let named = self.replace.iter().find(|it| it.vehicle.as_deref().is_some_and(is_it));
-        // What is said of one vehicle comes before what is said of all.
+        // An option for one vehicle goes before the option for all.
         let found = named.or_else(|| self.replace.iter().find(|it| it.vehicle.is_none()))?;
         let driver = Stated::kind(&found.kind);
         Some(match &found.style {

@@ -1,10 +1,10 @@
-//! Names of lanes and vehicles, made of the ids of the imported file.
+//! Names of lanes and vehicles from the ids of the imported file.
 
 use std::collections::BTreeSet;
 
 use crate::text::name::{EGO, is_name};
 
-/// Names that are given already. Ids may be any text; a name has few kinds of letters and stands once.
+/// The names in use. Ids may be any text; names use few characters and are unique.
 #[derive(Debug, Default)]
 pub(super) struct Names(BTreeSet<String>);
 
@@ -12,7 +12,7 @@ pub(super) struct Names(BTreeSet<String>);
 const MAX_ID: usize = 40;
 
 impl Names {
-    /// A new name, of a word and an id.
+    /// A new name from a word and an id.
     pub(super) fn name(&mut self, word: &str, id: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c.to_ascii_lowercase() } else { '-' };
         let id: String = id.chars().take(MAX_ID).map(plain).collect();
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_plain_and_stand_once() {
+    fn names_are_plain_and_unique() {
         let mut names = Names::default();
         assert_eq!(names.name("l", "12"), "l12");
         assert_eq!(names.name("l", "12"), "l12-2");

@@ -1,25 +1,25 @@
-//! What could not be carried over, a line for each kind of thing.
+//! The parts that could not be carried over, one line for each kind.
 
-/// Lines on what differs from the imported file, in the order in which they came up.
+/// Lines on differences from the imported file, in the order in which they were found.
 #[derive(Debug, Default)]
 pub(in crate::commonroad) struct Notes(Vec<Note>);
 
 #[derive(Debug)]
 struct Note {
     count: usize,
-    /// What it is, of one and of several.
+    /// The name of the part, singular and plural.
     what: [String; 2],
-    /// What became of it.
+    /// What was done with it.
     fate: String,
 }
 
 impl Notes {
-    /// Counts one more thing; `what` is its word for one and for several.
+    /// Counts one more part; `what` is its name, singular and plural.
     pub(super) fn one(&mut self, what: [&str; 2], fate: &str) {
         self.several(1, what, fate);
     }
 
-    /// Counts some more of them; nothing where there are none.
+    /// Counts `count` more parts; zero adds no line.
     pub(super) fn several(&mut self, count: usize, what: [&str; 2], fate: &str) {
         let known = self.0.iter_mut().find(|note| note.what == what && note.fate == fate);
         match known {
@@ -38,7 +38,7 @@ impl Notes {
     }
 }
 
-/// What becomes of things that a scenario has no words for yet.
+/// The note for parts that a scenario cannot state yet.
 pub(super) const NOT_YET: &str = "not carried over yet";
 
 #[cfg(test)]

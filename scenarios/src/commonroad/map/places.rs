@@ -1,4 +1,4 @@
-//! Places of vehicles that drive along lanes: their state at the start, and the lanes before them.
+//! Positions of vehicles that drive along lanes: their state at the start, and the lanes ahead.
 
 use interplay_planners::drivers::recorded::Record;
 use interplay_planners::road::network::{Lane, RoadNetwork};
@@ -9,29 +9,29 @@ use crate::resolve::placement::way_of_record;
 
 /// Cosine of the largest angle between a start and its lane.
 const MIN_COS_OF_START: f64 = 0.5;
-/// How far towards the middle of its lane a vehicle is moved, one share after the other, until its body is on the road.
+/// The shifts towards the middle of the lane that are tried until the body of a vehicle is on the road, as shares.
 const SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
-/// The most lanes near a vehicle on which it is tried to place it.
+/// The most lanes near a vehicle on which a placement is tried.
 const MAX_NEAR_LANES: usize = 20;
-/// The most lanes of a way without a goal.
+/// The most lanes of a route without a goal.
 const MAX_LANES: usize = 100;
 
-/// A vehicle at its start, with the lanes before it.
+/// A vehicle at its start, with the lanes ahead.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct OnLanes {
     pub state: State,
     pub lanes: Vec<String>,
-    /// By how much it was moved, so that its body is on the road \[m\].
+    /// The distance by which it was moved to be on the road \[m\].
     pub moved_m: f64,
-    /// By how much it was turned for that \[rad\].
+    /// The angle by which it was turned for that \[rad\].
     pub turned_rad: f64,
 }
 
-/// How far a vehicle of real size would be moved to be as wrong as turned by one radian \[m\].
+/// The shift of a full-size vehicle that counts as much as a turn by one radian \[m\].
 const METRES_PER_RAD: f64 = 4.0;
 
 impl OnLanes {
-    /// How much the state differs from the one that was to be placed \[m\].
+    /// The difference between this state and the original one \[m\].
     pub(super) fn change_m(&self) -> f64 {
         self.moved_m + METRES_PER_RAD * self.turned_rad
     }
@@ -79,7 +79,7 @@ pub(super) fn straight_on(network: &RoadNetwork, lane: &Lane) -> Vec<String> {
     names
 }
 
-/// The longest begin of some lanes along which a body can drive; none where it cannot even be on the first.
+/// The longest leading part of some lanes along which a body can drive; `None` if it does not fit on the first lane.
 pub(super) fn on(network: &RoadNetwork, lanes: Vec<String>, state: &State, body: &Body) -> Option<OnLanes> {
     let mut lanes = lanes;
     while !lanes.is_empty() {
@@ -91,7 +91,7 @@ pub(super) fn on(network: &RoadNetwork, lanes: Vec<String>, state: &State, body:
     None
 }
 
-/// A body on a route, moved towards its middle as far as it takes.
+/// A body on a route, moved towards its middle as far as necessary.
 fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State, body: &Body) -> Option<OnLanes> {
     route.check_turns(TURNING_RADIUS_M).ok()?;
     let at = route.locate(state.position(), None);
@@ -99,7 +99,7 @@ fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State,
     let shares = SHARES.iter().map(|share| {
         let [x_m, y_m] = route.position(at.along_m, share * at.across_m);
         let heading_rad = (at.heading_rad + share * error_rad).to_degrees();
-        // As it is written, so that what is judged here is what is read.
+        // Rounded as in the file, so that the check sees the values that are read back.
         let [x_m, y_m] = [x_m, y_m].map(|coordinate| rounded(coordinate, 4));
         State { x_m, y_m, heading_rad: rounded(heading_rad, 4).to_radians(), ..*state }
     });
@@ -113,10 +113,10 @@ fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State,
     Some(OnLanes { state: placed, lanes: lanes.to_vec(), moved_m, turned_rad })
 }
 
-/// The smallest radius of a lane along which vehicles are sent \[m\].
+/// The smallest radius of a lane that routes use \[m\].
 const TURNING_RADIUS_M: f64 = 5.0;
 
-/// The lanes that a record goes along, from a lane on.
+/// The lanes that a record follows, from a lane on.
 pub(super) fn along_record(network: &RoadNetwork, rows: &[[f64; 5]], lane: &Lane) -> Vec<String> {
     Record::new(rows).map_or_else(|_| vec![lane.name.clone()], |record| way_of_record(&record, lane, network))
 }

@@ -1,4 +1,4 @@
-//! What signs say of lanes: speed limits, and who goes first at their ends.
+//! The effects of signs on lanes: speed limits, and right of way at their ends.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +7,15 @@ use interplay_planners::road::network::RightOfWay;
 use super::super::model::{CommonRoad, Lanelet, SignMeaning};
 use super::notes::{NOT_YET, Notes};
 
-/// The signs of a scenario, by their ids, and the approaches where everybody stops.
+/// The signs of a scenario, by id, and the approaches of all-way stops.
 pub(super) struct Signs<'a> {
     meanings: BTreeMap<&'a str, &'a [SignMeaning]>,
-    /// Lanelets that lead into an intersection on whose every approach one has to stop.
+    /// Lanelets that lead into an intersection with a stop sign on every approach.
     all_stop: Vec<&'a str>,
 }
 
 impl<'a> Signs<'a> {
-    /// Sorts the signs of a scenario, and notes those that say nothing to a lane.
+    /// Sorts the signs of a scenario, and notes those without effect on a lane.
     pub(super) fn of(scenario: &'a CommonRoad<'_>, notes: &mut Notes) -> Signs<'a> {
         let meanings: BTreeMap<&str, &[SignMeaning]> =
             scenario.signs.iter().map(|sign| (sign.id.as_str(), sign.meanings.as_slice())).collect();
@@ -56,7 +56,7 @@ impl<'a> Signs<'a> {
         limits.chain(positive).min_by(f64::total_cmp).map(|limit_mps| (100.0 * limit_mps).round() / 100.0)
     }
 
-    /// Who goes first at the end of a lanelet.
+    /// The right of way at the end of a lanelet.
     pub(super) fn right_of_way(&self, lanelet: &Lanelet<'_>) -> RightOfWay {
         if self.all_stop.contains(&lanelet.id.as_str()) {
             RightOfWay::AllWayStop

@@ -1,4 +1,4 @@
-//! Obstacles become vehicles that follow their record, or that a driver of ours takes over.
+//! Obstacles as vehicles that follow their records or have a driver of ours.
 
 use interplay_planners::drivers::recorded::Record;
 use interplay_planners::{Body, State};
@@ -23,14 +23,14 @@ const AXLE_SHARE: f64 = 0.3;
 pub(super) struct Follower {
     /// The id of its obstacle.
     pub id: String,
-    /// What a file says of it, but for its driver and its route.
+    /// Its keys in a file, except its driver and its route.
     pub config: VehicleConfig,
     /// Its motion: rows of time, x, y, heading and speed.
     pub rows: Vec<[f64; 5]>,
-    /// Where it is when the run begins.
+    /// Its state when the run begins.
     pub start: State,
     pub body: Body,
-    /// Whether it stands all the time.
+    /// Whether it never moves.
     pub stands: bool,
     /// Whether one of our drivers could drive it.
     pub is_car: bool,
@@ -38,14 +38,14 @@ pub(super) struct Follower {
     pub place: Place,
 }
 
-/// Who was never faster wants to drive as fast as is permitted \[m/s\].
+/// A vehicle that was never faster than this wants to drive at the speed limit \[m/s\].
 const MIN_WANTED_MPS: f64 = 3.0;
-/// The speed that is wanted where nothing says one: 30 km/h \[m/s\].
+/// The desired speed if the file states none: 30 km/h \[m/s\].
 const USUAL_MPS: f64 = 8.33;
 
 impl Follower {
-    /// The speed that a driver wants who takes the place of its record: the highest one of the record, or of one that never drove,
-    /// what is permitted \[m/s\].
+    /// The desired speed of a driver that replaces a record: the highest speed of the record, or, if the vehicle never drove,
+    /// the speed limit \[m/s\].
     pub(super) fn wanted_mps(&self, limit_mps: Option<f64>) -> f64 {
         let fastest_mps = self.rows.iter().map(|row| row[4]).fold(0.0, f64::max);
         if fastest_mps >= MIN_WANTED_MPS { fastest_mps } else { limit_mps.unwrap_or(USUAL_MPS) }
@@ -59,7 +59,7 @@ impl Follower {
         (last[4] > 0.0 && last[0] < duration_s - 1e-6).then(|| rounded(last[0], 6))
     }
 
-    /// As an obstacle, if it stands all the time.
+    /// The obstacle that it is, if it never moves.
     pub(super) fn obstacle(&self) -> ObstacleConfig {
         let kind = match self.config.class {
             Some(VehicleClass::Truck | VehicleClass::Bus | VehicleClass::Van) => ObstacleKind::ParkedVan,
@@ -78,7 +78,7 @@ impl Follower {
     }
 }
 
-/// The vehicles that are there when the run begins, at a number of steps of time, or come later.
+/// The vehicles that are on the road at the time step `begin`, or enter later.
 pub(super) fn followers(scenario: &CommonRoad<'_>, begin: f64, notes: &mut Notes) -> Vec<Follower> {
     let mut names = Names::default();
     let all = scenario.obstacles.iter();
@@ -128,7 +128,7 @@ fn follower(
     Some(Follower { id, config, rows, start, body, stands, is_car, place })
 }
 
-/// A start in world coordinates, in the numbers that people read.
+/// A start in world coordinates, with rounded numbers.
 pub(super) fn in_world(state: &State) -> StartConfig {
     StartConfig {
         x_m: Some(rounded(state.x_m, 4)),
@@ -139,13 +139,13 @@ pub(super) fn in_world(state: &State) -> StartConfig {
     }
 }
 
-/// A number with so many digits behind the point.
+/// Rounds a number to `digits` decimal places.
 pub(super) fn rounded(number: f64, digits: i32) -> f64 {
     let factor = 10_f64.powi(digits);
     (factor * number).round() / factor
 }
 
-/// What class of vehicle an obstacle is nearest to.
+/// The class of vehicle that is most similar to an obstacle.
 fn class(kind: &str) -> VehicleClass {
     match kind {
         "truck" | "train" => VehicleClass::Truck,
@@ -156,7 +156,7 @@ fn class(kind: &str) -> VehicleClass {
     }
 }
 
-/// The body of an obstacle, with its middle as the mass centre; none of one that is no vehicle.
+/// The body of an obstacle, with its middle as the mass centre; `None` if the obstacle is not a vehicle.
 fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
     if obstacle.role == Role::Surroundings {
         notes.one(["obstacle beside the road", "obstacles beside the road"], NOT_YET);
@@ -173,7 +173,7 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
     };
     if !is_exact {
         notes.one(
-            ["obstacle that is no rectangle", "obstacles that are no rectangle"],
+            ["obstacle that is not a rectangle", "obstacles that are not rectangles"],
             "carried over as the box around it",
         );
     }
@@ -198,7 +198,7 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
 fn rows(obstacle: &Obstacle<'_>, step_s: f64, begin: f64, notes: &mut Notes) -> Vec<[f64; 5]> {
     let shape = obstacle.shape.first().and_then(|shape| shape.rectangle());
     let (offset, turned_rad) = shape.map_or(([0.0; 2], 0.0), |(it, _)| (it.centre, it.orientation_rad));
-    // The direction of a box that moves is that of its motion.
+    // A box that moves has the direction of its motion.
     let turned_rad = if obstacle.role == Role::Static { turned_rad } else { 0.0 };
     let mut rows: Vec<[f64; 5]> = Vec::with_capacity(obstacle.states.len());
     let (mut backwards, mut out_of_order, mut uncertain) = (false, 0, false);

@@ -30,7 +30,7 @@ impl Region {
     /// The regions that stand in an element.
     ///
     /// # Errors
-    /// For shapes without size, and numbers that are none.
+    /// For shapes without size, and for invalid numbers.
     pub(super) fn read_all(element: Element<'_>) -> Result<Vec<Region>, Fault> {
         let mut found = Vec::new();
         let mut lanelets = Vec::new();
@@ -60,7 +60,7 @@ impl Region {
         Ok(found)
     }
 
-    /// Its middle; none for lanelets \[m\].
+    /// Its middle; `None` for lanelets \[m\].
     pub(crate) fn middle(&self) -> Option<[f64; 2]> {
         match self {
             Region::Rectangle(Rectangle { centre, .. }) | Region::Circle { centre, .. } => Some(*centre),
@@ -73,7 +73,7 @@ impl Region {
         }
     }
 
-    /// A rectangle around a shape of a vehicle, and whether it is the shape itself; none for what is no shape.
+    /// A rectangle around the shape of a vehicle, and whether it is the shape itself; `None` for a region that is not a shape.
     pub(crate) fn rectangle(&self) -> Option<(Rectangle, bool)> {
         match self {
             Region::Rectangle(rectangle) => Some((*rectangle, true)),

@@ -1,4 +1,4 @@
-//! Lanelets: a left and a right bound, and what is said of other lanelets.
+//! Lanelets: a left and a right bound, and references to other lanelets.
 
 use super::super::xml::{Element, Unread};
 use super::geometry::points;
@@ -16,11 +16,11 @@ pub(crate) struct Lanelet<'a> {
     pub successors: Vec<String>,
     /// The lanelets on the left and on the right.
     pub beside: [Option<Adjacent>; 2],
-    /// Whether the left and the right bound are lines that nobody crosses.
+    /// Whether the left and the right bound are lines that must not be crossed.
     pub is_solid: [bool; 2],
-    /// What sort of lanelet it is, such as `urban` or `crosswalk`; several words are allowed.
+    /// Its types, such as `urban` or `crosswalk`; several are allowed.
     pub types: Vec<String>,
-    /// Who may use it; everybody where nothing is said.
+    /// The road users that may use it; all if none are stated.
     pub users: Vec<String>,
     /// Whether it may also be driven against its direction.
     pub is_two_way: bool,

@@ -8,7 +8,7 @@ use crate::text::error::Fault;
 /// A traffic light.
 pub(crate) struct Light {
     pub id: String,
-    /// What it shows one after the other, each for a number of steps.
+    /// Its colours in order, each for a number of steps.
     pub phases: Vec<(LightColour, f64)>,
     /// When the first phase begins, in steps.
     pub offset: f64,

@@ -1,4 +1,4 @@
-//! A scenario of CommonRoad as plain values, one file a concept; the format is described in its documentation, versions 2018b and
+//! A scenario of CommonRoad as plain values, one file per concept; the documentation of CommonRoad describes the format, versions 2018b and
 //! 2020a.
 
 mod geometry;
@@ -30,7 +30,6 @@ const VERSIONS: [&str; 2] = ["2018b", "2020a"];
 /// The shortest and the longest step of time \[s\].
 const STEPS_S: [f64; 2] = [0.001, 10.0];
 
-/// A scenario of CommonRoad.
 pub(super) struct CommonRoad<'a> {
     /// Its name among the benchmarks.
     pub benchmark: String,
@@ -48,7 +47,7 @@ impl<'a> CommonRoad<'a> {
     /// Reads a scenario.
     ///
     /// # Errors
-    /// Where it is no scenario of a known version.
+    /// If it is not a scenario of a known version.
     pub(super) fn read(root: Element<'a>, unread: &mut Unread) -> Result<CommonRoad<'a>, Fault> {
         if root.name() != ROOT {
             let message = format!("the outermost element is {}, not `{ROOT}`", quoted(root.name()));
@@ -64,7 +63,7 @@ impl<'a> CommonRoad<'a> {
             let message = format!("`timeStepSize` is {step_s}; it must be from {} to {} s", STEPS_S[0], STEPS_S[1]);
             return Err(root.fault("no step of time", message));
         }
-        // Where and by whom a scenario was made says nothing of how it is driven.
+        // The location and the author of a scenario do not affect the motion.
         let mut scenario = CommonRoad {
             benchmark: root.attribute("benchmarkID").unwrap_or_default().to_owned(),
             step_s,
@@ -91,7 +90,7 @@ impl<'a> CommonRoad<'a> {
     }
 }
 
-/// What is read of a scenario, or says nothing of how it is driven.
+/// The elements of a scenario that are read or do not affect the motion.
 const READ: [&str; 12] = [
     "location",
     "scenarioTags",

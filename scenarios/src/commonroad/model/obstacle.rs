@@ -1,4 +1,4 @@
-//! Obstacles: everything on the road but the vehicle that is to be driven.
+//! Obstacles: all objects on the road except the vehicle of the planning problem.
 
 use super::super::xml::{Element, Unread};
 use super::geometry::Region;
@@ -10,24 +10,24 @@ pub(crate) struct Obstacle<'a> {
     pub id: String,
     pub element: Element<'a>,
     pub role: Role,
-    /// What it is, such as `car` or `parkedVehicle`.
+    /// Its type, such as `car` or `parkedVehicle`.
     pub kind: String,
     /// The parts of its shape.
     pub shape: Vec<Region>,
-    /// Its states in the order of the file, the initial one first; none of what has none.
+    /// Its states in the order of the file, the initial one first; empty if it has none.
     pub states: Vec<StateAt>,
-    /// Whether its motion is stated as sets of places and not as a trajectory.
+    /// Whether its motion is stated as sets of positions and not as a trajectory.
     pub has_occupancies: bool,
 }
 
-/// What part an obstacle plays.
+/// The role of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// It stands.
     Static,
     /// It moves.
     Dynamic,
-    /// It belongs to the surroundings, such as a building, or nobody knows whether it is there.
+    /// It belongs to the surroundings, such as a building, or its existence is unknown.
     Surroundings,
 }
 

@@ -1,4 +1,4 @@
-//! Planning problems: where the vehicle that is to be driven is, and where it should go.
+//! Planning problems: the initial state of the vehicle to be driven, and its goals.
 
 use super::super::xml::{Element, Unread};
 use super::geometry::Region;
@@ -9,18 +9,18 @@ use crate::text::error::Fault;
 pub(crate) struct PlanningProblem<'a> {
     pub element: Element<'a>,
     pub initial: StateAt,
-    /// The acceleration with which it begins \[m/s²\].
+    /// Its initial acceleration \[m/s²\].
     pub acceleration_mps2: Option<f64>,
-    /// Goals of which one has to be reached.
+    /// The goals, one of which has to be reached.
     pub goals: Vec<Goal>,
 }
 
-/// A goal; what is not stated may be anything.
+/// A goal; a quantity that is not stated is free.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Goal {
-    /// The steps of time between which it has to be reached.
+    /// The time steps between which it has to be reached.
     pub time: Option<[f64; 2]>,
-    /// Regions of which one has to be reached.
+    /// The regions, one of which has to be reached.
     pub position: Vec<Region>,
     /// The direction \[rad\].
     pub orientation_rad: Option<[f64; 2]>,
@@ -31,7 +31,7 @@ pub(crate) struct Goal {
 impl<'a> PlanningProblem<'a> {
     pub(super) fn read(element: Element<'a>, unread: &mut Unread) -> Result<PlanningProblem<'a>, Fault> {
         let stated = element.required("initialState")?;
-        // Neither of them is anything but 0 in published scenarios.
+        // Both are 0 in all published scenarios.
         let noted = [&StateAt::READ[..], &["yawRate", "slipAngle", "acceleration"]].concat();
         unread.count_beyond(stated, &noted);
         unread.count_beyond(element, &["initialState", "goalState"]);

@@ -3,14 +3,14 @@
 use super::super::xml::Element;
 use crate::text::error::Fault;
 
-/// A traffic sign, which may consist of several.
+/// A traffic sign, which may have several parts.
 pub(crate) struct Sign {
     pub id: String,
-    /// What each of them says.
+    /// The meaning of each part.
     pub meanings: Vec<SignMeaning>,
 }
 
-/// What a sign says to whoever drives.
+/// The meaning of a sign for drivers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SignMeaning {
     /// No faster than this \[m/s\].
@@ -25,12 +25,12 @@ pub(crate) enum SignMeaning {
     Other(String),
 }
 
-/// Speed limits by country, in the numbers of its law.
+/// Speed limits by country, by the sign numbers of its law.
 const SPEED_LIMITS: [&str; 5] = ["274", "274.1", "R2-1", "r301", "C14"];
 const STOPS: [&str; 3] = ["206", "R1-1", "r2"];
 const YIELDS: [&str; 3] = ["205", "R1-2", "r1"];
 const PRIORITIES: [&str; 3] = ["301", "306", "r3"];
-/// The highest speed limit that is taken for one in metres per second.
+/// The largest number on a sign that is read as metres per second.
 const MAX_LIMIT_MPS: f64 = 100.0;
 
 impl Sign {

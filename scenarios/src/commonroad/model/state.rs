@@ -4,7 +4,7 @@ use super::super::xml::Element;
 use super::geometry::Region;
 use crate::text::error::Fault;
 
-/// A state at a time. What is stated as an interval or region is taken at its middle.
+/// A state at a time. A value that is an interval or a region is taken at its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StateAt {
     /// Number of the step of time.
@@ -13,14 +13,14 @@ pub(crate) struct StateAt {
     pub position: [f64; 2],
     /// Direction \[rad\].
     pub orientation_rad: f64,
-    /// Speed along that direction; 0 where none is stated \[m/s\].
+    /// Speed along that direction; 0 if not stated \[m/s\].
     pub velocity_mps: f64,
-    /// Whether all of it is stated as exact numbers.
+    /// Whether all its values are stated as exact numbers.
     pub is_exact: bool,
 }
 
 impl StateAt {
-    /// What is read of a state.
+    /// The keys of a state that are read.
     pub(super) const READ: [&'static str; 5] = ["position", "orientation", "time", "velocity", "velocityY"];
 
     /// Reads a state.
@@ -32,7 +32,7 @@ impl StateAt {
         let regions = Region::read_all(stated)?;
         let position = regions.first().and_then(Region::middle);
         let position = position.ok_or_else(|| {
-            stated.fault("no place", format!("`position` of {} is no point and no region", element.shown()))
+            stated.fault("no place", format!("`position` of {} is neither a point nor a region", element.shown()))
         })?;
         let value = |key: &'static str| element.child(key).map(|value| value.interval()).transpose();
         let [time, orientation, along, across] = [

@@ -1,6 +1,6 @@
-//! Traffic that was recorded, as plain values: lanes with their bounds, and vehicles with where they were at each step of time.
+//! Recorded traffic as plain values: lanes with their bounds, and vehicles with their positions at each time step.
 //!
-//! It is no scenario: nobody is driven in it. Whoever compares drivers with people, or fits them to people, reads it.
+//! It is not a scenario: it has no drivers. Comparisons of driver models with people, and fits to people, read it.
 
 mod table;
 

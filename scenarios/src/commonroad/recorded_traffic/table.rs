@@ -20,14 +20,14 @@ const STEPS_S: [f64; 2] = [0.01, 2.0];
 /// Reads recorded traffic from a table with the columns `id`, `time_s`, `x_m`, `y_m`, `heading_rad` and `speed_mps`.
 ///
 /// # Errors
-/// Where the file cannot be read or is no such table, with the line.
+/// If the file cannot be read or is not such a table, with the line.
 pub fn recorded_traffic_in_table(path: &Path) -> Result<RecordedTraffic, LoadError> {
     let name = path.display().to_string();
     let refused = |message: String| LoadError::new(name.clone(), vec![Fault::new(message)]);
     let bytes = read_regular(path, MAX_FILE_BYTES)
         .map_err(|error| refused(format!("cannot read {}: {error}", quoted(&name))))?
         .ok_or_else(|| refused(format!("{} is larger than 256 MiB", quoted(&name))))?;
-    let text = String::from_utf8(bytes).map_err(|_| refused(format!("{} is no text in UTF-8", quoted(&name))))?;
+    let text = String::from_utf8(bytes).map_err(|_| refused(format!("{} is not UTF-8 text", quoted(&name))))?;
     recorded_traffic_in_text(&name, &text)
 }
 
@@ -37,7 +37,7 @@ pub fn recorded_traffic_in_table(path: &Path) -> Result<RecordedTraffic, LoadErr
 /// As [`recorded_traffic_in_table`].
 pub fn recorded_traffic_in_text(name: &str, text: &str) -> Result<RecordedTraffic, LoadError> {
     let refused = |(line, problem): (usize, String)| {
-        let message = format!("{} is no table of recorded vehicles: line {line}: {problem}", quoted(name));
+        let message = format!("{} is not a table of recorded vehicles: line {line}: {problem}", quoted(name));
         let help = format!(
             "the first line is `{},{}`, then there is a row for each moment",
             records::ID_COLUMN,
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_has_its_line() {
+    fn an_error_names_its_line() {
         let text = "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,no,0,0,5\n";
         let error = recorded_traffic_in_text("t.csv", text).expect_err("no number");
         assert_eq!(error.faults()[0].line_and_column().map(|(line, _)| line), Some(3));

@@ -1,18 +1,18 @@
 //! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
 //!
-//! It is generated from [`ScenarioFile`](crate::ScenarioFile). Whatever is said of a setting stands on its field: description, type and default, and as
+//! It is generated from [`ScenarioFile`](crate::ScenarioFile). The field of a setting states its description, type and default, and as
 //! `schemars` attributes its bounds, its example, and
 //!
 //! - `x-unit`: the unit of a number whose key does not end with one ([`interplay_common::units`]),
 //! - `x-excludes`: keys that may not stand beside it,
-//! - `x-concerns`: `vehicles` or `building`, for what means nothing without them,
+//! - `x-concerns`: `vehicles` or `building`, for keys that mean nothing without them,
 //! - `x-mechanism`: the mechanism of a planner that it switches off, with the value that does so,
 //! - `x-paths`: its keys are paths of other settings,
 //! - `x-radians`: the key in radians whose value it gives in degrees (`twins`),
 //! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
 //!
-//! The schema of a registry describes a whole scenario, all that it extends included. [`of_file`] describes one file, which may leave to
-//! its parent whatever it does not state.
+//! The schema of a registry describes a whole scenario, including all that it extends. [`of_file`] describes one file, which may omit
+//! required keys that its parent states.
 
 mod node;
 mod twins;
@@ -31,7 +31,7 @@ pub(crate) fn generated<T: JsonSchema>() -> Json {
     generated_with::<T, 0>(|_| [])
 }
 
-/// The same with further kinds; `foreign` makes their schemas, each list with the name of the definition that it extends.
+/// The same with further kinds; `foreign` returns their schemas, each list with the name of the definition that it extends.
 pub(crate) fn generated_with<T: JsonSchema, const N: usize>(
     foreign: impl FnOnce(&mut SchemaGenerator) -> [(&'static str, Vec<Json>); N],
 ) -> Json {
@@ -127,7 +127,7 @@ fn state_unit(key: &str, property: &mut Json) {
     property["x-unit"] = json!(unit);
 }
 
-/// Says in the description of a key which others may not stand beside it.
+/// Adds to the description of a key which others may not stand beside it.
 fn state_exclusions(properties: &mut Map<String, Json>) {
     let excluded = |property: &Json| property.get("x-excludes").and_then(Json::as_array).cloned().unwrap_or_default();
     let pairs: Vec<(String, String)> = properties
@@ -169,7 +169,7 @@ fn drop_nothing(schema: &mut Map<String, Json>) {
     }
 }
 
-/// The skeleton of a schema: only which keys are required, and of which tables below.
+/// The skeleton of a schema: only its required keys, and the tables below it.
 fn requirements(root: &Json, schema: &Json) -> Option<Json> {
     let schema = resolved(root, schema);
     let mut skeleton = Map::new();

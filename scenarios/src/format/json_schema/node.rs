@@ -1,10 +1,10 @@
-//! A part of the schema, with what its keywords say as Rust types.
+//! A part of the schema, with its keywords as Rust types.
 
 use interplay_common::bounds::Bound;
 use interplay_common::json_schema::{definition_of, kind_of, words_of};
 use serde_json::Value as Json;
 
-/// What a key concerns that means nothing without it.
+/// The agents that a key needs to mean anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Concern {
     /// `x-concerns = "vehicles"`.
@@ -13,7 +13,7 @@ pub(crate) enum Concern {
     Building,
 }
 
-/// What the schema says of a value: beside a reference, and in the definition that it refers to.
+/// The schema of a value: the keywords beside a reference, and those of the definition that it refers to.
 #[derive(Clone, Copy)]
 pub(crate) struct SchemaNode<'s> {
     root: &'s Json,
@@ -46,7 +46,7 @@ impl<'s> SchemaNode<'s> {
         definition_of(self.root, self.stated)
     }
 
-    /// What a keyword says here, or else in the definition.
+    /// The value of a keyword here, or else in the definition.
     pub fn keyword(self, keyword: &str) -> Option<&'s Json> {
         self.stated.get(keyword).or_else(|| self.definition().get(keyword))
     }
@@ -60,7 +60,7 @@ impl<'s> SchemaNode<'s> {
         self.text("type")
     }
 
-    /// What the key is about, or the list of which this is an entry; empty if nothing is said.
+    /// The description of the key, or of the list of which this is an entry; empty if there is none.
     pub fn description(self) -> &'s str {
         let of_list = || self.list?.get("description")?.as_str();
         self.text("description").or_else(of_list).unwrap_or_default()
@@ -92,12 +92,12 @@ impl<'s> SchemaNode<'s> {
         self.stated.get("default").is_some_and(|default| same(default, value))
     }
 
-    /// Whether the key is still accepted and no longer written.
+    /// Whether the key is deprecated: accepted, but no longer written.
     pub fn is_deprecated(self) -> bool {
         self.keyword("deprecated").is_some()
     }
 
-    /// What the key concerns, if a scenario may have none of it.
+    /// The agents that the key concerns, if a scenario may be without them.
     pub fn concerns(self) -> Option<Concern> {
         match self.stated.get("x-concerns")?.as_str()? {
             "vehicles" => Some(Concern::Vehicles),
@@ -154,7 +154,7 @@ impl<'s> SchemaNode<'s> {
         forms.into_iter().flatten().map(move |form| self.at(form))
     }
 
-    /// The keys of a table, in the order of the fields; none if this is no table, or one of several kinds.
+    /// The keys of a table, in the order of the fields; empty if this is not a table, or a table of several kinds.
     pub fn properties(self) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
         let properties = self.definition().get("properties").and_then(Json::as_object);
         properties.into_iter().flatten().map(move |(key, stated)| (key, self.at(stated)))
@@ -172,12 +172,12 @@ impl<'s> SchemaNode<'s> {
         required.into_iter().flatten().filter_map(Json::as_str)
     }
 
-    /// What each entry of a list is.
+    /// The schema of the entries of a list.
     pub fn entries(self) -> Option<SchemaNode<'s>> {
         self.keyword("items").map(|items| SchemaNode { list: Some(self.stated), ..self.at(items) })
     }
 
-    /// What each entry of a list of tables is.
+    /// The schema of the entries of a list of tables.
     pub fn table_entries(self) -> Option<SchemaNode<'s>> {
         self.entries().filter(|entry| entry.properties().next().is_some())
     }

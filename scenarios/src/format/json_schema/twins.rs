@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 /// The keyword of a twin: the key whose value it gives.
 pub(crate) const TWIN_OF: &str = "x-radians";
 
-/// The key in degrees beside one in radians; none for other keys.
+/// The key in degrees beside one in radians; `None` for other keys.
 pub(crate) fn in_degrees(key: &str) -> Option<String> {
     let quantity = key.strip_suffix("_rad").filter(|quantity| !quantity.ends_with("_per"))?;
     Some(format!("{quantity}_deg"))
@@ -49,7 +49,7 @@ fn degrees(radians: &Json) -> Json {
     radians.as_f64().map_or_else(|| radians.clone(), |radians| json!(rounded(radians.to_degrees())))
 }
 
-/// To what matters of an angle in degrees.
+/// Converts a number of an angle in radians to degrees.
 pub(crate) fn rounded(angle_deg: f64) -> f64 {
     (1e6 * angle_deg).round() / 1e6
 }

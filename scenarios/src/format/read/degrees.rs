@@ -1,9 +1,9 @@
 //! Angles in files are degrees: `steering_max_deg`. Scenarios hold radians.
 //!
 //! Each key of the schema that ends with `_rad` has a twin that ends with `_deg`, unless the format has that key already. The
-//! twin is an ordinary key of the file; before a scenario is made of the file, its value takes the place of the other's. Keys
-//! in radians are accepted for one version more, with a remark that says what to write; one that no number of degrees gives to the last
-//! bit is written and read in radians without a remark, so that a written drive is the same drive.
+//! twin is an ordinary key of the file; before a scenario is made from the file, its value replaces that of the other. Keys
+//! in radians are accepted for one more version, with a remark that states the replacement. An angle that no number of degrees gives to the
+//! last bit is written and read in radians without a remark, so that a written drive is the same drive.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -39,7 +39,7 @@ fn change_table(schema: SchemaNode, table: &mut Map<String, Json>, change: Table
     }
 }
 
-/// Puts radians in the place of the degrees of every twin.
+/// Replaces the degrees of every twin by radians.
 pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
     change_tables(schema, value, &|schema, table| {
         for (key, property) in schema.properties() {
@@ -53,7 +53,7 @@ pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
     });
 }
 
-/// Puts degrees in the place of radians, wherever a number of degrees gives the same angle to the last bit.
+/// Replaces radians by degrees, wherever a number of degrees gives the same angle to the last bit.
 pub(crate) fn to_degrees(schema: SchemaNode, table: &mut Map<String, Json>) {
     change_table(schema, table, &|schema, table| {
         for (key, _) in schema.properties().filter(|(_, property)| property.is_deprecated()) {
@@ -66,7 +66,7 @@ pub(crate) fn to_degrees(schema: SchemaNode, table: &mut Map<String, Json>) {
     });
 }
 
-/// The number of degrees that is this angle to the last bit, the shortest that is tried; none for one angle of ten.
+/// The shortest number of degrees that gives this angle to the last bit; `None` for about one angle in ten.
 fn exact(radians: f64) -> Option<f64> {
     let nearest = radians.to_degrees();
     let neighbours = [nearest, nearest.next_up(), nearest.next_down()];
@@ -114,7 +114,7 @@ mod tests {
     use crate::Registry;
 
     #[test]
-    fn degrees_take_the_place_of_radians() {
+    fn degrees_replace_radians() {
         let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
         to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_in_degrees_is_read_as_the_same_bits() {
+    fn angles_written_in_degrees_read_back_bit_identical() {
         let schema = Registry::standard().complete();
         let angles = (-3000..3000).map(|angle| f64::from(angle) * 0.001_047_197_551).chain([60.0_f64.to_radians()]);
         let mut in_degrees = 0;

@@ -22,7 +22,7 @@ static SCENARIOS: LazyLock<Vec<Embedded>> = LazyLock::new(|| {
     found
 });
 
-/// Adds the scenarios of a folder and of those in it.
+/// Adds the scenarios of a folder and of its subfolders.
 fn collect(folder: &'static Dir<'static>, found: &mut Vec<Embedded>) {
     for entry in folder.entries() {
         match entry {

@@ -1,4 +1,4 @@
-//! How a file is laid over the one that it extends, and a flag over the file.
+//! Merging of a file with the one that it extends, and of a flag with the file.
 //!
 //! Tables merge key by key, the later one winning; lists are replaced, except those whose schema names a key to merge by
 //! (`[[vehicle]]`: `name`). Two rules keep a variant from having to undo its parent: where a table names another `kind`, the
@@ -7,7 +7,7 @@
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
-/// Merges `over` into `under`, key by key; `schema` is what the format says of the table, if it knows it.
+/// Merges `over` into `under`, key by key; `schema` describes the table, if the format knows it.
 pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: Table) -> Table {
     if let Some(new) = kind(&over).filter(|new| kind(&under) != Some(new)) {
         let table = schema.and_then(|table| table.of_kind(new));

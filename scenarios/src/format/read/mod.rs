@@ -1,4 +1,4 @@
-//! From a name to a tree of keys and values that knows where each is written: files, what they extend, and changes by flags.
+//! From a name to a tree of keys and values with their places: files, what they extend, and changes by flags.
 
 pub(crate) mod degrees;
 pub(crate) mod embedded;

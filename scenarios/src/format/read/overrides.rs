@@ -1,7 +1,7 @@
 //! Changes of a scenario from the command line, such as `--set vehicle.ego.goal.speed_mps=1.2`.
 //!
-//! A change is laid over the file like a file over the one it extends, and then checked like it. Its document is the
-//! text of the flag, so errors point into the flag. The changes of a counterfactual are laid over it in the same way.
+//! A change is merged into the file as a file is merged into the one that it extends, and then checked like it. Its document is the
+//! text of the flag, so errors point into the flag. The changes of a counterfactual are merged in the same way.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, 
 use crate::text::error::{Document, Fault, Place, quoted};
 use crate::text::name::EGO;
 
-/// The most words that a path may have; bounds the depth of what `--set` can make.
+/// The most words of a path; bounds the depth of the tables that `--set` can create.
 const MAX_PATH_STEPS: usize = 16;
 
 /// A change of a scenario by a flag.
@@ -24,11 +24,11 @@ pub enum Override {
     Set(String),
     /// `--seed N`.
     Seed(u64),
-    /// `--planner KIND`: who drives the ego. Settings that this kind does not know are dropped.
+    /// `--planner KIND`: the driver of the ego. Settings that this kind does not know are dropped.
     Planner(String),
 }
 
-/// One word of a path and where it stands in the flag or in the file.
+/// One word of a path and its place in the flag or in the file.
 #[derive(Clone)]
 struct Step {
     word: String,
@@ -36,7 +36,7 @@ struct Step {
 }
 
 impl Override {
-    /// Lays the change over a scenario.
+    /// Merges the change into a scenario.
     pub(crate) fn apply(&self, root: &mut Table, schema: SchemaNode) -> Result<(), Fault> {
         let (steps, value) = match self {
             Override::Set(assignment) => assignment_of(assignment)?,
@@ -56,19 +56,19 @@ impl Override {
     }
 }
 
-/// Lays the kind of driver that `node` holds over that of the ego.
+/// Merges the kind of driver that `node` holds into that of the ego.
 pub(crate) fn lay_planner(root: &mut Table, node: TomlNode, schema: SchemaNode) -> Result<(), Fault> {
     let SettingPath(steps) = ego_kind(root, &node.place);
     lay(Some(schema), root, (&steps, 0), node)
 }
 
-/// The path of the kind of driver of a scenario's ego, written at a place.
+/// The path of the kind of driver of a scenario's ego, written at `place`.
 pub(crate) fn ego_kind(root: &Table, place: &Place) -> SettingPath {
     SettingPath(steps_of(&["vehicle", &ego_name(root), "driver", "kind"], place))
 }
 
 /// Lays a table over a scenario whose keys are paths as `--set` has them, or tables below one another that spell them.
-/// Returns what is wrong with it; the scenario is then changed in part.
+/// Returns the faults; the scenario is then partly changed.
 pub(crate) fn lay_paths(root: &mut Table, set: Table, schema: SchemaNode) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (key, entry) in set {
@@ -97,7 +97,7 @@ fn assignments(
     }
     let is_list = schema.is_some_and(|schema| schema.entries().is_some());
     match entry.node.value {
-        // A list takes entries by name, and an entry keeps what is not stated.
+        // An entry of a list is found by its name and keeps the keys that are not stated.
         TomlValue::Table(table) if is_list || in_list || leads_to_entries(schema, &table) => {
             let mut all = Vec::new();
             for (key, entry) in table {
@@ -109,7 +109,7 @@ fn assignments(
     }
 }
 
-/// Whether a table holds, at some depth, a table in place of a list: then its keys are the names of entries, and the table is a path.
+/// Whether a table contains, at any depth, a table in place of a list: its keys are then names of entries, and the table is a path.
 fn leads_to_entries(schema: Option<SchemaNode>, table: &Table) -> bool {
     table.iter().any(|(key, entry)| {
         let below = schema.and_then(|schema| schema.property(key));
@@ -118,10 +118,10 @@ fn leads_to_entries(schema: Option<SchemaNode>, table: &Table) -> bool {
     })
 }
 
-/// The steps of a path that goes on with a key, in which dots separate the words.
+/// The steps of a path extended by a key, in which dots separate the words.
 fn extended(before: &[Step], key: &str, written: &Place) -> Result<Vec<Step>, Fault> {
     let mut steps = before.to_vec();
-    // A quoted key is longer than its text by its quotes; with escapes in it, the whole of it is underlined.
+    // A quoted key is longer than its text by its quotes; with escapes in it, the whole key is underlined.
     let quotes = written.span.len().saturating_sub(key.len());
     let mut offset = written.span.start + usize::from(quotes > 0);
     for word in key.split('.') {
@@ -153,7 +153,7 @@ impl SettingPath {
         SettingPath(Vec::new())
     }
 
-    /// The path that goes on with a key, written at a place.
+    /// The path extended by a key, written at a place.
     pub fn join(&self, key: &str, place: &Place) -> Result<SettingPath, Fault> {
         extended(&self.0, key, place).map(SettingPath)
     }
@@ -164,17 +164,17 @@ impl SettingPath {
         words.join(".")
     }
 
-    /// What the schema of a scenario says of what is at its end, if it knows.
+    /// The schema at the end of the path, if known.
     pub fn schema<'s>(&self, root: SchemaNode<'s>) -> Option<SchemaNode<'s>> {
         schema_at(root, self.0.iter().map(|step| step.word.as_str()))
     }
 
-    /// Where its words are written.
+    /// The places of its words.
     pub fn places(&self) -> impl Iterator<Item = &Place> {
         self.0.iter().map(|step| &step.place)
     }
 
-    /// Lays a value over a scenario at the end of the path.
+    /// Merges a value into a scenario at the end of the path.
     pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
         if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
@@ -197,14 +197,14 @@ impl SettingPath {
         other_names(root).into_iter().map(of).collect()
     }
 
-    /// Whether it is of every vehicle but the ego.
+    /// Whether it stands for every vehicle but the ego.
     pub fn is_of_others(&self) -> bool {
         let word = |index: usize| self.0.get(index).map(|step: &Step| step.word.as_str());
         (word(0), word(1)) == (Some("vehicle"), Some(OTHER_VEHICLES))
     }
 }
 
-/// What the schema of a scenario says of what is at the end of a path, if it knows.
+/// The schema at the end of a path, if known.
 pub(crate) fn schema_at<'a, 's>(
     root: SchemaNode<'s>,
     words: impl IntoIterator<Item = &'a str>,
@@ -213,7 +213,7 @@ pub(crate) fn schema_at<'a, 's>(
     words.try_fold(root, |schema, word| schema.entries().or_else(|| schema.property(word)))
 }
 
-/// The paths and values of a table such as [`lay_paths`] takes.
+/// The paths and values of a table of the form that [`lay_paths`] takes.
 pub(crate) fn settings_of(set: Table, schema: SchemaNode) -> Result<Vec<(SettingPath, TomlNode)>, Vec<Fault>> {
     let (mut all, mut faults) = (Vec::new(), Vec::new());
     for (key, entry) in set {
@@ -243,7 +243,6 @@ fn steps_of(path: &[&str], place: &Place) -> Vec<Step> {
     path.iter().map(|word| Step { word: (*word).to_owned(), place: place.clone() }).collect()
 }
 
-/// Path and value of `path.to.key=value`.
 fn assignment_of(assignment: &str) -> Result<(Vec<Step>, TomlNode), Fault> {
     let document = Document::new("--set", assignment, 0);
     let place = Place::new(&document, 0..assignment.len());
@@ -268,7 +267,7 @@ fn assignment_of(assignment: &str) -> Result<(Vec<Step>, TomlNode), Fault> {
     Ok((steps, value_of(&document, path.len() + 1, value)))
 }
 
-/// The value that follows the `=`, with blanks around it ignored.
+/// The value after the `=`, without surrounding blanks.
 fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> TomlNode {
     let value = written.trim();
     let offset = offset + (written.len() - written.trim_start().len());
@@ -277,7 +276,7 @@ fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> TomlNode 
     parse_value(document, offset, value).unwrap_or_else(text)
 }
 
-/// Whether `vehicle` has entries; what is no list is left for the check to refuse.
+/// Whether `vehicle` has entries; a value that is not a list is refused by the check.
 fn has_vehicles(root: &Table) -> bool {
     root.get("vehicle").is_some_and(|entry| !entry.node.is_empty_list())
 }
@@ -301,10 +300,10 @@ fn ego_name(root: &Table) -> String {
     ego.map_or(EGO, |name| *name).to_owned()
 }
 
-/// The steps of a path, and how many of them are behind.
+/// The steps of a path, and how many of them have been taken.
 type Progress<'a> = (&'a [Step], usize);
 
-/// Lays a value over a table at the end of a path, making the tables and lists on the way that are not there yet.
+/// Merges a value into a table at the end of a path, and creates missing tables and lists on the way.
 fn lay(schema: Option<SchemaNode>, table: &mut Table, path: Progress<'_>, value: TomlNode) -> Result<(), Fault> {
     let (steps, done) = path;
     let Some(step) = steps.get(done) else { return Ok(()) };
@@ -330,7 +329,7 @@ fn lay(schema: Option<SchemaNode>, table: &mut Table, path: Progress<'_>, value:
     }
 }
 
-/// Lays a value over the entry of a list that the next step names; `schema` is that of an entry.
+/// Merges a value into the entry of a list that the next step names; `schema` is that of an entry.
 fn lay_in_list(
     schema: Option<SchemaNode>,
     items: &mut [TomlNode],
@@ -371,7 +370,7 @@ fn no_such_entry((steps, done): Progress<'_>, labels: &[String]) -> Fault {
     Fault::at(&step.place, "unknown", message).help(help)
 }
 
-/// The path up to and with the next step, as it is written.
+/// The path up to and including the next step, as written.
 fn written((steps, done): Progress<'_>) -> String {
     let words: Vec<&str> = steps.iter().take(done + 1).map(|step| step.word.as_str()).collect();
     words.join(".")

@@ -1,4 +1,4 @@
-//! Reads files that people name: ordinary ones only, up to a size, and without waiting.
+//! Reads files that users name: regular files only, up to a size, and without waiting.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
@@ -6,11 +6,11 @@ use std::path::Path;
 
 /// Opens a file for reading.
 ///
-/// A pipe or a device is refused, because reading it may wait for ever or never end. Where a file that claims to be ordinary would make
-/// a reader wait, as some below `/proc` do, reading it fails instead.
+/// Refuses a pipe or a device, because reading it may block for ever or never end. If a file that claims to be regular would block a
+/// reader, as some below `/proc` do, reading it fails instead.
 ///
 /// # Errors
-/// That of the system, or what the path leads to instead of an ordinary file.
+/// The system's error, or the type of the file if it is not regular.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
@@ -27,7 +27,7 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// The content of an ordinary file of at most `limit` bytes; none of a larger one.
+/// The content of a regular file of at most `limit` bytes; `None` for a larger one.
 ///
 /// # Errors
 /// As [`open_regular`], and those of reading.
@@ -42,17 +42,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ordinary_files_are_read_up_to_the_limit() {
+    fn regular_files_are_read_up_to_the_limit() {
         let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
         let length = std::fs::metadata(&here).expect("there").len();
         assert_eq!(read_regular(&here, length).expect("read").expect("within the limit").len() as u64, length);
         assert_eq!(read_regular(&here, length - 1).expect("read"), None);
     }
 
-    /// A device that never ends, one whose reader waits, and a folder.
+    /// An endless device, one that blocks its reader, and a folder.
     #[cfg(unix)]
     #[test]
-    fn what_is_no_ordinary_file_is_refused_at_once() {
+    fn pipes_devices_and_folders_are_refused_at_once() {
         for path in ["/dev/zero", "/dev/tty", "/dev", "/nowhere"] {
             assert!(read_regular(Path::new(path), 10).is_err(), "{path}");
         }

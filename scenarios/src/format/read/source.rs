@@ -1,4 +1,4 @@
-//! Where a scenario comes from: a file, or the authored ones inside the binary.
+//! The source of a scenario: a file, or an authored one in the binary.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -17,7 +17,7 @@ const MAX_FILE_BYTES: u64 = 1 << 20;
 /// The largest file of another format that is read: maps of towns take some megabytes.
 pub(crate) const MAX_IMPORTED_BYTES: u64 = 1 << 26;
 
-/// Where a scenario comes from.
+/// The source of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An authored scenario, embedded in the binary.
@@ -29,8 +29,8 @@ pub enum Source {
 }
 
 impl Source {
-    /// The authored scenario of that name, otherwise the file at that path. Whether the file can be read shows when it
-    /// is.
+    /// The authored scenario of that name, otherwise the file at that path. An unreadable file is only found when it is
+    /// read.
     ///
     /// # Errors
     ///
@@ -86,7 +86,7 @@ impl Source {
         }
     }
 
-    /// How errors call it.
+    /// Its name in errors.
     pub(crate) fn title(&self) -> String {
         match self {
             Source::Embedded(file) => format!("{}.toml", file.name),
@@ -120,12 +120,12 @@ impl Source {
     }
 }
 
-/// The text of a file of another format, which is to be imported.
+/// The text of a file of another format, for import.
 pub(crate) fn imported_text(path: &Path) -> Result<String, Fault> {
     decoded(&path.display().to_string(), &read_bytes(path, MAX_IMPORTED_BYTES)?, 1)
 }
 
-/// What to try instead of a name that leads nowhere.
+/// Suggestions for a name that does not exist.
 fn other_names(missing: &str) -> String {
     let word = missing.strip_suffix(".toml").unwrap_or(missing);
     let names = || embedded::embedded().iter().map(|file| file.name);

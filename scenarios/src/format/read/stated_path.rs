@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::text::error::{Place, quoted};
 
-/// The path of a file that is called `file` at a place: relative to the folder of the text that states it. A flag is no file, so
-/// what it names is relative to the current folder.
+/// The path of a file that is called `file` at a place: relative to the folder of the text that states it. A path in a flag is
+/// relative to the current folder.
 pub(crate) fn path_beside(place: &Place, file: &str) -> PathBuf {
     folder_of(place).join(file)
 }

@@ -1,16 +1,16 @@
-//! Lines of files that a scenario names, as places of errors.
+//! Lines of data files that a scenario names, as places of errors.
 
 use crate::text::error::{Document, Place};
 
-/// A line of a file that is not what it should be, counted from 1: errors show its number, and nothing of what is written there. A
-/// scenario may name any file, and who runs it need not be who wrote it.
+/// A wrong line of a file, counted from 1: errors show its number, but not its text. A scenario may name any file, and its user may not
+/// be its author.
 pub(crate) fn line_without_text(title: &str, line: usize, rank: usize) -> Place {
     let above = line.saturating_sub(1);
     let document = Document::new(title, &format!("{}{NOT_SHOWN}", "\n".repeat(above)), rank);
     Place::new(&document, above..above + NOT_SHOWN.len())
 }
 
-/// What errors show in the place of a line.
+/// The text that errors show in place of a line.
 const NOT_SHOWN: &str = "(not shown)";
 
 /// A line of a text, counted from 1. Documents of a higher `rank` are listed later.

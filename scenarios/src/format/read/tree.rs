@@ -1,4 +1,4 @@
-//! A TOML text as a tree whose every key and value knows where it is written.
+//! A TOML text as a tree whose every key and value has a place.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -9,14 +9,14 @@ use toml::de::{DeTable, DeValue};
 use crate::text::error::{Document, Fault, Place};
 use crate::text::toml_value::toml;
 
-/// A value and where it is written.
+/// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct TomlNode {
     pub place: Place,
     pub value: TomlValue,
 }
 
-/// A TOML value. Numbers are wider than what a scenario may hold, so that the check can say what is wrong with them.
+/// A TOML value. Its numbers have a wider range than those of a scenario, so that the check can report bad ones.
 #[derive(Clone, Debug)]
 pub(crate) enum TomlValue {
     Text(String),
@@ -38,7 +38,7 @@ pub(crate) struct TomlEntry {
     pub node: TomlNode,
 }
 
-/// How many syntax errors are reported at most; later ones tend to follow from the first.
+/// The most syntax errors that are reported; later ones tend to follow from the first.
 const MAX_SYNTAX_ERRORS: usize = 3;
 
 /// Parses a document. The nesting depth is bounded by the parser.
@@ -61,7 +61,7 @@ pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Ve
     Err(faults.collect())
 }
 
-/// The number around a decimal comma, written with a point; `None` where no such number stands.
+/// The number around a decimal comma, written with a point; `None` if there is no such number.
 fn decimal_point(text: &str, comma: usize) -> Option<String> {
     let (before, after) = (text.get(..comma)?, text.get(comma..)?.strip_prefix(',')?);
     let whole = before.rsplit(|character: char| !character.is_ascii_digit()).next()?;
@@ -69,7 +69,7 @@ fn decimal_point(text: &str, comma: usize) -> Option<String> {
     (!whole.is_empty() && !fraction.is_empty()).then(|| format!("{whole}.{fraction}"))
 }
 
-/// The fault of a header such as `[vehicle]` that stands twice, or beside `[[vehicle]]`: a list wants two brackets. All other
+/// The fault of a header such as `[vehicle]` that occurs twice, or beside `[[vehicle]]`: a list needs two brackets. All other
 /// errors follow from it.
 fn single_brackets(document: &Arc<Document>, text: &str, span: std::ops::Range<usize>) -> Option<Fault> {
     let start = text.get(..span.start)?.rfind('\n').map_or(0, |end| end + 1);
@@ -124,7 +124,7 @@ fn from_value(document: &Arc<Document>, offset: usize, value: Spanned<DeValue<'_
 /// The most characters of a value that an error shows.
 const MAX_SHOWN: usize = 100;
 
-/// The tree of a scenario that code made. It is written nowhere: the place of a value is the path of its key.
+/// The tree of a scenario made in code. It has no text: the place of a value is the path of its key.
 pub(crate) fn of_value(value: &Json) -> TomlNode {
     entry_of_value("", "", value).node
 }
@@ -136,7 +136,7 @@ fn entry_of_value(table: &str, key: &str, value: &Json) -> TomlEntry {
     let shown: String = format!("{key}{before}{}", toml(value)).chars().take(MAX_SHOWN).collect();
     let document = Document::of_key(name, &shown, 1);
     let span = (key.len() + before.len()).min(shown.len())..shown.len();
-    // Of a table, an error then points at the whole and not at the first key.
+    // For a table, an error then points at the whole and not at the first key.
     let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
     let value = match value {
         Json::Object(stated) => {
@@ -186,7 +186,7 @@ impl TomlNode {
         }
     }
 
-    /// Says of it and of everything below it that it is written at a place.
+    /// Sets the place of it and of everything below it.
     pub fn set_place(&mut self, place: &Place) {
         self.place = place.clone();
         match &mut self.value {
@@ -199,7 +199,7 @@ impl TomlNode {
         }
     }
 
-    /// What is written at a path, to be changed.
+    /// The value at a path, mutable.
     pub fn at_mut(&mut self, path: &str) -> Option<&mut TomlNode> {
         path.split('.').try_fold(self, |node, step| match &mut node.value {
             TomlValue::Table(table) => table.get_mut(step).map(|entry| &mut entry.node),
@@ -222,8 +222,8 @@ impl TomlNode {
         }
     }
 
-    /// Where the value at a path such as `vehicle.0.start.x_m` is written, or the innermost table around it that is. Of
-    /// a table, that is the part that was stated last, so that a flag is blamed for what it changed.
+    /// The place of the value at a path such as `vehicle.0.start.x_m`, or of the innermost table around it. For a
+    /// table, that is the part that was stated last, so that a flag is blamed for what it changed.
     pub fn place_of(&self, path: &str) -> &Place {
         let mut node = self;
         for step in path.split('.') {
@@ -236,7 +236,7 @@ impl TomlNode {
         parts.chain([&node.place]).min_by_key(|place| (place.document.rank, place.span.start)).unwrap_or(&node.place)
     }
 
-    /// What is written at a path, if anything is.
+    /// The value at a path, if stated.
     pub fn at(&self, path: &str) -> Option<&TomlNode> {
         path.split('.').try_fold(self, |node, step| node.child(step))
     }
@@ -262,7 +262,7 @@ impl TomlNode {
     }
 }
 
-/// What a value is, in the words of an error message.
+/// The type of a value, in the words of an error message.
 pub(crate) fn kind_of(value: &TomlValue) -> &'static str {
     match value {
         TomlValue::Text(_) => "a text",

@@ -1,4 +1,4 @@
-//! Kinds of other crates, of drivers, controllers or roads: how their settings are described and read.
+//! Kinds of drivers, controllers or roads from other crates: how their settings are described and read.
 
 use std::fmt;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use serde_json::{Error, Map, Value as Json, json};
 pub(crate) struct ForeignKind<Kind: ?Sized> {
     /// Its word in a scenario file.
     pub kind: &'static str,
-    /// What tells its results from those of earlier versions.
+    /// Its version, which distinguishes its results from those of earlier ones.
     pub version: &'static str,
     /// The kind with the defaults of its settings.
     pub plain: Arc<Kind>,

@@ -1,4 +1,4 @@
-//! What a scenario file may name: the kinds of drivers, controllers and roads and the metrics of Interplay and of other crates.
+//! The names that a scenario file may use: the kinds of drivers, controllers and roads and the metrics of Interplay and of other crates.
 
 pub(crate) mod foreign_kind;
 
@@ -21,7 +21,7 @@ use crate::model::traffic::obstacle::DeclaredObstacle;
 use crate::roads::{Road, RoadForm};
 use crate::text::name;
 
-/// What a scenario file may name: the kinds of drivers, and with them the JSON Schema that files are checked against.
+/// The names that a scenario file may use: the kinds of drivers and so on, and with them the JSON Schema of files.
 ///
 /// Loading, sweeping and everything else that reads a scenario is a method of a registry. [`Registry::standard`] has the kinds
 /// of Interplay; [`load`](crate::load) and the other functions of the crate are shorthands for it. A program with kinds of its
@@ -81,7 +81,7 @@ pub enum RegistryError {
     /// The word could not be written in a scenario file, on the command line and in the path of a recording alike.
     #[error("a kind cannot be called `{0}`: {help}", help = name::in_words())]
     NotAName(&'static str),
-    /// There is a metric of this name already, or something else in reports or rows is called so.
+    /// A metric of this name exists already, or another entry of reports or rows has this name.
     #[error("a metric cannot be called `{0}`: something in reports or in rows of sweeps is called so already")]
     MetricTaken(String),
 }
@@ -133,11 +133,11 @@ impl Registry {
     /// The same registry with another kind of driver: that of these settings.
     ///
     /// A table `driver = { kind = "…", … }` of a scenario file is checked against the schema of the settings and read by
-    /// `serde`. Whatever is said of a setting stands on its field, as in Interplay: units, bounds, examples, defaults
+    /// `serde`. The fields of the settings state all that the schema says, as in Interplay: units, bounds, examples, defaults
     /// (`docs/guide/extending.md`).
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_driver<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: DriverKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -152,7 +152,7 @@ impl Registry {
     /// The same registry with another kind of controller: that of these settings, as [`Registry::with_driver`].
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_controller<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: ControllerKind + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -169,7 +169,7 @@ impl Registry {
     /// The same registry with another form of road: that of these settings, as [`Registry::with_driver`].
     ///
     /// # Errors
-    /// [`RegistryError`] if the form's word is taken or is no name.
+    /// [`RegistryError`] if the form's word is taken or is not a valid name.
     pub fn with_road<S>(mut self) -> Result<Registry, RegistryError>
     where
         S: RoadForm + Default + Serialize + DeserializeOwned + JsonSchema + 'static,
@@ -184,7 +184,7 @@ impl Registry {
     /// The same registry with another kind of obstacle: a word with its usual size.
     ///
     /// # Errors
-    /// [`RegistryError`] if the kind's word is taken or is no name.
+    /// [`RegistryError`] if the kind's word is taken or is not a valid name.
     pub fn with_obstacle(mut self, obstacle: DeclaredObstacle) -> Result<Registry, RegistryError> {
         let words = self.complete().property("obstacle").and_then(SchemaNode::entries);
         let words = words.and_then(|entry| entry.property("kind")).map(SchemaNode::words).unwrap_or_default();
@@ -198,7 +198,7 @@ impl Registry {
         self
     }
 
-    /// The same registry with another metric declared. What computes it is known to who made the value: users of the simulation
+    /// The same registry with another declared metric. The caller who made the value knows how to compute it: users of the simulation
     /// call `with_metric` of `interplay_simulation::measure::RegisterMetrics`.
     ///
     /// # Errors
@@ -213,8 +213,8 @@ impl Registry {
         Ok(self)
     }
 
-    /// The metrics that are declared. Without any, `[[expect.metric]]` may name whatever it likes; whoever runs the scenario knows
-    /// which metrics there are.
+    /// The declared metrics. If none are declared, `[[expect.metric]]` may use any name; the program that runs the scenario then
+    /// checks it.
     pub fn metrics(&self) -> &RegisteredMetrics {
         &self.metrics
     }
@@ -251,12 +251,12 @@ impl Registry {
         self.complete().property("road").map(SchemaNode::kinds).unwrap_or_default()
     }
 
-    /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
+    /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat its parent's keys.
     pub fn schema(&self) -> Json {
         json_schema::of_file(&self.schema)
     }
 
-    /// The schema of a whole scenario, all that it extends included.
+    /// The schema of a whole scenario, including all that it extends.
     pub(crate) fn complete(&self) -> SchemaNode<'_> {
         SchemaNode::new(&self.schema)
     }
@@ -264,7 +264,7 @@ impl Registry {
     /// The driver that a table of a scenario file describes.
     ///
     /// # Errors
-    /// What keeps the table from being the settings of its kind, although it fits the schema.
+    /// The reason why the table cannot be read as the settings of its kind, although it fits the schema.
     pub(crate) fn driver(&self, table: Stated<Driver>) -> Result<Driver, serde_json::Error> {
         match named_by(&self.foreign.drivers, &table) {
             Some(foreign) => foreign.settings(table.into_keys()).map(Driver::Foreign),
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_may_leave_out_what_a_complete_file_must_state() {
+    fn a_variant_may_omit_required_keys() {
         let whole_scenario = complete(&ForeignKinds::default());
         let file = json_schema::of_file(&whole_scenario);
         let definitions = file["$defs"].to_string();

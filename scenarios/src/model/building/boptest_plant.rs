@@ -1,4 +1,4 @@
-//! A test case of BOPTEST as the building.
+//! A BOPTEST test case as the building.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::boptest_forecast::BoptestForecast;
 
-/// Where the test case of BOPTEST is, which of its tests is run, and what its signals mean to the zones of the file.
+/// The address of the BOPTEST test case, the test that is run, and the meaning of its signals for the zones of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestPlantConfig {
@@ -16,12 +16,12 @@ pub struct BoptestPlantConfig {
     pub url: Option<String>,
     /// In place of a server: the case as a functional mock-up unit of FMI 2.0 for co-simulation with a library for Linux on x86-64, which
     /// `interplay` runs in a process of its own. The path is relative to the scenario or plan that states it, and in a flag to the
-    /// current folder. There are no indicators of BOPTEST then, only ours.
+    /// current folder. Only our indicators are then computed, not those of BOPTEST.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"wrapped.fmu", length(min = 1), extend("x-excludes" = ["url"]))]
     pub fmu: Option<String>,
-    /// With `fmu`: how often its measurements are taken, at the ends of as many communication steps \[s\]. A step of the building is a
-    /// whole number of these.
+    /// With `fmu`: the time between its measurements, a whole number of communication steps \[s\]. A step of the building is a
+    /// multiple of it.
     #[serde(default = "default_sampling_s")]
     #[schemars(range(min = 0.001, max = 86400.0), example = 30.0)]
     pub sampling_s: f64,
@@ -44,18 +44,18 @@ pub struct BoptestPlantConfig {
     /// The prices of electricity by which BOPTEST computes the cost.
     #[serde(default)]
     pub prices: BoptestPrices,
-    /// What each zone of the file is in the case, in their order.
+    /// The role of each zone of the file in the case, in their order.
     #[schemars(length(min = 1, max = 1000), example = json!([{ "temperature": "reaTZon_y" }]))]
     pub zones: Vec<BoptestZone>,
-    /// The signals by which the indicators are computed by us, too; none leaves it to BOPTEST.
+    /// The signals from which we compute the indicators, too; without them only BOPTEST does.
     #[serde(default)]
     #[schemars(example = json!({ "area_m2": 192.0, "zones": ["1"] }))]
     pub indicators: Option<BoptestIndicators>,
-    /// What controllers are told beforehand by the case; none leaves weather, people, wanted temperatures and prices to the file.
+    /// The forecasts that controllers get from the case; without them, weather, people, wanted temperatures and prices are the file's.
     #[serde(default)]
     #[schemars(example = json!({ "zones": ["1"] }))]
     pub forecast: Option<BoptestForecast>,
-    /// The longest that the server may take to accept a connection, and for each answer \[s\]; a warm-up is one answer.
+    /// The time limit for the server to accept a connection, and for each answer \[s\]; a warm-up is one answer.
     #[serde(default = "default_timeout_s")]
     #[schemars(range(min = 0.001, max = 86400.0), example = 600.0)]
     pub timeout_s: f64,
@@ -89,10 +89,10 @@ impl BoptestPrices {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestZone {
-    /// The measurement that is its temperature, in kelvin there.
+    /// The measurement of its temperature; BOPTEST states it in kelvin.
     #[schemars(example = &"reaTZon_y", length(min = 1))]
     pub temperature: String,
-    /// The inputs that its heat overwrites; none leaves the zone to the case's own controller.
+    /// The inputs that its heat overwrites; without any, the case's own controller keeps the zone.
     #[serde(default)]
     #[schemars(length(max = 100), example = json!([{ "name": "oveHeaPumY_u", "per_kw": 0.1 }]))]
     pub inputs: Vec<BoptestInput>,
@@ -102,7 +102,7 @@ pub struct BoptestZone {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestInput {
-    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it. An FMU that is no case of BOPTEST may
+    /// The input, such as `oveHeaPumY_u`; its activation, `oveHeaPumY_activate`, is set with it. An FMU that is not a BOPTEST case may
     /// have inputs with other endings and without activation.
     #[schemars(example = &"oveHeaPumY_u", length(min = 1))]
     pub name: String,
@@ -121,8 +121,8 @@ pub struct BoptestInput {
     #[serde(default = "default_max")]
     #[schemars(range(min = -1e6, max = 1e6), example = 1.0, extend("x-unit" = "unit of the input"))]
     pub max: f64,
-    /// Equipment that runs badly at part load gets at least this or nothing; what is held back is made up for in later steps, so that
-    /// the mean is what the heat asks for.
+    /// Equipment that runs badly at part load gets at least this or nothing; the heat held back is added to later steps, so that
+    /// the mean is the requested heat.
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6), example = 0.8, extend("x-unit" = "unit of the input"))]
     pub least_on: Option<f64>,
@@ -168,7 +168,7 @@ fn default_timeout_s() -> f64 {
     600.0
 }
 
-/// That of BOPTEST's measurements.
+/// The sampling time of BOPTEST's measurements.
 fn default_sampling_s() -> f64 {
     30.0
 }
@@ -178,7 +178,7 @@ fn default_max() -> f64 {
 }
 
 impl BoptestPlantConfig {
-    /// What is wrong with the settings for a building of `zones` zones: the key below `building.plant`, and what.
+    /// The first fault of the settings for a building of `zones` zones: the key below `building.plant`, and the problem.
     pub(crate) fn fault(&self, zones: usize) -> Option<(String, String)> {
         if let Some(fault) = self.fault_of_source() {
             return Some(fault);
@@ -201,7 +201,7 @@ impl BoptestPlantConfig {
         self.fault_of_signals(zones)
     }
 
-    /// What is wrong with the address or the file, and with the time of the test.
+    /// The first fault of the address or the file, and of the time of the test.
     fn fault_of_source(&self) -> Option<(String, String)> {
         match (&self.url, &self.fmu) {
             (Some(url), None) => {
@@ -209,7 +209,7 @@ impl BoptestPlantConfig {
                 let plain = |character: char| character.is_ascii_alphanumeric() || "-._:[]".contains(character);
                 let path = |character: char| character.is_ascii_graphic();
                 if authority.is_empty() || !authority.chars().all(plain) || !url.chars().all(path) {
-                    return Some(("url".to_owned(), "is no address such as `http://127.0.0.1:8080`".to_owned()));
+                    return Some(("url".to_owned(), "is not an address such as `http://127.0.0.1:8080`".to_owned()));
                 }
             }
             (None, Some(_)) => {}
@@ -217,7 +217,7 @@ impl BoptestPlantConfig {
         }
         let word = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
         if self.case.as_ref().is_some_and(|case| !case.chars().all(word)) {
-            return Some(("case".to_owned(), "is no name of letters, digits, `_` and `-`".to_owned()));
+            return Some(("case".to_owned(), "may only contain letters, digits, `_` and `-`".to_owned()));
         }
         if self.period.is_some() && self.start_day != 0 {
             return Some((
@@ -228,7 +228,7 @@ impl BoptestPlantConfig {
         None
     }
 
-    /// What is wrong with the signals of indicators and forecasts.
+    /// The first fault of the signals of indicators and forecasts.
     fn fault_of_signals(&self, zones: usize) -> Option<(String, String)> {
         let wanted = || format!("must have one entry for each of the {zones} zones");
         if let Some(listed) = &self.indicators {
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_the_zones_is_named() {
+    fn settings_that_do_not_fit_the_zones_are_named() {
         let fault = |change: fn(&mut BoptestPlantConfig)| {
             let mut wrong = config("http://localhost");
             change(&mut wrong);

@@ -1,6 +1,6 @@
 //! The building of a scenario: its zones and walls.
 //!
-//! A building has a clock of its own: it goes from step to step, and an iteration is a day.
+//! A building has its own clock: it advances step by step, and an iteration is a day.
 
 use interplay_building::discretise::Discretisation;
 use interplay_building::network::{ModelMismatch, Network, NetworkError, Wall, Zone};
@@ -34,14 +34,14 @@ pub struct BuildingConfig {
     /// Time from one step to the next, such as 900 or 1800; a day must be a whole number of steps \[s\].
     #[schemars(range(min = 60.0, max = 3600.0))]
     pub step_s: f64,
-    /// How time is cut into steps.
+    /// The time grid of the steps.
     pub method: Discretisation,
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
-    /// Factors between the model that the controller uses and the building.
+    /// Factors between the controller's model and the building.
     pub believed: ModelMismatch,
-    /// What the heat of the equipment acts on: the network above, or another program.
+    /// The system that the heat of the equipment acts on: the network above, or another program.
     pub plant: BuildingPlant,
 }
 
@@ -61,7 +61,7 @@ impl Default for BuildingConfig {
     }
 }
 
-/// A building with a name of its own.
+/// A predefined building.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
@@ -76,10 +76,10 @@ pub struct Grid {
     /// How many rows of rooms there are.
     #[schemars(range(min = 1, max = 1000), example = 3)]
     pub rows: usize,
-    /// How many rooms a row has.
+    /// The number of rooms in a row.
     #[schemars(range(min = 1, max = 1000), example = 4)]
     pub columns: usize,
-    /// How many floors of such rooms lie above one another.
+    /// The number of floors of such rooms.
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]
     pub floors: usize,
@@ -96,7 +96,7 @@ impl Grid {
     }
 }
 
-/// The drawing of rooms: floors side by side, rooms of a floor by rows.
+/// The layout of rooms in drawings: floors side by side, rooms of a floor in rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorPlan {
     /// Rooms in a row.
@@ -111,7 +111,7 @@ impl BuildingConfig {
     /// The thermal network.
     ///
     /// # Errors
-    /// [`NetworkError`] if zones and walls make none; never for a scenario that was loaded.
+    /// [`NetworkError`] if zones and walls do not form a network; never for a loaded scenario.
     pub fn network(&self) -> Result<Network, NetworkError> {
         match (self.preset, self.grid) {
             _ if !self.zones.is_empty() => Network::new(&self.zones, &self.walls),
@@ -121,7 +121,7 @@ impl BuildingConfig {
         }
     }
 
-    /// What the controller takes the network for.
+    /// The controller's model of the network.
     ///
     /// # Errors
     /// As [`BuildingConfig::network`], and if a believed factor is out of range.
@@ -129,7 +129,7 @@ impl BuildingConfig {
         self.network()?.believed(&self.believed)
     }
 
-    /// How its rooms are drawn: as its grid says, or on one floor about as wide as deep.
+    /// The layout of its rooms in drawings: that of its grid, or one floor about as wide as deep.
     pub fn floor_plan(&self) -> FloorPlan {
         let flat = |zones: usize| {
             let columns = (zones as f64).sqrt().ceil() as usize;

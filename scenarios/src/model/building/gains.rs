@@ -20,7 +20,7 @@ pub struct GainsConfig {
     /// Whether the heat comes beside that of people by schedule; otherwise it takes its place, in the zones of the table.
     #[serde(default)]
     pub beside_people: bool,
-    /// Whether controllers are told of it beforehand. Otherwise they expect what the schedule says.
+    /// Whether controllers know it in advance. Otherwise they expect the schedule.
     #[serde(default)]
     pub is_forecast: bool,
     /// Days of the table before the first day of the run.
@@ -36,10 +36,10 @@ fn one() -> f64 {
     1.0
 }
 
-/// A table of gains that was read.
+/// A table of gains after reading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedGainsFile {
-    /// What is stated of the table.
+    /// Its statement in the file.
     pub stated: GainsConfig,
     /// Where the table was found: an absolute path.
     pub found: String,
@@ -48,7 +48,7 @@ pub struct RecordedGainsFile {
 }
 
 impl RecordedGainsFile {
-    /// What a file states of it.
+    /// Its statement in a file.
     pub(crate) fn config(&self) -> GainsConfig {
         GainsConfig { file: self.found.clone(), ..self.stated.clone() }
     }

@@ -1,4 +1,4 @@
-//! The building of a scenario: its network, what its heat acts on, the weather around it and the heat in it.
+//! The building of a scenario: its network, its plant, the weather around it and the heat in it.
 
 pub(crate) mod boptest_forecast;
 pub(crate) mod boptest_plant;

@@ -11,13 +11,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Synthetic {
-    /// What the climate is like; by default like Singapore's.
+    /// The climate; by default that of Singapore.
     pub climate: Climate,
-    /// How a day's temperatures are forecast at its start; by default without error.
+    /// The forecast of a day's temperatures at its start; by default without error.
     pub forecast: Forecast,
 }
 
-/// WeatherConfig from an EPW file, from a midnight on.
+/// The weather of an EPW file, from a midnight on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EpwFile {
@@ -33,10 +33,10 @@ pub struct EpwFile {
     #[serde(default)]
     #[schemars(range(min = 1, max = 31), example = 8)]
     pub day: Option<u32>,
-    /// How a day's temperatures are forecast at its start; by default without error.
+    /// The forecast of a day's temperatures at its start; by default without error.
     #[serde(default)]
     pub forecast: Forecast,
-    /// The longest gap in what the run uses that is bridged, with a remark; a longer one is refused \[h\].
+    /// The longest gap in the used rows that is bridged, with a remark; a longer one is refused \[h\].
     #[serde(default = "default_bridge_gaps_h")]
     #[schemars(range(min = 0.0, max = 100000.0))]
     pub bridge_gaps_h: f64,
@@ -63,27 +63,27 @@ pub enum WeatherSource {
     Csv(CsvWeather),
 }
 
-/// An EPW file that was read, and the first day that is simulated.
+/// An EPW file after reading, and the first day that is simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpwWeather {
-    /// What is stated of the file.
+    /// Its statement in the file.
     pub stated: EpwFile,
     /// Where the file was found: an absolute path, or its name in the binary.
     pub found: String,
-    /// What it says.
+    /// Its content.
     pub rows: Arc<Epw>,
     /// Midnight at the start of the first day, as time after that of the file's first \[s\].
     pub start_s: f64,
 }
 
-/// A table of weather that was read.
+/// A table of weather after reading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CsvWeather {
-    /// What is stated of the table.
+    /// Its statement in the file.
     pub stated: RecordedWeather,
     /// Where the table was found: an absolute path.
     pub found: String,
-    /// What it says of the run, from its first midnight on.
+    /// Its rows for the run, from its first midnight on.
     pub weather: Arc<Weather>,
     /// The weekday of the first day, if the table has dates.
     pub first_weekday: Option<Weekday>,
@@ -96,7 +96,7 @@ impl Default for WeatherSource {
 }
 
 impl WeatherSource {
-    /// How a day's temperatures are forecast.
+    /// The forecast of a day's temperatures.
     pub fn forecast(&self) -> Forecast {
         match self {
             WeatherSource::Synthetic(synthetic) => synthetic.forecast,

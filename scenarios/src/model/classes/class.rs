@@ -1,4 +1,4 @@
-//! What vehicles of a class measure and can do.
+//! Sizes and limits of the classes of vehicles.
 
 use interplay_planners::road::network::LaneUser;
 use interplay_planners::{Body, Limits, SafetyEllipse};
@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::scale::FULL_SCALE;
 
-/// What sort of vehicle it is.
+/// The class of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum VehicleClass {
-    /// A car at 1/10 scale: Tables 6.1 and 6.2 of the source.
+    /// A car at 1/10 scale: Tables 6.1 and 6.2 of the dissertation.
     ScaleCar,
     /// A compact car, 4.5 m long.
     Car,
@@ -23,7 +23,7 @@ pub enum VehicleClass {
     Bus,
     /// A bicycle with its rider, 1.8 m long.
     Bicycle,
-    /// Somebody on foot.
+    /// A pedestrian.
     Pedestrian,
 }
 
@@ -39,14 +39,14 @@ pub(crate) struct ClassDimensions {
 const FULL_SIZE_ACROSS_M: f64 = 3.3;
 
 impl VehicleClass {
-    /// The class of vehicles that state none, in a scenario of a scale.
+    /// The class of vehicles that do not state one, in a scenario of a scale.
     pub(crate) fn of_scale(is_full: bool) -> VehicleClass {
         if is_full { VehicleClass::Car } else { VehicleClass::ScaleCar }
     }
 
     /// The ratio of lengths to those of a 1/10 scale car by which settings are scaled.
     ///
-    /// It is the same for all vehicles of real roads, whatever their own length: settings weigh lane widths, gaps and speeds,
+    /// It is the same for all full-size vehicles, whatever their own length: settings weigh lane widths, gaps and speeds,
     /// which are those of the traffic.
     pub(crate) fn scale(self) -> f64 {
         match self {
@@ -55,7 +55,7 @@ impl VehicleClass {
         }
     }
 
-    /// As what it uses lanes that are kept for some.
+    /// The type of road user that restricted lanes admit it as.
     pub(crate) fn lane_user(self) -> LaneUser {
         match self {
             VehicleClass::ScaleCar | VehicleClass::Car | VehicleClass::Van => LaneUser::Car,
@@ -66,10 +66,10 @@ impl VehicleClass {
         }
     }
 
-    /// What vehicles of the class measure and can do.
+    /// The size and the limits of vehicles of the class.
     ///
-    /// An ellipse `(a, b)` of a class contains the corner `(l, w)` of what is covered by two parallel bodies that touch, half
-    /// their lengths and half their widths together: `(l/a)² + (w/b)² ≤ 1`, with every other class.
+    /// The ellipse `(a, b)` of a class contains the corner `(l, w)` of the area that two touching parallel bodies cover, with half
+    /// the sum of their lengths and half the sum of their widths: `(l/a)² + (w/b)² ≤ 1`, for every other class.
     pub(crate) fn dimensions(self) -> ClassDimensions {
         match self {
             VehicleClass::ScaleCar => {
@@ -98,7 +98,7 @@ impl VehicleClass {
     }
 }
 
-/// A vehicle of real roads: front, rear, width, front and rear axle \[m\]; braking, acceleration and lateral acceleration \[m/s²\],
+/// A full-size vehicle: front, rear, width, front and rear axle \[m\]; braking, acceleration and lateral acceleration \[m/s²\],
 /// steering \[rad\] and speed \[m/s\]; half axis of its safety ellipse along the road \[m\].
 fn class_values(
     [front_m, rear_m, width_m, front_axle_m, rear_axle_m]: [f64; 5],
@@ -134,7 +134,7 @@ mod tests {
         VehicleClass::Pedestrian,
     ];
 
-    /// Outside each other's ellipses, parallel vehicles do not touch.
+    /// Parallel vehicles outside each other's ellipses do not touch.
     #[test]
     fn safety_ellipses_keep_bodies_apart() {
         let pairs = FULL_SIZE.iter().flat_map(|own| FULL_SIZE.iter().map(move |other| (*own, *other)));

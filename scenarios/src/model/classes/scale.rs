@@ -6,17 +6,17 @@ use interplay_planners::Body;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-/// How large a scenario is, as a multiple of 1/10 scale.
+/// The size of a scenario, as a multiple of 1/10 scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum ScenarioScale {
-    /// A size with a name.
+    /// A named size.
     Named(NamedScale),
     /// Any ratio of lengths to those of a 1/10 scale car.
     Ratio(f64),
 }
 
-/// A size with a name.
+/// A named size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NamedScale {

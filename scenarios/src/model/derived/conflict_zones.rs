@@ -1,30 +1,31 @@
-//! Where the ways of two vehicles cross or merge.
+//! The conflict zones of two vehicles, where their routes cross or merge.
 
 use interplay_planners::road::network::ConflictKind;
 
 use crate::model::scenario::Vehicle;
 use crate::roads::Road;
 
-/// A place where the ways of two vehicles overlap without being the same lane.
+/// A region where the routes of two vehicles overlap without being the same lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConflictZone {
-    /// From where to where it reaches along the route of the first vehicle \[m\].
+    /// Its interval along the route of the first vehicle \[m\].
     pub first_m: [f64; 2],
-    /// From where to where it reaches along the route of the second \[m\].
+    /// Its interval along the route of the second \[m\].
     pub second_m: [f64; 2],
-    /// Where the front of the first comes into the way of the second, and where its rear has left it \[m\]; where ways merge,
-    /// the place at which they do.
+    /// The interval from where the front of the first enters the route of the second to where its rear has left it \[m\]; where routes
+    /// merge, the position of the merge.
     pub first_way_m: [f64; 2],
-    /// The same of the second \[m\].
+    /// The same for the second \[m\].
     pub second_way_m: [f64; 2],
 }
 
 impl Road {
-    /// The places where the ways of two vehicles cross, merge or meet head-on, in the order of the first one's route; none
-    /// where both drive along one road.
+    /// The regions where the routes of two vehicles cross, merge or meet head-on, in the order of the first one's route; empty
+    /// if both drive along one road.
     ///
-    /// Routes of one network know where they meet: a zone begins where their centre lines do, for whoever waits before that, with
-    /// its front in the outer part of the other's lane, lets the other pass. Of the roads of an intersection, it is where one lies on the other.
+    /// Routes of one network store where they meet: a zone begins where their centre lines meet, since a vehicle that waits before
+    /// that point, with its front in the outer part of the other's lane, lets the other pass. On an intersection of two roads, the zone is
+    /// their overlap.
     pub fn conflict_zones(&self, first: &Vehicle, second: &Vehicle) -> Vec<ConflictZone> {
         if first.route.is_in_network() && second.route.is_in_network() {
             let conflicts = first.route.conflicts_with(&second.route);
@@ -45,7 +46,7 @@ impl Road {
     }
 }
 
-/// The part of a route on which a vehicle is in the way of another one that comes through a conflict \[m\].
+/// The part of a route on which a vehicle blocks another one that drives through a conflict \[m\].
 fn way_m(kind: ConflictKind, overlap_m: [f64; 2], meeting_m: f64) -> [f64; 2] {
     match kind {
         ConflictKind::Merging => [meeting_m; 2],

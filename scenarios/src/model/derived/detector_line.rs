@@ -1,4 +1,4 @@
-//! Where a detector lies.
+//! The position of a detector.
 
 use interplay_planners::Axes;
 
@@ -6,7 +6,7 @@ use crate::model::scenario::Scenario;
 use crate::model::traffic::lane_reference::LaneReference;
 use crate::roads::Branch;
 
-/// A line across a lane, and the direction in which that is driven.
+/// A line across a lane, and the driving direction of the lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DetectorLine {
     /// The middle of the lane \[m\].
@@ -18,7 +18,7 @@ pub struct DetectorLine {
 }
 
 impl DetectorLine {
-    /// The share of the way from one place to another at which the line is passed, in the direction of the lane; none if it is not \[m\].
+    /// The share of the motion between two positions at which the line is crossed in the direction of the lane; `None` if it is not \[m\].
     pub fn passed_at(&self, from: [f64; 2], to: [f64; 2]) -> Option<f64> {
         let axes = Axes::along(self.heading_rad);
         let [before, after] =
@@ -33,7 +33,7 @@ impl DetectorLine {
 }
 
 impl Scenario {
-    /// A line across a lane at a distance along it \[m\]; none if there is no such lane, or it does not reach so far.
+    /// A line across a lane at a distance along it \[m\]; `None` if the lane does not exist or is shorter.
     pub fn detector_line(&self, lane: &LaneReference, along_m: f64) -> Option<DetectorLine> {
         match (lane, &self.network) {
             (LaneReference::Name(name), Some(network)) => {

@@ -1,4 +1,4 @@
-//! What follows from a scenario: where ways meet, how wide the lanes are, when something comes, and what the seed decides.
+//! Quantities derived from a scenario: conflict zones, lane widths, schedules, and the effect of the seed.
 
 pub(crate) mod conflict_zones;
 pub(crate) mod detector_line;

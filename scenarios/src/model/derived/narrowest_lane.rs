@@ -1,4 +1,4 @@
-//! The narrowest lane that a vehicle drives on.
+//! The narrowest lane on the route of a vehicle.
 
 use interplay_planners::road::network::{Lane, RoadNetwork, RouteLeg};
 use interplay_planners::{Route, State};
@@ -6,24 +6,24 @@ use interplay_planners::{Route, State};
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::roads::Road;
 
-/// The narrowest place of the lanes on the way of a vehicle, from its start on.
+/// The narrowest position of the lanes on the route of a vehicle, from its start on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct NarrowestLane {
     /// Width there \[m\].
     pub width_m: f64,
-    /// The name of the lane, and how far along it the place is \[m\]; none on a road of parallel lanes, which are equally wide.
+    /// The name of the lane, and the position along it \[m\]; `None` on a road of parallel lanes, which are equally wide.
     pub place: Option<(String, f64)>,
     /// The key below `road` that states the width.
     pub key: String,
 }
 
-/// The narrowest place of the lanes on the way of a vehicle, from its start on. Where it changes lanes, one of them may begin or
-/// end in a point: of a lane that it leaves in this way only the begin of its part counts, and of one that it enters, the end.
+/// The narrowest position of the lanes on the route of a vehicle, from its start on. Where it changes lanes, one of them may begin or
+/// end in a point: of a lane that it leaves this way only the start of its part counts, and of one that it enters, only the end.
 pub(crate) fn narrowest_lane(scenario: &Scenario, vehicle: &Vehicle) -> NarrowestLane {
     narrowest_lane_of(&scenario.road, scenario.network.as_deref(), &vehicle.start, &vehicle.route)
 }
 
-/// The same of a road with its network, if it has one, and a vehicle of which no more is known than its start and its route.
+/// The same for a road with its network, if any, and a vehicle of which only the start and the route are known.
 pub(crate) fn narrowest_lane_of(
     road: &Road,
     network: Option<&RoadNetwork>,
@@ -37,7 +37,7 @@ pub(crate) fn narrowest_lane_of(
     NarrowestLane { width_m, key: road.width_key(lane), place }
 }
 
-/// The lane, the place on it and its width there \[m\].
+/// The lane, the position on it and its width there \[m\].
 fn on_network(network: &RoadNetwork, start: &State, route: &Route) -> Option<(String, f64, f64)> {
     let legs = &route.legs;
     let start_m = route.along(start.position());
@@ -63,12 +63,12 @@ fn places_of(
     let inside_m = knots_m.filter(move |along_m| !is_entered && !is_left && (from_m..=to_m).contains(along_m));
     let begin_m = (!is_entered).then_some(from_m);
     let end_m = (!is_left).then_some(to_m);
-    // Between its knots, a width is monotone.
+    // A width is monotone between its knots.
     let all_m = begin_m.into_iter().chain(inside_m).chain(end_m);
     all_m.map(|along_m| (lane.name.clone(), along_m, lane.width.value(along_m)))
 }
 
-/// Whether a lane is driven after another one without a change of lane.
+/// Whether a lane follows another one without a change of lane.
 fn follows(network: &RoadNetwork, before: &RouteLeg, after: &RouteLeg) -> bool {
     network.lane(&before.lane).is_some_and(|lane| lane.successors.contains(&after.lane))
 }

@@ -1,4 +1,4 @@
-//! Whose plans have a deadline.
+//! The deadlines of plans.
 
 use interplay_planners::PlanDeadline;
 
@@ -6,8 +6,8 @@ use crate::model::scenario::{Scenario, Vehicle};
 use crate::model::traffic::real_time::Deadline;
 
 impl Scenario {
-    /// How long a plan of a vehicle may take, if the file says so \[ms\]. Drivers who go first have no limit: people do not plan
-    /// by a computer's clock.
+    /// The time limit of a vehicle's plans, if the file states one \[ms\]. Driver models that stand for people have none: people do not
+    /// plan by a computer's clock.
     pub fn plan_budget_ms(&self, vehicle: &Vehicle) -> Option<f64> {
         let real_time = self.real_time.filter(|_| !vehicle.driver.goes_first())?;
         Some(real_time.plan_budget_ms.unwrap_or(1e3 * self.planning_period_s()))

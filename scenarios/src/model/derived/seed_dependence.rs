@@ -7,9 +7,9 @@ use crate::model::building::weather::WeatherSource;
 use crate::model::scenario::{Scenario, Vehicle};
 
 impl Scenario {
-    /// Whether runs with different seeds may differ. Where it is false, they are the same bit for bit.
+    /// Whether runs with different seeds may differ. If not, they are bit-identical.
     ///
-    /// The seed decides the change of the starts and the errors of sensors; and of a building the synthetic weather, errors of
+    /// The seed decides the change of the starts and the errors of sensors; and, in a building, the synthetic weather, errors of
     /// forecasts, and people.
     pub fn depends_on_seed(&self) -> bool {
         let jitter = self.start_jitter;
@@ -22,7 +22,7 @@ impl Scenario {
         let Some(building) = &self.building else { return false };
         let is_synthetic = matches!(self.weather, WeatherSource::Synthetic(_));
         let is_uncertain = matches!(self.weather.forecast(), Forecast::Uncertain { .. });
-        // Of another program nobody knows.
+        // Another program may draw random numbers.
         let is_foreign = !matches!(building.plant, BuildingPlant::Network(_));
         is_synthetic || is_uncertain || is_foreign || self.occupancy.unwrap_or_default().depends_on_seed()
     }

@@ -1,4 +1,4 @@
-//! The room that a body needs in a turn.
+//! The width that a body sweeps in a turn.
 //!
 //! The rear wheels of a vehicle run on a smaller circle than its front wheels, so in a turn it covers a strip that is wider than
 //! its body. With the middle of the rear axle on a circle of radius `R`, the inner side of a body of width `w` reaches in to
@@ -9,25 +9,25 @@ use interplay_planners::{Body, Route};
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::text::error::quoted;
 
-/// How many places of a route are checked in the length of the wheelbase.
+/// The number of positions of a route that are checked per wheelbase.
 const PLACES_PER_WHEELBASE: f64 = 2.0;
-/// Most places of a route that are checked.
+/// The most positions of a route that are checked.
 const MAX_PLACES: f64 = 10_000.0;
 
-/// What a body needs in the turn of a route that has the least room for it.
+/// The swept width of a body in the tightest turn of its route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct TightTurn {
-    /// Where on the route \[m\].
+    /// Position on the route \[m\].
     along_m: f64,
     /// Radius of the inner edge of the road there \[m\].
     inner_m: f64,
     /// Width of the road \[m\].
     road_m: f64,
-    /// Width of the strip that the body covers with its inner side on that edge \[m\].
+    /// Width of the strip that the body sweeps with its inner side on that edge \[m\].
     swept_m: f64,
 }
 
-/// Whether a body covers more of a turn of its route than there is, so that it cannot pass without leaving the road.
+/// Whether a body sweeps more than the width of the road in a turn, so that it cannot pass without leaving the road.
 pub(crate) fn remark(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     let turn = tightest(&vehicle.body, &vehicle.route, vehicle.route.along(vehicle.start.position()))?;
     let [swept_m, road_m, radius_m] = [turn.swept_m, turn.road_m, turn.inner_m + 0.5 * turn.road_m].map(to_tenths);
@@ -43,7 +43,7 @@ pub(crate) fn remark(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, 
     Some((message, help.to_owned()))
 }
 
-/// The turn in which a body lacks the most room, from an arc length of a route on; none where it lacks none.
+/// The turn in which a body lacks the most width, from an arc length of a route on; `None` if it fits everywhere.
 fn tightest(body: &Body, route: &Route, start_m: f64) -> Option<TightTurn> {
     let (wheelbase_m, length_m) = (body.wheelbase_m(), route.end_m() - start_m);
     let count = (PLACES_PER_WHEELBASE * length_m / wheelbase_m).ceil();
@@ -53,7 +53,7 @@ fn tightest(body: &Body, route: &Route, start_m: f64) -> Option<TightTurn> {
     let count = count.clamp(1.0, MAX_PLACES) as usize;
     let turns = (0..=count).filter_map(|place| {
         let along_m = start_m + length_m * place as f64 / count as f64;
-        // Over less than its wheelbase, a vehicle does not feel a curve.
+        // A curve shorter than its wheelbase does not affect a vehicle.
         let ends = [-0.5, 0.5].map(|share| route.centre.at(along_m + share * wheelbase_m).heading_rad);
         let curvature_1pm = (ends[1] - ends[0]) / wheelbase_m;
         let [right_m, left_m] = route.edges_before_end_m(along_m);
@@ -65,13 +65,13 @@ fn tightest(body: &Body, route: &Route, start_m: f64) -> Option<TightTurn> {
     turns.max_by(|one, other| (one.swept_m - one.road_m).total_cmp(&(other.swept_m - other.road_m)))
 }
 
-/// Width of the strip that a body covers on a circle, with its inner side on a radius \[m\].
+/// Width of the strip that a body sweeps on a circle, with its inner side on a radius \[m\].
 fn swept_width_m(body: &Body, inner_m: f64) -> f64 {
     let ahead_m = (body.front_m + body.rear_axle_m).max(body.rear_m - body.rear_axle_m);
     if inner_m.is_infinite() { body.width_m } else { libm::hypot(inner_m + body.width_m, ahead_m) - inner_m }
 }
 
-/// To tenths of a metre.
+/// Rounds to tenths of a metre.
 fn to_tenths(length_m: f64) -> f64 {
     (10.0 * length_m).round() / 10.0
 }
@@ -82,14 +82,14 @@ mod tests {
     use crate::model::classes::VehicleClass;
     use interplay_planners::{Bicycle, Input, State};
 
-    /// A lorry at a constant steering angle: its corners and sides stay within the strip, and reach both of its edges.
+    /// The corners and sides of a lorry at a constant steering angle stay within the strip and reach both of its edges.
     #[test]
-    fn a_body_on_a_circle_covers_this_strip() {
+    fn a_body_on_a_circle_sweeps_the_computed_strip() {
         let body = VehicleClass::Truck.dimensions().body;
         let step_s = 0.01;
         let input = Input { acceleration_mps2: 0.0, steering_rad: 0.4 };
         let mut state = State { speed_mps: 3.0, ..State::default() };
-        // The middle of the circle: to the left of the middle of the rear axle.
+        // The centre of the circle: to the left of the middle of the rear axle.
         let rear_m = body.wheelbase_m() / libm::tan(input.steering_rad);
         let middle = [-body.rear_axle_m, rear_m];
         let inner_m = rear_m - 0.5 * body.width_m;
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_straight_road_it_is_the_width_of_the_body() {
+    fn the_swept_width_on_a_straight_road_is_the_body_width() {
         let body = VehicleClass::Car.dimensions().body;
         assert_eq!(swept_width_m(&body, f64::INFINITY), 1.8);
         assert!((swept_width_m(&body, 1e6) - 1.8).abs() < 1e-4);

@@ -7,16 +7,16 @@ use thiserror::Error;
 
 use crate::model::scenario::Scenario;
 
-/// Why a scenario has no timetable. One that was loaded has been checked for all of this.
+/// The reasons why a scenario has no timetable. A loaded scenario has been checked for all of them.
 #[derive(Debug, Error)]
 pub enum TimetableError {
-    /// A text is no date.
+    /// A text is not a date.
     #[error(transparent)]
     Calendar(#[from] CalendarError),
-    /// Schedules contradict one another, or fit no building.
+    /// Schedules contradict one another, or do not fit the building.
     #[error(transparent)]
     Schedule(#[from] ScheduleError),
-    /// Zones and walls make no network.
+    /// Zones and walls do not form a network.
     #[error(transparent)]
     Network(#[from] NetworkError),
 }
@@ -25,7 +25,7 @@ impl Scenario {
     /// The schedules of the zones by day; empty without a building.
     ///
     /// # Errors
-    /// [`TimetableError`]; never for a scenario that was loaded.
+    /// [`TimetableError`]; never for a loaded scenario.
     pub fn timetable(&self) -> Result<Timetable, TimetableError> {
         let Some(building) = &self.building else { return Ok(Timetable::default()) };
         let days = self.calendar.clone().unwrap_or_default().days(self.weather.first_weekday())?;

@@ -1,4 +1,4 @@
-//! What makes a run pass. Each key that is present is one expectation; what is absent is not judged.
+//! The conditions under which a run passes. Each key that is present is one expectation; an absent key is not judged.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,17 +48,17 @@ pub struct Expect {
     /// Bounds on the peaks of accelerations and jerk, one `[[expect.comfort]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub comfort: Vec<ExpectedComfort>,
-    /// Vehicles that let another one go first where their ways cross or merge, one `[[expect.yields]]` each.
+    /// Vehicles that let another one go first where their routes cross or merge, one `[[expect.yields]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub yields: Vec<ExpectedYield>,
     /// Bounds on any metric of the run or of vehicles, one `[[expect.metric]]` each.
     #[serde(rename = "metric")]
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub metrics: Vec<ExpectedMetric>,
-    /// What the building must achieve.
+    /// The expectations of the building.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
-    /// What a zone must achieve, one `[[expect.zone]]` each.
+    /// The expectations of a zone, one `[[expect.zone]]` each.
     #[serde(rename = "zone")]
     #[schemars(extend("x-concerns" = "building"))]
     pub zones: Vec<ExpectedZone>,
@@ -81,7 +81,7 @@ pub struct CounterfactualExpect {
     /// with its name.
     #[schemars(example = vec!["order", "completes.ego"])]
     pub breaks: Option<Vec<String>>,
-    /// What is judged as in the scenario's own `[expect]`.
+    /// The keys of the scenario's own `[expect]`.
     #[serde(flatten)]
     pub plain: Expect,
 }
@@ -257,14 +257,14 @@ pub struct ExpectedComfort {
     pub lateral_acceleration_at_most_mps2: Option<f64>,
 }
 
-/// Bounds on a metric: of the run, of a vehicle, or of all vehicles. What has no value keeps its bounds.
+/// Bounds on a metric: of the run, of a vehicle, or of all vehicles. A metric without a value satisfies its bounds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedMetric {
     /// Name of the metric, as in reports; the reference lists all.
     #[schemars(example = &"peak_braking_mps2")]
     pub name: String,
-    /// Name of the vehicle, for a metric of vehicles; without it, every vehicle is meant.
+    /// Name of the vehicle, for a metric of vehicles; without it, the bounds hold for every vehicle.
     #[serde(default)]
     #[schemars(example = &"ego")]
     pub vehicle: Option<String>,
@@ -282,8 +282,8 @@ pub struct ExpectedMetric {
     pub is: Option<bool>,
 }
 
-/// A vehicle lets another one go first where their ways cross or merge: the other one enters the conflict zone first. Where the vehicle
-/// keeps the rules of the road, it must have slowed down for that, or left at least 1 s of a real car between them.
+/// A vehicle lets another one go first where their routes cross or merge: the other one enters the conflict zone first. If the vehicle
+/// keeps the rules of the road, it must have slowed down for that, or left a gap of at least 1 s at full size between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedYield {

@@ -1,4 +1,4 @@
-//! The names under which reports list what a scenario expects.
+//! The names of a scenario's expectations in reports.
 
 use std::collections::BTreeSet;
 
@@ -40,7 +40,7 @@ fn named(key: &str, item: &Json) -> String {
     format!("{key}.{}", item["vehicle"].as_str().unwrap_or_default())
 }
 
-/// The name of an expectation about who goes first.
+/// The name of an expectation about the passing order of two vehicles.
 fn yield_name(item: &Json) -> String {
     format!("{}.to.{}", named("yields", item), item["to"].as_str().unwrap_or_default())
 }

@@ -1,4 +1,4 @@
-//! The expectations that bound a metric, whichever key states them.
+//! The expectations that bound a metric, from all keys that state them.
 
 use serde_json::{Value as Json, json};
 
@@ -11,24 +11,24 @@ pub struct MetricBound<'a> {
     pub what: String,
     /// The name of the metric.
     pub metric: &'a str,
-    /// The vehicle that it is about; without one, the run, or every vehicle.
+    /// The vehicle that it bounds; without one, the run, or every vehicle.
     pub vehicle: Option<&'a str>,
-    /// What is allowed.
+    /// The allowed values.
     pub limit: MetricLimit,
 }
 
-/// Which values of a metric are allowed.
+/// The allowed values of a metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MetricLimit {
-    /// This one and lower ones.
+    /// At most this.
     AtMost(f64),
-    /// This one and higher ones.
+    /// At least this.
     AtLeast(f64),
-    /// Lower ones.
+    /// Below this.
     Below(f64),
-    /// Higher ones.
+    /// Above this.
     Above(f64),
-    /// Of a flag, this one.
+    /// Exactly this, for a flag.
     Is(bool),
 }
 
@@ -44,7 +44,7 @@ impl MetricLimit {
         }
     }
 
-    /// How far a value is beyond the limit, or short of it with a negative sign.
+    /// The excess of a value over the limit; negative if the value is allowed.
     pub fn excess(self, value: f64) -> f64 {
         match self {
             MetricLimit::AtMost(bound) | MetricLimit::Below(bound) => value - bound,
@@ -53,7 +53,7 @@ impl MetricLimit {
         }
     }
 
-    /// The number or flag that was stated.
+    /// The stated number or flag.
     pub fn to_json(self) -> Json {
         match self {
             MetricLimit::AtMost(bound)
@@ -65,10 +65,9 @@ impl MetricLimit {
     }
 }
 
-/// A key that bounds a metric: its name, its value if it is stated, the metric, and what the value means.
+/// A key that bounds a metric: its name, its value if stated, the metric, and the meaning of the value.
 pub(crate) type MetricBoundKey = (&'static str, Option<f64>, &'static str, fn(f64) -> MetricLimit);
 
-/// The bounds that are stated.
 fn stated_bounds<'a>(
     vehicle: Option<&'a str>,
     bounds: &[MetricBoundKey],

@@ -1,4 +1,4 @@
-//! What is expected of a run and of its counterfactuals.
+//! The expectations of a run and of its counterfactuals.
 
 pub(crate) mod counterfactual;
 pub(crate) mod expect;

@@ -1,4 +1,4 @@
-//! A place where traffic is counted, as a file states it.
+//! A detector that counts traffic, as a file states it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::model::traffic::lane_reference::LaneReference;
 use crate::text::name;
 
-/// A line across some lanes: whoever passes it is counted, lane by lane and together. `interplay run --detectors FILE` writes what it
+/// A line across some lanes that counts the vehicles that pass it, lane by lane and together. `interplay run --detectors FILE` writes the
 /// counts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -19,14 +19,14 @@ pub struct DetectorConfig {
     /// The lanes, by name or number.
     #[schemars(length(min = 1, max = 100), example = json!(["main-1", "main-2"]))]
     pub lanes: Vec<LaneReference>,
-    /// Where on each of the lanes it lies \[m\].
+    /// Its position on each of the lanes \[m\].
     #[schemars(range(min = -100_000.0, max = 100_000.0), example = 150.0)]
     pub along_m: f64,
-    /// What it counts is written for so long each \[s\].
+    /// The length of the intervals over which its counts are written \[s\].
     #[serde(default = "interval_s")]
     #[schemars(range(min = 0.1, max = 100_000.0))]
     pub interval_s: f64,
-    /// The detector before it from which travel times count; by default there are none.
+    /// The upstream detector from which travel times are measured; by default they are not measured.
     #[serde(default)]
     #[schemars(example = &"entry")]
     pub after: Option<String>,

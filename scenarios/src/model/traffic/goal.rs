@@ -16,7 +16,7 @@ pub struct GoalConfig {
     /// The lateral position that it aims at, on the road along x \[m\].
     #[schemars(example = 0.555)]
     pub y_m: Option<f64>,
-    /// The speed that it aims at \[m/s\].
+    /// The desired speed \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: Option<f64>,
 }

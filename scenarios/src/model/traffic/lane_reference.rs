@@ -1,4 +1,4 @@
-//! How a file names a lane.
+//! References to lanes in a file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

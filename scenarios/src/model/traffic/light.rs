@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::text::name;
 
-/// A traffic light: the lanes at whose ends it stands, and its phases, which follow each other for ever. Who keeps the rules obeys it.
+/// A traffic light: the lanes at whose ends it stands, and its phases, which repeat for ever. Vehicles that keep the rules obey it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Light")]
@@ -15,7 +15,7 @@ pub struct LightConfig {
     /// Its name, unique among lights.
     #[schemars(extend("pattern" = name::pattern()), example = &"north-south")]
     pub name: String,
-    /// The lanes at whose ends it stands: all of them are shown the same.
+    /// The lanes at whose ends it stands: all show the same colour.
     #[schemars(length(min = 1, max = 100), example = json!(["south-in", "north-in"]))]
     pub lanes: Vec<String>,
     /// Its phases, in order.
@@ -31,7 +31,7 @@ pub struct LightConfig {
 }
 
 impl LightConfig {
-    /// What it shows when.
+    /// Its colour over time.
     pub fn cycle(&self) -> LightCycle {
         LightCycle { phases: self.phases.clone(), offset_s: self.offset_s }
     }

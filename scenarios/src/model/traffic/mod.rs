@@ -1,4 +1,4 @@
-//! The traffic of a scenario: what vehicles, obstacles, lights and detectors are, and how closely all that is simulated.
+//! The traffic of a scenario: vehicles, obstacles, lights and detectors, and their level of detail.
 
 pub(crate) mod conduct;
 pub(crate) mod detail;

@@ -1,10 +1,10 @@
-//! What an obstacle of a scenario is.
+//! The obstacles of a scenario.
 
 use interplay_planners::Body;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What an obstacle is.
+/// The kind of an obstacle.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ObstacleKind {
@@ -30,7 +30,7 @@ pub enum ObstacleKind {
 pub struct DeclaredObstacle {
     /// The word for this kind in a scenario file: small letters, digits and hyphens.
     pub kind: &'static str,
-    /// What the schema says of it.
+    /// Its description in the schema.
     pub about: &'static str,
     /// The usual length and width of a real one \[m\].
     pub size_m: [f64; 2],
@@ -56,16 +56,16 @@ impl ObstacleKind {
     }
 }
 
-/// An obstacle: what it is and its shape. It is held by a vehicle that nobody drives.
+/// An obstacle: its kind and its shape. It belongs to a vehicle without a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObstacleForm {
-    /// What it is.
+    /// Its kind.
     pub kind: ObstacleKind,
     /// Its outline around its middle.
     pub outline: Outline,
 }
 
-/// Turns by less than this are none \[rad\].
+/// Smaller turns are treated as zero \[rad\].
 const ROUNDING: f64 = 1e-9;
 
 /// The outline of an obstacle, around its middle.
@@ -101,7 +101,7 @@ impl Outline {
                 (most(|at| at[0]), most(|at| -at[0]), 2.0 * most(|at| at[1].abs()))
             }
         };
-        // Nobody drives it: axles lie within it, so that it is a body.
+        // It never moves by itself: any axles within it make a valid body.
         let (front_axle_m, rear_axle_m) = (0.6 * front_m.max(1e-3), 0.6 * rear_m.max(1e-3));
         Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale }
     }

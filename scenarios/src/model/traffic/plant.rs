@@ -1,9 +1,9 @@
-//! What moves the vehicles.
+//! The plant that moves the vehicles.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What moves the vehicles; `kind` chooses.
+/// The plant that moves the vehicles; `kind` chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Plant {
@@ -18,7 +18,7 @@ pub enum Plant {
 const MAX_SUB_STEP_S: f64 = 1e-3;
 
 impl Plant {
-    /// Into how many sub-steps the dynamic plant cuts a tick of `step_s`.
+    /// The number of sub-steps of the dynamic plant in a tick of `step_s`.
     pub fn sub_steps(step_s: f64) -> usize {
         (step_s / MAX_SUB_STEP_S).ceil().max(1.0) as usize
     }

@@ -1,4 +1,4 @@
-//! What a vehicle weighs: deviations from its goal, and changes of its inputs.
+//! The weights of a vehicle on deviations from its goal and on changes of its inputs.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -9,13 +9,13 @@ use crate::text::error::Fault;
 /// With more steps a day, these make a design large, and not the zones: those of half an hour.
 const USUAL_STEPS_PER_DAY: usize = 48;
 
-/// Everything of which one run would make too much, blamed on the key that makes it large.
+/// The limits that one run would exceed, blamed on the keys that make it large.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     let cost = RunCost::estimate(scenario);
     exceeded(scenario, &cost).into_iter().map(|excess| excess.fault(scenario, tree)).collect()
 }
 
-/// Everything of which the run and its counterfactuals together would make too much, where none does by itself.
+/// The limits that the run and its counterfactuals together would exceed, where none does by itself.
 pub(crate) fn check_all(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     let fault = |excess: Excess| {
         let message =
@@ -26,7 +26,7 @@ pub(crate) fn check_all(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     exceeded(scenario, &scenario.cost()).into_iter().map(fault).collect()
 }
 
-/// A limit, and how much there would be.
+/// A limit, and the estimate that is compared with it.
 struct Excess {
     quantity: Quantity,
     found: u64,
@@ -90,7 +90,7 @@ impl Excess {
         Fault::at(tree.place_of(key), "makes it large", message).help(help)
     }
 
-    /// The key that makes it large, and what would make it smaller.
+    /// The key that makes it large, and how to make it smaller.
     fn cause(&self, scenario: &Scenario) -> (&'static str, String) {
         let share = self.limit as f64 / self.found as f64;
         let shorter = |help: &str| {

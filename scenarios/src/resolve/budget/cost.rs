@@ -1,4 +1,4 @@
-//! What a run will make.
+//! The cost of a run.
 
 use std::fmt;
 
@@ -26,13 +26,13 @@ const BYTES_PER_PLOTTED_ZONE_STEP: f64 = 150.0;
 const SECONDS_PER_STEP: f64 = 2e-7;
 const SECONDS_PER_OPERATION: f64 = 1e-9;
 
-/// So many others are near a vehicle in dense traffic.
+/// The most other vehicles near a vehicle in dense traffic.
 const MOST_NEAR: u64 = 80;
 
-/// What a run will make: counts are exact, operations and bytes are estimates.
+/// The cost of a run: counts are exact, operations and bytes are estimates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunCost {
-    /// Plans of vehicles, at most: whoever leaves early makes fewer.
+    /// Plans of vehicles, at most: a vehicle that leaves early makes fewer.
     pub plans: u64,
     /// Steps of bodies, pairs of bodies, and zones.
     pub steps: u64,
@@ -47,11 +47,11 @@ pub struct RunCost {
 }
 
 impl RunCost {
-    /// What a scenario will make, without its counterfactuals.
+    /// The cost of a scenario without its counterfactuals.
     pub(crate) fn estimate(scenario: &Scenario) -> RunCost {
         let (vehicles, ticks) = (scenario.vehicles.len() as u64, scenario.tick_count() as u64);
         let plans = scenario.vehicles.iter().map(|vehicle| plans_of(scenario, vehicle)).sum();
-        // Of many, each is looked at beside those near it alone.
+        // Of many vehicles, each only considers those near it.
         let bodies_and_pairs = vehicles * (vehicles.min(MOST_NEAR) + 1) / 2;
         let sub_steps = match scenario.plant {
             Plant::Kinematic(_) => 1,
@@ -84,7 +84,7 @@ impl RunCost {
         }
     }
 
-    /// Both runs; of a counterfactual nothing is recorded.
+    /// Both runs; counterfactuals are not recorded.
     pub(crate) fn with_unrecorded(self, other: RunCost) -> RunCost {
         RunCost {
             plans: self.plans.saturating_add(other.plans),
@@ -96,18 +96,18 @@ impl RunCost {
     }
 }
 
-/// What vehicles add to a recording, with so many plans and ticks \[bytes\].
+/// What vehicles add to a recording of `plans` plans and `ticks` ticks \[bytes\].
 fn vehicles_bytes(scenario: &Scenario, plans: u64, ticks: u64) -> f64 {
     let planned = plans as f64 * scenario.horizon_steps as f64 * BYTES_PER_STAGE;
     if !scenario.is_crowd() {
         return planned;
     }
-    // Of a crowd about so many are near the ego.
+    // Of a crowd, about `MOST_TOLD` vehicles are near the ego.
     let vehicles = scenario.vehicles.len() as f64;
     planned * MOST_TOLD as f64 / vehicles + ticks as f64 * vehicles * BYTES_PER_TICK
 }
 
-/// How often a vehicle plans at most: from when it comes on.
+/// The most plans of a vehicle, from when it enters.
 fn plans_of(scenario: &Scenario, vehicle: &Vehicle) -> u64 {
     let absent_share = vehicle.stay.enters_s.unwrap_or(0.0) / scenario.duration_s;
     (scenario.plan_count() as f64 * (1.0 - absent_share).max(0.0)).ceil() as u64
@@ -120,14 +120,14 @@ fn plots_bytes(zones: usize, building_steps: u64) -> f64 {
 }
 
 impl Scenario {
-    /// What a run of the scenario will make, its counterfactuals included; nothing of those is recorded.
+    /// The cost of a run of the scenario, including its counterfactuals, which are not recorded.
     pub fn cost(&self) -> RunCost {
         let others = self.counterfactuals.iter().map(|other| RunCost::estimate(&other.scenario));
         others.fold(RunCost::estimate(self), RunCost::with_unrecorded)
     }
 }
 
-/// On one line, in words; what the scenario has none of is left out.
+/// On one line, in words; zero counts are left out.
 impl fmt::Display for RunCost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.plans > 0 {

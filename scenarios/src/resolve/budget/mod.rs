@@ -1,4 +1,4 @@
-//! How much work a scenario is, computed while it is loaded, and how much it may be.
+//! The estimated work of a scenario, computed while it is loaded, and its limits.
 //!
 //! A run that would take hours or fill a disk is refused before it begins, and the error names the key that makes it large.
 //! All numbers follow from the scenario alone, so the answer is the same on every machine.

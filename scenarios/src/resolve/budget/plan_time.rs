@@ -1,11 +1,11 @@
-//! How long a plan of a vehicle takes: as its driver says, among so many others.
+//! Time to compute a plan of a vehicle, by its driver and the number of others.
 //!
 //! ```text
 //! time = alone · (1 + share · others) · stages / 30 · (people) · (inference)
 //! ```
 //!
-//! [`DriverKind::plan_time`](interplay_planners::DriverKind::plan_time) says the first two, which were fitted to 324 random runs (an authored
-//! scenario, often with another planner or horizon). The two factors were set afterwards, by the runs that were farthest off.
+//! [`DriverKind::plan_time`](interplay_planners::DriverKind::plan_time) returns the first two, which were fitted to 324 random runs (an authored
+//! scenario, often with another planner or horizon). The two factors were set afterwards, from the runs with the largest errors.
 
 use interplay_planners::prediction::Prediction;
 
@@ -13,11 +13,11 @@ use crate::model::scenario::{Scenario, Vehicle};
 
 /// Stages of the plans that were measured.
 const USUAL_STAGES: f64 = 30.0;
-/// More others than these are seldom near enough to take time.
+/// More vehicles than this are seldom near enough to add time.
 const MOST_OTHERS: usize = 12;
-/// People keep more rules, and look more often.
+/// Human drivers keep more rules and look more often.
 const PEOPLE_FACTOR: f64 = 2.5;
-/// Who infers thinks of several motions of each other.
+/// A driver that infers plans considers several motions of each other vehicle.
 const INFERENCE_FACTOR: f64 = 3.0;
 
 /// Processor time of a plan of a vehicle \[s\].

@@ -1,4 +1,4 @@
-//! The checks of a file: its shape against the schema, and what it means. Remarks say what is allowed and may not have been meant.
+//! The checks of a file: its shape against the schema, and its meaning. Remarks report values that are allowed but probably not intended.
 
 pub(crate) mod consistency;
 pub(crate) mod remarks;

@@ -1,7 +1,7 @@
-//! Remarks on vehicles: what is allowed and may not have been meant.
+//! Remarks on vehicles: values that are allowed but probably not intended.
 //!
-//! A number of another scale is within its bounds and gives a run that means little: a 1/10 scale car on a motorway, an ellipse
-//! that does not reach around a lorry. Each remark is located like an error, and says what would work.
+//! A number for another scale may be within its bounds and yet give a meaningless run: a 1/10 scale car on a motorway, an ellipse
+//! that does not contain a lorry. Each remark is located like an error, and states what would work.
 
 use interplay_planners::{Body, Driver, SafetyEllipse};
 
@@ -21,22 +21,22 @@ use crate::text::readable::readable;
 const MAX_LANE_PER_BODY: f64 = 3.5;
 /// The widest body, as a share of its lane.
 const MAX_BODY_PER_LANE: f64 = 0.9;
-/// How far a body may be beside its lane by rounding \[m\].
+/// The tolerance for rounding of a body beside its lane \[m\].
 const ROUNDING_M: f64 = 1e-6;
 /// The largest angle of a start to its road \[deg\].
 const MAX_START_ANGLE_DEG: f64 = 20.0;
 
-/// More vehicles an hour than a lane carries: a queue will stand outside.
+/// More vehicles an hour than a lane carries: a queue forms before the road.
 const MOST_PER_LANE_PER_H: f64 = 2000.0;
 
-/// Everything to remark on.
+/// All remarks.
 pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
     faults.extend(crowded_flows(tree));
     faults.extend(idle_detail(scenario, tree));
     let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
-        // Of the vehicles of a flow, which are written in one place, the first stands for all.
+        // The first vehicle of a flow stands for all of them, since they are written in one place.
         let place = tree.at(&format!("vehicle.{index}")).map(|node| &node.place);
         let before = std::mem::replace(&mut last, place);
         if place.zip(before).is_some_and(|(place, before)| place.holds(before) && before.holds(place)) {
@@ -59,13 +59,13 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
 }
 
-/// A level of detail that concerns nobody.
+/// A level of detail that concerns no vehicle.
 fn idle_detail(scenario: &Scenario, tree: &TomlNode) -> Option<Fault> {
     let concerned = (0..scenario.vehicles.len()).any(|index| scenario.detail_of(index).is_some());
     let message =
         "`detail` changes nothing: it concerns drivers of kind `human` beside the ego, and there are none".to_owned();
     (scenario.detail.is_some() && !concerned)
-        .then(|| Fault::at(tree.place_of("detail"), "concerns nobody", message).help("leave it out".to_owned()))
+        .then(|| Fault::at(tree.place_of("detail"), "concerns no vehicle", message).help("leave it out".to_owned()))
 }
 
 /// Flows of more vehicles than their lanes carry.
@@ -88,13 +88,13 @@ fn crowded_flows(tree: &TomlNode) -> Vec<Fault> {
     nodes.iter().filter_map(remark).collect()
 }
 
-/// Whether the vehicle may touch another one outside its safety ellipse: two bodies that are parallel.
+/// Whether the vehicle may touch a parallel one outside its safety ellipse.
 ///
-/// They overlap where the centres are nearer than `l` along and `w` across the road, half their lengths and half their widths
-/// together. No such place is outside the ellipse `(a, b)` if `(l/a)² + (w/b)² ≤ 1`.
+/// The bodies overlap if the centres are nearer than `l` along and `w` across the road, half the sums of their lengths and
+/// widths. No such position is outside the ellipse `(a, b)` if `(l/a)² + (w/b)² ≤ 1`.
 fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, String)> {
     let vehicle = &scenario.vehicles[index];
-    // These drivers have no use for an ellipse.
+    // These drivers do not use an ellipse.
     if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::Recorded(_) | Driver::External(_)) {
         return None;
     }
@@ -120,7 +120,7 @@ fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, Strin
     Some((message, help))
 }
 
-/// Half the lengths and half the widths of two parallel bodies together, from centre to centre \[m\].
+/// Half the sums of the lengths and of the widths of two parallel bodies, from centre to centre \[m\].
 fn covered_m(own: &Body, other: &Body) -> [f64; 2] {
     let length_m = (own.front_m + other.rear_m).max(own.rear_m + other.front_m);
     [length_m, 0.5 * (own.width_m + other.width_m)]
@@ -130,11 +130,11 @@ fn corner(ellipse: &SafetyEllipse, [length_m, width_m]: [f64; 2]) -> f64 {
     (length_m / ellipse.along_m).powi(2) + (width_m / ellipse.across_m).powi(2)
 }
 
-/// Whether a body is of another size than its lane. One that does not fit at all is an error.
+/// Whether a body has another size than its lane. A body that does not fit at all is an error.
 fn proportion(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     let NarrowestLane { width_m: lane_m, key, .. } = narrowest_lane(scenario, vehicle);
     let (width_m, name) = (vehicle.body.width_m, quoted(&vehicle.name));
-    // Other classes are those of real roads: a bicycle is much narrower than its lane.
+    // The other classes are full size: a bicycle is much narrower than its lane.
     let may_be_another_size = matches!(vehicle.class, None | Some(VehicleClass::ScaleCar));
     if may_be_another_size && lane_m > MAX_LANE_PER_BODY * width_m {
         let message = format!(
@@ -158,7 +158,7 @@ fn proportion(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)
     })
 }
 
-/// Whether the body begins on two lanes.
+/// Whether the body starts on two lanes.
 fn off_lane(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     let at = vehicle.route.locate(vehicle.start.position(), None);
     let (lane, offset_m, lane_m) = match scenario.road.parallel_lanes() {
@@ -185,7 +185,7 @@ fn off_lane(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> 
     })
 }
 
-/// Whether a vehicle starts at an angle to its road. Against it is an error.
+/// Whether a vehicle starts at an angle to its road. A start against the road is an error.
 fn askew(vehicle: &Vehicle) -> Option<(String, String)> {
     let road_rad = vehicle.route.heading_at(vehicle.start.position());
     let angle_deg = (vehicle.start.heading_rad - road_rad).to_degrees();
@@ -195,8 +195,8 @@ fn askew(vehicle: &Vehicle) -> Option<(String, String)> {
     })
 }
 
-/// Whether plans end before the vehicle could stop from its speed at the start, or from the one that it wants. Drivers that do not
-/// look ahead, or do what is written whatever comes, gain nothing by longer plans.
+/// Whether plans end before the vehicle could stop from its speed at the start, or from its desired speed. Drivers that do not
+/// look ahead, or follow a script, gain nothing from longer plans.
 fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::Recorded(_) | Driver::Inputs(_)) {
         return None;
@@ -221,12 +221,12 @@ fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, Stri
     })
 }
 
-/// Up to hundredths; zero has no sign.
+/// Rounds up to hundredths, without a negative zero.
 fn up(number: f64) -> f64 {
     (100.0 * number - 1e-6).ceil() / 100.0 + 0.0
 }
 
-/// Down to hundredths; zero has no sign.
+/// Rounds down to hundredths, without a negative zero.
 fn down(number: f64) -> f64 {
     (100.0 * number + 1e-6).floor() / 100.0 + 0.0
 }

@@ -1,7 +1,7 @@
 //! The check of a tree against the JSON Schema: keys, types, ranges, words.
 //!
-//! It understands the part of JSON Schema that the scenario's schema uses (a test holds it to that), and says in the words
-//! of the format what is wrong and what would work.
+//! It understands the part of JSON Schema that the scenario's schema uses (a test checks this), and its errors use the words
+//! of the format.
 
 use std::rc::Rc;
 
@@ -17,14 +17,14 @@ use crate::text::error::{Fault, Place, quoted};
 use crate::text::name;
 use crate::text::plain_text::is_plain;
 
-/// Everything that is wrong with the shape of a file of which `schema` describes the whole.
+/// All faults of the shape of a whole file.
 pub(crate) fn check(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::default();
     checker.node(tree, schema, &Path::default());
     checker.faults
 }
 
-/// Everything that is wrong with the shape of one table of the file, which `key` leads to.
+/// All faults of the shape of one table of the file, at `key`.
 pub(crate) fn check_table(node: &TomlNode, key: &str, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::default();
     if let Some(schema) = schema.property(key) {
@@ -35,16 +35,16 @@ pub(crate) fn check_table(node: &TomlNode, key: &str, schema: SchemaNode) -> Vec
 
 /// The largest whole number of a setting, unless its type is `u64`.
 const MAX_INTEGER: i128 = 1_000_000_000;
-/// A name is compared with at most this many others, so that a long list is refused at once.
+/// The most names with which a name is compared, so that a long list is refused at once.
 const MAX_SUGGESTED_FROM: usize = 200;
 
-/// Whether a number is within the bounds of its own key. Where it is not, they are what a reader needs, and not the limit of
+/// Whether a number is within the bounds of its own key. If not, the error states these and not the limit of
 /// all settings.
 fn admits(schema: SchemaNode, number: f64) -> bool {
     schema.bounds().all(|bound| bound.admits(number))
 }
 
-/// Where the checker is, as `--set` would address it.
+/// The path of the value under check, as for `--set`.
 #[derive(Clone, Default)]
 struct Path(String);
 
@@ -57,8 +57,8 @@ impl Path {
 #[derive(Default)]
 struct Checker {
     faults: Vec<Fault>,
-    /// Names of the complete entries of the list that is checked, if its entries are merged by name: what an incomplete one
-    /// may have been meant to change.
+    /// Names of the complete entries of the list under check, if its entries are merged by name: an incomplete one
+    /// may be meant to change one of them.
     complete_entries: Rc<[String]>,
 }
 
@@ -85,7 +85,7 @@ impl Checker {
             return self.one_of_several_forms(node, forms, schema, path);
         }
         match (schema.type_name(), &node.value) {
-            // Its keys are checked where they lead.
+            // Its keys are checked as paths.
             (Some("object"), TomlValue::Table(_)) if schema.holds_paths() => {}
             (Some("object"), TomlValue::Table(table)) => self.table(node, table, schema, path),
             (Some("array"), TomlValue::Array(items)) => self.list(node, items, schema, path),
@@ -98,7 +98,7 @@ impl Checker {
         }
     }
 
-    /// A value that may be a number or a text, for example: the form of its type counts.
+    /// A value with several forms, for example a number or a text: the form of its type applies.
     fn one_of_several_forms<'s>(
         &mut self,
         node: &TomlNode,
@@ -146,7 +146,7 @@ impl Checker {
                 None => self.unknown_key(key, &entry.key, schema, path),
             }
         }
-        // A misspelt key is told of once.
+        // A misspelt key is reported once.
         let unknown = table.keys().filter(|key| schema.property(key).is_none());
         let meant: Vec<&str> = unknown.filter_map(|key| unknown_key::meant(key, schema)).collect();
         for key in schema.required().filter(|key| !table.contains_key(*key) && !meant.contains(key)) {
@@ -257,7 +257,7 @@ impl Checker {
         }
     }
 
-    /// A table whose `kind` says which keys it has.
+    /// A table whose `kind` determines its keys.
     fn table_of_a_kind(&mut self, node: &TomlNode, kinds: &[&str], schema: SchemaNode, path: &Path) {
         if let Some(word) = node.text().filter(|word| kinds.contains(word)) {
             let message = format!("{} must be a table whose `kind` is {}", quoted(&path.0), quoted(word));

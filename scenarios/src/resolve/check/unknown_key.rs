@@ -1,16 +1,16 @@
-//! What an unknown key may have been meant to be.
+//! Suggestions for an unknown key.
 
 use interplay_common::spelling::{nearest, suggestion};
 use interplay_common::units::{quantity_of, unit_of};
 
 use crate::format::json_schema::SchemaNode;
 
-/// So many tables deep a key is looked for that stands in the wrong one.
+/// How many tables deep a misplaced key is searched for.
 const SEARCHED_DEPTH: usize = 3;
-/// So many places of it are told.
+/// The most places of it that an error lists.
 const MOST_PLACES: usize = 3;
 
-/// Endings of keys in a unit that nothing here has, the ending of the same quantity here, and how a value is converted.
+/// Endings of keys in unsupported units, the ending of the same quantity here, and the conversion of a value.
 const CONVERSIONS: [(&str, &str, &str); 16] = [
     ("_per_w", "_per_kw", "multiply by 1000"),
     ("_per_mwh", "_per_kwh", "divide by 1000"),
@@ -30,13 +30,13 @@ const CONVERSIONS: [(&str, &str, &str); 16] = [
     ("_f", "_c", "subtract 32 from °F and divide by 1.8"),
 ];
 
-/// The key of this table that was meant, if one is near: another unit, or a slip.
+/// The key of this table that was probably meant: another unit, or a slip.
 pub(super) fn meant<'s>(key: &str, schema: SchemaNode<'s>) -> Option<&'s str> {
     let known = || schema.properties().map(|(known, _)| known.as_str());
     known().find(|known| differ_by_unit(key, known)).or_else(|| nearest(key, known()))
 }
 
-/// What would work in place of an unknown key of a table; `whole` is the schema of the file.
+/// The help for an unknown key of a table; `whole` is the schema of the file.
 pub(super) fn help(key: &str, schema: SchemaNode) -> String {
     let renamed = schema.properties().find(|(known, _)| differ_by_unit(key, known));
     if let Some((known, property)) = renamed {
@@ -68,13 +68,13 @@ fn differ_by_unit(key: &str, known: &str) -> bool {
 }
 
 fn conversion(key: &str, known: &str) -> Option<&'static str> {
-    // What is converted in a quotient is the quotient.
+    // In a quotient the whole quotient is converted.
     let ends_with = |key: &str, ending: &str| key.strip_suffix(ending).is_some_and(|stem| !stem.ends_with("_per"));
     let fits = |(from, to, _): &&(&str, &str, &str)| ends_with(key, from) && ends_with(known, to);
     CONVERSIONS.iter().find(fits).map(|(.., convert)| *convert)
 }
 
-/// Where a key stands in the tables within a table, as `--set` would address it; the shallowest first, and no more than a reader needs.
+/// The paths of a key in the tables within a table, as for `--set`; the shallowest first, and at most [`MOST_PLACES`].
 fn places_below(key: &str, schema: SchemaNode) -> Vec<String> {
     let (mut places, mut tables) = (Vec::new(), vec![(String::new(), schema)]);
     for _ in 0..SEARCHED_DEPTH {
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_in_another_unit_or_another_table_is_told_so() {
+    fn a_key_in_another_unit_or_table_gets_a_suggestion() {
         let whole = crate::format::registry::complete(&Default::default());
         let file = SchemaNode::new(&whole);
         let vehicle = file.property("vehicle").and_then(SchemaNode::entries).expect("vehicles");

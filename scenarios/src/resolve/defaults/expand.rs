@@ -1,4 +1,4 @@
-//! A scenario in which everything is stated that depends on its size.
+//! A scenario in which all size-dependent keys are stated.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -10,12 +10,12 @@ use crate::format::vehicle_config::default_driver;
 use crate::model::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
 use crate::resolve::defaults::stated_road::StatedRoad;
 
-/// What of a scenario is scaled besides its vehicles.
+/// The keys of a scenario that are scaled besides its vehicles.
 const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_jitter"];
 
 /// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
-/// of each vehicle. Where neither is stated, the width of the lanes says the size. A scenario of 1/10 scale is left as it is, but
-/// for the lanes of IDM drivers. What is no table of the format is left too.
+/// of each vehicle. If neither is stated, the width of the lanes determines the size. A scenario of 1/10 scale is left as it is, except
+/// for the lanes of IDM drivers. A value that is not a table of the format is left, too.
 pub(crate) fn expand(scenario: &mut Json, registry: &Registry) {
     let schema = registry.complete();
     let Some(root) = scenario.as_object_mut() else { return };
@@ -26,13 +26,13 @@ pub(crate) fn expand(scenario: &mut Json, registry: &Registry) {
         people::state_steps(root, scale);
     }
     if let Some(Size { scale, is_full }) = size {
-        // Where it is not stated, it is one of these two.
+        // If not stated, it is one of these two.
         root.entry("scale").or_insert_with(|| json!(if is_full { NamedScale::Full } else { NamedScale::Tenth }));
         if !root.contains_key("road") {
             root.insert("road".to_owned(), json!({ "kind": "lanes" }));
         }
         for (key, property) in schema.properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
-            // Networks of lanes are those of real cars by default.
+            // Networks of lanes are full size by default.
             let native = if key == "road" && StatedRoad::read(root, schema).is_network() { FULL_SCALE } else { 1.0 };
             fill_key(key, property, root, scale / native);
         }
@@ -60,11 +60,11 @@ fn vehicle_schema(schema: SchemaNode<'_>) -> Option<SchemaNode<'_>> {
 struct Size {
     /// Ratio of lengths to those of 1/10 scale.
     scale: f64,
-    /// Whether vehicles that state no class are real cars.
+    /// Whether vehicles without a class are full-size cars.
     is_full: bool,
 }
 
-/// The stated scale, or else that of the largest class, or else that of the road; none where nothing is said of it.
+/// The stated scale, or else that of the largest class, or else that of the road; `None` if nothing determines it.
 fn size(root: &Map<String, Json>, schema: SchemaNode) -> Option<Size> {
     if let Some(stated) = root.get("scale").and_then(read::<ScenarioScale>) {
         return Some(Size { scale: stated.ratio(), is_full: stated == ScenarioScale::Named(NamedScale::Full) });
@@ -78,13 +78,13 @@ fn size(root: &Map<String, Json>, schema: SchemaNode) -> Option<Size> {
         .map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
 }
 
-/// Lanes at least this wide are those of real cars \[m\].
+/// Lanes at least this wide are full size \[m\].
 const MIN_FULL_SIZE_LANE_M: f64 = 2.0;
-/// Lanes of a network that are all narrower than this are not those of real cars \[m\].
+/// Lanes of a network that are all narrower than this are not full size \[m\].
 const MAX_SCALED_LANE_M: f64 = 1.0;
 
-/// The scale that a road says: networks of lanes are those of real cars, parallel lanes those of 1/10 scale cars, unless their
-/// width says otherwise. Where a vehicle states its `body`, the width says nothing. None for parallel lanes of 1/10 scale cars.
+/// The scale that a road implies: networks of lanes are full size, parallel lanes are 1/10 scale, unless their
+/// width implies otherwise. If a vehicle states its `body`, the width implies nothing. `None` for parallel lanes of 1/10 scale.
 fn scale_of_road(road: &StatedRoad, states_a_body: bool) -> Option<f64> {
     let widest_m = road.lane_widths_m().fold(0.0, f64::max);
     match (road.is_network(), states_a_body) {
@@ -128,12 +128,12 @@ fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>, schema: S
     }
 }
 
-/// Speed of a 1/10 scale car for which the weights of angles are meant \[m/s\].
+/// The speed of a 1/10 scale car for which the default weights of angles are chosen \[m/s\].
 const WEIGHED_SPEED_MPS: f64 = 1.0;
 
 /// Writes the weights of a vehicle's angles at its speed.
 ///
-/// Real cars drive much faster than Froude's law makes of a 1/10 scale car: 25 m/s and not 3. A heading `θ` moves a vehicle
+/// Full-size cars drive much faster than a 1/10 scale car scaled by Froude's law: 25 m/s and not 3. A heading `θ` moves a vehicle
 /// sideways by `ẏ = v θ`, and a steering angle `δ` accelerates it by `ÿ = v² δ/L`. At `r` times the speed of the law, the weight
 /// of the heading is multiplied by `r²` and that of changes of steering by `r⁴`, so that sideways motion costs the same.
 fn state_angle_weights(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
@@ -150,7 +150,7 @@ fn state_angle_weights(vehicle: &mut Map<String, Json>, schema: SchemaNode, scal
     }
 }
 
-/// Writes what a table does not state, tables below it included.
+/// Writes the keys that a table does not state, including those of tables below it.
 fn lay_under(table: &mut Map<String, Json>, under: Json) {
     let Json::Object(under) = under else { return };
     for (key, value) in under {
@@ -173,7 +173,7 @@ fn state_lane_width(vehicle: &mut Map<String, Json>, registry: &Registry, lane_w
     }
 }
 
-/// The table of a driver that a vehicle does not state.
+/// The driver of a vehicle that does not state one.
 fn default_kind() -> Json {
     json!({ "kind": default_driver().kind() })
 }

@@ -1,11 +1,11 @@
-//! Defaults of the schema, scaled, where a table states nothing.
+//! Scaled defaults of the schema, for keys that a table does not state.
 
 use serde_json::{Map, Value as Json};
 
 use super::similarity::factor;
 use crate::format::json_schema::SchemaNode;
 
-/// Writes the scaled default of every key that a table does not state, tables below it included. A table whose `kind` is
+/// Writes the scaled default of every key that a table does not state, including tables below it. A table whose `kind` is
 /// open is left as it is.
 pub(super) fn fill(schema: SchemaNode, table: &mut Map<String, Json>, scale: f64) {
     let of_kind = |kind: &str| schema.of_kind(kind);
@@ -19,7 +19,6 @@ pub(super) fn fill(schema: SchemaNode, table: &mut Map<String, Json>, scale: f64
     }
 }
 
-/// The same for one key.
 pub(super) fn fill_key(key: &str, property: SchemaNode, table: &mut Map<String, Json>, scale: f64) {
     match (table.get_mut(key), property.default()) {
         (Some(Json::Object(below)), _) if !property.holds_paths() => fill(property, below, scale),

@@ -1,4 +1,4 @@
-//! `[defaults]`: what a file says of all its vehicles at once, laid under each of them.
+//! `[defaults]`: keys for all vehicles of a file, merged under each of them.
 
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::merge::merge_tables;
@@ -6,10 +6,10 @@ use crate::format::read::tree::{Table, TomlNode, TomlValue};
 use crate::resolve::check::shape;
 use crate::text::error::Fault;
 
-/// The tree with `[defaults]` laid under every vehicle. The table itself stays.
+/// The tree with `[defaults]` merged under every vehicle. The table itself stays.
 ///
 /// # Errors
-/// What is wrong with `[defaults]`, once instead of once for every vehicle.
+/// The faults of `[defaults]`, once instead of once for every vehicle.
 pub(crate) fn with_defaults(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &mut tree.value else { return Ok(tree) };
     let Some(defaults) = root.get("defaults").map(|entry| entry.node.clone()) else { return Ok(tree) };

@@ -1,14 +1,14 @@
-//! What a file leaves out, written into it: defaults for all its vehicles, and those of its size.
+//! The defaults of a file: those for all its vehicles, and those of its size.
 //!
 //! The defaults of the format are those of 1/10 scale cars. A file of another size states its `scale` or the `class` of its
-//! vehicles, and whatever else it leaves out is scaled: a length by the ratio `λ` of lengths, a time and a speed by `√λ`, an
-//! acceleration by 1, and a weight such that what it weighs costs the same. Two scenarios of which one is the other scaled in
+//! vehicles, and its other defaults are scaled: a length by the ratio `λ` of lengths, a time and a speed by `√λ`, an
+//! acceleration by 1, and a weight such that the weighted term costs the same. Two scenarios of which one is the other scaled in
 //! this way have the same motion, scaled.
 //!
-//! - `for_all`: `[defaults]`, laid under every vehicle.
-//! - `similarity`: by how much a unit is scaled.
-//! - `fill`: the defaults of a table, scaled, where it states nothing.
-//! - `people`: what people do on real roads.
+//! - `for_all`: `[defaults]`, merged under every vehicle.
+//! - `similarity`: the factor by which a unit is scaled.
+//! - `fill`: the scaled defaults of a table, for keys that it does not state.
+//! - `people`: the behaviour of people on real roads.
 //! - `expand`: all that depends on the size of a scenario.
 
 mod expand;

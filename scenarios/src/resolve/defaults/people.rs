@@ -1,5 +1,5 @@
-//! What people do on real roads, written into a file that says nothing else: comfort, time gaps, reaction, rules, and the time steps in
-//! which that shows.
+//! The behaviour of people on real roads, for files that do not state another: comfort, time gaps, reaction, rules, and the time
+//! steps that it needs.
 
 use interplay_planners::rules::RuleKeeping;
 use interplay_planners::{ComfortLimits, DriverKind};
@@ -11,19 +11,19 @@ use crate::format::registry::Registry;
 use crate::model::classes::FULL_SCALE;
 use crate::model::traffic::conduct::Conduct;
 
-/// Time from one tick to the next, and from one plan to the next, for real cars \[s\].
+/// Time from one tick to the next, and from one plan to the next, for full-size cars \[s\].
 const STEPS_S: [f64; 2] = [0.1, 0.2];
 
-/// Stages of a plan: 8 s of a real car.
+/// Stages of a plan: 8 s of a full-size car.
 const HORIZON_STEPS: usize = 40;
 
-/// Whether drivers are people: as stated, or else where everything is of full size and no figure of the source is reproduced.
+/// Whether drivers are people: as stated, or else at full size if no figure of the dissertation is reproduced.
 pub(super) fn are_people(root: &Map<String, Json>, is_full: bool) -> bool {
     let stated: Option<Conduct> = root.get("conduct").and_then(|stated| serde_json::from_value(stated.clone()).ok());
     stated.map_or(is_full && !root.contains_key("figure"), |stated| stated == Conduct::People)
 }
 
-/// Writes the time steps into a scenario that states none.
+/// Writes the time steps into a scenario that does not state them.
 pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
     if root.contains_key("step_s") {
         return;
@@ -35,7 +35,7 @@ pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
     root.entry("horizon_steps").or_insert(json!(HORIZON_STEPS));
 }
 
-/// Writes into a vehicle what its driver does; `schema` is that of vehicles.
+/// Writes the settings of its driver into a vehicle; `schema` is that of vehicles.
 pub(super) fn state_habits(vehicle: &mut Map<String, Json>, registry: &Registry, schema: SchemaNode, scale: f64) {
     let ratio = scale / FULL_SCALE;
     let kind = vehicle.get("driver").and_then(|driver| registry.driver_kind(driver.get("kind")?.as_str()?));

@@ -1,7 +1,7 @@
-//! Froude's law of similarity: by how much a quantity grows with the ratio of lengths.
+//! Froude's law of similarity: the growth of a quantity with the ratio of lengths.
 
-/// By how much a quantity of that unit is larger where lengths are `scale` times as large: lengths by `λ`, times and speeds by
-/// `√λ`, accelerations and angles by 1. What is not made of metres and seconds stays.
+/// The factor by which a quantity of that unit grows if lengths are `scale` times as large: lengths by `λ`, times and speeds by
+/// `√λ`, accelerations and angles by 1. A quantity not made of metres and seconds stays.
 pub(super) fn factor(unit: &str, scale: f64) -> f64 {
     let mut halves = 0;
     for (position, part) in unit.split('/').enumerate() {
@@ -25,7 +25,7 @@ fn half_powers(base: &str) -> i32 {
 /// The exponents from 2.
 const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 
-/// `λ^(halves/2)`. Whole powers need no root, so that they are exact for small whole ratios.
+/// `λ^(halves/2)`. Whole powers need no root, so they are exact for small whole ratios.
 fn power(scale: f64, halves: i32) -> f64 {
     let root = if halves % 2 == 0 { 1.0 } else { scale.sqrt() };
     let whole = (0..halves.abs() / 2).fold(root, |product, _| product * scale);

@@ -1,4 +1,4 @@
-//! What a file says of the size of its road, before the defaults of that size are added and the road is read.
+//! The size of the road as stated in a file, before the defaults of that size are added and the road is read.
 
 use serde_json::{Map, Value as Json};
 
@@ -13,7 +13,7 @@ pub(crate) struct StatedRoad<'a> {
 }
 
 impl<'a> StatedRoad<'a> {
-    /// The road of a scenario, of which `schema` describes the whole; parallel lanes where none is stated.
+    /// The road of a whole scenario with this schema; parallel lanes if none is stated.
     pub fn read(scenario: &'a Map<String, Json>, schema: SchemaNode<'a>) -> Self {
         let keys = scenario.get("road").and_then(Json::as_object);
         let kind = keys.and_then(|keys| keys.get("kind")?.as_str());
@@ -25,7 +25,7 @@ impl<'a> StatedRoad<'a> {
         !Road::PARALLEL_KINDS.contains(&self.kind)
     }
 
-    /// The widths of its lanes where they begin; a single one where they are equal \[m\].
+    /// The widths of its lanes at their starts; a single one if they are equal \[m\].
     pub fn lane_widths_m(&self) -> impl Iterator<Item = f64> {
         let lanes = self.keys.and_then(|keys| keys.get("lane")?.as_array());
         let of_kind = self.schema.property("road").and_then(|road| road.of_kind(self.kind));
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
     use crate::format::registry::Registry;
 
-    /// What is read off the table is what the road says of itself.
+    /// The values read from the table are those that the road itself returns.
     #[test]
     fn the_table_says_of_every_kind_what_the_road_does() {
         let schema = Registry::standard().complete();

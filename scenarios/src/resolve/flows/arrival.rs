@@ -1,11 +1,11 @@
-//! Which vehicle of a flow comes when.
+//! The arrival times of the vehicles of a flow.
 
 use interplay_common::random::{Random, hash_of};
 
 use crate::format::flow::{FlowConfig, Headways};
 use crate::model::traffic::lane_reference::LaneReference;
 
-/// Speeds are at most so many standard deviations from their mean.
+/// The largest deviation of a speed from its mean, in standard deviations.
 const MOST_DEVIATIONS: f64 = 2.0;
 const HOUR_S: f64 = 3600.0;
 
@@ -22,16 +22,15 @@ pub(super) struct Arrival<'a> {
     pub to: Option<&'a LaneReference>,
     /// The index of its sort, if there are several.
     pub sort: Option<usize>,
-    /// The speed with which it comes and at which it aims \[m/s\].
+    /// The speed with which it comes, which is also its desired speed \[m/s\].
     pub speed_mps: f64,
 }
 
-/// How many vehicles come, about.
 pub(super) fn expected(flow: &FlowConfig, duration_s: f64) -> f64 {
     pieces(flow, duration_s).iter().map(|[from_s, to_s, per_s]| (to_s - from_s) * per_s).sum()
 }
 
-/// The times between which a number of vehicles come in a second: from, to, number.
+/// The intervals with a constant rate of vehicles: from, to, vehicles per second.
 fn pieces(flow: &FlowConfig, duration_s: f64) -> Vec<[f64; 3]> {
     let end_s = flow.ends_s.unwrap_or(duration_s).min(duration_s);
     let rates = match flow.vehicles_per_h {
@@ -73,7 +72,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
         let mean_mps = sort.and_then(|sort| flow.mix[sort].speed_mps).unwrap_or(flow.speed_mps);
         arrivals.push(Arrival {
             number,
-            // Nobody of a flow is there before the run begins.
+            // No vehicle of a flow is on the road before the run begins.
             enters_s: enters_s.max(f64::MIN_POSITIVE),
             lane,
             to: to.map(|index| &flow.to[index].lane),
@@ -83,7 +82,7 @@ pub(super) fn draw(flow: &FlowConfig, seed: u64, duration_s: f64) -> Vec<Arrival
     }
 }
 
-/// When so many vehicles are expected to have come; none if that is after the end.
+/// When `count` vehicles are expected to have come; `None` if that is after the end.
 fn when(pieces: &[[f64; 3]], count: f64) -> Option<f64> {
     let mut before = 0.0;
     for [from_s, to_s, per_s] in pieces {
@@ -96,7 +95,7 @@ fn when(pieces: &[[f64; 3]], count: f64) -> Option<f64> {
     None
 }
 
-/// The index of the share in which a number from 0 to 1 lies; none without shares.
+/// The index of the share in which a number from 0 to 1 lies; `None` without shares.
 fn share_at(number: f64, shares: impl Iterator<Item = f64> + Clone) -> Option<usize> {
     let sum: f64 = shares.clone().sum();
     let mut left = number * sum;
@@ -129,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_lanes_ways_and_speeds_are_as_stated() {
+    fn rates_lanes_routes_and_speeds_are_as_stated() {
         let flow = flow();
         let duration_s = 36_000.0;
         let drawn = draw(&flow, 1, duration_s);

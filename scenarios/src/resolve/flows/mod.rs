@@ -1,8 +1,8 @@
-//! Flows: each `[[flow]]` becomes the vehicles that it stands for, before anything else is made of a file.
+//! Flows: each `[[flow]]` is replaced by its vehicles, before the file is used otherwise.
 //!
-//! - `arrival`: which vehicle comes when, where and how fast, drawn from the seed.
+//! - `arrival`: when, where and how fast each vehicle comes, drawn from the seed.
 //!
-//! So a vehicle of a flow is a vehicle like any other: it has defaults, checks, a budget, a recording. Nothing behind this folder
+//! A vehicle of a flow is thus a vehicle like any other: it has defaults, checks, a budget, a recording. No other folder
 //! knows of flows.
 
 mod arrival;
@@ -25,7 +25,7 @@ const MOST_VEHICLES: f64 = 10_000.0;
 /// The tree with the vehicles of its flows among its vehicles; the flows stay.
 ///
 /// # Errors
-/// What is wrong with the flows, once instead of once for every vehicle.
+/// The faults of the flows, once instead of once for every vehicle.
 pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &mut tree.value else { return Ok(tree) };
     let Some(stated) = root.get("flow").map(|entry| entry.node.clone()).filter(|flows| !flows.is_empty_list()) else {
@@ -40,7 +40,7 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
         _ => 1,
     };
     let duration_s = root.get("duration_s").map(|entry| entry.node.to_json().as_f64().unwrap_or(f64::NAN));
-    // What is no duration is refused with the other keys.
+    // A value that is not a duration is refused with the other keys.
     if duration_s.is_some_and(|duration_s| !duration_s.is_finite()) {
         return Ok(tree);
     }
@@ -63,8 +63,8 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     let vehicle_schema = schema.property("vehicle").and_then(SchemaNode::entries);
     let is_alone = root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list());
     let Some(arrivals) = drawn(&flows, seed, duration_s, is_alone) else {
-        let message = "nobody comes before the run ends, and there is no other vehicle";
-        let fault = Fault::at(&stated.place, "nobody of them", message.to_owned());
+        let message = "no vehicle comes before the run ends, and there is no other vehicle";
+        let fault = Fault::at(&stated.place, "no arrivals", message.to_owned());
         return Err(vec![fault.help("raise the rates or `duration_s`, or state a `[[vehicle]]`".to_owned())]);
     };
     let arrivals: Vec<TomlNode> = arrivals
@@ -82,8 +82,8 @@ pub(crate) fn with_flows(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlN
     Ok(tree)
 }
 
-/// The vehicles of all flows, each with the index of its flow. Without other vehicles the first that comes is the ego, which is there when
-/// the run begins; none where nobody comes then.
+/// The vehicles of all flows, each with the index of its flow. Without other vehicles, the first that comes is the ego, on the road when
+/// the run begins; `None` if no vehicle comes then.
 fn drawn(flows: &[FlowConfig], seed: u64, duration_s: f64, are_alone: bool) -> Option<Vec<(usize, Arrival<'_>)>> {
     let mut arrivals: Vec<(usize, Arrival<'_>)> = Vec::new();
     for (index, flow) in flows.iter().enumerate() {
@@ -98,7 +98,7 @@ fn drawn(flows: &[FlowConfig], seed: u64, duration_s: f64, are_alone: bool) -> O
     Some(arrivals)
 }
 
-/// What makes no sense, though each key by itself does.
+/// Combinations of keys that are invalid although each key by itself is valid.
 fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut expected = 0.0;
@@ -157,7 +157,7 @@ fn faults_of(flows: &[FlowConfig], nodes: &[TomlNode], duration_s: f64) -> Vec<F
     faults
 }
 
-/// A vehicle of a flow: what it has in common with the others, then what its sort states, then what was drawn.
+/// A vehicle of a flow: the common keys, then those of its sort, then the drawn values.
 fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arrival: &Arrival) -> TomlNode {
     let at = |path: &str| node.at(path).and_then(TomlNode::table).cloned();
     let drawn = |json: Json| -> Table {
@@ -199,10 +199,10 @@ mod tests {
     }
 
     #[test]
-    fn flows_that_make_no_sense_are_refused_once() {
+    fn invalid_flows_are_refused_once() {
         for (flow, part) in [
             ("", "nothing says how many vehicles"),
-            ("vehicles_per_h = 0.0", "nobody comes before the run ends"),
+            ("vehicles_per_h = 0.0", "no vehicle comes before the run ends"),
             ("rates = [[5.0, 10.0], [1.0, 20.0]]", "in order of time"),
             ("vehicles_per_h = 600.0\nbegins_s = 5.0\nends_s = 5.0", "does not end after it begins"),
             ("vehicles_per_h = 600.0\nto = [{ lane = 1, share = 0.0 }]", "no lane has a share"),

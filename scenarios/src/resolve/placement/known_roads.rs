@@ -1,6 +1,6 @@
-//! What is computed of roads, kept for other scenarios on the same road: networks, routes through them, and where these meet.
+//! Results about roads, kept for other scenarios on the same road: networks, routes through them, and where these meet.
 //!
-//! Each is a function of its key alone, so what is kept is what would be computed again.
+//! Each result is a function of its key alone, so a kept result equals a new one.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -9,27 +9,27 @@ use std::sync::{Arc, Mutex, PoisonError};
 use interplay_planners::Route;
 use interplay_planners::road::network::{LaneUser, RoadNetwork};
 
-/// The most entries that are kept of each kind. A plan that varies its road has more; the later ones are computed each time.
+/// The most kept entries of each kind. A plan that varies its road has more; the later ones are computed each time.
 const MAX_ENTRIES: usize = 256;
 
 /// Networks by the text of their road.
 #[derive(Default)]
 pub(crate) struct KnownRoads(Memo<String, KnownNetwork>);
 
-/// A network, and what was computed of it.
+/// A network, and results about it.
 pub(super) struct KnownNetwork {
     /// The network.
     pub network: Arc<RoadNetwork>,
-    /// The parts of it that are open to users, where some lanes are kept for others.
+    /// The parts of it that are open to a type of road user, if some lanes are restricted.
     open: Memo<String, RoadNetwork>,
     /// Routes by the words that decide them.
     routes: Memo<Vec<String>, Route>,
-    /// Routes that know where they meet, by the lanes of each.
+    /// Routes that store where they meet, by the lanes of each.
     sets: Memo<Vec<Vec<String>>, Vec<Arc<Route>>>,
 }
 
 impl KnownRoads {
-    /// The network of a road; none for a road that has none.
+    /// The network of a road; `None` for parallel lanes.
     ///
     /// # Errors
     /// Those of `compute`, which makes it.
@@ -47,7 +47,7 @@ impl KnownRoads {
 }
 
 impl KnownNetwork {
-    /// The network as far as it is open to a user.
+    /// The part of the network that is open to a road user.
     pub fn open_to(&self, user: LaneUser) -> Arc<RoadNetwork> {
         if !self.network.has_restricted_lanes() {
             return Arc::clone(&self.network);
@@ -56,7 +56,7 @@ impl KnownNetwork {
         open.unwrap_or_else(|()| Arc::clone(&self.network))
     }
 
-    /// The route that some words decide.
+    /// The route that some words determine.
     ///
     /// # Errors
     /// Those of `compute`, which makes it.
@@ -64,7 +64,7 @@ impl KnownNetwork {
         self.routes.get(words, compute)
     }
 
-    /// These routes, so that they know where they meet.
+    /// These routes, such that they store where they meet.
     pub fn set_of(&self, routes: Vec<Arc<Route>>) -> Vec<Arc<Route>> {
         if self.network.has_restricted_lanes() {
             return Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect());
@@ -76,7 +76,6 @@ impl KnownNetwork {
     }
 }
 
-/// Values by keys.
 struct Memo<K, V>(Mutex<HashMap<K, Arc<V>>>);
 
 impl<K, V> Default for Memo<K, V> {
@@ -86,7 +85,7 @@ impl<K, V> Default for Memo<K, V> {
 }
 
 impl<K: Eq + Hash, V> Memo<K, V> {
-    /// The value of a key, computed if it is not known. Threads that ask at once may each compute it.
+    /// The value of a key, computed if it is unknown. Several threads may compute it at the same time.
     fn get<E>(&self, key: K, compute: impl FnOnce() -> Result<V, E>) -> Result<Arc<V>, E> {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(value) = known().get(&key) {

@@ -1,4 +1,4 @@
-//! Places of vehicles: starts in lanes become states in world coordinates, and each vehicle gets its route.
+//! Positions of vehicles: starts in lanes become states in world coordinates, and each vehicle gets its route.
 
 mod known_roads;
 mod network;
@@ -37,10 +37,10 @@ pub(crate) struct Placed {
     pub starts: Vec<Start>,
 }
 
-/// Builds a road and places vehicles on it. What `known_roads` holds of the road, `written` being its text, is not computed again.
+/// Builds a road and places vehicles on it. Results in `known_roads` for the road, whose text is `written`, are not computed again.
 ///
 /// # Errors
-/// For a road that is none, and what keeps a start from being a place or a vehicle from having a route.
+/// For an invalid road, and for starts that are not on it and vehicles without a route.
 pub(crate) fn place(
     vehicles: &[VehicleConfig],
     road: &Road,
@@ -68,7 +68,7 @@ pub(crate) fn place(
             (Ok(Some((_, state))), None, Some(route)) => Ok((state, Arc::clone(route))),
             (Ok(None), Some(network), _) => on_network::place(&written, network),
             (Ok(None), None, Some(route)) => parallel::place(&written, road, route),
-            // A road that is no network has a route.
+            // A road that is not a network has a route.
             (Ok(_), None, None) => continue,
         };
         match found {
@@ -85,18 +85,18 @@ pub(crate) fn place(
         return Err(vec![fault.help("state the road as a `network`, or one of the junctions")]);
     }
     if let Some(network) = network.as_ref().filter(|network| bodies_fit(vehicles, &starts, road, network)) {
-        // On a network the routes know where they meet.
+        // On a network, the routes store where they meet.
         let (states, routes): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
         starts = states.into_iter().zip(in_one_set(routes, network)).collect();
     }
     Ok(Placed { network: network.map(|known| Arc::clone(&known.network)), starts })
 }
 
-/// Whether the bodies of all vehicles fit their lanes. Those that do not are refused by the checks that follow, so where their
-/// routes meet is not computed: on lanes that are far narrower than any body it takes minutes.
+/// Whether the bodies of all vehicles fit their lanes. Bodies that do not are refused by later checks, so where their
+/// routes meet is not computed: on lanes far narrower than any body that takes minutes.
 fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], road: &Road, network: &KnownNetwork) -> bool {
     let is_refused = |(vehicle, (state, route)): (&VehicleConfig, &Start)| {
-        // A record lies where it was recorded, beside its lane or not.
+        // A record stays where it was recorded, even beside its lane.
         let kind = vehicle.driver.as_ref().and_then(|driver| driver.get("kind"));
         if kind.is_some_and(|kind| kind == KIND) {
             return false;
@@ -107,7 +107,7 @@ fn bodies_fit(vehicles: &[VehicleConfig], starts: &[Start], road: &Road, network
     !vehicles.iter().zip(starts).any(is_refused)
 }
 
-/// The routes, so that those along lanes know where they meet. Strips beside the lanes belong to no set.
+/// The routes, such that those along lanes store where they meet. Strips beside the lanes belong to no set.
 fn in_one_set(routes: Vec<Arc<Route>>, network: &KnownNetwork) -> Vec<Arc<Route>> {
     let along_lanes = routes.iter().filter(|route| !route.legs.is_empty()).cloned().collect();
     let mut known = network.set_of(along_lanes).into_iter();

@@ -1,4 +1,4 @@
-//! The network of a road, and what keeps lanes from being one.
+//! The network of a road, and its faults.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use crate::model::traffic::light::LightConfig;
 use crate::roads::{Road, RoadFault, to_centimetres};
 use crate::text::error::{Fault, quoted};
 
-/// The network of a road; none for a road of parallel lanes.
+/// The network of a road; `None` for a road of parallel lanes.
 ///
 /// # Errors
-/// For lanes that are no network, and a network that cannot be left.
+/// For lanes that do not form a network, and for a network without an exit.
 pub(super) fn network(road: &Road, lights: &[LightConfig], tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
     let mut lanes = match road.network_lanes() {
         None => return Ok(None),
@@ -76,7 +76,7 @@ impl Describer<'_> {
         Fault::at(self.tree.place_of(&path), label, message)
     }
 
-    /// Lanes that form a loop which cannot be left.
+    /// Lanes that form a loop without an exit.
     fn without_end(&self, network: &RoadNetwork) -> Option<Fault> {
         let caught = network.lanes_without_end();
         let first = caught.first()?;
@@ -140,7 +140,7 @@ impl Describer<'_> {
                 to_centimetres(*first_m)
             ))
             .help("let it turn less, or end beside itself; it may cross itself at a large angle"),
-            LaneFault::NoName | LaneFault::NoEnds => at(format!("{of} is none: {fault}")),
+            LaneFault::NoName | LaneFault::NoEnds => at(format!("{of} is invalid: {fault}")),
             LaneFault::WrongDirection { other }
             | LaneFault::ChangesSides { other, .. }
             | LaneFault::NotSideBySide { other, .. }
@@ -148,7 +148,7 @@ impl Describer<'_> {
         }
     }
 
-    /// A neighbour that is not where a lane says, by its name.
+    /// A neighbour, by its name, that is not where a lane states.
     fn beside(&self, error: &RoadNetworkError, other: &str) -> Fault {
         let RoadNetworkError { lane, index, fault, .. } = error;
         let of = format!("lane {}", quoted(lane));
@@ -234,7 +234,7 @@ impl Describer<'_> {
         if stated.is_some_and(|lane| lane.pieces.is_empty()) { "points" } else { "pieces" }
     }
 
-    /// The key of the lane that is wrong, as files call it.
+    /// The key of the wrong lane, as in files.
     fn key(&self, error: &RoadNetworkError) -> String {
         let successor = |other: &String| {
             let stated = self.lanes.get(error.index).map(|lane| lane.successors.as_slice()).unwrap_or_default();
@@ -256,13 +256,13 @@ impl Describer<'_> {
     }
 }
 
-/// Whether a lane says of its neighbour that it is driven in the opposite direction.
+/// Whether a lane states that its neighbour is driven in the opposite direction.
 fn says_oncoming(lane: &Lane, other: &str) -> bool {
     let mut beside = [&lane.left, &lane.right].into_iter().flatten();
     beside.any(|neighbour| neighbour.lane == other && neighbour.relation == NeighbourRelation::Oncoming)
 }
 
-/// What stands beside the underlined text.
+/// The label of the underlined text.
 fn label(fault: &LaneFault) -> &'static str {
     match fault {
         LaneFault::NoName => "no name",

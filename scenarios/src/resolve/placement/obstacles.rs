@@ -1,4 +1,4 @@
-//! Obstacles: from what a file states to places in the world and outlines.
+//! Obstacles: from the keys of a file to positions in the world and outlines.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use crate::text::readable::readable;
 /// Ratio of lengths of real cars to those of 1/10 scale.
 const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 
-/// The obstacles of a file on a road, as vehicles that nobody drives, of the scale of the others.
+/// The obstacles of a file on a road, as vehicles without a driver, of the scale of the others.
 ///
 /// # Errors
-/// For places that are none, and outlines that are no convex polygons.
+/// For invalid positions, and outlines that are not convex polygons.
 pub(crate) fn obstacles(
     stated: &[ObstacleConfig],
     declared: &[DeclaredObstacle],
@@ -44,7 +44,7 @@ pub(crate) fn obstacles(
     if faults.is_empty() { Ok(found) } else { Err(faults) }
 }
 
-/// An obstacle of a file, and where it is written.
+/// An obstacle of a file, and its place.
 struct Written<'a> {
     stated: &'a ObstacleConfig,
     declared: &'a [DeclaredObstacle],
@@ -60,7 +60,7 @@ impl Written<'_> {
         let (mut points, mut start) = self.points()?;
         let route = self.route(&start);
         if let [point] = points.as_mut_slice() {
-            // What stands lies along the road: its outline is turned instead.
+            // A standing obstacle lies along the road: its outline is turned instead.
             let along_rad = route.heading_at(start.position());
             outline = outline.turned(start.heading_rad - along_rad);
             (point[3], start.heading_rad) = (along_rad, along_rad);
@@ -116,7 +116,6 @@ impl Written<'_> {
         Ok((points, start))
     }
 
-    /// Where it stands.
     fn place(&self) -> Result<State, Fault> {
         let stated = self.stated;
         let turned_rad = stated.heading_rad.unwrap_or(0.0);
@@ -173,7 +172,7 @@ impl Written<'_> {
         Ok((route.position(along_m, centre_m + offset_m), route.heading_at(route.position(along_m, centre_m))))
     }
 
-    /// The route by which others compare their ways with it: along the lane that it is on or beside.
+    /// The route with which others compare theirs: along the lane that it is on or beside.
     fn route(&self, at: &State) -> Arc<Route> {
         let along_lane = self.network.and_then(|network| super::recorded::lane_route(network, at));
         along_lane.or_else(|| self.road.route(Branch::Main)).unwrap_or_else(|| super::recorded::strip(at))

@@ -16,13 +16,12 @@ use crate::text::error::{Fault, quoted};
 /// Cosine of the largest angle between a start and its lane.
 const MIN_COS_OF_START: f64 = 0.5;
 
-/// Most names in an error.
 const MAX_NAMES: usize = 12;
 
-/// The state of a vehicle at its start, and its route from the begin of the lane there.
+/// The state of a vehicle at its start, and its route from the start of the lane there.
 ///
 /// # Errors
-/// For a start that is on no lane, and where no route leads to the goal; all of them.
+/// For a start that is on no lane, and if no route leads to the goal; all errors are returned.
 pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Vec<Fault>> {
     let user = written.stated.class.map_or(LaneUser::Car, VehicleClass::lane_user);
     let vehicle = NetworkVehicle { written, known, user, open: known.open_to(user) };
@@ -35,14 +34,14 @@ pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Res
 struct NetworkVehicle<'a> {
     written: &'a VehicleAsWritten<'a>,
     known: &'a KnownNetwork,
-    /// As what it uses lanes.
+    /// The type of road user that lanes admit it as.
     user: LaneUser,
     /// The part of the network that is open to it.
     open: Arc<RoadNetwork>,
 }
 
 impl NetworkVehicle<'_> {
-    /// A start in a lane. What is wrong with the place in the lane and with the way from there is told together.
+    /// A start in a lane. The faults of the position in the lane and of the route from there are reported together.
     fn in_lane(&self) -> Result<Start, Vec<Fault>> {
         let lane = self.start_lane().map_err(|fault| self.with_goal(fault))?;
         let stated = &self.written.stated.start;
@@ -66,7 +65,7 @@ impl NetworkVehicle<'_> {
         [start].into_iter().chain(goal).collect()
     }
 
-    /// The lane in which the vehicle starts, as it is named.
+    /// The lane in which the vehicle starts, by its name.
     fn start_lane(&self) -> Result<&Lane, Fault> {
         let stated = self.written.stated.start.lane.as_ref().ok_or_else(|| self.written.missing("lane"))?;
         self.known("start.lane", stated)
@@ -97,7 +96,7 @@ impl NetworkVehicle<'_> {
         })
     }
 
-    /// The names of lanes that begin or end the network, and of others where there is room.
+    /// The names of lanes that begin or end the network, and of others up to the limit.
     fn some_names(&self) -> String {
         let lanes = self.known.network.lanes();
         let has_before = |lane: &Lane| lanes.iter().any(|other| other.successors.contains(&lane.name));
@@ -119,7 +118,7 @@ impl NetworkVehicle<'_> {
         Err(self.written.fault("start.along_m", "not on the lane", message).help(help))
     }
 
-    /// A start in world coordinates is on the lane whose direction is nearest to its own, and from which the goal can be
+    /// A start in world coordinates is on the lane whose direction is nearest to its own and from which the goal can be
     /// reached.
     fn in_world(&self) -> Result<Start, Fault> {
         let [x_m, y_m] = self.written.position()?;
@@ -155,7 +154,7 @@ impl NetworkVehicle<'_> {
         (State { heading_rad: next_to(state.heading_rad, along_rad), ..state }, route)
     }
 
-    /// The route from the begin of a lane on: along the stated lanes, or to the lane of the goal, or the only one there is.
+    /// The route from the start of a lane on: along the stated lanes, or to the lane of the goal, or the only one.
     fn route(&self, lane: &Lane) -> Result<Arc<Route>, Fault> {
         let goal = self.written.stated.goal.lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
         let words =
@@ -217,7 +216,7 @@ impl NetworkVehicle<'_> {
         Err(self.written.fault("name", "without a goal lane", message).help(help))
     }
 
-    /// The lanes that can be reached from a lane, if there were room for every change.
+    /// The lanes that can be reached from a lane, if every lane change had enough room.
     fn reached_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
         let mut reached: Vec<&str> = vec![&lane.name];
         let mut index = 0;
@@ -240,7 +239,7 @@ impl NetworkVehicle<'_> {
         self.reached_from(lane).into_iter().filter(is_end).collect()
     }
 
-    /// Where a lane of the route is written.
+    /// The place of a lane of the route.
     fn key_of(&self, lane: &str) -> String {
         let place = self.written.stated.route.iter().position(|name| name == lane);
         place.map_or_else(|| "goal.lane".to_owned(), |place| format!("route.{place}"))
@@ -284,7 +283,7 @@ impl NetworkVehicle<'_> {
             | RouteError::UnknownLane { .. }
             | RouteError::Centre { .. }
             | RouteError::TooTight { .. }) => {
-                let message = format!("{of} is none: {other}");
+                let message = format!("{of} is invalid: {other}");
                 self.written.fault(&self.key_of(""), "no route", message).help("another `lane` or `route` may work")
             }
         }

@@ -13,13 +13,13 @@ use crate::text::error::Fault;
 /// The state of a vehicle at its start.
 ///
 /// # Errors
-/// For a start that is no place, and for lanes with names; all of them.
+/// For a start that is not a position, and for lanes with names; all errors are returned.
 pub(super) fn place(written: &VehicleAsWritten<'_>, road: &Road, route: &Arc<Route>) -> Result<Start, Vec<Fault>> {
     let state =
         if written.stated.start.is_in_lane() { in_lane(written, road, route) } else { in_world(written, road, route) };
     let goal = match &written.stated.goal.lane {
         Some(LaneReference::Name(name)) => Some(no_names(written, "goal.lane", name, road)),
-        // Of a vehicle that has a place, the goal is checked with all else.
+        // For a vehicle with a position, the goal is checked later.
         Some(LaneReference::Number(lane)) if state.is_err() => {
             let refused = no_such_lane(&format!("{}.goal.lane", written.shown()), *lane, road);
             refused.map(|(message, help)| written.fault("goal.lane", "no such lane", message).help(help))

@@ -1,4 +1,4 @@
-//! Vehicles that follow a record: they start where it begins, on whatever road is there.
+//! Vehicles that follow a record: they start where it begins, on any road.
 
 use std::sync::Arc;
 
@@ -13,25 +13,25 @@ use crate::resolve::records;
 use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
 
-/// Cosine of the largest angle between a vehicle and the lane that it is taken to follow.
+/// Cosine of the largest angle between a vehicle and the lane that it is assumed to follow.
 const MIN_COS_OF_START: f64 = 0.5;
-/// How far from the middle of a lane a vehicle is still taken to be beside it \[m\].
+/// The largest distance from the middle of a lane at which a vehicle counts as beside it \[m\].
 const MAX_BESIDE_M: f64 = 15.0;
-/// Half of the width of the strip on which a vehicle drives that is beside no lane \[m\].
+/// Half of the width of the strip of a vehicle that is not beside any lane \[m\].
 const STRIP_M: f64 = 100.0;
 /// The most lanes of a route.
 const MAX_LANES: usize = 200;
 
-/// How far a stated start may be from where the record is \[m\].
+/// The largest distance between a stated start and the record \[m\].
 const MAX_START_ERROR_M: f64 = 1.0;
-/// Records that begin later than this do not say where the vehicle is at the start \[s\].
+/// Records that begin later than this do not determine the start \[s\].
 const MAX_BEGIN_S: f64 = 1e-6;
 
-/// The record of a vehicle, and its state at the start of the run; none for a vehicle that follows none, and for rows that are no
-/// record, which are refused later.
+/// The record of a vehicle, and its state at the start of the run; `None` for a vehicle without a record, and for invalid rows,
+/// which are refused later.
 ///
 /// # Errors
-/// For a start elsewhere than the record says, and a record that begins after the run.
+/// For a start that differs from the record, and a record that begins after the run.
 pub(super) fn start(written: &VehicleAsWritten<'_>) -> Result<Option<(Record, State)>, Fault> {
     let Some(driver) = &written.stated.driver else { return Ok(None) };
     if driver.get("kind").is_none_or(|kind| kind != records::KIND) {
@@ -64,8 +64,8 @@ pub(super) fn start(written: &VehicleAsWritten<'_>) -> Result<Option<(Record, St
     Ok(Some((record, state)))
 }
 
-/// The start of a vehicle on a network, and its route: along the lanes that it states, or from the lane that it is on or beside, in
-/// its direction, along the lanes that it went. Beside all lanes, it is a straight strip.
+/// The start of a vehicle on a network, and its route: along its stated lanes, or from the lane that it is on or beside, in
+/// its direction, along the lanes of its record. Beside all lanes, the route is a straight strip.
 pub(super) fn place(record: &Record, state: State, stated: &[String], known: &KnownNetwork) -> Start {
     let network = &known.network;
     let route = lane_at(network, &state).and_then(|lane| {
@@ -73,7 +73,7 @@ pub(super) fn place(record: &Record, state: State, stated: &[String], known: &Kn
         known
             .route(way.clone(), || network.route(&way))
             .or_else(|_| {
-                // Lanes that no curve joins: the first of them alone.
+                // If no curve joins the lanes, the first of them alone.
                 let first = vec![lane.name.clone()];
                 known.route(first.clone(), || network.route(&first))
             })
@@ -91,12 +91,12 @@ fn lane_at<'a>(network: &'a RoadNetwork, state: &State) -> Option<&'a Lane> {
     on_lane.and_then(|place| network.lane(&place.lane)).or_else(|| nearest(state, network.lanes()))
 }
 
-/// The lane that something is on or beside, as a route.
+/// The lane that a vehicle or an obstacle is on or beside, as a route.
 pub(super) fn lane_route(network: &RoadNetwork, state: &State) -> Option<Arc<Route>> {
     network.route(&[&*lane_at(network, state)?.name]).ok().map(Arc::new)
 }
 
-/// The lane beside which a vehicle is, in about its direction.
+/// The lane that a vehicle is beside, in about its direction.
 fn nearest<'a>(state: &State, lanes: &'a [Lane]) -> Option<&'a Lane> {
     let beside = lanes.iter().filter_map(|lane| {
         let at = lane.centre.project(state.position(), None);
@@ -107,7 +107,7 @@ fn nearest<'a>(state: &State, lanes: &'a [Lane]) -> Option<&'a Lane> {
     beside.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(lane, _)| lane)
 }
 
-/// The names of the lanes that a record goes along, from a lane on: where it forks, the lane that the record keeps nearest to.
+/// The names of the lanes that a record follows, from a lane on: at a fork, the lane nearest to the record.
 pub(crate) fn way(record: &Record, lane: &Lane, network: &RoadNetwork) -> Vec<String> {
     let mut names = vec![lane.name.clone()];
     let mut last = lane;
@@ -129,7 +129,7 @@ pub(crate) fn way(record: &Record, lane: &Lane, network: &RoadNetwork) -> Vec<St
     names
 }
 
-/// How near a record comes to the end of a lane \[m\].
+/// The least distance of a record from the end of a lane \[m\].
 fn missed_m(record: &Record, lane: &Lane) -> f64 {
     let [x, y] = lane.centre.position(lane.centre.length_m(), 0.0);
     record.positions().map(|[at_x, at_y]| libm::hypot(at_x - x, at_y - y)).fold(f64::INFINITY, f64::min)

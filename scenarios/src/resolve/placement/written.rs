@@ -1,4 +1,4 @@
-//! What a file says of the place of a vehicle.
+//! The stated position of a vehicle.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use crate::text::error::{Fault, quoted};
 /// The state in which a vehicle starts, and its route.
 pub(crate) type Start = (State, Arc<Route>);
 
-/// A vehicle of a file, and where it is written.
+/// A vehicle of a file, and its place.
 pub(super) struct VehicleAsWritten<'a> {
-    /// What is stated of it.
+    /// Its keys.
     pub stated: &'a VehicleConfig,
     pub index: usize,
     pub tree: &'a TomlNode,
@@ -33,7 +33,7 @@ impl VehicleAsWritten<'_> {
         Fault::at(self.tree.place_of(&format!("vehicle.{}.{key}", self.index)), label, message)
     }
 
-    /// The refusal of a start without a key that it needs.
+    /// The refusal of a start that lacks a required key.
     pub(super) fn missing(&self, key: &str) -> Fault {
         let start = self.schema.property("vehicle").and_then(SchemaNode::entries);
         let property = start.and_then(|vehicle| vehicle.property("start")).and_then(|start| start.property(key));
@@ -76,7 +76,7 @@ impl VehicleAsWritten<'_> {
 }
 
 impl StartConfig {
-    /// Whether it is stated as a place in a lane.
+    /// Whether it is stated in a lane.
     pub(super) fn is_in_lane(&self) -> bool {
         self.lane.is_some()
             || self.along_m.is_some()
@@ -84,19 +84,19 @@ impl StartConfig {
             || self.heading_error_deg.is_some()
     }
 
-    /// The stated heading; 0 if none is \[rad\].
+    /// The stated heading; 0 if not stated \[rad\].
     pub(super) fn heading_rad(&self) -> f64 {
         self.heading_rad.or(self.heading_deg.map(f64::to_radians)).unwrap_or_default()
     }
 
-    /// The heading against that of the lane; 0 if none is stated \[rad\].
+    /// The heading against that of the lane; 0 if not stated \[rad\].
     pub(super) fn heading_error_rad(&self) -> f64 {
         self.heading_error_deg.unwrap_or_default().to_radians()
     }
 }
 
-/// A heading by full turns nearer to another one \[rad\]: planners compare headings along a route, which may turn by more than
-/// half a circle, as numbers.
+/// A heading shifted by full turns to be nearest to another one \[rad\]: planners compare headings as numbers along a route, which may
+/// turn by more than half a circle.
 pub(super) fn next_to(heading_rad: f64, along_rad: f64) -> f64 {
     let turns = ((along_rad - heading_rad) / std::f64::consts::TAU).round();
     heading_rad + turns * std::f64::consts::TAU

@@ -1,4 +1,4 @@
-//! Two roads that cross, on which everybody stops.
+//! Two roads that cross at an all-way stop.
 
 use interplay_planners::road::network::{Lane, RightOfWay};
 use schemars::JsonSchema;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::super::fault::RoadFault;
 use super::arms::{Arm, Arms, Compass};
 
-/// Two roads with a lane in each direction that cross at the origin. Everybody stops, and goes in the order of arrival. Lanes
+/// Two roads with a lane in each direction that cross at the origin. All vehicles stop, and go in the order of arrival. Lanes
 /// are called `west-in`, `west-out` and so on, connectors `west-to-north`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -21,20 +21,20 @@ pub(super) enum Compass {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arm {
     pub compass: Compass,
-    /// Who goes first at the end of its lanes.
+    /// The right of way at the end of its lanes.
     pub right_of_way: RightOfWay,
-    /// What lies between its directions.
+    /// The strip between its directions.
     pub median: Median,
 }
 
-/// What lies between the directions of an arm.
+/// The strip between the directions of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Median {
     /// Nothing.
     None,
     /// A lane that leads to the left.
     TurningLane,
-    /// A strip of a lane's width on which nobody drives, opposite a turning lane.
+    /// An unused strip of a lane's width opposite a turning lane.
     Island,
 }
 
@@ -110,7 +110,7 @@ impl Arm {
         if self.median == Median::None { 0.5 } else { 1.0 }
     }
 
-    /// The lane beside another one in the opposite direction; none across an island.
+    /// The lane beside another one in the opposite direction; `None` across an island.
     fn oncoming(&self, lane: &str) -> Option<LaneNeighbour> {
         if self.median == Median::Island { None } else { beside(lane, NeighbourRelation::Oncoming, false) }
     }
@@ -167,7 +167,7 @@ impl Arms<'_> {
         Ok(outer_m + self.turn_radius_m * tangent_ratio(FRAC_PI_2)?)
     }
 
-    /// The place on an arm at a distance from the middle and to the right of who leaves \[m\].
+    /// The point on an arm at a distance from the middle, shifted to the right of the leaving direction \[m\].
     fn place(arm: &Arm, along_m: f64, right_m: f64) -> [f64; 2] {
         let [cos, sin] = axis(arm.compass);
         [cos * along_m + sin * right_m, sin * along_m - cos * right_m]
@@ -218,11 +218,11 @@ impl Arms<'_> {
         Ok(())
     }
 
-    /// The arms to which a lane of an arm leads. Where there is a lane for turns to the left, the other one leads elsewhere.
+    /// The arms to which a lane of an arm leads. If there is a lane for turns to the left, the other one leads elsewhere.
     fn connected<'a>(&'a self, from: &'a Arm, number: usize) -> impl Iterator<Item = &'a Arm> {
         let to_left = |to: &Arm| {
             let ([x, y], [to_x, to_y]) = (axis(from.compass), axis(to.compass));
-            // Who comes in drives against the direction of the arm.
+            // Entering vehicles drive against the direction of the arm.
             to_x * y - to_y * x > 0.5
         };
         let is_served = move |to: &Arm| from.median != Median::TurningLane || to_left(to) == (number == 1);

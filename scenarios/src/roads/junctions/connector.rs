@@ -1,9 +1,9 @@
-//! Smooth curves that lead from the end of one lane to the begin of another one.
+//! Smooth curves from the end of one lane to the start of another one.
 
 use interplay_planners::CentreLine;
 use interplay_planners::road::centre_line::{CentreLineError, Piece};
 
-/// A place and a direction.
+/// A position and a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LanePose {
     pub position: [f64; 2],
@@ -21,10 +21,10 @@ pub(super) struct Connector {
 /// Length of the clothoid at either end of a turn, by its radius; together they turn by as many radians.
 const CLOTHOID_RATIO: f64 = 0.5;
 
-/// Most of a turn that is made on its clothoids.
+/// The largest share of a turn on its clothoids.
 const MAX_CLOTHOID_SHARE: f64 = 0.6;
 
-/// Directions that differ by less are the same \[rad\].
+/// Directions that differ by less are equal \[rad\].
 const SAME_DIRECTION_RAD: f64 = 1e-9;
 
 /// Straight pieces that are shorter are left out \[m\].
@@ -34,7 +34,7 @@ const MIN_STRAIGHT_M: f64 = 1e-9;
 /// tangents meet where the lines of both poses do. It is as wide as the nearer pose allows.
 ///
 /// # Errors
-/// [`CentreLineError::NoLength`] where the second pose is not ahead of the first, or the lines of both do not meet between
+/// [`CentreLineError::NoLength`] if the second pose is not ahead of the first, or if the lines of both do not meet between
 /// them.
 pub(super) fn connector(from: LanePose, to: LanePose) -> Result<Connector, CentreLineError> {
     let apart = [to.position[0] - from.position[0], to.position[1] - from.position[1]];
@@ -76,7 +76,7 @@ pub(super) fn turn(turn_rad: f64, radius_m: f64) -> [Piece; 3] {
 /// Distance of both ends of a [`turn`] from the corner of its tangents, by its radius.
 ///
 /// # Errors
-/// Those of [`CentreLine::from_pieces`], for an angle that is none.
+/// Those of [`CentreLine::from_pieces`], for an invalid angle.
 pub(super) fn tangent_ratio(turn_rad: f64) -> Result<f64, CentreLineError> {
     let unit = CentreLine::from_pieces([0.0; 2], 0.0, &turn(turn_rad, 1.0))?;
     let [_, y] = unit.at(unit.length_m()).position;
@@ -87,9 +87,9 @@ pub(super) fn tangent_ratio(turn_rad: f64) -> Result<f64, CentreLineError> {
 mod tests {
     use super::*;
 
-    /// Whatever the turn, the curve ends exactly where the second lane begins, without curvature.
+    /// After any turn, the curve ends exactly where the second lane begins, without curvature.
     #[test]
-    fn a_connector_leads_from_pose_to_pose() {
+    fn a_connector_joins_two_poses() {
         for (turn_deg, to_corner_m, from_corner_m) in
             [(90.0, 10.0, 12.0), (-90.0, 12.0, 8.0), (35.0, 20.0, 20.0), (-140.0, 30.0, 31.0), (3.0, 9.0, 9.0)]
         {

@@ -28,7 +28,7 @@ pub struct Crossing {
     /// Whether the main road has a lane of its own for turns to the left, `west-in-1` and `east-in-1`; `west-in-0` and
     /// `east-in-0` then lead straight on and to the right.
     pub turning_lanes: bool,
-    /// What who comes on the minor road must do.
+    /// The sign on the minor road.
     pub minor: MinorRoadRule,
 }
 

@@ -1,6 +1,6 @@
-//! Junctions and roads in a few numbers, one file for each form, and how they become lanes of a network.
+//! Junctions and roads with few numbers, one file for each form, and their conversion to lanes of a network.
 //!
-//! Traffic keeps to the right. The middle of a junction is the origin, x leads to the east and y to the north.
+//! Traffic keeps to the right. The middle of a junction is the origin, x points to the east and y to the north.
 
 mod arms;
 mod connector;
@@ -12,15 +12,15 @@ use interplay_planners::{CentreLine, Profile};
 
 use super::fault::RoadFault;
 
-/// The forms: file, type, and what the schema says of the kind. A type has a `lane_width_m`, and `lanes`, which makes the lanes of a
-/// network of it. To add a form, write its file and a line here.
+/// The forms: file, type, and the description of the kind in the schema. A type has a `lane_width_m`, and `lanes`, which returns the lanes
+/// of a network. To add a form, write its file and a line here.
 macro_rules! forms {
     ($declare:ident) => {
         $declare! {
             roundabout::Roundabout: "A ring with three to six arms.";
             t_junction::TJunction: "A minor road that ends at a main one.";
             crossing::Crossing: "Two roads with both directions that cross, the main one with priority.";
-            all_way_stop::AllWayStop: "Two roads with both directions that cross, where everybody stops.";
+            all_way_stop::AllWayStop: "Two roads with both directions that cross at an all-way stop.";
             on_ramp::OnRamp: "A motorway that a ramp joins with an acceleration lane.";
             narrow_passage::NarrowPassage: "A road with both directions that narrows to the width of one lane.";
             two_way::TwoWay: "A straight road with a lane in each direction.";
@@ -55,12 +55,11 @@ fn straight(start: [f64; 2], heading_rad: f64, length_m: f64) -> Result<CentreLi
     CentreLine::from_pieces(start, heading_rad, &[Piece::Straight { length_m }])
 }
 
-/// A lane beside another one.
 fn beside(lane: &str, relation: NeighbourRelation, may_change: bool) -> Option<LaneNeighbour> {
     Some(LaneNeighbour { lane: lane.to_owned(), relation, may_change })
 }
 
-/// The name of a lane, with its number from the right where there are several.
+/// The name of a lane, with its number from the right if there are several.
 fn numbered(name: &str, number: usize, count: usize) -> String {
     if count == 1 { name.to_owned() } else { format!("{name}-{number}") }
 }
@@ -68,11 +67,11 @@ fn numbered(name: &str, number: usize, count: usize) -> String {
 /// A width that changes between two places \[m\].
 fn changing_width(places_m: [f64; 2], widths_m: [f64; 2]) -> Profile {
     let knots = [[places_m[0], widths_m[0]], [places_m[1], widths_m[1]]];
-    // Places that do not increase are refused before.
+    // Positions that do not increase are refused before.
     Profile::steps(&knots).unwrap_or(Profile::constant(widths_m[0]))
 }
 
-/// The refusal of a form whose sizes make no smooth line.
+/// The refusal of a form whose sizes do not give a smooth line.
 impl From<CentreLineError> for RoadFault {
     fn from(error: CentreLineError) -> RoadFault {
         RoadFault::new("", "sizes that do not fit", format!("no smooth lanes have these sizes: {error}"))

@@ -34,7 +34,7 @@ pub struct NarrowPassage {
     /// Highest permitted speed \[m/s\].
     #[schemars(range(min = 0.001))]
     pub speed_limit_mps: f64,
-    /// Who goes first: vehicles that drive to the east, or to the west; by default nothing says so.
+    /// The direction that goes first: vehicles that drive to the east, or to the west; by default neither has priority.
     #[schemars(example = &"east")]
     pub priority_to: Option<DrivingDirection>,
 }
@@ -78,7 +78,7 @@ impl DrivingDirection {
         }
     }
 
-    /// A place ahead of the origin and to the right of it, for who drives in this direction \[m\].
+    /// A point ahead of the origin and to the right of it, as seen in this direction \[m\].
     fn place(self, ahead_m: f64, right_m: f64) -> [f64; 2] {
         match self {
             DrivingDirection::East => [ahead_m, -right_m],
@@ -145,7 +145,7 @@ impl NarrowPassage {
         Ok(())
     }
 
-    /// A line along the road from the first of four places ahead of the origin to the last. Between the two in the middle it
+    /// A line along the road from the first of four points ahead of the origin to the last. Between the two in the middle it
     /// moves from one distance from the middle of the road to another \[m\].
     fn shifted(
         direction: DrivingDirection,
@@ -163,5 +163,5 @@ impl NarrowPassage {
     }
 }
 
-/// By how much the line of a lane is built longer at both ends before it is cut, so that both parts of it have a length \[m\].
+/// The length by which the line of a lane is extended at both ends before it is cut, so that both parts of it have a length \[m\].
 const BEYOND_M: f64 = 1.0;

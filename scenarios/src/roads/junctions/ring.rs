@@ -1,4 +1,4 @@
-//! The geometry of a roundabout: where arms join its ring, and on which curves.
+//! The geometry of a roundabout: where and on which curves arms join its ring.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,7 +9,7 @@ use interplay_planners::road::centre_line::{CentreLineError, Piece};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RingJoint {
     ring: Ring,
-    /// Angle between the arm and the places where its lanes meet the ring \[rad\].
+    /// Angle between the arm and the points where its lanes meet the ring \[rad\].
     pub joint_rad: f64,
     /// Radius of the curves on which vehicles enter and leave \[m\].
     pub radius_m: f64,
@@ -21,7 +21,7 @@ pub(super) struct RingJoint {
 pub(super) struct ArmLines {
     /// From the end of the arm to the yield line, and on to the ring.
     pub inwards: [CentreLine; 2],
-    /// From the ring to the place beside the yield line, and on to the end of the arm.
+    /// From the ring to the point beside the yield line, and on to the end of the arm.
     pub outwards: [CentreLine; 2],
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Ring {
 /// Share of the angle between two arms at which their lanes join the ring.
 const JOINT_SHARE: f64 = 0.45;
 
-/// Largest angle between an arm and the places where its lanes join the ring \[rad\].
+/// Largest angle between an arm and the points where its lanes join the ring \[rad\].
 const MAX_JOINT_RAD: f64 = 0.66;
 
 /// Length of the first clothoid of an entry, by its radius.
@@ -55,13 +55,13 @@ const RADIUS_RANGE: [f64; 2] = [0.01, 20.0];
 const HALVINGS: usize = 80;
 
 impl Ring {
-    /// How the lanes of an arm join the ring; none where the ring is too small for them, or the arm too short.
+    /// How the lanes of an arm join the ring; `None` if the ring is too small for them, or the arm too short.
     ///
-    /// An entry turns to the right with a radius `r`, and its curvature then changes evenly to that of the ring. `r` is found
-    /// by bisection: the entry shall begin at the distance `offset_m` from the middle of the arm.
+    /// An entry turns to the right with a radius `r`, and its curvature then changes linearly to that of the ring. `r` is found
+    /// by bisection, such that the entry begins at the distance `offset_m` from the middle of the arm.
     ///
     /// # Errors
-    /// Those of [`CentreLine::from_pieces`], for sizes that are no numbers.
+    /// Those of [`CentreLine::from_pieces`], for sizes that are not numbers.
     pub fn joint(self) -> Result<Option<RingJoint>, CentreLineError> {
         let joint_rad = (JOINT_SHARE * self.spacing_rad).min(MAX_JOINT_RAD);
         let [mut low_m, mut high_m] = RADIUS_RANGE.map(|ratio| ratio * self.radius_m);
@@ -98,7 +98,7 @@ impl Ring {
         ]
     }
 
-    /// By how much an entry with this radius ends too far to the left of the arm, seen from the middle \[m\].
+    /// The distance by which an entry with this radius ends too far to the left of the arm, seen from the middle \[m\].
     fn excess_m(&self, joint_rad: f64, radius_m: f64) -> Result<f64, CentreLineError> {
         let curve = CentreLine::from_pieces([0.0; 2], PI, &self.entry(joint_rad, radius_m))?;
         let [_, y] = curve.at(curve.length_m()).position;
@@ -110,7 +110,7 @@ impl RingJoint {
     /// The lines of an arm in a direction \[rad\].
     ///
     /// # Errors
-    /// Those of [`CentreLine::between`] where the arm ends before the yield line.
+    /// Those of [`CentreLine::between`] if the arm ends before the yield line.
     pub fn lines(&self, angle_rad: f64) -> Result<ArmLines, CentreLineError> {
         let Ring { radius_m, offset_m, arm_length_m, .. } = self.ring;
         let (sin, cos) = libm::sincos(angle_rad);
@@ -131,7 +131,7 @@ impl RingJoint {
         })
     }
 
-    /// Where the lane inwards meets the circle of the yield line \[m\].
+    /// The point where the entering lane meets the circle of the yield line \[m\].
     fn yield_line_on(&self, inwards: &CentreLine) -> f64 {
         let [mut low_m, mut high_m] = [0.0, inwards.length_m()];
         for _ in 0..HALVINGS {
@@ -147,7 +147,7 @@ impl RingJoint {
     }
 }
 
-/// A piece driven in the other direction, seen in a mirror.
+/// A piece driven in the other direction, mirrored.
 fn reversed(piece: Piece) -> Piece {
     match piece {
         Piece::Clothoid { length_m, from_1pm, to_1pm } => {

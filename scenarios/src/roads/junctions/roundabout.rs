@@ -12,7 +12,7 @@ use super::super::fault::{RoadFault, to_centimetres};
 use super::ring::{Ring, RingJoint};
 use super::{beside, lane, limit_in_turn_mps, numbered};
 
-/// A roundabout around the origin, driven counter-clockwise; who enters yields. Four arms are called `east`, `north`, `west`
+/// A roundabout around the origin, driven counter-clockwise; entering vehicles yield. Four arms are called `east`, `north`, `west`
 /// and `south`, otherwise they are `arm-0` (to the east), `arm-1` and so on, counter-clockwise. Lanes are called `west-in`
 /// and `west-out`, with `-0` and `-1` from the right where the ring has two lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -107,7 +107,7 @@ impl Roundabout {
         if let Some(joint) = ring.joint()?.filter(is_wide) {
             return Ok(joint);
         }
-        // With a long arm it shows whether the ring or the arm is to blame.
+        // A long arm decides whether the ring or the arm is to blame.
         let long = Ring { arm_length_m: 1e3 * (outer_m + width_m), ..ring }.joint()?.filter(is_wide);
         Err(match long {
             Some(joint) => {

@@ -27,11 +27,11 @@ pub struct TJunction {
     /// Whether the main road has a lane of its own for turns to the left into the minor one, `east-in-1`; `east-in-0` then leads
     /// straight on. To the west of the junction, an island of the same width lies between both directions.
     pub turning_lanes: bool,
-    /// What who comes on the minor road must do.
+    /// The sign on the minor road.
     pub right_of_way: MinorRoadRule,
 }
 
-/// What who comes on a minor road must do where it meets a main one.
+/// The sign on a minor road that meets a main one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MinorRoadRule {
@@ -70,7 +70,7 @@ impl TJunction {
     /// # Errors
     /// For sizes that leave no room for the lanes.
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
-        // Only who comes from the east turns to the left.
+        // Only vehicles from the east turn to the left.
         let medians = if self.turning_lanes { [Median::TurningLane, Median::Island] } else { [Median::None; 2] };
         let main = [(Compass::East, medians[0]), (Compass::West, medians[1])]
             .map(|(compass, median)| Arm { median, ..Arm::new(compass, RightOfWay::Priority) });

@@ -37,7 +37,7 @@ impl TwoWay {
     /// Both lanes.
     ///
     /// # Errors
-    /// For sizes that are no numbers.
+    /// For sizes that are not numbers.
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
         let TwoWay { length_m, lane_width_m, speed_limit_mps, overtaking } = *self;
         let (begin_m, side_m) = (-0.5 * length_m, -0.5 * lane_width_m);

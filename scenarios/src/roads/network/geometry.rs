@@ -1,4 +1,4 @@
-//! The middle of a lane that a file states.
+//! The centre line of a lane from its keys.
 
 use interplay_planners::CentreLine;
 use interplay_planners::road::centre_line::{CentreLineError, LineSection, Piece, smooth_points};
@@ -8,10 +8,10 @@ use super::super::piece::PieceFault;
 use super::lane_config::{LaneConfig, LanePlaceConfig};
 use crate::text::error::quoted;
 
-/// Most of a piece that a curve to the next piece takes, by the radius of the tighter one.
+/// The largest length of a piece that a curve to the next piece replaces, by the radius of the tighter one.
 const TRANSITION_RADIUS_RATIO: f64 = 0.25;
 
-/// Most of a piece that a curve to the next piece takes, by its length.
+/// The largest share of a piece that a curve to the next piece replaces.
 const TRANSITION_LENGTH_SHARE: f64 = 0.4;
 
 /// Longest lane, as a multiple of its width: bounds the cost of loading it.
@@ -51,7 +51,7 @@ fn of_points(lane: &LaneConfig, path: &str) -> Result<CentreLine, RoadFault> {
     line.map_err(|error| points_fault(&error, lane, path))
 }
 
-/// Why points are no line: two are the same, or the line turns back at one of them. Points are counted from 0.
+/// Why points do not form a line: two are equal, or the line turns back at one of them. Points are counted from 0.
 fn points_fault(error: &CentreLineError, lane: &LaneConfig, path: &str) -> RoadFault {
     let of_lane = format!("lane {}", quoted(&lane.name));
     if let Some(point) = lane.points.windows(2).position(|pair| pair[0] == pair[1]) {
@@ -70,7 +70,7 @@ fn points_fault(error: &CentreLineError, lane: &LaneConfig, path: &str) -> RoadF
     RoadFault::new(format!("{path}.points"), "no line", message).help("a smooth line must lead through the points")
 }
 
-/// The point at which the line through the points turns most, if it turns back there: by more than a right angle.
+/// The point at which the line through the points turns most, if by more than a right angle.
 fn turning_point(points: &[[f64; 2]]) -> Option<usize> {
     let turn_rad = |triple: &[[f64; 2]]| {
         let [before, after] = [0, 1].map(|at| [0, 1].map(|axis| triple[at + 1][axis] - triple[at][axis]));
@@ -95,7 +95,7 @@ fn of_pieces(lane: &LaneConfig, start: &LanePlaceConfig, path: &str) -> Result<C
     })
 }
 
-/// The pieces one after the other. Where the curvature jumps between two of them, a smooth curve takes the place of a part of
+/// The pieces one after the other. Where the curvature jumps between two of them, a smooth curve replaces a part of
 /// both; the ends of all pieces but this part stay where they are.
 fn joined(start: &LanePlaceConfig, pieces: &[Piece]) -> Result<CentreLine, CentreLineError> {
     let mut lines = Vec::new();

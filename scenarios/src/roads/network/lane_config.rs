@@ -17,7 +17,7 @@ pub struct LaneConfig {
     /// Its name, unique in the network.
     #[schemars(extend("pattern" = name::pattern()), example = &"main-0")]
     pub name: String,
-    /// Where the middle of the lane begins, and in which direction.
+    /// The first point of the lane's middle, and its direction.
     #[serde(default)]
     #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.0, "heading_deg": 0.0 }), extend("x-excludes" = ["points"]))]
     pub start: Option<LanePlaceConfig>,
@@ -34,7 +34,7 @@ pub struct LaneConfig {
     #[serde(default)]
     #[schemars(length(max = 5000), example = json!([[0.0, 0.0], [20.0, 1.0], [40.0, 4.0]]))]
     pub points: Vec<[f64; 2]>,
-    /// By how much the curve may miss `points`, but for the first and the last, in order to bend less \[m\].
+    /// The largest distance between the curve and `points`, except at the first and the last, in order to bend less \[m\].
     #[serde(default = "defaults::tolerance_m")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub tolerance_m: f64,
@@ -53,24 +53,24 @@ pub struct LaneConfig {
     #[serde(default)]
     #[schemars(example = json!({ "lane": "against", "oncoming": true, "may_change": false }))]
     pub right: Option<NeighbourConfig>,
-    /// Highest permitted speed; by default none is known \[m/s\].
+    /// Highest permitted speed; by default unknown \[m/s\].
     #[serde(default)]
     #[schemars(range(min = 0.001), example = 13.9)]
     pub speed_limit_mps: Option<f64>,
-    /// Who goes first at its end.
+    /// The right of way at its end.
     #[serde(default)]
     pub right_of_way: RightOfWay,
-    /// For whom the lane is; by default for all. Others find no route along it and do not change into it.
+    /// The road users that may use the lane; by default all. Others do not get routes along it and do not change into it.
     #[serde(default)]
     #[schemars(length(max = 5), example = json!(["bus"]))]
     pub users: Vec<LaneUser>,
-    /// Whether it is a zebra crossing: whoever is on it, or comes to it, goes first, whatever the signs of the lanes that it crosses.
+    /// Whether it is a zebra crossing: a pedestrian on it, or coming to it, goes first, whatever the signs of the lanes that it crosses.
     #[serde(default)]
     pub zebra: bool,
 }
 
 impl LaneConfig {
-    /// A lane through points, each `[x, y]` \[m\], of a constant width \[m\], with no lane after it or beside it.
+    /// A lane through points, each `[x, y]` \[m\], of a constant width \[m\], without a successor or a neighbour.
     pub fn through(name: &str, points: &[[f64; 2]], width_m: f64) -> LaneConfig {
         LaneConfig {
             name: name.to_owned(),
@@ -99,7 +99,7 @@ mod defaults {
     }
 }
 
-/// A place in world coordinates and a direction.
+/// A position in world coordinates and a direction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LanePlaceConfig {
@@ -128,9 +128,9 @@ pub enum LaneWidth {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum NeighbourConfig {
-    /// Its name: it is driven in the same direction, and one may change into it.
+    /// Its name: it is driven in the same direction, and vehicles may change into it.
     Name(String),
-    /// Its name, and what is different.
+    /// Its name, and the keys that differ.
     Table(NeighbourTable),
 }
 
@@ -161,7 +161,7 @@ impl NeighbourConfig {
 }
 
 impl LaneWidth {
-    /// The width at the begin of the lane \[m\].
+    /// The width at the start of the lane \[m\].
     pub(crate) fn first_m(&self) -> f64 {
         match self {
             LaneWidth::Constant(width_m) => *width_m,
@@ -182,7 +182,7 @@ impl LaneWidth {
                 .help(format!("widths are at least {MIN_WIDTH_M} m everywhere; 3.5 m is a usual one")));
         }
         Profile::through(knots).map_err(|error| {
-            RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is none: {error}"))
+            RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is invalid: {error}"))
                 .help("write pairs of increasing distances and widths, such as `[[0.0, 3.5], [20.0, 3.0]]`")
         })
     }

@@ -38,7 +38,7 @@ impl LaneNetwork {
 
 /// The lane that a table states; `path` is that of the table below `road`.
 fn lane(stated: &LaneConfig, path: &str) -> Result<Lane, RoadFault> {
-    // The longest line that a lane may have follows from its width, so what is wrong with that is said first.
+    // The width bounds the length of the line, so the faults of the width are reported first.
     let width = stated.width_m.profile(path)?;
     Ok(Lane {
         name: stated.name.clone(),

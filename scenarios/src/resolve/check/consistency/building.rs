@@ -1,6 +1,6 @@
-//! The check of what a scenario says about a building: parts that exclude one another, and numbers that fit no building.
+//! The check of a building: keys that exclude one another, and numbers that no building can have.
 //!
-//! The building crate itself is asked whether it could work with them.
+//! The building crate checks the rest itself.
 
 use interplay_building::day::MAX_REGRET_INPUTS;
 use interplay_building::discretise::{Model, ModelError};
@@ -17,9 +17,8 @@ use crate::text::error::{Fault, quoted};
 
 /// The most steps that a building may take.
 const MAX_STEPS: usize = 100_000;
-/// The most zones.
 const MAX_ZONES: usize = 1000;
-/// Everything that does not fit together.
+/// All faults of the building.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut faults = Vec::new();
     if scenario.vehicles.is_empty() {
@@ -53,7 +52,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
     checker.faults
 }
 
-/// The keys of the file and of its expectations that have this concern and do not state what is so by default.
+/// The keys of the file and of its expectations that have this concern and differ from the default.
 fn stated(concern: Concern, tree: &TomlNode, root: SchemaNode) -> impl Iterator<Item = String> {
     let of_file = root.properties().map(|(key, property)| (key.clone(), property));
     let expectations = root.property("expect").into_iter().flat_map(SchemaNode::properties);
@@ -93,7 +92,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether another program can be asked, and whether what is expected can be known of it.
+    /// Whether another program can be the building, and whether its expectations can then be judged.
     fn plant(&mut self, building: &BuildingConfig) {
         match &building.plant {
             BuildingPlant::Network(_) => return,
@@ -113,9 +112,9 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a test case of BOPTEST fits the zones, and whether what it foretells is stated in the file, too.
+    /// Whether a BOPTEST test case fits the zones, and whether the file also states what it forecasts.
     fn boptest(&mut self, building: &BuildingConfig, config: &BoptestPlantConfig) {
-        // A network that is none is refused elsewhere.
+        // An invalid network is refused elsewhere.
         let network = building.network().ok();
         let zones = network.as_ref().map_or(config.zones.len(), Network::zone_count);
         if let Some((key, problem)) = config.fault(zones) {
@@ -126,7 +125,7 @@ impl Checker<'_> {
         let samples = building.step_s / config.sampling_s;
         if config.fmu.is_some() && (samples < 0.5 || (samples - samples.round()).abs() > 1e-9) {
             let message = format!(
-                "`building.step_s` ({}) is no whole number of `building.plant.sampling_s` ({})",
+                "`building.step_s` ({}) is not a multiple of `building.plant.sampling_s` ({})",
                 building.step_s, config.sampling_s
             );
             self.refuse(
@@ -154,7 +153,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether it is clear of which zones the building consists.
+    /// Whether the zones of the building are stated unambiguously.
     fn sources(&mut self, building: &BuildingConfig) -> bool {
         let before = self.faults.len();
         if building.zones.is_empty() && !building.walls.is_empty() {
@@ -183,7 +182,7 @@ impl Checker<'_> {
         self.refuse(&path, "here", error.to_string(), "");
     }
 
-    /// Whether the model can be simulated, aimed and controlled.
+    /// Whether the model can be simulated and controlled, with targets for its zones.
     fn controlled(&mut self, building: &BuildingConfig, network: &Network) {
         let steps = building.steps_per_day();
         let setpoints = self.scenario.setpoints.clone().unwrap_or_default();
@@ -216,7 +215,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the controller can work with what it takes the building for.
+    /// Whether the controller works with its model of the building.
     fn believed(&mut self, building: &BuildingConfig, steps: usize) {
         let network = match building.believed_network() {
             Ok(network) => network,

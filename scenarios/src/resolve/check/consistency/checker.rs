@@ -1,21 +1,21 @@
-//! What every check of consistency collects: faults, each at its place in the file.
+//! The faults that all consistency checks collect, each at its place in the file.
 
 use crate::format::read::tree::TomlNode;
 use crate::model::scenario::Scenario;
 use crate::text::error::{Fault, Place};
 
-/// A scenario under examination, with the faults found so far.
+/// A scenario under check, with the faults found so far.
 pub(super) struct Checker<'a> {
-    /// What the files and flags say.
+    /// The values of the files and flags.
     pub scenario: &'a Scenario,
-    /// Where they say it.
+    /// The places of these values.
     pub tree: &'a TomlNode,
-    /// What does not fit together.
+    /// The faults.
     pub faults: Vec<Fault>,
 }
 
 impl<'a> Checker<'a> {
-    /// An examination that has found nothing yet.
+    /// A check without faults so far.
     pub fn new(scenario: &'a Scenario, tree: &'a TomlNode) -> Self {
         Checker { scenario, tree, faults: Vec::new() }
     }
@@ -26,7 +26,7 @@ impl<'a> Checker<'a> {
         index.checked_sub(vehicles).map_or_else(|| format!("vehicle.{index}"), |index| format!("obstacle.{index}"))
     }
 
-    /// Where the value at a path is written.
+    /// The place of the value at a path.
     pub fn place(&self, path: &str) -> &Place {
         self.tree.place_of(path)
     }

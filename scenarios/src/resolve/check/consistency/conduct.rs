@@ -1,4 +1,4 @@
-//! The check of what vehicles are told to do: scripts, triggers, and when they are on the road.
+//! The check of scripts, triggers, and the times at which vehicles are on the road.
 
 use interplay_planners::Driver;
 use interplay_planners::drivers::scripted::Order;
@@ -10,11 +10,11 @@ use crate::model::traffic::plant::Plant;
 use crate::text::error::quoted;
 use crate::text::readable::readable;
 
-/// How far beside the road a script may lead by rounding \[m\].
+/// The tolerance for rounding beside the road in a script \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
 impl Checker<'_> {
-    /// A script is checked like a goal: speeds, accelerations, places, and orders that never begin or contradict each other.
+    /// A script is checked like a goal: speeds, accelerations, positions, and orders that never begin or contradict each other.
     pub(super) fn script(&mut self, index: usize, vehicle: &Vehicle) {
         let Driver::Scripted(settings) = &vehicle.driver else { return };
         let stated = format!("vehicle.{index}.driver.script");
@@ -48,7 +48,7 @@ impl Checker<'_> {
         }
     }
 
-    /// An order says something, after those above it and not at the time of one of them that rules the same.
+    /// An order states something, comes after those above it, and does not repeat the time of one that rules the same.
     fn script_order(&mut self, vehicle: &Vehicle, script: &[Order], number: usize, path: &str) {
         let (order, name) = (&script[number], quoted(&vehicle.name));
         if order.speed_mps.is_none() && order.lateral_m.is_none() {
@@ -99,7 +99,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Somebody who walks may wait for a vehicle.
+    /// A pedestrian may wait for a vehicle.
     pub(super) fn walker(&mut self, index: usize, vehicle: &Vehicle) {
         let Driver::Walker(settings) = &vehicle.driver else { return };
         if let Some(when) = &settings.when {
@@ -108,7 +108,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A trigger names a vehicle and a place on its way.
+    /// A trigger names a vehicle and a position on its route.
     fn trigger(&mut self, trigger: &Trigger, path: &str, shown: &str) {
         self.known(&format!("{path}.vehicle"), &trigger.vehicle);
         let Some(vehicle) = self.scenario.vehicle(&trigger.vehicle) else { return };
@@ -138,7 +138,7 @@ impl Checker<'_> {
         }
     }
 
-    /// When a vehicle is on the road.
+    /// The times at which a vehicle is on the road.
     pub(super) fn stay(&mut self, index: usize, vehicle: &Vehicle) {
         let stay = vehicle.stay;
         if stay.is_permanent() {

@@ -1,4 +1,4 @@
-//! The check of what counterfactuals say beside the scenarios that they run.
+//! The check of counterfactuals, apart from the scenarios that they run.
 
 use interplay_common::spelling::suggestion;
 
@@ -9,8 +9,8 @@ use crate::model::expectations::expect::{CounterfactualExpect, Expect};
 use crate::model::scenario::Scenario;
 use crate::text::error::{Fault, quoted};
 
-/// Everything that is wrong with the counterfactuals of a scenario, but for what they change. `as_written` are the scenarios that
-/// are run for them, where no flags were laid over the file; these may have removed what the counterfactuals refer to.
+/// The faults of the counterfactuals of a scenario, apart from those of their changes. `as_written` are the scenarios that
+/// are run for them without the flags; flags may have removed what the counterfactuals refer to.
 pub(crate) fn check(
     scenario: &Scenario,
     all: &[CounterfactualConfig],
@@ -40,7 +40,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether it changes something, and expects something of that.
+    /// Whether it changes something, and has an expectation.
     fn purpose(&mut self, index: usize, counterfactual: &CounterfactualConfig, run: Option<&Scenario>) {
         let (path, name) = (format!("counterfactual.{index}"), quoted(&counterfactual.name));
         if counterfactual.planner.is_none() && counterfactual.set.is_empty() {
@@ -91,7 +91,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether both scenarios, neither with counterfactuals, are run alike, whatever is expected of them.
+/// Whether both scenarios, neither with counterfactuals, have the same run, whatever their expectations.
 fn is_same_run(one: &Scenario, other: &Scenario) -> bool {
     let run = |scenario: &Scenario| Scenario { figure: None, expect: Expect::default(), ..scenario.clone() };
     run(one) == run(other)

@@ -1,4 +1,4 @@
-//! Detectors: whether their lanes are there, and those before them.
+//! The check of detectors: whether their lanes and the detectors before them exist.
 
 use super::checker::Checker;
 use crate::text::error::quoted;

@@ -1,4 +1,4 @@
-//! The check of what a scenario expects of its vehicles.
+//! The check of expectations of vehicles.
 
 use interplay_common::spelling::suggestion;
 
@@ -41,7 +41,7 @@ impl Checker<'_> {
     fn order(&mut self) {
         let Some(order) = &self.scenario.expect.order else { return };
         if order.len() < 2 {
-            let whom = order.first().map_or("nobody".to_owned(), |name| format!("{} only", quoted(name)));
+            let whom = order.first().map_or("no vehicle".to_owned(), |name| format!("{} only", quoted(name)));
             let names: Vec<String> =
                 self.scenario.vehicles.iter().map(|vehicle| format!("\"{}\"", vehicle.name)).collect();
             let help = if names.len() < 2 {
@@ -65,7 +65,7 @@ impl Checker<'_> {
         let Some(collisions) = &self.scenario.expect.collisions else { return };
         if collisions.is_empty() {
             let help = "`no_collision = true` expects that no two vehicles touch";
-            self.refuse("expect.collisions", "no pair", "`expect.collisions` names nobody".to_owned(), help);
+            self.refuse("expect.collisions", "no pair", "`expect.collisions` names no vehicle".to_owned(), help);
         }
         for (index, pair) in collisions.iter().enumerate() {
             let path = format!("expect.collisions.{index}");
@@ -73,13 +73,13 @@ impl Checker<'_> {
                 self.known(&format!("{path}.{end}"), name);
             }
             if pair[0] == pair[1] {
-                let message = format!("nobody collides with itself, and {} is named twice", quoted(&pair[0]));
+                let message = format!("a vehicle cannot collide with itself: {} is named twice", quoted(&pair[0]));
                 self.refuse(&path, "the same vehicle", message, "");
             }
         }
     }
 
-    /// Whether an entry of a list of bounds states one, for a vehicle that exists.
+    /// Whether an entry of a list states a bound, for a vehicle that exists.
     fn bounds(&mut self, list: &str, index: usize, vehicle: &str, bounds: &[MetricBoundKey; 4]) {
         let path = format!("expect.{list}.{index}");
         self.known(&format!("{path}.vehicle"), vehicle);
@@ -90,8 +90,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether an entry bounds a metric that exists, of a vehicle that exists, by what its values can be compared with. Without
-    /// known metrics, whoever runs the scenario knows them.
+    /// Whether an entry bounds a metric that exists, of a vehicle that exists, by a value of the right type. Without
+    /// declared metrics, the program that runs the scenario checks this.
     fn metric(&mut self, index: usize, stated: &ExpectedMetric) {
         let ExpectedMetric { name, vehicle, at_most, at_least, is } = stated;
         let path = format!("expect.metric.{index}");
@@ -127,7 +127,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the ways of both vehicles meet, so that one can let the other go first.
+    /// Whether the routes of both vehicles meet, so that one can let the other go first.
     fn yields(&mut self, index: usize, ExpectedYield { vehicle, to }: &ExpectedYield) {
         let path = format!("expect.yields.{index}");
         self.known(&format!("{path}.vehicle"), vehicle);
@@ -135,7 +135,7 @@ impl Checker<'_> {
         let scenario = self.scenario;
         let (Some(own), Some(other)) = (scenario.vehicle(vehicle), scenario.vehicle(to)) else { return };
         if vehicle == to {
-            let message = format!("nobody gives way to itself, and {} is named twice", quoted(to));
+            let message = format!("a vehicle cannot give way to itself: {} is named twice", quoted(to));
             self.refuse(&format!("{path}.to"), "the same vehicle", message, "");
         } else if scenario.road.conflict_zones(own, other).is_empty() {
             let message = format!("the ways of {} and {} never cross or merge", quoted(vehicle), quoted(to));

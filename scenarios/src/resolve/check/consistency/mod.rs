@@ -1,6 +1,6 @@
-//! The check of what a scenario means: positions, names and times that do not fit together.
+//! The check of meaning: positions, names and times that do not fit together.
 //!
-//! By now every key has the right type and range; the tree says where each is written.
+//! Every key already has the right type and range; the tree holds their places.
 
 mod building;
 mod checker;
@@ -29,10 +29,10 @@ pub(crate) use road::{curve_faults, no_such_lane};
 
 /// The most ticks a run may take.
 const MAX_TICKS: f64 = 100_000.0;
-/// How far a corner may stick out of the road by rounding \[m\].
+/// The tolerance for rounding of a corner beyond the road \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
-/// Everything that does not fit together.
+/// All inconsistencies.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::new(scenario, tree);
     checker.times();
@@ -48,7 +48,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
         checker.script(index, vehicle);
         checker.walker(index, vehicle);
         checker.stay(index, vehicle);
-        // A record is what it is: whoever was recorded was there, and fast, and beside the lanes.
+        // A recorded vehicle really had its speed and position, beside the lanes too: neither is checked.
         if vehicle.driver.record().is_some() {
             checker.recorded(index, vehicle);
             continue;
@@ -67,7 +67,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) ->
     checker.faults
 }
 
-/// What is wrong with the times of a scenario, whose vehicles may have no places.
+/// The faults of the times of a scenario, whose vehicles may have no positions.
 pub(crate) fn check_times(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     let mut checker = Checker::new(scenario, tree);
     checker.times();
@@ -166,7 +166,7 @@ impl Checker<'_> {
                 (Branch::Main, Road::Curve(_)) => ("a curve", "y of the world"),
                 (Branch::Main, _) => ("a network of lanes", "y of the world"),
             };
-            let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on {which}");
+            let message = format!("`vehicle.{name}.goal.y_m` is not a lateral position on {which}");
             self.refuse(&format!("{path}.y_m"), label, message, "state its `lane`");
             return;
         }
@@ -188,7 +188,7 @@ impl Checker<'_> {
         self.refuse(&format!("vehicle.{index}.driver.{key}"), error.label(), message, &error.remedy());
     }
 
-    /// A record moves its vehicle along the record only: tyres and random starts have no part in it.
+    /// A record moves its vehicle along the record only: tyres and random starts do not apply.
     fn recorded(&mut self, index: usize, vehicle: &Vehicle) {
         let name = quoted(&vehicle.name);
         if matches!(self.scenario.plant, Plant::Dynamic(_)) {
@@ -225,7 +225,7 @@ impl Checker<'_> {
                         quoted(&vehicle.name)
                     );
                     let [own, others] = [index, other_index].map(|index| self.place_of_footprint(index));
-                    // What a flag or the file says moved one onto the other, and not what it is laid over.
+                    // The flag or key that moved one vehicle onto the other is blamed, not the file that it changes.
                     let (blamed, other) =
                         if others.document.rank < own.document.rank { (others, own) } else { (own, others) };
                     let fault = Fault::at(blamed, "overlaps", message).also(other, "with this one");
@@ -240,14 +240,14 @@ impl Checker<'_> {
     }
 }
 
-/// What decides, beside a vehicle's own keys, where its footprint lies at the start.
+/// The keys besides a vehicle's own that determine its footprint at the start.
 const SHARED_CAUSES: [&str; 4] = ["scale", "defaults.class", "defaults.body", "road"];
-/// What does so where starts are moved at random.
+/// The key that does so if starts are moved at random.
 const CAUSES_OF_JITTER: [&str; 2] = ["start_jitter", "seed"];
 
 impl Checker<'_> {
-    /// Where it is written what puts the footprint of a vehicle where it is at the start: of all that do, what was laid over
-    /// the others last; its start if all stand in one file.
+    /// The place of the key that puts the footprint of a vehicle where it is at the start: of all such keys, the one that was merged
+    /// last; its start if all are in one file.
     fn place_of_footprint(&self, index: usize) -> &Place {
         let path = self.path(index);
         if self.scenario.vehicles[index].obstacle.is_some() {
@@ -299,7 +299,7 @@ pub(crate) fn overlap(first: &Body, at: &State, second: &Body, other_at: &State)
     gaps.all(|gap| gap < -ROUNDING_M)
 }
 
-/// The interval that a rectangle covers along an axis.
+/// The projection of a rectangle onto an axis.
 fn projection(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> (f64, f64) {
     let along = corners.map(|corner| corner[0] * x + corner[1] * y);
     along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))

@@ -15,7 +15,7 @@ const CROSSING_ANGLE_DEG: std::ops::RangeInclusive<f64> = 20.0..=160.0;
 /// Cosine of the largest angle between a start and the direction of its road.
 const MIN_COS_OF_START: f64 = 0.5;
 
-/// What keeps a curve from being a road.
+/// The faults of a curved road.
 pub(crate) fn curve_faults(road: &Road, tree: &TomlNode) -> Vec<Fault> {
     let Road::Curve(curve) = road else { return Vec::new() };
     curve.check().err().map(|fault| described(curve, fault, tree)).into_iter().collect()
@@ -105,12 +105,12 @@ fn rounded(length_m: f64) -> f64 {
     (1e3 * length_m).round() / 1e3
 }
 
-/// A length that is at most this one, to the millimetre.
+/// A length rounded down to the millimetre.
 fn rounded_down(length_m: f64) -> f64 {
     (1e3 * length_m).floor() / 1e3
 }
 
-/// Why a road has no such lane, and what would work; none if it has it.
+/// Why a road lacks a lane, and what would work; `None` if it has the lane.
 pub(crate) fn no_such_lane(path: &str, lane: usize, road: &Road) -> Option<(String, String)> {
     let lanes = road.parallel_lanes()?.count;
     let message = format!("`{path}` is {lane}, but the road has only {lanes} {}", plural(lanes, "lane"));
@@ -124,7 +124,7 @@ fn smallest_radius_m(body: &Body, limits: &Limits) -> f64 {
 }
 
 impl Checker<'_> {
-    /// Roads that cross at a small angle run side by side, and their conflict zone is as long as they are.
+    /// Roads that cross at a small angle run nearly side by side, and their conflict zone is as long as they are.
     pub(super) fn road(&mut self) {
         if let Road::Intersection(crossing) = &self.scenario.road
             && !CROSSING_ANGLE_DEG.contains(&crossing.angle_deg.abs())
@@ -207,7 +207,7 @@ impl Checker<'_> {
 }
 
 impl Checker<'_> {
-    /// A lane on the route of a vehicle turns with a smaller radius than the vehicle.
+    /// A lane on the route of a vehicle has a smaller turning radius than the vehicle.
     fn too_tight(&mut self, index: usize, vehicle: &Vehicle, error: RouteError) {
         let RouteError::TooTight { lane, radius_m, smallest_m, .. } = error else { return };
         let message = format!(

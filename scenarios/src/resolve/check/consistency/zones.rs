@@ -1,4 +1,4 @@
-//! The check of what a scenario says about single zones, their hours, and the price of their heat.
+//! The check of zones, schedules and prices.
 
 use interplay_building::energy::Tariff;
 use interplay_building::network::Network;
@@ -11,7 +11,7 @@ use crate::model::derived::timetable::TimetableError;
 use crate::model::scenario::Scenario;
 use crate::text::error::{Fault, quoted};
 
-/// Everything about zones, hours and prices that does not fit the building.
+/// The faults of zones, schedules and prices.
 pub(super) fn check(scenario: &Scenario, tree: &TomlNode, network: &Network) -> Vec<Fault> {
     let mut checker = Checker::new(scenario, tree);
     checker.calendar();
@@ -40,7 +40,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether schedules fit the zones, and the controller can live with days that differ.
+    /// Whether schedules fit the zones, and the controller supports days that differ.
     fn timetable(&mut self) {
         let timetable = match self.scenario.timetable() {
             Ok(timetable) => timetable,
@@ -60,7 +60,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether prices and coefficients of performance make sense.
+    /// Whether prices and coefficients of performance are valid.
     fn energy(&mut self) {
         let days = self.scenario.days();
         let check = |tariff: &Tariff| tariff.check().and_then(|()| tariff.check_days(days));
@@ -75,7 +75,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the weather says where the sun stands, if windows ask for it.
+    /// Whether the weather states the position of the sun, if windows need it.
     fn sunlit_windows(&mut self, network: &Network) {
         let WeatherSource::Csv(weather) = &self.scenario.weather else { return };
         if network.window_planes().is_empty() || weather.weather.sky.is_some() {
