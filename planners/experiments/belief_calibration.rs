@@ -164,7 +164,7 @@ fn believed(
         if let Some((_, edges)) = began.filter(|(began, _)| tick >= began + SECOND) {
             let own = decisions.into_iter().find(|decision| decision.vehicle == 0)?;
             let of = |belief: &DriverEstimate| belief.vehicle == vehicles[observed].agent.name;
-            return own.plan.beliefs.iter().cloned().find(of).map(|estimate| (estimate, edges));
+            return own.plan.beliefs.iter().find(|estimate| of(estimate)).cloned().map(|estimate| (estimate, edges));
         }
     }
     None

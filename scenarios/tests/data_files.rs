@@ -73,7 +73,7 @@ fn gaps_outside_the_days_of_the_run_are_accepted() {
     let scenario = folder.load(&format!("{HOUSE}{weather}month = 2\n")).expect("February is right");
     let said = remarks(&scenario);
     assert!(said.contains("line 6729: column 7, dry-bulb temperature, is -999"), "{said}");
-    assert!(said.contains("120 such cells") && said.contains("column 10, air pressure, is 960"), "{said}");
+    assert!(said.contains("120 such cells"), "{said}");
     folder
         .refused(&format!("{HOUSE}{weather}month = 10\nday = 8\n"), &["year.epw:6729:1", "is -999", "take other days"]);
     // Missing radiation is accepted without windows, and refused with them.

@@ -125,7 +125,7 @@ pub(crate) fn initialize(schedule: &mut Schedule, world: &mut World) -> Result<(
 fn held(world: &World) -> impl Iterator<Item = &ComponentInfo> {
     let is_held = |component: &&ComponentInfo| {
         let mut archetypes = world.archetypes().iter();
-        archetypes.any(|archetype| archetype.len() > 0 && archetype.contains(component.id()))
+        archetypes.any(|archetype| !archetype.is_empty() && archetype.contains(component.id()))
     };
     world.components().iter_registered().filter(is_held)
 }
