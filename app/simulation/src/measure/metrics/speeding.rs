@@ -73,7 +73,14 @@ mod tests {
         let vehicle = Vehicle { route: route(), ..scenario.vehicles[0].clone() };
         let mut seen = vec![(0.0, 10.0, 19.0), (1.0, 50.0, 20.0), (2.0, 150.0, 40.0)];
         let measured = |seen: &[(f64, f64, f64)]| {
-            at_moments(&SPEEDING, &vehicle, &seen.iter().map(|&(time_s, along_m, speed_mps)| moment(time_s, along_m, speed_mps)).collect::<Vec<_>>())
+            at_moments(
+                &SPEEDING,
+                &vehicle,
+                &seen
+                    .iter()
+                    .map(|&(time_s, along_m, speed_mps)| moment(time_s, along_m, speed_mps))
+                    .collect::<Vec<_>>(),
+            )
         };
         for until in 1..=seen.len() {
             assert_eq!(measured(&seen[..until]), peak(0.0, None), "after {until} moments");
