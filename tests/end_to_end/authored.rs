@@ -66,6 +66,13 @@ fn without_a_command_the_first_scenario_runs() {
     let folder = scratch("default");
     let outcome = interplay(&folder, &[]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    assert!(outcome.stdout.starts_with("Lane change, front driver nice  [lane-change/front-nice]\n"), "{outcome:?}");
-    assert!(folder.join("recordings/lane-change/front-nice.rrd").is_file());
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    assert_eq!(lines.first(), Some(&"People: crossing without priority  [people/intersection]"), "{outcome:?}");
+    let next: Vec<&str> = outcome.stderr.lines().filter(|line| line.starts_with("next: ")).collect();
+    assert_eq!(next.len(), 3, "{outcome:?}");
+    for (line, command) in next.iter().zip(["why", "play", "new"]) {
+        assert!(line.contains(&format!(" {command} ")), "{line}");
+    }
+    assert!(lines.len() + next.len() <= 15, "the first screen is short: {outcome:?}");
+    assert!(!folder.join("recordings").exists(), "it writes no file");
 }
