@@ -70,7 +70,7 @@ fn a_recording_says_how_to_repeat_it() {
     short(&folder, &["--seed", "77", "--record", "my.rrd"]);
     let bytes = fs::read(folder.join("my.rrd")).expect("there is a recording");
     // The rest of the line is compressed.
-    let command = b"Again: `interplay run";
+    let command = b"Command: `interplay run";
     assert!(bytes.windows(command.len()).any(|window| window == command));
 }
 

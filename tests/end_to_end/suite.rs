@@ -68,7 +68,7 @@ fn one_failed_expectation_fails_the_suite_and_is_named() {
     let outcome = interplay(&folder, &["suite", "sub/good.toml", "sub", "--junit", "out.xml"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(1), ""), "{outcome:?}");
     let lines: Vec<&str> = outcome.stdout.lines().collect();
-    let starts = ["scenario ", "good ", "bad ", "  FAIL min_gap_m: want 9.0, got 0.", "good ", "FAILED: 2 of 3 did "];
+    let starts = ["scenario ", "good ", "bad ", "  FAIL min_gap_m: want 9.0, got 0.", "good ", "FAILED: 2 of 3 met "];
     assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
     for (line, start) in lines.iter().zip(starts) {
         assert!(line.starts_with(start), "`{line}` does not start with `{start}`");

@@ -10,15 +10,13 @@ use std::thread;
 use std::time::Duration;
 
 use crate::error::HostError;
-use crate::last_line::LastLine;
+use crate::last_line::{LastLine, shown};
 use crate::protocol::{HostAnswer, Request, Values};
 use crate::unit::Unit;
 
 /// Time in which a process that has closed its output must end and its last output must be read.
 const ENDING: Duration = Duration::from_secs(2);
 const ENDING_POLL: Duration = Duration::from_millis(5);
-/// Maximum length of a line of the process that an error shows \[characters\].
-const SHOWN_CHARACTERS: usize = 120;
 const PROGRAM: &str = "interplay";
 
 /// The program that is started for a unit. Its last arguments are the library, the identity and the folder of resources, with which it
@@ -157,11 +155,6 @@ impl Drop for Host {
         self.input = None;
         self.kill();
     }
-}
-
-/// The beginning of a line of the process, as an error shows it.
-pub(crate) fn shown(line: &str) -> String {
-    line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
 }
 
 fn failed(question: &str, reason: String) -> HostError {

@@ -6,7 +6,9 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use crate::host::shown;
+/// Maximum length of a line of the process that an error shows \[characters\].
+const SHOWN_CHARACTERS: usize = 120;
+
 
 /// Reads the standard error of a process to its end, in a thread, and keeps the last line that is not blank.
 #[derive(Debug)]
@@ -47,4 +49,9 @@ impl LastLine {
         }
         self.line.lock().map(|line| line.clone()).unwrap_or_default()
     }
+}
+
+/// The beginning of a line of the process, as an error shows it.
+pub(crate) fn shown(line: &str) -> String {
+    line.chars().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect()
 }

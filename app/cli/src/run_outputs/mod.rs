@@ -17,7 +17,7 @@ use interplay_sweep::TableError;
 use thiserror::Error;
 
 use commonroad::CommonRoadFile;
-use tables::{DetectorTable, SeriesTable, TrajectoryTable};
+use tables::{DetectorTable, SeriesFile, TrajectoryTable};
 use written_files::WrittenFiles;
 
 /// A file, or a pair of files, that a flag of `run` asks for.
@@ -118,7 +118,7 @@ run_outputs! {
     detectors: DetectorTable;
     /// Write what happened in the building at every step as a table, with weather, forecast, sun and price: .csv or .parquet
     #[arg(value_name = "FILE")]
-    series: SeriesTable;
+    series: SeriesFile;
     /// Write the run as a scenario of CommonRoad, all but the ego as obstacles, and beside it NAME.solution.xml: the ego's
     /// motion as a solution of its planning problem
     #[arg(value_name = "FILE.xml")]

@@ -19,7 +19,7 @@ pub struct DetectorTable(TableFile);
 
 /// A table of what happened in the building.
 #[derive(Clone, Debug)]
-pub struct SeriesTable(TableFile);
+pub struct SeriesFile(TableFile);
 
 impl FromStr for TrajectoryTable {
     type Err = TableFormatError;
@@ -37,11 +37,11 @@ impl FromStr for DetectorTable {
     }
 }
 
-impl FromStr for SeriesTable {
+impl FromStr for SeriesFile {
     type Err = TableFormatError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        text.parse().map(SeriesTable)
+        text.parse().map(SeriesFile)
     }
 }
 
@@ -73,7 +73,7 @@ impl RunOutput for DetectorTable {
     }
 }
 
-impl RunOutput for SeriesTable {
+impl RunOutput for SeriesFile {
     fn files(&self) -> Vec<(&'static str, &Path)> {
         vec![("table of series", self.0.path())]
     }

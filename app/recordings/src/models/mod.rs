@@ -20,6 +20,7 @@ pub struct NamedModel {
     pub name: String,
     /// Its fitted parameters, by name with unit.
     pub fitted: Vec<(String, f64)>,
+    /// The model with these parameters.
     #[serde(skip)]
     pub model: MotionModel,
 }

@@ -17,7 +17,7 @@ use crate::{climate, measure, physics};
 /// One tick, phase by phase. Data flows in one direction: no phase depends on later ones.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
-    /// Components become plain values for planners, and sensors measure them.
+    /// The traffic is prepared for a plan, and sensors measure the vehicles.
     Sense,
     /// The motion of each vehicle is predicted.
     Predict,

@@ -86,10 +86,11 @@ impl WorldState {
     /// [`NotCopied`] names the part that cannot be copied.
     pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
-        for entity in &world.resource::<Fleet>().0 {
-            let parts = world.try_query::<VehicleParts>();
-            let Some(mut parts) = parts else { continue };
-            let Ok((identity, row, driving, handed_in, body)) = parts.get(world, *entity) else { continue };
+        let road_users = &world.resource::<CurrentTraffic>().0.road_users;
+        for (entity, user) in world.resource::<Fleet>().0.iter().zip(road_users) {
+            let incomplete = || NotCopied::incomplete(&user.agent.name);
+            let mut parts = world.try_query::<VehicleParts>().ok_or_else(incomplete)?;
+            let (identity, row, driving, handed_in, body) = parts.get(world, *entity).map_err(|_| incomplete())?;
             vehicles.push(VehicleState {
                 identity: identity.clone(),
                 row: *row,

@@ -64,6 +64,7 @@ pub enum HandedIn {
     /// The vehicle has its own driver.
     #[default]
     NotExternal,
+    /// The vehicle is driven from outside, and nothing was handed in yet.
     Awaited,
     /// An input.
     Input(Input),

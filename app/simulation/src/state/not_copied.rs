@@ -13,6 +13,11 @@ pub struct NotCopied {
 }
 
 impl NotCopied {
+    /// The entity of the vehicle called `name` was removed from the world, or lacks a component that it began with.
+    pub fn incomplete(name: &str) -> Self {
+        NotCopied { who: format!("the vehicle `{name}`"), why: "an added system removed it or a part of it".to_owned() }
+    }
+
     /// The driver of the vehicle called `name` does not fork.
     pub fn driver_of(name: &str) -> Self {
         NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() }
