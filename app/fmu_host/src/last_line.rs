@@ -9,7 +9,6 @@ use std::time::Duration;
 /// Maximum length of a line of the process that an error shows \[characters\].
 const SHOWN_CHARACTERS: usize = 120;
 
-
 /// Reads the standard error of a process to its end, in a thread, and keeps the last line that is not blank.
 #[derive(Debug)]
 pub(crate) struct LastLine {

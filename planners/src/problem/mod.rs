@@ -4,6 +4,7 @@
 
 pub(crate) mod clearance;
 mod joint;
+pub(crate) mod permitted_speed;
 mod stage_bounds;
 
 use std::sync::Arc;

@@ -22,7 +22,6 @@ mod lane;
 mod lights;
 mod obliged;
 pub(crate) mod obstacle;
-pub(crate) mod permitted_speed;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
 mod waiting;
