@@ -117,10 +117,10 @@ mod tests {
     #[test]
     fn units_of_other_versions_and_kinds_are_refused_with_the_reason() {
         for (text, said) in [
-            ("nothing", "no XML"),
+            ("nothing", "is not XML"),
             (r#"<a fmiVersion="3.0"/>"#, "version 3.0"),
             (r#"<a fmiVersion="2.0" guid="1"><ModelExchange modelIdentifier="x"/></a>"#, "co-simulation"),
-            (r#"<a fmiVersion="2.0" guid="1"><CoSimulation modelIdentifier="../x"/></a>"#, "no name"),
+            (r#"<a fmiVersion="2.0" guid="1"><CoSimulation modelIdentifier="../x"/></a>"#, "library name"),
         ] {
             let error = Description::parse(text).expect_err(text);
             assert!(error.contains(said), "{error}");

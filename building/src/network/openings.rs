@@ -44,7 +44,7 @@ impl Network {
         self.openings.any_from(0)
     }
 
-    /// The planes of its windows, each once: what [`Network::sun_gains_kw`] needs the radiation on.
+    /// The planes of its windows, each once: what `Network::sun_gains_kw` needs the radiation on.
     pub fn window_planes(&self) -> &[Plane] {
         &self.openings.planes
     }

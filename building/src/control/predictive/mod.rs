@@ -43,7 +43,7 @@ impl Predictive {
     /// A controller before its first day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`], and [`ControlError::TooManyUnknowns`] if a plan has more than [`MOST_INPUTS`] inputs.
+    /// [`ControlError::Setting`], and [`ControlError::TooManyUnknowns`] if a plan has more than `MOST_INPUTS` inputs.
     pub fn new(settings: PredictiveSettings, model: &Model) -> Result<Self, ControlError> {
         settings.check()?;
         let lifted = Lifted::new(model, settings.horizon(model.step_s()));
