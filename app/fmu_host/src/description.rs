@@ -120,7 +120,7 @@ mod tests {
             ("nothing", "is not XML"),
             (r#"<a fmiVersion="3.0"/>"#, "version 3.0"),
             (r#"<a fmiVersion="2.0" guid="1"><ModelExchange modelIdentifier="x"/></a>"#, "co-simulation"),
-            (r#"<a fmiVersion="2.0" guid="1"><CoSimulation modelIdentifier="../x"/></a>"#, "library name"),
+            (r#"<a fmiVersion="2.0" guid="1"><CoSimulation modelIdentifier="../x"/></a>"#, "valid name of a library"),
         ] {
             let error = Description::parse(text).expect_err(text);
             assert!(error.contains(said), "{error}");

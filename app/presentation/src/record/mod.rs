@@ -1,6 +1,6 @@
 //! Recordings of runs, with a layout for the viewer. Only this module names Rerun.
 //!
-//! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]). It contains no wall-clock times, so that
+//! A recording has two timelines, simulated time (`SIM_TIME`) and ticks (`TICK`). It contains no wall-clock times, so that
 //! recordings of one run can be compared. Entities have names, never numbers:
 //!
 //! ```text

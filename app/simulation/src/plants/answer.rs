@@ -112,9 +112,9 @@ mod tests {
     #[test]
     fn invalid_answers_are_refused_with_the_expected_one() {
         let wrong = [
-            (None, "", "no message"),
+            (None, "", "not a message"),
             (None, "hello", "in `hello`"),
-            (None, "[]", "no message"),
+            (None, "[]", "not a message"),
             (None, r#"{"message":"ready","temperatures_c":[1,2]}"#, "protocol"),
             (None, r#"{"message":"ready","protocol":2,"temperatures_c":[1,2]}"#, "this program speaks 1"),
             (None, r#"{"message":"state","step":0,"temperatures_c":[1,2]}"#, "wanted is `ready`"),
