@@ -1,12 +1,13 @@
 //! The obstacles of a scenario.
 
 use interplay_planners::Body;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
 /// The kind of an obstacle.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(transform = one_of_the_words)]
 pub enum ObstacleKind {
     /// A car that is parked, 4.5 m × 1.8 m.
     #[default]
@@ -23,6 +24,13 @@ pub enum ObstacleKind {
     #[serde(untagged)]
     #[schemars(skip)]
     Declared(String),
+}
+
+/// The words of the schema exclude each other: the variant of other crates, which accepts any word, is not among them.
+fn one_of_the_words(schema: &mut Schema) {
+    let entries = std::mem::take(schema.ensure_object()).into_iter();
+    let renamed = entries.map(|(key, value)| (if key == "anyOf" { "oneOf".to_owned() } else { key }, value));
+    *schema.ensure_object() = renamed.collect();
 }
 
 /// A kind of obstacle that another crate provides.
