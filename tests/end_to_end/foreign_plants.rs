@@ -246,7 +246,9 @@ fn a_plant_that_is_silent_absent_or_of_another_version_is_an_error() {
 
 #[test]
 fn a_wrong_address_is_located_before_anything_runs() {
-    for (address, said) in [("localhost", "no port"), ("localhost:99999", "from 1 to 65535"), ("a b:1", "neither a name")] {
+    for (address, said) in
+        [("localhost", "no port"), ("localhost:99999", "from 1 to 65535"), ("a b:1", "neither a name")]
+    {
         let outcome = run_against("plant-address", address, 5.0);
         assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(2), ""), "{outcome:?}");
         assert!(outcome.stderr.contains(said) && outcome.stderr.contains("127.0.0.1:7878"), "{}", outcome.stderr);
