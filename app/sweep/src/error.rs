@@ -1,6 +1,5 @@
 //! Errors of sweeps.
 
-use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -14,26 +13,9 @@ pub enum SweepError {
     /// Runs of the plan are refused; nothing was run.
     #[error("{0}")]
     Refused(Box<LoadError>),
-    /// A file cannot be read or written.
-    #[error("cannot {what} `{}`: {reason}", path.display())]
-    File {
-        /// The operation.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        reason: io::Error,
-    },
-    /// A table cannot be read or written.
-    #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
-    Table {
-        /// The operation.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        reason: Box<dyn Error + Send + Sync>,
-    },
+    /// A file or a table cannot be read or written.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A line of a journal is damaged.
     #[error("{}:{line}: this is not a row: {reason}; without this line the run is made again", path.display())]
     Journal {
@@ -78,22 +60,11 @@ impl SweepError {
                 | SweepError::Journal { .. }
                 | SweepError::Damaged { .. }
                 | SweepError::Input(_)
-                | SweepError::Table { what: "read", .. }
+                | SweepError::Table(TableError::Input(_) | TableError::Table { what: "read", .. })
         )
     }
 
     pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> SweepError + 'a {
-        move |reason| SweepError::File { what, path: path.to_owned(), reason }
-    }
-}
-
-/// An error of a table of rows is an error of the sweep that reads or writes it.
-impl From<TableError> for SweepError {
-    fn from(error: TableError) -> SweepError {
-        match error {
-            TableError::File { what, path, reason } => SweepError::File { what, path, reason },
-            TableError::Table { what, path, reason } => SweepError::Table { what, path, reason },
-            TableError::Input(message) => SweepError::Input(message),
-        }
+        move |reason| TableError::file(what, path)(reason).into()
     }
 }

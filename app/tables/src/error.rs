@@ -35,7 +35,8 @@ pub enum TableError {
 }
 
 impl TableError {
-    pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> TableError + 'a {
+    /// Makes the error of an operation on a file from the system's reason.
+    pub fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> TableError + 'a {
         move |reason| TableError::File { what, path: path.to_owned(), reason }
     }
 

@@ -87,10 +87,11 @@ impl WorldState {
     pub fn copy_from(world: &World) -> Result<Self, NotCopied> {
         let mut vehicles: Vec<VehicleState> = Vec::new();
         let road_users = &world.resource::<CurrentTraffic>().0.road_users;
+        let mut parts = world.try_query::<VehicleParts>();
         for (entity, user) in world.resource::<Fleet>().0.iter().zip(road_users) {
-            let incomplete = || NotCopied::incomplete(&user.agent.name);
-            let mut parts = world.try_query::<VehicleParts>().ok_or_else(incomplete)?;
-            let (identity, row, driving, handed_in, body) = parts.get(world, *entity).map_err(|_| incomplete())?;
+            let found = parts.as_mut().and_then(|parts| parts.get(world, *entity).ok());
+            let (identity, row, driving, handed_in, body) =
+                found.ok_or_else(|| NotCopied::incomplete(&user.agent.name))?;
             vehicles.push(VehicleState {
                 identity: identity.clone(),
                 row: *row,
