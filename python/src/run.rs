@@ -42,7 +42,7 @@ pub fn run(
         asked.ask_for(&flag, &path).map_err(bad)?;
     }
     let registry = crate::scenario::registry()?;
-    if let Some(reason) = asked.refused((record.as_deref(), None), registry, (&scenario.source, &[])) {
+    if let Some(reason) = asked.refused(record.as_deref(), None, registry, &scenario.source, &[]) {
         return Err(bad(reason));
     }
     if let Some((flag, lacked)) = asked.without_subject(&scenario.scenario) {

@@ -70,7 +70,7 @@ fn errors_name_the_path_of_the_key() {
     let first = |result: Result<Scenario, LoadError>| {
         let error = result.expect_err("it is wrong");
         let fault: &Fault = &error.faults()[0];
-        assert_eq!(fault.line_and_column(), None, "there is no text: {fault}");
+        assert_eq!(fault.line_and_column(), None, "a text does not exist: {fault}");
         (fault.file().unwrap_or_default().to_owned(), fault.message().to_owned())
     };
     let of = |change: &dyn Fn(&mut ScenarioFile)| {

@@ -1,5 +1,5 @@
 //! Fault and kill loops, in short: at a sample of the changes that a command makes to files the disk fails, or the command is
-//! killed, or there is no memory. `tests/faults/loops.py` has the whole, and `docs/evidence/reliability.md` its counts.
+//! killed, or memory runs out. `tests/faults/loops.py` has the whole, and `docs/evidence/reliability.md` its counts.
 
 #![allow(clippy::print_stderr, reason = "a test that skips says so")]
 

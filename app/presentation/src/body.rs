@@ -15,7 +15,7 @@ const FULL_SIZE_SCALE: f64 = 10.0;
 pub enum BodyStyle {
     /// A car with bonnet and boot.
     Car,
-    /// A van: the windscreen is far ahead and there is no rear window.
+    /// A van: the windscreen is far ahead, without a rear window.
     Van,
     /// A lorry: a cab and a box.
     Lorry,

@@ -95,7 +95,7 @@ fn requests_change(scenario: &Scenario, frame: &Frame, proposal: &Proposal) -> b
     pairs.into_iter().any(|(a, b)| libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > most_m)
 }
 
-/// Whether a plan is the first that asks a vehicle, so that there is no answer yet.
+/// Whether a plan is the first that asks a vehicle, before any answer.
 fn is_new(plan: &Plan, to: &str) -> bool {
     let names = |event: &PlanEvent| matches!(&event.kind, PlanEventKind::Partner(Some(partner)) if partner == to);
     plan.events.iter().any(names)

@@ -29,7 +29,7 @@ pub struct SweepRow {
     pub seed: u64,
     /// The varied inputs, by path.
     pub inputs: BTreeMap<String, Json>,
-    /// Why there is no result.
+    /// The reason for a missing result.
     pub error: Option<String>,
     /// The result; none with an error.
     #[serde(default)]

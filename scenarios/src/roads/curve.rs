@@ -95,7 +95,7 @@ pub(crate) enum CurveFault {
     NoRoom { piece: usize, length_m: f64, transition_m: f64, most_m: f64 },
     /// The road crosses itself; both arc lengths.
     MeetsItself { first_m: f64, again_m: f64 },
-    /// Lane 0 ends, but there is no lane beside it.
+    /// Lane 0 ends without a lane beside it.
     NoLaneBeside,
     /// Lane 0 ends beyond the road.
     EndsBeyond { end_m: f64, length_m: f64 },

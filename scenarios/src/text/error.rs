@@ -222,7 +222,7 @@ impl Fault {
         self.place.as_ref().map(|place| place.document.name.as_str())
     }
 
-    /// Line and column of the error, both from 1; `None` if there is no text to blame.
+    /// Line and column of the error, both from 1; `None` without a text to blame.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         self.place
             .as_ref()

@@ -171,8 +171,8 @@ impl Run {
     /// Why an output must not be written.
     fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
         let recording = self.recording(name);
-        let besides = (recording.as_deref(), self.report.as_deref());
-        self.outputs.refused(besides, registry, (self.scenario(), &self.overrides()))
+        let (recording, page) = (recording.as_deref(), self.report.as_deref());
+        self.outputs.refused(recording, page, registry, self.scenario(), &self.overrides())
     }
 
     /// Why there is nothing to write of what vehicles or the building did.

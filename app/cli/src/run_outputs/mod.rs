@@ -130,9 +130,11 @@ impl RunOutputs {
     /// write. `recording` and `page`, a folder, are written besides.
     pub fn refused(
         &self,
-        (recording, page): (Option<&Path>, Option<&Path>),
+        recording: Option<&Path>,
+        page: Option<&Path>,
         registry: &Registry,
-        (scenario, overrides): (&str, &[Override]),
+        scenario: &str,
+        overrides: &[Override],
     ) -> Option<String> {
         let recording = recording.map(|path| ("recording", path));
         let files = recording.into_iter().chain(self.asked().into_iter().flat_map(|(_, output)| output.files()));
@@ -168,7 +170,7 @@ impl BegunOutputs {
         self.0.iter_mut().filter_map(|output| output.watcher.take()).collect()
     }
 
-    /// Writes the outputs that need the whole run, and returns lines that name the files.
+    /// Writes the outputs that need the whole run, and hands a line for each, which names its files, to `tell`.
     ///
     /// # Errors
     /// [`OutputError`] of the first that cannot be written.

@@ -133,7 +133,7 @@ fn steps_of_a_building_do_not_count_as_decisions() {
 #[test]
 fn an_invalid_action_is_refused_and_nothing_moves() {
     let mut environment = environment(&EnvironmentSettings::default());
-    assert!(environment.step(&[0.0, 0.0]).is_err(), "there is no episode");
+    assert!(environment.step(&[0.0, 0.0]).is_err(), "an episode has not begun");
     environment.reset(Some(1)).expect("an episode");
     let before = seen(&environment);
     for numbers in [&[f32::NAN, 0.0][..], &[0.0, f32::INFINITY], &[0.0], &[0.0; 3], &[]] {

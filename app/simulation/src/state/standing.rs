@@ -99,7 +99,7 @@ impl<'a> Standing<'a> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
-    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty if there is no cycle.
+    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty without a cycle.
     pub fn circle(&self, index: usize) -> Vec<usize> {
         let together = |other: &usize| self.reaches(*other).contains(&index);
         let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();

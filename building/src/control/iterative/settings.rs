@@ -62,7 +62,7 @@ pub enum ErrorGrowth {
     /// Growth has a high cost.
     #[default]
     Soft,
-    /// Growth is forbidden: on a harder day there is no plan, and the day before is repeated (Remark 1).
+    /// Growth is forbidden: on a harder day no plan exists, and the day before is repeated (Remark 1).
     Hard,
     /// The condition is not enforced.
     Off,

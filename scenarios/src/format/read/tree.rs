@@ -61,7 +61,7 @@ pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Ve
     Err(faults.collect())
 }
 
-/// The number around a decimal comma, written with a point; `None` if there is no such number.
+/// The number around a decimal comma, written with a point; `None` without such a number.
 fn decimal_point(text: &str, comma: usize) -> Option<String> {
     let (before, after) = (text.get(..comma)?, text.get(comma..)?.strip_prefix(',')?);
     let whole = before.rsplit(|character: char| !character.is_ascii_digit()).next()?;

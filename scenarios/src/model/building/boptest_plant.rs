@@ -10,7 +10,7 @@ use super::boptest_forecast::BoptestForecast;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoptestPlantConfig {
-    /// The server, as `http://host:port`; a path may follow. There is no encryption.
+    /// The server, as `http://host:port`; a path may follow. Traffic is not encrypted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"http://127.0.0.1:8080")]
     pub url: Option<String>,

@@ -238,7 +238,7 @@ mod tests {
         let quiet = Frame { collisions: Vec::new(), ..into.clone() };
         assert!(by(1, &[quiet, into.clone(), into_it.clone()]), "the first one counts");
         assert!(!by(1, &[into_it, into.clone()]), "the first one counts");
-        assert!(!by(7, &[into]), "there is no such vehicle");
+        assert!(!by(7, &[into]), "the vehicle does not exist");
     }
 
     /// A contact on a network: the ego and another one drive for 2 s to their places and speeds, and touch there.

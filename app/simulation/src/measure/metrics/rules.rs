@@ -119,7 +119,7 @@ struct Crossing {
     was_entered: bool,
     /// Time at which the vehicle's rear left it; for merging routes, at which its front reached it \[s\].
     left_s: Option<f64>,
-    /// Whether a violation is no longer possible.
+    /// Whether a violation has become impossible.
     is_settled: bool,
 }
 
