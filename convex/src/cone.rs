@@ -8,7 +8,7 @@
 //! | semidefinite | S ⪰ 0, s its stacked triangle | the same |
 
 use crate::lapack;
-use crate::norm::{euclidean, largest};
+use crate::sparse::{euclidean, largest};
 
 /// The cone that must contain the slack s = b − Ax of a block of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -15,7 +15,7 @@
 use std::ops::Range;
 
 use crate::Cone;
-use crate::norm::{dot, largest, magnitude};
+use crate::sparse::{dot, largest, magnitude};
 use crate::standard::StandardForm;
 
 /// The four residuals of the optimality conditions, relative as described in [`crate::kkt`].

@@ -11,10 +11,9 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::traits::ProblemData;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-use crate::norm::dot;
-use crate::sparse::SparseColumns;
+use crate::sparse::{SparseColumns, dot};
 use crate::standard::StandardForm;
-use crate::{Cone, ConicSolution, ProblemError, Program, SolveError, SolverSettings, Status, kkt};
+use crate::{Cone, ConicSolution, ProblemError, Program, SolveError, Status, kkt};
 
 /// Largest step, as a fraction of the step to the boundary of the cones, in the second attempt after 0.99 has stalled.
 const SHORT_STEP: f64 = 0.9;
@@ -231,4 +230,39 @@ fn scaled(vector: &[f64], divisor: f64) -> Vec<f64> {
 
 fn refused(error: impl std::fmt::Display) -> ProblemError {
     ProblemError::Refused { reason: error.to_string() }
+}
+
+/// Accuracy and limits. There is deliberately no time limit: a result must not depend on the machine's load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverSettings {
+    /// Tolerance of the duality gap, of feasibility and of infeasibility certificates. Default 1e-8.
+    pub tolerance: f64,
+    /// Tolerance at which a result that the solver itself calls "almost" is still accepted, provided that
+    /// its residuals, recomputed from the problem's data ([`crate::kkt`]), stay below it. Default 1e-6.
+    pub accepted_tolerance: f64,
+    /// Maximum number of interior-point iterations. Default 200.
+    pub iteration_limit: u32,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-8, accepted_tolerance: 1e-6, iteration_limit: 200 }
+    }
+}
+
+impl SolverSettings {
+    /// Refuses settings with which no problem can be solved.
+    pub(crate) fn check(&self) -> Result<(), ProblemError> {
+        let tolerances = [("tolerance", self.tolerance), ("accepted_tolerance", self.accepted_tolerance)];
+        for (name, value) in tolerances {
+            if !(value > 0.0 && value < 1.0) {
+                let wanted = "between 0 and 1";
+                return Err(ProblemError::Setting { name, value, wanted });
+            }
+        }
+        if self.iteration_limit == 0 {
+            return Err(ProblemError::Setting { name: "iteration_limit", value: 0.0, wanted: "at least 1" });
+        }
+        Ok(())
+    }
 }

@@ -3,9 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::norm::magnitude;
 use crate::program::Program;
-use crate::sparse::SparseColumns;
+use crate::sparse::{SparseColumns, magnitude};
 use crate::{Cone, ProblemError, check};
 
 /// min ½xᵀPx + qᵀx subject to b − Ax ∈ K. There are n variables and m rows; the rows of the blocks are stacked in order.

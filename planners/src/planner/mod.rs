@@ -1,9 +1,5 @@
 //! A driver at work: what every kind of driver has around it.
 
-pub(crate) mod deadline;
-
-pub use deadline::PlanDeadline;
-
 use std::borrow::Cow;
 
 use crate::drivers::Driver;
@@ -14,6 +10,7 @@ use crate::plan::certificate::{refused, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
 use crate::scene::inferred_futures::InferredFutures;
+use crate::trajectory::Statistics;
 use crate::{Plan, PlanError, Scene};
 
 /// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
@@ -152,5 +149,45 @@ impl Planner {
             self.homotopy_log.note(scene, &mut plan);
         }
         Ok(plan)
+    }
+}
+
+/// The most work that a plan may take. Its vehicle drives on without a plan that took more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlanDeadline {
+    most_work: usize,
+}
+
+impl PlanDeadline {
+    /// Units of [work](Statistics::work) that a millisecond stands for. A unit took 10 to 35 µs for the planners and machine of
+    /// `docs/evidence/benchmarks.md`.
+    const WORK_PER_MS: f64 = 50.0;
+
+    /// The deadline after this time \[ms\], by what it stands for; at least one unit of work.
+    pub fn after_ms(budget_ms: f64) -> Self {
+        PlanDeadline { most_work: (budget_ms * PlanDeadline::WORK_PER_MS).round().max(1.0) as usize }
+    }
+
+    /// Whether the work behind a plan ended in time.
+    ///
+    /// # Errors
+    /// [`PlanError::Late`] if it did not.
+    pub fn check(self, done: &Statistics) -> Result<(), PlanError> {
+        let (work, most_work) = (done.work(), self.most_work);
+        if work <= most_work { Ok(()) } else { Err(PlanError::Late { work, most_work }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plan_is_late_above_the_work_that_its_time_stands_for() {
+        let done = |work| Statistics { inner_iterations: work, ..Statistics::default() };
+        let deadline = PlanDeadline::after_ms(2.0);
+        assert_eq!(deadline.check(&done(100)), Ok(()));
+        assert_eq!(deadline.check(&done(101)), Err(PlanError::Late { work: 101, most_work: 100 }));
+        assert_eq!(PlanDeadline::after_ms(1e-9).check(&done(1)), Ok(()));
     }
 }

@@ -6,7 +6,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::vehicle::{Body, PoseExpansion, State};
+use super::centre_line::FrenetPoint;
+use crate::vehicle::{Body, PoseExpansion, State, SteeringGeometry, slip_on_curve_rad};
 
 /// A straight strip of road, bounded on both sides; with heading 0 it is eq. 6.7 as printed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,6 +114,16 @@ impl Corridor {
     /// Whether the whole footprint is on the road, to within `tolerance_m`.
     pub fn contains(&self, body: &Body, state: &State, tolerance_m: f64) -> bool {
         self.clearances(body, state).iter().all(|corner| corner.value >= -tolerance_m)
+    }
+}
+
+impl FrenetPoint {
+    /// The steering angle with which a vehicle that is here comes to a lateral position \[rad\]. In a curve it also turns at the
+    /// rate of the road, and heads inward by the slip angle.
+    pub(crate) fn steer(&self, geometry: &SteeringGeometry, state: &State, lateral_m: f64) -> f64 {
+        let slip_rad = slip_on_curve_rad(geometry.rear_axle_m, self.curvature_1pm);
+        let heading_error_rad = state.heading_rad - self.heading_rad + slip_rad;
+        geometry.correct(self.across_m - lateral_m, heading_error_rad, state.speed_mps, self.curvature_1pm)
     }
 }
 

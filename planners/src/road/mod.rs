@@ -6,7 +6,6 @@
 mod axes;
 pub mod centre_line;
 mod corridor;
-mod following;
 pub mod network;
 mod profile;
 

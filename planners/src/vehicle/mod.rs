@@ -2,19 +2,14 @@
 
 mod bicycle;
 mod body;
-mod comfort_limits;
 mod limits;
-mod pose_expansion;
 mod safety_ellipse;
 mod state;
-mod steering_geometry;
 
 pub(crate) use bicycle::slip_on_curve_rad;
 pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
 pub use body::Body;
-pub use comfort_limits::ComfortLimits;
-pub use limits::Limits;
-pub use pose_expansion::PoseExpansion;
-pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, SafetyEllipse};
+pub(crate) use body::SteeringGeometry;
+pub use limits::{ComfortLimits, Limits};
+pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, PoseExpansion, SafetyEllipse};
 pub use state::{Input, State, Trajectory};
-pub(crate) use steering_geometry::SteeringGeometry;

@@ -2,7 +2,7 @@
 
 use super::error::CentreLineError;
 use super::line::CentreLine;
-use super::plane::distance;
+use super::polynomials::distance;
 use super::reparametrisation::segments;
 use super::spline;
 

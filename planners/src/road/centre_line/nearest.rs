@@ -2,7 +2,7 @@
 
 use super::chord::{Chord, ChordGroup};
 use super::line::{Curve, CurvePoint};
-use super::plane::{distance, dot};
+use super::polynomials::{distance, dot};
 use super::segment::Segment;
 
 /// Most steps of a search. Halley's method needs 1 to 4; the rest is for bisection.

@@ -1,7 +1,7 @@
 //! A curve of any parameter, given knots by arc length.
 
 use super::error::CentreLineError;
-use super::gauss_legendre::integrate;
+use super::pieces::integrate;
 use super::segment::{Knot, MAX_HALF_TURN_RAD, Segment};
 
 /// A twice differentiable plane curve by some parameter.

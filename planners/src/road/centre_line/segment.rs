@@ -1,6 +1,6 @@
 //! The part of a centre line between two neighbouring knots.
 
-use super::line_polynomial::LinePolynomial;
+use super::polynomials::LinePolynomial;
 
 /// Position, first and second derivative at a knot, over some parameter.
 pub(super) type Knot = [[f64; 2]; 3];

@@ -1,7 +1,6 @@
 //! Where two routes cross or merge.
 
-use super::route::Route;
-use super::route_conflict::ConflictKind;
+use super::route::{ConflictKind, Route};
 
 /// Parts of two routes whose lanes overlap without being the same lane.
 #[derive(Clone, Copy, Debug, PartialEq)]

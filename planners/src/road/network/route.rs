@@ -5,11 +5,10 @@ use std::sync::Arc;
 use super::super::centre_line::CentreLine;
 use super::super::corridor::Corridor;
 use super::super::profile::Profile;
-use super::bend::{Bend, CHECKS_PER_KNOT, bends, highest_speed_mps};
 use super::error::RouteError;
 use super::lane::RightOfWay;
 use super::light::LightCycle;
-use super::route_conflict::RouteConflict;
+use super::strip::{Bend, CHECKS_PER_KNOT, bends, highest_speed_mps};
 
 /// The way of a vehicle: a centre line, and the strip beside it that the vehicle may use.
 ///
@@ -200,4 +199,51 @@ pub(super) fn max_curvature(line: &CentreLine) -> (f64, f64) {
     });
     let turns = places.map(|along_m| (along_m, line.at(along_m).curvature_1pm));
     turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default()
+}
+
+/// A place where a route meets another one of the same network, as the first one sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RouteConflict {
+    /// The number of the other route.
+    pub(super) with: usize,
+    /// Where the route is on the lanes of the other one, from and to \[m\].
+    pub own_m: [f64; 2],
+    /// Where the other one is on the lanes of this one \[m\].
+    pub their_m: [f64; 2],
+    /// Where a vehicle on this route waits before the conflict \[m\].
+    pub own_line_m: f64,
+    /// Where a vehicle on the other route waits \[m\].
+    pub their_line_m: f64,
+    /// Where the centre lines meet, on this route \[m\].
+    pub own_meeting_m: f64,
+    /// Where the centre lines meet, on the other one \[m\].
+    pub their_meeting_m: f64,
+    /// Whether the routes cross, merge, part or run against each other there.
+    pub kind: ConflictKind,
+    /// Who goes first at the conflict.
+    pub precedence: Precedence,
+}
+
+/// Who goes first where two routes meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precedence {
+    /// The vehicles on this route go first.
+    Own,
+    /// The vehicles on the other route go first.
+    Other,
+    /// The first to arrive goes first.
+    ByArrival,
+}
+
+/// What two routes do where they overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConflictKind {
+    /// The routes come from different lanes and go on to different lanes.
+    Crossing,
+    /// The routes go on to the same lane.
+    Merging,
+    /// The routes come from the same lane and go on to different lanes.
+    Diverging,
+    /// The routes use the same strip in opposite directions.
+    HeadOn,
 }

@@ -7,8 +7,7 @@ use super::conflicts::conflicts;
 use super::error::RouteError;
 use super::lane::RightOfWay;
 use super::road_network::{RoadNetwork, turn_rad};
-use super::route::{Route, RouteLeg};
-use super::route_conflict::{ConflictKind, Precedence, RouteConflict};
+use super::route::{ConflictKind, Precedence, Route, RouteConflict, RouteLeg};
 
 /// Approaches whose directions differ by less than this come from the same side, and by more than 180° less this from opposite
 /// sides \[rad\].
