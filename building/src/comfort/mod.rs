@@ -2,9 +2,7 @@
 //! ([`Agenda`]), with the bounds that another program may state ([`ComfortBounds`]).
 
 mod agenda;
-mod bounds;
 mod targets;
 
-pub use agenda::Agenda;
-pub use bounds::{ComfortBounds, ZoneBounds};
+pub use agenda::{Agenda, ComfortBounds, ZoneBounds};
 pub use targets::{Setpoints, SetpointsError, Targets};

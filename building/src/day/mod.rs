@@ -19,12 +19,10 @@
 mod key_figures;
 mod surroundings;
 mod whole_run;
-mod zone_figures;
 
-pub use key_figures::KeyFigures;
+pub use key_figures::{KeyFigures, ZoneFigures};
 pub use surroundings::Surroundings;
 pub use whole_run::{RunHistory, RunOptimum};
-pub use zone_figures::ZoneFigures;
 
 use std::borrow::Cow;
 

@@ -9,9 +9,7 @@
 //! expensive. The problem stays convex, and a constant price and COP leave it as it is.
 
 mod heat_pump;
-mod supply;
 mod tariff;
 
 pub use heat_pump::{CopPoint, HeatPump};
-pub use supply::EnergySupply;
-pub use tariff::{Tariff, TariffError};
+pub use tariff::{EnergySupply, Tariff, TariffError};

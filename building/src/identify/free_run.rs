@@ -8,8 +8,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::regression::ZoneModel;
-use super::residual::{ResidualModel, ResidualSeries};
+use super::regression::{ResidualModel, ResidualSeries, ZoneModel};
 use super::telemetry::Telemetry;
 
 /// How the non-parametric term is forecast.

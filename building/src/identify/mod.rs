@@ -19,12 +19,10 @@ mod error;
 mod estimate;
 mod findings;
 mod free_run;
-mod heat_units;
 mod normal;
 mod physical;
 mod regression;
 mod report;
-mod residual;
 mod settings;
 mod smoothing;
 mod state_space;
@@ -51,8 +49,7 @@ use std::ops::Range;
 use estimate::{Estimate, estimate};
 use findings::Findings;
 use free_run::RunZone;
-use regression::ZoneModel;
-use residual::{ResidualModel, ResidualSeries, steps};
+use regression::{ResidualModel, ResidualSeries, ZoneModel, steps};
 use settings::TrainTestSplit;
 
 /// Receives a few words about the next fit while an identification runs, from any thread.
@@ -88,7 +85,7 @@ pub fn identify_with_progress(
 ) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
     let mut found = by_method(telemetry, settings, progress)?;
-    found.report.warnings.extend(heat_units::remarks(telemetry));
+    found.report.warnings.extend(findings::remarks(telemetry));
     Ok(found)
 }
 

@@ -18,22 +18,18 @@
 
 mod checks;
 mod error;
-mod mismatch;
 mod openings;
-mod power_limits;
-mod presets;
 mod remarks;
 mod settings;
-mod window;
 
 use nalgebra::DMatrix;
 
+pub use checks::PowerLimits;
 pub use error::{NetworkError, Part, Remark};
-pub use mismatch::ModelMismatch;
 use openings::Openings;
-pub use power_limits::PowerLimits;
+pub use openings::Window;
+pub use remarks::ModelMismatch;
 pub use settings::{AMBIENT, Wall, Zone};
-pub use window::Window;
 
 /// A conductance between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]

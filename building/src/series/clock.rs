@@ -1,6 +1,6 @@
 //! Dates and times as tables write them, and the clocks of a time zone.
 
-use jiff::civil::DateTime;
+use jiff::civil::{Date, DateTime, Time};
 use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::{AmbiguousOffset, Offset, TimeZone, TimeZoneDatabase};
 
@@ -74,6 +74,79 @@ impl NamedZone {
 /// Seconds on the same clocks since the start of 1970.
 pub(crate) fn seconds_since_1970(shown: DateTime) -> f64 {
     shown.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64()
+}
+
+/// Patterns of dates with a time that are understood; `%z` is an offset from UTC.
+const PATTERNS: [&str; 10] = [
+    "%Y-%m-%dT%H:%M:%S%z",
+    "%Y-%m-%dT%H:%M%z",
+    "%Y-%m-%d %H:%M:%S%z",
+    "%Y-%m-%d %H:%M%z",
+    "%Y-%m-%dT%H:%M:%S",
+    "%Y-%m-%dT%H:%M",
+    "%Y-%m-%d %H:%M:%S",
+    "%Y-%m-%d %H:%M",
+    "%d.%m.%Y %H:%M:%S",
+    "%d.%m.%Y %H:%M",
+];
+
+/// How the times of a table are written, by the title of their column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TimeForm {
+    /// Hours or seconds since the first midnight, by the length of one \[s\].
+    Elapsed(f64),
+    /// Dates with a time.
+    Calendar,
+}
+
+/// A moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RowTime {
+    /// Since some midnight that is the same for all rows \[s\].
+    pub elapsed_s: f64,
+    /// The day on the clocks of the row, and the time since its midnight \[s\].
+    pub local: Option<(Date, f64)>,
+}
+
+impl TimeForm {
+    /// The form that the title of a column of times promises.
+    pub fn of(title: &str) -> Self {
+        match title.to_ascii_lowercase().as_str() {
+            "hour" | "hours" | "hour_h" | "time_h" => Self::Elapsed(3600.0),
+            "time_s" | "seconds" => Self::Elapsed(1.0),
+            _ => Self::Calendar,
+        }
+    }
+
+    /// What the times must look like, in words.
+    pub fn wanted(self) -> &'static str {
+        match self {
+            Self::Elapsed(3600.0) => "hours since the first midnight, as in 0.25",
+            Self::Elapsed(_) => "seconds since the first midnight, as in 900",
+            Self::Calendar => {
+                "a date with a time, as in 2026-07-06 00:15 or 2026-07-06T00:15+02:00; numbers of hours stand in a column `hour`, of seconds in `time_s`"
+            }
+        }
+    }
+
+    /// The moment that a cell states.
+    pub fn read(self, text: &str) -> Option<RowTime> {
+        match self {
+            Self::Elapsed(unit_s) => {
+                let number = text.parse::<f64>().ok().filter(|number| number.is_finite())?;
+                Some(RowTime { elapsed_s: number * unit_s, local: None })
+            }
+            Self::Calendar => calendar(text),
+        }
+    }
+}
+
+fn calendar(text: &str) -> Option<RowTime> {
+    let parsed = PATTERNS.iter().find_map(|pattern| parsed(pattern, text))?;
+    let here = parsed.to_datetime().ok()?;
+    let since_midnight = here.duration_since(here.date().to_datetime(Time::midnight()));
+    let local = Some((here.date(), since_midnight.as_secs_f64()));
+    Some(RowTime { elapsed_s: ClockTime::stated(&parsed)?.elapsed_s, local })
 }
 
 #[cfg(test)]

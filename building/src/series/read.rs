@@ -9,7 +9,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use interplay_common::cell::shown_cell;
 use jiff::civil::Date;
 
-use super::row_time::{RowTime, TimeForm};
+use super::clock::{RowTime, TimeForm};
 
 /// The most that the interval between two rows may differ from the first one, as a share of it.
 const MAX_JITTER: f64 = 0.01;

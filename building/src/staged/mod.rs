@@ -21,8 +21,7 @@ mod interior_point;
 mod pairs;
 mod program;
 mod recursion;
-mod stage_map;
 
 pub use interior_point::solve;
 pub use program::{Peak, PlanStage, SoftBound, StagedError, StagedProgram, StagedSolution};
-pub use stage_map::{HeatInput, StageMap};
+pub use recursion::{HeatInput, StageMap};

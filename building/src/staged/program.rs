@@ -1,6 +1,6 @@
 //! An optimal control problem of stages.
 
-use super::stage_map::{HeatInput, StageMap};
+use super::recursion::{HeatInput, StageMap};
 
 /// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]

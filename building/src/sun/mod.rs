@@ -10,9 +10,7 @@
 
 mod erbs;
 mod perez;
-mod plane;
 mod position;
 
 pub use erbs::{SplitRadiation, split_global};
-pub use plane::{Plane, SkyRadiation};
-pub use position::{Site, SunPosition, days_since_2000};
+pub use position::{Plane, Site, SkyRadiation, SunPosition, days_since_2000};

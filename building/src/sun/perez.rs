@@ -9,8 +9,7 @@
 //! R. Stewart, "Modeling daylight availability and irradiance components from direct and global irradiance", *Solar Energy* 44 (5),
 //! 1990, Table 6. Air mass after F. Kasten and A. Young, *Applied Optics* 28, 1989.
 
-use super::plane::SkyRadiation;
-use super::position::SunPosition;
+use super::position::{SkyRadiation, SunPosition};
 
 /// Radiation outside of the atmosphere at the mean distance, as the coefficients were fitted with \[W/m²\].
 const SOLAR_CONSTANT_W_PER_M2: f64 = 1366.1;

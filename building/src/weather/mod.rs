@@ -8,15 +8,13 @@ mod climate;
 pub mod epw;
 mod forecast;
 mod recorded;
-mod sky;
 mod time_series;
 
 pub use climate::Climate;
 pub use epw::{Epw, EpwError};
 pub use forecast::{ErrorLevel, ErrorModel, Forecast};
 pub use recorded::{ReadWeather, RecordedWeather, RowMeaning, RunSpan, default_bridge_gaps_h};
-pub use sky::Sky;
-pub use time_series::TimeSeries;
+pub use time_series::{Sky, TimeSeries};
 
 /// Outdoor temperature and sunshine as functions of time.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Weather;
+use crate::sun::{Plane, Site, SkyRadiation, SplitRadiation, split_global};
+
 /// Values at `first_s`, `first_s + interval_s`, …
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TimeSeries {
@@ -42,5 +45,52 @@ impl TimeSeries {
     /// The arithmetic mean of the values.
     pub fn mean(&self) -> f64 {
         self.values.iter().sum::<f64>() / self.values.len() as f64
+    }
+}
+
+/// The place under the sun where global radiation was measured, and its parts if they were measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sky {
+    /// The place.
+    pub site: Site,
+    /// The moment of each value of the global radiation in universal time, in days since noon of the 1st of January 2000.
+    pub utc_days: Vec<f64>,
+    /// Direct and diffuse radiation, a value for each of the global radiation; without them they are estimated after Erbs.
+    pub parts: Option<Vec<SplitRadiation>>,
+}
+
+impl Sky {
+    /// The global radiation on a horizontal plane at each moment \[W/m²\], of its parts; `None` without them.
+    pub(crate) fn global_w_per_m2(&self) -> Option<Vec<f64>> {
+        let global = |(days, part): (&f64, &SplitRadiation)| {
+            let up = libm::cos(self.site.sun(*days).zenith_rad).max(0.0);
+            part.direct_normal_w_per_m2 * up + part.diffuse_w_per_m2
+        };
+        Some(self.utc_days.iter().zip(self.parts.as_ref()?).map(global).collect())
+    }
+}
+
+impl Weather {
+    /// Radiation on a plane over time \[W/m²\], at the times of the global radiation, with the sun where it stands at each of
+    /// them; `None` where the sky is not known.
+    pub fn on_plane_w_per_m2(&self, plane: &Plane) -> Option<TimeSeries> {
+        let sky = self.sky.as_ref()?;
+        let radiation = |(index, (days, global)): (usize, (&f64, &f64))| {
+            let sun = sky.site.sun(*days);
+            let measured = sky.parts.as_ref().map(|parts| parts[index]);
+            let SplitRadiation { direct_normal_w_per_m2, diffuse_w_per_m2 } =
+                measured.unwrap_or_else(|| split_global(&sun, *global));
+            let sky = SkyRadiation { direct_normal_w_per_m2, diffuse_w_per_m2, global_w_per_m2: *global };
+            plane.radiation_w_per_m2(&sun, &sky)
+        };
+        let moments = sky.utc_days.iter().zip(&self.sun_w_per_m2.values).enumerate();
+        Some(TimeSeries { values: moments.map(radiation).collect(), ..self.sun_w_per_m2.clone() })
+    }
+
+    /// The same weather, its times counted from `start_s` on.
+    #[must_use]
+    pub fn from_s(self, start_s: f64) -> Self {
+        let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };
+        Self { ambient_c: shifted(self.ambient_c), sun_w_per_m2: shifted(self.sun_w_per_m2), sky: self.sky }
     }
 }

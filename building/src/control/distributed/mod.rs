@@ -9,12 +9,10 @@
 //! its neighbours only, and the others continue when one fails.
 
 mod agreement;
-mod joint_day;
 mod messages;
 mod settings;
 mod step_space;
 mod zone;
-mod zone_models;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
@@ -28,11 +26,10 @@ use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::network::PowerLimits;
-use agreement::Rules;
-use joint_day::JointDay;
+use agreement::{JointDay, Rules};
 use messages::Messages;
 use settings::penalty;
-use zone_models::ZoneModels;
+use zone::ZoneModels;
 
 /// The controller of the distributed design (chapter 5) with its state.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::joint_day::JointDay;
+use super::agreement::JointDay;
 
 /// Largest number of Newton steps to the best combination. The cost is piecewise quadratic, so they end after a few.
 const MAX_NEWTON_STEPS: usize = 12;

@@ -14,7 +14,6 @@
 //! price of heat in the horizon.
 
 mod kalman;
-mod learned;
 mod settings;
 
 pub use settings::EconomicSettings;
@@ -22,13 +21,12 @@ pub use settings::EconomicSettings;
 use super::interface::ControllerKind;
 use super::money_stages::{Prices, Span, energy_price, inputs, stage};
 use super::optimum::check_size;
-use super::receding_plan::RecedingPlan;
+use super::planning::RecedingPlan;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::staged::{HeatInput, Peak, StageMap, StagedProgram, solve};
 use kalman::Kalman;
-use learned::LearnedForecast;
 
 /// Accuracy of a plan: its cost is that of the cheapest to this share.
 const PLAN_TOLERANCE: f64 = 1e-5;
@@ -273,5 +271,68 @@ impl EnergyNow<'_> {
         let pump = self.targets.supply.heat_pump.as_ref();
         let outdoor_c = self.targets.supply.outdoor_c.get(self.step).unwrap_or(&self.ambient_c);
         heat_kw.abs() / pump.map_or(1.0, |pump| pump.cop(heat_kw > 0.0, *outdoor_c))
+    }
+}
+
+/// Learned means of the missed heat of each step and zone.
+#[derive(Clone, Debug)]
+struct LearnedForecast {
+    rate: f64,
+    /// Stacked \[kW\].
+    mean_kw: Vec<f64>,
+    /// Stacked \[kW²\].
+    variance_kw2: Vec<f64>,
+    /// Missed heat of the day in progress, stacked \[kW\].
+    today_kw: Vec<Option<f64>>,
+    days: usize,
+}
+
+impl LearnedForecast {
+    /// Nothing is learned yet of `size` steps times zones. `rate` is λ.
+    pub fn new(size: usize, rate: f64) -> Self {
+        let zeros = vec![0.0; size];
+        Self { rate, mean_kw: zeros.clone(), variance_kw2: zeros, today_kw: vec![None; size], days: 0 }
+    }
+
+    /// Notes the heat of a step that the forecast missed \[kW\], one number per zone.
+    pub fn note(&mut self, step: usize, missed_kw: &[f64]) {
+        let zones = missed_kw.len();
+        for (today, missed_kw) in self.today_kw.iter_mut().skip(step * zones).zip(missed_kw) {
+            *today = Some(*missed_kw);
+        }
+    }
+
+    /// Learns from the day that is over.
+    pub fn end_day(&mut self) {
+        if self.today_kw.iter().all(Option::is_none) {
+            return;
+        }
+        self.days += 1;
+        // The first days count alike, as in an average.
+        let rate = self.rate.max(1.0 / self.days as f64).min(if self.rate > 0.0 { 1.0 } else { 0.0 });
+        for (i, today_kw) in self.today_kw.iter_mut().enumerate() {
+            let Some(missed_kw) = today_kw.take() else { continue };
+            let error_kw = missed_kw - self.mean_kw[i];
+            self.mean_kw[i] += rate * error_kw;
+            self.variance_kw2[i] = (1.0 - rate) * (self.variance_kw2[i] + rate * error_kw * error_kw);
+        }
+    }
+
+    /// The heat that is expected beyond the forecast in a step \[kW\], one number per zone.
+    pub fn bias_kw(&self, step: usize, zones: usize) -> impl Iterator<Item = f64> + '_ {
+        (step * zones..(step + 1) * zones).map(|i| {
+            let square = self.mean_kw[i] * self.mean_kw[i];
+            // After a single day nothing is known of how days vary.
+            if self.days < 2 || square == 0.0 {
+                return 0.0;
+            }
+            let uncertainty = self.variance_kw2[i] * self.rate / (2.0 - self.rate);
+            self.mean_kw[i] * square / (square + uncertainty)
+        })
+    }
+
+    /// The bias of all steps, stacked \[kW\].
+    pub fn all_kw(&self, zones: usize) -> Vec<f64> {
+        (0..self.mean_kw.len() / zones.max(1)).flat_map(|step| self.bias_kw(step, zones)).collect()
     }
 }

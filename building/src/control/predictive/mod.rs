@@ -10,19 +10,18 @@
 //!
 //! A step without a plan (a number that is not finite, or a solver without a result) follows the last plan, and says so.
 
-mod estimate;
-mod settings;
-
-pub use settings::PredictiveSettings;
+use interplay_common::setting::{self, SettingError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::interface::ControllerKind;
 use super::optimum::{ConstraintTightening, plan};
-use super::receding_plan::RecedingPlan;
+use super::planning::RecedingPlan;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
+use crate::control::BandPenalty;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use estimate::Estimate;
 
 /// Most inputs of a plan (zones times steps of the horizon): a programme of that size takes some tenths of a second, and a day
 /// has one for each step.
@@ -145,5 +144,110 @@ impl Control for Predictive {
 
     fn fork(&self) -> Option<Box<dyn Control>> {
         Some(Box::new(self.clone()))
+    }
+}
+
+/// Model predictive control: a new plan at every step, from what is measured and forecast.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PredictiveSettings {
+    /// How far each plan looks ahead \[h\]. Beyond midnight the targets and the forecast of today are taken once more.
+    #[schemars(range(min = 0.25, max = 48.0))]
+    pub horizon_h: f64,
+    /// Cost of a kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K"))]
+    pub discomfort_linear: f64,
+    /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
+    pub discomfort_quadratic: f64,
+    /// λ: the share of a step's unexplained heat that is expected to go on.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
+    pub learning_rate: f64,
+}
+
+impl Default for PredictiveSettings {
+    /// Half a day, and the weights of the concurrent design.
+    fn default() -> Self {
+        Self { horizon_h: 12.0, discomfort_linear: 50.0, discomfort_quadratic: 50.0, learning_rate: 0.3 }
+    }
+}
+
+impl PredictiveSettings {
+    /// Refuses settings that are out of range.
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        setting::check(self)
+    }
+
+    /// How many steps of `step_s` a plan has, at least one.
+    pub fn horizon(&self, step_s: f64) -> usize {
+        ((self.horizon_h * 3600.0 / step_s).round() as usize).max(1)
+    }
+
+    /// Cost of leaving the comfort band.
+    pub(super) fn penalty(&self) -> BandPenalty {
+        BandPenalty { linear: self.discomfort_linear, quadratic: self.discomfort_quadratic }
+    }
+}
+
+/// The state of the building as the controller believes it.
+#[derive(Clone, Debug)]
+struct Estimate {
+    /// A single step, to tell heat from temperatures.
+    one_step: Lifted,
+    rate: f64,
+    /// Temperatures of the nodes \[°C\], zones first; none before the first midnight.
+    pub nodes_c: Vec<f64>,
+    /// d: heat that the forecast misses, one number per zone \[kW\].
+    pub missed_kw: Vec<f64>,
+    /// Whether `nodes_c` is a prediction that a measurement can correct.
+    is_predicted: bool,
+}
+
+impl Estimate {
+    /// Nothing is known yet. `rate` is λ.
+    pub fn new(model: &Model, rate: f64) -> Self {
+        let missed_kw = vec![0.0; model.network().zone_count()];
+        Self { one_step: Lifted::new(model, 1), rate, nodes_c: Vec::new(), missed_kw, is_predicted: false }
+    }
+
+    /// At midnight all temperatures are told. What was predicted for them still teaches.
+    pub fn begin_day(&mut self, nodes_c: &[f64]) {
+        self.measure(&nodes_c[..self.missed_kw.len()]);
+        self.nodes_c = nodes_c.to_vec();
+    }
+
+    /// Corrects the prediction by measured temperatures of the zones \[°C\].
+    pub fn measure(&mut self, zones_c: &[f64]) {
+        if !zones_c.iter().all(|temperature_c| temperature_c.is_finite()) {
+            return;
+        }
+        if self.is_predicted {
+            let unexplained_k: Vec<f64> = zones_c.iter().zip(&self.nodes_c).map(|(t, expected)| t - expected).collect();
+            for (missed_kw, more_kw) in self.missed_kw.iter_mut().zip(self.one_step.solve(&unexplained_k)) {
+                *missed_kw += self.rate * more_kw;
+            }
+            self.is_predicted = false;
+        }
+        for (node_c, measured_c) in self.nodes_c.iter_mut().zip(zones_c) {
+            *node_c = *measured_c;
+        }
+    }
+
+    /// Forecast gains of the nodes with the heat of the zones that the forecast misses \[kW\].
+    pub fn with_missed_kw(&self, gains_kw: &[f64]) -> Vec<f64> {
+        let mut gains_kw = gains_kw.to_vec();
+        gains_kw.iter_mut().zip(&self.missed_kw).for_each(|(gain, missed)| *gain += missed);
+        gains_kw
+    }
+
+    /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. With a number that
+    /// is not finite nothing is predicted: the temperatures stay until they are measured.
+    pub fn predict(&mut self, heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
+        let gains_kw = self.with_missed_kw(gains_kw);
+        if !ambient_c.is_finite() || !gains_kw.iter().all(|gain| gain.is_finite()) {
+            return;
+        }
+        self.one_step.model().step(&mut self.nodes_c, heat_kw, ambient_c, &gains_kw);
+        self.is_predicted = true;
     }
 }

@@ -2,12 +2,9 @@
 
 mod chi_squared;
 mod periodogram;
-mod verdict;
 mod whiteness;
 
-pub use verdict::{Confidence, ParameterVerdict};
-pub use whiteness::{LjungBox, Whiteness};
+pub use whiteness::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 
 pub(super) use chi_squared::survival;
-pub(super) use verdict::{STANDARD_ERRORS_OF_95_PERCENT, judge};
-pub(super) use whiteness::whiteness;
+pub(super) use whiteness::{STANDARD_ERRORS_OF_95_PERCENT, judge, whiteness};

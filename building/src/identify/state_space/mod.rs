@@ -20,7 +20,6 @@ mod model_average;
 mod network_run;
 mod observations;
 mod preparation;
-mod processor_time;
 mod profile;
 mod quantities;
 mod sandwich;
@@ -52,7 +51,7 @@ pub(super) fn expected_processor_s(record: &Telemetry, settings: &IdentifySettin
     let prepared = Prepared::new(record);
     let split = TrainTestSplit::new(&prepared.telemetry, settings);
     let rows = split.train.iter().map(Range::len).sum();
-    processor_time::processor_s(&prepared.telemetry, settings, rows)
+    selection::processor_s(&prepared.telemetry, settings, rows)
 }
 
 /// Identifies all zones of the telemetry together.
@@ -81,7 +80,7 @@ pub(super) fn identify(
     if rows < wanted {
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
     }
-    let expected_s = processor_time::processor_s(telemetry, settings, rows);
+    let expected_s = selection::processor_s(telemetry, settings, rows);
     if expected_s > settings.processor_s {
         return Err(IdentifyError::TooMuchWork { expected_s, limit_s: settings.processor_s });
     }

@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::Problem;
-use super::value_shape::ValueShape;
+use super::units::ValueShape;
 
 /// Checks a document against the schema of `T`.
 ///

@@ -11,9 +11,7 @@ mod measurements;
 mod read;
 mod recorded_days;
 mod table;
-mod table_form;
 mod units;
-mod value_shape;
 mod write;
 
 pub use error::TelemetryError;
@@ -22,7 +20,7 @@ pub use mapping::{
 };
 pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use recorded_days::RecordedDays;
-pub use table_form::{DecimalSign, TableForm};
+pub use table::{DecimalSign, TableForm};
 pub use units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 
 impl Telemetry {

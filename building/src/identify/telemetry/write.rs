@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, MeasuredZone, Telemetry};
-use super::table_form::TableForm;
+use super::table::TableForm;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
 use crate::identify::IdentifySettings;
 

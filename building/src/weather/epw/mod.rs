@@ -13,8 +13,6 @@
 //! computed from direct and diffuse radiation, where these are there.
 
 mod calendar;
-mod error;
-mod field;
 mod header;
 mod rows;
 mod usage;
@@ -22,12 +20,10 @@ mod usage;
 use std::ops::Range;
 
 use calendar::Date;
-pub use error::{EpwError, EpwProblem};
-use field::FIELDS;
-pub use field::Field;
 use header::Header;
-pub use header::Location;
-use rows::{Doubt, Rows};
+pub use header::{EpwError, EpwProblem, Location};
+pub use rows::Field;
+use rows::{Doubt, FIELDS, Rows};
 pub use usage::{EpwRemark, EpwUse};
 
 use super::{Sky, TimeSeries, Weather};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::error::{EpwError, EpwProblem};
-use super::field::{FIELDS, Field};
+use super::header::{EpwError, EpwProblem};
+use super::rows::{FIELDS, Field};
 use super::{Epw, HOUR_S};
 
 /// What a run takes from a file.
