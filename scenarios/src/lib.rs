@@ -84,18 +84,15 @@ pub use format::vehicle_config::{GoalDefaults, VehicleConfig, VehicleDefaults};
 pub use format::weather::WeatherConfig;
 pub use load::files::{files, files_below};
 pub use load::{from_text, load};
-pub use model::budget_limits::BudgetLimits;
-pub use model::building::boptest_forecast::BoptestForecast;
 pub use model::building::boptest_plant::{
-    BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone,
+    BoptestForecast, BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone,
 };
 pub use model::building::config::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use model::building::gains::{GainsConfig, RecordedGainsFile};
 pub use model::building::plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
 pub use model::building::weather::{CsvWeather, EpwFile, EpwWeather, Synthetic, WeatherSource};
 pub use model::classes::{NamedScale, ScenarioScale, VehicleClass};
-pub use model::derived::conflict_zones::ConflictZone;
-pub use model::derived::detector_line::DetectorLine;
+pub use model::derived::narrowest_lane::{ConflictZone, DetectorLine};
 pub use model::derived::timetable::TimetableError;
 pub use model::expectations::counterfactual::CounterfactualConfig;
 pub use model::expectations::expect::{
@@ -107,17 +104,14 @@ pub use model::metric::{
     Better, DeclaredMetric, MetricComparison, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics,
 };
 pub use model::remark::{ScenarioRemark, ScenarioRemarks};
-pub use model::scenario::{Counterfactual, Scenario, Stay, Vehicle};
-pub use model::traffic::detail::Detail;
-pub use model::traffic::detector::DetectorConfig;
+pub use model::scenario::{BudgetLimits, Counterfactual, Scenario, Stay, Vehicle};
 pub use model::traffic::goal::GoalConfig;
-pub use model::traffic::lane_reference::LaneReference;
+pub use model::traffic::lane_reference::{DetectorConfig, LaneReference};
 pub use model::traffic::light::LightConfig;
 pub use model::traffic::obstacle::{DeclaredObstacle, ObstacleForm, ObstacleKind, Outline};
 pub use model::traffic::plant::{Dynamic, Kinematic, Plant};
-pub use model::traffic::real_time::{Deadline, RealTime};
-pub use model::traffic::start_jitter::StartJitter;
-pub use model::traffic::weights::Weights;
+pub use model::traffic::real_time::{Deadline, Detail, RealTime};
+pub use model::traffic::weights::{StartJitter, Weights};
 pub use plans::standard_changes::StandardChange;
 pub use plans::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
 pub use resolve::budget::RunCost;

@@ -10,7 +10,6 @@
 mod export;
 mod map;
 mod model;
-mod moved;
 pub(crate) mod recorded_traffic;
 mod traffic;
 mod xml;

@@ -15,19 +15,18 @@ use crate::format::obstacle::ObstacleConfig;
 use crate::format::stated::Stated;
 use crate::format::vehicle_config::{VehicleConfig, VehicleDefaults};
 use crate::format::weather::WeatherConfig;
-use crate::model::budget_limits::BudgetLimits;
 use crate::model::building::config::BuildingConfig;
 use crate::model::building::gains::GainsConfig;
 use crate::model::classes::ScenarioScale;
 use crate::model::expectations::counterfactual::CounterfactualConfig;
 use crate::model::expectations::expect::Expect;
+use crate::model::scenario::BudgetLimits;
 use crate::model::traffic::conduct::Conduct;
-use crate::model::traffic::detail::Detail;
-use crate::model::traffic::detector::DetectorConfig;
+use crate::model::traffic::lane_reference::DetectorConfig;
 use crate::model::traffic::light::LightConfig;
 use crate::model::traffic::plant::Plant;
-use crate::model::traffic::real_time::RealTime;
-use crate::model::traffic::start_jitter::StartJitter;
+use crate::model::traffic::real_time::{Detail, RealTime};
+use crate::model::traffic::weights::StartJitter;
 use crate::roads::Road;
 
 /// One scenario: agents, their world, and the expectations of the run.

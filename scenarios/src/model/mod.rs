@@ -3,7 +3,6 @@
 //! A [`Scenario`](scenario::Scenario) that came from [`load`](crate::load) has been checked and satisfies all rules of the format.
 //! Types that both files and runs use are here; types that only files use are in `format`.
 
-pub(crate) mod budget_limits;
 pub(crate) mod building;
 pub(crate) mod classes;
 pub(crate) mod derived;

@@ -19,8 +19,9 @@ use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::rules::RuleKeeping;
 pub use interplay_planners::traffic::Stay;
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use crate::model::budget_limits::BudgetLimits;
 use crate::model::building::config::BuildingConfig;
 use crate::model::building::gains::RecordedGainsFile;
 use crate::model::building::weather::WeatherSource;
@@ -30,15 +31,13 @@ use crate::model::expectations::expect::Expect;
 use crate::model::metric::RegisteredMetrics;
 use crate::model::remark::ScenarioRemarks;
 use crate::model::traffic::conduct::Conduct;
-use crate::model::traffic::detail::Detail;
-use crate::model::traffic::detector::DetectorConfig;
 use crate::model::traffic::goal::GoalConfig;
+use crate::model::traffic::lane_reference::DetectorConfig;
 use crate::model::traffic::light::LightConfig;
 use crate::model::traffic::obstacle::{ObstacleForm, Outline};
 use crate::model::traffic::plant::Plant;
-use crate::model::traffic::real_time::RealTime;
-use crate::model::traffic::start_jitter::StartJitter;
-use crate::model::traffic::weights::Weights;
+use crate::model::traffic::real_time::{Detail, RealTime};
+use crate::model::traffic::weights::{StartJitter, Weights};
 use crate::roads::{Branch, Road};
 use crate::text::name::EGO;
 
@@ -354,4 +353,31 @@ pub struct Counterfactual {
     pub stated: CounterfactualConfig,
     /// The changed scenario; its expectations are the counterfactual's.
     pub scenario: Scenario,
+}
+
+/// The limits on the work of a run; a run above them is refused before it begins. The defaults allow some minutes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BudgetLimits {
+    /// The most plans: one for each vehicle at each tick.
+    #[schemars(range(min = 1))]
+    pub plans: u64,
+    /// The most steps: of each vehicle and each pair of vehicles in each sub-step of the plant, and of each zone of a building.
+    #[schemars(range(min = 1))]
+    pub steps: u64,
+    /// The most operations of the designs of the building's days, estimated, in thousands of millions.
+    #[schemars(range(min = 1))]
+    pub design_gop: u64,
+    /// The longest estimated time on one core of the reference machine \[s\].
+    #[schemars(range(min = 1))]
+    pub processor_s: u64,
+    /// The largest estimated size of the recording \[MB\].
+    #[schemars(range(min = 1))]
+    pub recorded_mb: u64,
+}
+
+impl Default for BudgetLimits {
+    fn default() -> Self {
+        BudgetLimits { plans: 200_000, steps: 20_000_000, design_gop: 200, processor_s: 1800, recorded_mb: 500 }
+    }
 }

@@ -12,19 +12,12 @@
 pub(crate) mod plan_file;
 pub(crate) mod standard_changes;
 
-mod arm;
 mod assignment;
-mod blame;
-mod conflicts;
-mod draw;
-mod equal_samples;
 mod factor;
-mod named_files;
 mod names;
 mod plan;
 mod read;
 mod refusals;
-mod samples;
 mod settings_below;
 mod without_effect;
 

@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
+use interplay_building::energy::Tariff;
 use interplay_common::spelling::suggestion;
 
 use crate::format::read::embedded::embedded;
+use crate::format::read::tree::{TomlEntry, TomlNode, TomlValue};
 use crate::load::files::files_below;
+use crate::model::building::weather::WeatherSource;
+use crate::model::scenario::{Scenario, Vehicle};
 use crate::streets::Street;
-use crate::text::error::{Fault, Place, quoted};
-use crate::text::pattern::fits;
+use crate::text::error::{Document, Fault, Place, quoted};
+use crate::text::name::fits;
 
 /// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,4 +92,58 @@ fn families() -> Vec<&'static str> {
     let mut found: Vec<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
     found.dedup();
     found
+}
+
+/// The settings that name such files, by their first key.
+pub(super) const SETTINGS: [&str; 4] = ["weather", "tariff", "gains", "vehicle"];
+
+/// The contents of the weather file, of the tables of prices and gains and of recorded vehicles of a scenario, where it has them, in words of which no two that differ
+/// have the same.
+pub(super) fn contents(scenario: &Scenario) -> String {
+    let weather = match &scenario.weather {
+        WeatherSource::Epw(weather) => format!("{:?}{:?}", weather.stated, weather.rows),
+        WeatherSource::Csv(weather) => format!("{:?}{:?}", weather.stated, weather.weather),
+        WeatherSource::Synthetic(_) => String::new(),
+    };
+    // The interval of hourly prices is left out, so that plans keep the keys of their runs.
+    let by_the_hour = |tariff: &Tariff| tariff.interval_s == 3600.0;
+    let interval = |tariff: &Tariff| if by_the_hour(tariff) { String::new() } else { tariff.interval_s.to_string() };
+    let told = |tariff: &Tariff| format!("{:?}{}", tariff.prices_per_kwh, interval(tariff));
+    let prices: String = scenario.tariff.iter().map(told).collect();
+    let gains: String = scenario.gains.iter().map(|gains| format!("{:?}", gains.zones)).collect();
+    let is_recorded = |vehicle: &&Vehicle| vehicle.driver.record().is_some();
+    let records: String =
+        scenario.vehicles.iter().filter(is_recorded).map(|vehicle| format!("{:?}", vehicle.driver)).collect();
+    weather + &prices + &gains + &records
+}
+
+/// The key of a plan that states its number of samples.
+const KEY: &str = "samples";
+
+/// Replaces the number of samples of a plan by that of the flag `--samples`, which errors then name. Returns the text of the
+/// plan with only this number changed.
+///
+/// A table in place of the number is kept: the check refuses it.
+pub(super) fn replace(tree: &mut TomlNode, text: &str, samples: u64) -> String {
+    let TomlValue::Table(root) = &mut tree.value else { return text.to_owned() };
+    let written = samples.to_string();
+    let whole = Place::new(&Document::new("--samples", &written, 0), 0..written.len());
+    let node = TomlNode { place: whole.clone(), value: TomlValue::Integer(i128::from(samples)) };
+    match root.get_mut(KEY) {
+        Some(entry) if entry.node.table().is_some() => text.to_owned(),
+        Some(entry) => {
+            let span = entry.node.place.span.clone();
+            entry.node = node;
+            match (text.get(..span.start), text.get(span.end..)) {
+                (Some(before), Some(behind)) => format!("{before}{written}{behind}"),
+                _ => text.to_owned(),
+            }
+        }
+        None => {
+            root.insert(KEY.to_owned(), TomlEntry { key: whole, node });
+            // At the end it would belong to a table. A byte order mark stays first.
+            let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
+            format!("{mark}{KEY} = {written} # --samples\n{rest}")
+        }
+    }
 }

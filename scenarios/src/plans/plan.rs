@@ -4,17 +4,15 @@ use std::collections::BTreeMap;
 
 use serde_json::Value as Json;
 
-use super::arm::Arm;
-use super::assignment::{Assignment, path_of};
+use super::assignment::{Arm, Assignment, path_of};
 use super::factor::Factor;
-use super::named_files;
-use super::names::NamedScenario;
+use super::names::{self, NamedScenario};
 use crate::format::read::tree::{Table, TomlNode, TomlValue};
 use crate::format::registry::Registry;
 use crate::load::assemble_on;
 use crate::model::metric::RegisteredMetrics;
 use crate::model::scenario::Scenario;
-use crate::model::traffic::start_jitter::StartJitter;
+use crate::model::traffic::weights::StartJitter;
 use crate::plans::plan_file::Sampling;
 use crate::resolve::placement::KnownRoads;
 use crate::text::error::{Fault, Place};
@@ -256,10 +254,10 @@ impl SweepPlan {
     /// The contents of the files that a run names because of the plan; `None` if the plan changes none of them.
     fn named_files(&self, place: &Indices) -> String {
         let assignments = self.assignments(place, None);
-        if !assignments.iter().any(|assignment| assignment.is_below(&named_files::SETTINGS)) {
+        if !assignments.iter().any(|assignment| assignment.is_below(&names::SETTINGS)) {
             return String::new();
         }
-        self.assembled(place, &assignments).map_or_else(|_| String::new(), |scenario| named_files::contents(&scenario))
+        self.assembled(place, &assignments).map_or_else(|_| String::new(), |scenario| names::contents(&scenario))
     }
 
     /// The plan's changes of the scenario in a run, in the order in which they are merged into it: the random change of the starts,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
-use crate::model::traffic::start_jitter::StartJitter;
+use crate::model::traffic::weights::StartJitter;
 
 /// A plan of many runs: scenarios, times drivers of the others, times values that vary, times planners of the ego.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

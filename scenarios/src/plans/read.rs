@@ -7,19 +7,17 @@ use std::sync::LazyLock;
 use interplay_common::spelling::suggestion;
 use serde_json::Value as Json;
 
-use super::arm::Arm;
+use super::assignment::Arm;
 use super::factor::{DrawSettings, factors};
-use super::named_files;
-use super::names::{NamedScenario, find};
+use super::names::{self, NamedScenario, find};
 use super::plan::{PlannedScenario, SweepPlan};
-use super::samples;
 use crate::format::json_schema::{self, SchemaNode};
 use crate::format::read::overrides::settings_of;
 use crate::format::read::source::Source;
 use crate::format::read::tree::{self, TomlNode, TomlValue};
 use crate::format::registry::Registry;
 use crate::load::{self, stated_counterfactuals};
-use crate::model::traffic::start_jitter::StartJitter;
+use crate::model::traffic::weights::StartJitter;
 use crate::plans::plan_file::PlanFile;
 use crate::resolve::check::shape;
 use crate::resolve::placement::KnownRoads;
@@ -108,7 +106,7 @@ fn with_samples(
     let document = Document::new(name, text, 0);
     let place = Place::new(&document, 0..0);
     let plan = tree::parse(&document, text).and_then(|mut tree| {
-        let replaced = samples.map(|samples| samples::replace(&mut tree, text, samples));
+        let replaced = samples.map(|samples| names::replace(&mut tree, text, samples));
         read(registry, name, replaced.as_deref().unwrap_or(text), place, &tree, folder)
     });
     plan.map_err(|faults| LoadError::of_plan(name, faults))
@@ -296,7 +294,7 @@ fn planned(
         position_m: jitter.position_m * scale,
         speed_mps: jitter.speed_mps * scale.sqrt(),
     };
-    let canonical = format!("{}{}{}", tree.to_json(), named_files::contents(&scenario), registry.versions());
+    let canonical = format!("{}{}{}", tree.to_json(), names::contents(&scenario), registry.versions());
     Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(|(jitter, _)| scaled(jitter)), counterfactuals })
 }
 

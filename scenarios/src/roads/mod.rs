@@ -10,14 +10,10 @@
 //! is the distance from the middle, positive to the left. On a network they are those of the lanes of the route.
 
 mod curve;
-mod fault;
 mod form;
-mod intersection;
 mod junctions;
 mod lanes;
 mod network;
-mod piece;
-mod ramp_merge;
 
 use std::sync::Arc;
 
@@ -27,18 +23,13 @@ use interplay_planners::{Corridor, LaneEnd, Route};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
-pub(crate) use curve::{CurveFault, Turn};
-pub use curve::{CurveLaneEnd, RoadCurve};
-pub use fault::RoadFault;
-pub(crate) use fault::to_centimetres;
-pub use form::RoadForm;
-pub use intersection::Intersection;
+pub(crate) use curve::{CurveFault, PieceFault, Turn};
+pub use curve::{CurveLaneEnd, CurvePiece, RoadCurve};
+pub(crate) use form::to_centimetres;
+pub use form::{RoadFault, RoadForm};
 pub use junctions::*;
-pub use lanes::Lanes;
+pub use lanes::{Intersection, Lanes, RampMerge};
 pub use network::{LaneConfig, LaneNetwork, LanePlaceConfig, LaneWidth, NeighbourConfig, NeighbourTable};
-pub use piece::CurvePiece;
-pub(crate) use piece::PieceFault;
-pub use ramp_merge::RampMerge;
 
 /// The settings of a road whose form another crate provides.
 pub type ForeignRoad = ForeignSettings<dyn RoadForm>;

@@ -14,7 +14,7 @@ mod obstacles;
 
 use draft::Draft;
 
-use crate::text::pattern::fits;
+use crate::text::name::fits;
 
 /// One kind of street: its word, its description, and the function that draws a scene.
 struct StreetKind {

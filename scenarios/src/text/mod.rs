@@ -2,7 +2,5 @@
 
 pub(crate) mod error;
 pub(crate) mod name;
-pub(crate) mod pattern;
 pub(crate) mod plain_text;
 pub(crate) mod readable;
-pub(crate) mod toml_value;

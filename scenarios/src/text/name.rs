@@ -36,6 +36,17 @@ pub(crate) fn in_words() -> String {
     format!("a name has 1 to {MAX_CHARACTERS} {} or {last}", most.join(", "))
 }
 
+/// Whether a name fits a pattern, in which `*` stands for any characters but `/`.
+pub(crate) fn fits(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((start, rest)) => name.strip_prefix(start).is_some_and(|name| {
+            let reach = name.find('/').unwrap_or(name.len());
+            (0..=reach).any(|end| name.is_char_boundary(end) && fits(rest, &name[end..]))
+        }),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,6 +60,20 @@ mod tests {
         }
         for other in ["", "Ego", "a b", "ä", "a.b", "a{", &"a".repeat(65)] {
             assert!(!is_name(other), "{other}");
+        }
+    }
+
+    #[test]
+    fn a_star_stands_for_a_part_of_a_name() {
+        for (pattern, name, expected) in [
+            ("lane-change/*", "lane-change/front-nice", true),
+            ("*/nice", "intersection/nice", true),
+            ("*/nice", "lane-change/front-nice", false),
+            ("*nice", "intersection/nice", false),
+            ("*/*-nice", "lane-change/front-nice", true),
+            ("lane-change", "lane-change/front-nice", false),
+        ] {
+            assert_eq!(fits(pattern, name), expected, "{pattern} {name}");
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Numbers in messages: as many digits as matter to a reader.
 
+use serde_json::Value as Json;
+
 /// Numbers that are written with at most this many characters are shown as they are.
 const MAX_CHARACTERS: usize = 7;
 
@@ -10,6 +12,27 @@ pub fn readable(value: f64) -> f64 {
         return value;
     }
     format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// A value as TOML, on one line.
+pub(crate) fn toml(value: &Json) -> String {
+    match value {
+        Json::Null => String::new(),
+        Json::Bool(truth) => truth.to_string(),
+        Json::Number(number) if number.is_f64() => format!("{:?}", number.as_f64().unwrap_or_default()),
+        Json::Number(number) => number.to_string(),
+        Json::String(text) => toml::Value::String(text.clone()).to_string(),
+        Json::Array(items) => format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", ")),
+        Json::Object(table) if table.is_empty() => "{}".to_owned(),
+        Json::Object(table) => {
+            let pair = |(key, value): (&String, &Json)| {
+                let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-".contains(&b));
+                let key = if is_bare { key.clone() } else { toml(&Json::String(key.clone())) };
+                format!("{key} = {}", toml(value))
+            };
+            format!("{{ {} }}", table.iter().map(pair).collect::<Vec<_>>().join(", "))
+        }
+    }
 }
 
 #[cfg(test)]

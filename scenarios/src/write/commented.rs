@@ -14,7 +14,7 @@ use crate::format::json_schema::{Concern, SchemaNode};
 use crate::format::registry::Registry;
 use crate::load::{make_paths_absolute, tree};
 use crate::text::error::LoadError;
-use crate::text::toml_value::toml;
+use crate::text::readable::toml;
 
 /// Columns of a comment.
 const WIDTH: usize = 110;

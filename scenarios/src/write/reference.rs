@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use crate::format::json_schema::{SchemaNode, in_degrees};
 use crate::format::registry::Registry;
-use crate::text::toml_value::toml;
+use crate::text::readable::toml;
 use crate::write::commented::inline;
 
 /// Defaults and examples longer than this are not shown: the section of the table has them key by key \[characters\].

@@ -6,10 +6,9 @@ use std::fmt::Write;
 use interplay_planners::State;
 
 use super::super::model::ROOT;
-use super::driven::DrivenVehicle;
+use super::DrivenVehicle;
 use super::goal::GoalPlaces;
-use super::ids::{Ids, number_in};
-use super::xml_text::{escaped, number, state};
+use super::xml_text::{Ids, escaped, number, number_in, state};
 use crate::model::classes::VehicleClass;
 use crate::model::scenario::Scenario;
 

@@ -1,7 +1,7 @@
 //! Parallel lanes as lanelets, as long as the driven part of the road.
 
+use super::DrivenVehicle;
 use super::base::Base;
-use super::driven::DrivenVehicle;
 use super::lanelets::LaneletText;
 use crate::model::scenario::Scenario;
 use crate::roads::Branch;

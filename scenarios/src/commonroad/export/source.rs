@@ -5,10 +5,10 @@ use std::path::Path;
 
 use super::super::model::{CommonRoad, Obstacle};
 use super::super::xml::{Element, Unread, Xml};
+use super::VERSION;
 use super::base::Base;
-use super::driven::VERSION;
 use super::goal::GoalPlaces;
-use super::ids::Ids;
+use super::xml_text::Ids;
 use crate::format::read::source::imported_text;
 use crate::model::scenario::Scenario;
 use crate::text::error::Fault;

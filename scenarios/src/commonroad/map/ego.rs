@@ -4,9 +4,9 @@ use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, PlanningProblem, Region};
-use super::arrival;
 use super::lanes::Lanes;
 use super::notes::{NOT_YET, Notes};
+use super::places;
 use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
 use crate::format::stated::Stated;
@@ -87,7 +87,7 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
         notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
     }
     let limit_mps = route.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
-    let in_time_mps = arrival::wanted_mps(problem, step_s, network, &route, &state).filter(|_| reaches_goal);
+    let in_time_mps = places::wanted_mps(problem, step_s, network, &route, &state).filter(|_| reaches_goal);
     let wanted_mps = rounded(wanted_mps(problem, speed_mps, in_time_mps, limit_mps, notes), 2);
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };

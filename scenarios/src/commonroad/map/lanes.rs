@@ -6,8 +6,7 @@ use interplay_planners::road::network::{Lane, LaneFault, LaneUser, RightOfWay, R
 
 use super::super::model::{Adjacent, CommonRoad, Lanelet};
 use super::line::{self, Line};
-use super::names::Names;
-use super::notes::{NOT_YET, Notes};
+use super::notes::{NOT_YET, Names, Notes};
 use super::rights::Signs;
 use crate::roads::{LaneConfig, LaneNetwork, LaneWidth, NeighbourConfig, NeighbourTable};
 use crate::text::error::{Fault, Place};

@@ -1,11 +1,8 @@
 //! From a scenario of CommonRoad to a scenario of Interplay, one file per concept.
 
-mod arrival;
 mod ego;
 mod lanes;
-mod lights;
 mod line;
-mod names;
 mod notes;
 mod places;
 mod rights;
@@ -22,7 +19,7 @@ use crate::format::obstacle::ObstacleConfig;
 use crate::format::scenario_file::ScenarioFile;
 use crate::format::stated::Stated;
 use crate::format::vehicle_config::VehicleConfig;
-use crate::model::budget_limits::BudgetLimits;
+use crate::model::scenario::BudgetLimits;
 use crate::model::traffic::goal::GoalConfig;
 use crate::resolve::check::consistency::overlap;
 use crate::roads::{LaneConfig, LaneNetwork, Road};
@@ -73,7 +70,7 @@ pub(super) fn mapped(
     let ego = if has_no_driver { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
-    let lights = lights::lights(scenario, &lanes, begin, notes);
+    let lights = rights::lights(scenario, &lanes, begin, notes);
     for (element, count) in unread.into_counts() {
         notes.several(count, [&format!("element `{element}`"), &format!("elements `{element}`")], NOT_YET);
     }

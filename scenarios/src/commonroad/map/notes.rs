@@ -1,5 +1,9 @@
 //! The parts that could not be carried over, one line for each kind.
 
+use std::collections::BTreeSet;
+
+use crate::text::name::{EGO, is_name};
+
 /// Lines on differences from the imported file, in the order in which they were found.
 #[derive(Debug, Default)]
 pub(in crate::commonroad) struct Notes(Vec<Note>);
@@ -41,6 +45,28 @@ impl Notes {
 /// The note for parts that a scenario cannot state yet.
 pub(super) const NOT_YET: &str = "not carried over yet";
 
+/// The names in use. Ids may be any text; names use few characters and are unique.
+#[derive(Debug, Default)]
+pub(super) struct Names(BTreeSet<String>);
+
+/// The most characters of an id that become part of a name.
+const MAX_ID: usize = 40;
+
+impl Names {
+    /// A new name from a word and an id.
+    pub(super) fn name(&mut self, word: &str, id: &str) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c.to_ascii_lowercase() } else { '-' };
+        let id: String = id.chars().take(MAX_ID).map(plain).collect();
+        let wanted = format!("{word}{id}");
+        let numbered = (2..).map(|number| format!("{wanted}-{number}"));
+        let mut names = [wanted.clone()].into_iter().chain(numbered);
+        let free = names.find(|name| name != EGO && !self.0.contains(name)).unwrap_or(wanted);
+        debug_assert!(is_name(&free), "{free}");
+        self.0.insert(free.clone());
+        free
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,5 +79,14 @@ mod tests {
         notes.several(2, ["light", "lights"], NOT_YET);
         notes.one(["loop", "loops"], "opened");
         assert_eq!(notes.lines(), ["3 lights: not carried over yet", "1 loop: opened"]);
+    }
+
+    #[test]
+    fn names_are_plain_and_unique() {
+        let mut names = Names::default();
+        assert_eq!(names.name("l", "12"), "l12");
+        assert_eq!(names.name("l", "12"), "l12-2");
+        assert_eq!(names.name("", "ego"), "ego-2");
+        assert_eq!(names.name("car-", "A b/ü\u{1f}"), "car-a-b---");
     }
 }

@@ -4,8 +4,7 @@ use interplay_planners::drivers::recorded::Record;
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, Obstacle, Role};
-use super::names::Names;
-use super::notes::{NOT_YET, Notes};
+use super::notes::{NOT_YET, Names, Notes};
 use crate::format::obstacle::ObstacleConfig;
 use crate::format::start::StartConfig;
 use crate::format::stated::Stated;

@@ -126,3 +126,22 @@ fn adjacent(element: Element<'_>, name: &'static str) -> Result<Option<Adjacent>
     let id = other.required_attribute("ref")?.to_owned();
     Ok(Some(Adjacent { id, is_oncoming: other.attribute("drivingDir") == Some("opposite") }))
 }
+
+/// An intersection.
+pub(crate) struct Intersection {
+    /// The lanelets of each approach, by their ids.
+    pub incoming: Vec<Vec<String>>,
+}
+
+impl Intersection {
+    pub(super) fn read(element: Element<'_>, unread: &mut Unread) -> Result<Intersection, Fault> {
+        let mut incoming = Vec::new();
+        for approach in element.children("incoming") {
+            let lanelets = approach.children("incomingLanelet");
+            incoming
+                .push(lanelets.map(|it| Ok(it.required_attribute("ref")?.to_owned())).collect::<Result<_, Fault>>()?);
+        }
+        unread.count_beyond(element, &["incoming"]);
+        Ok(Intersection { incoming })
+    }
+}

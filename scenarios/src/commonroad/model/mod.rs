@@ -2,23 +2,16 @@
 //! 2020a.
 
 mod geometry;
-mod intersection;
 mod lanelet;
-mod light;
 mod obstacle;
-mod planning_problem;
 mod sign;
-mod state;
 
 #[cfg(test)]
 pub(super) use geometry::Rectangle;
 pub(super) use geometry::Region;
-pub(super) use intersection::Intersection;
-pub(super) use lanelet::{Adjacent, Lanelet};
-pub(super) use light::Light;
-pub(super) use obstacle::{Obstacle, Role};
-pub(super) use planning_problem::{Goal, PlanningProblem};
-pub(super) use sign::{Sign, SignMeaning};
+pub(super) use lanelet::{Adjacent, Intersection, Lanelet};
+pub(super) use obstacle::{Goal, Obstacle, PlanningProblem, Role};
+pub(super) use sign::{Light, Sign, SignMeaning};
 
 use super::xml::{Element, Unread};
 use crate::text::error::{Fault, quoted};

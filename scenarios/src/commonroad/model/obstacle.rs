@@ -2,7 +2,6 @@
 
 use super::super::xml::{Element, Unread};
 use super::geometry::Region;
-use super::state::StateAt;
 use crate::text::error::Fault;
 
 /// An obstacle.
@@ -66,4 +65,115 @@ impl<'a> Obstacle<'a> {
         unread.count_beyond(element, &["role", "type", "shape", "initialState", "trajectory", "occupancySet"]);
         Ok(obstacle)
     }
+}
+
+/// A state at a time. A value that is an interval or a region is taken at its middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StateAt {
+    /// Number of the step of time.
+    pub time: f64,
+    /// Position \[m\].
+    pub position: [f64; 2],
+    /// Direction \[rad\].
+    pub orientation_rad: f64,
+    /// Speed along that direction; 0 if not stated \[m/s\].
+    pub velocity_mps: f64,
+    /// Whether all its values are stated as exact numbers.
+    pub is_exact: bool,
+}
+
+impl StateAt {
+    /// The keys of a state that are read.
+    pub(super) const READ: [&'static str; 5] = ["position", "orientation", "time", "velocity", "velocityY"];
+
+    /// Reads a state.
+    ///
+    /// # Errors
+    /// For a state without position or time.
+    pub(super) fn read(element: Element<'_>) -> Result<StateAt, Fault> {
+        let stated = element.required("position")?;
+        let regions = Region::read_all(stated)?;
+        let position = regions.first().and_then(Region::middle);
+        let position = position.ok_or_else(|| {
+            stated.fault("no place", format!("`position` of {} is neither a point nor a region", element.shown()))
+        })?;
+        let value = |key: &'static str| element.child(key).map(|value| value.interval()).transpose();
+        let [time, orientation, along, across] = [
+            Some(element.required("time")?.interval()?),
+            value("orientation")?,
+            value("velocity")?,
+            value("velocityY")?,
+        ];
+        let middle = |interval: Option<[f64; 2]>| interval.map_or(0.0, |[from, to]| 0.5 * (from + to));
+        let is_exact = [time, orientation, along, across].iter().flatten().all(|[from, to]| from == to);
+        // A point mass states both components of its velocity, and no direction.
+        let (orientation_rad, velocity_mps) = match across {
+            Some(_) if orientation.is_none() => {
+                let [x, y] = [along, across].map(middle);
+                (libm::atan2(y, x), libm::hypot(x, y))
+            }
+            _ => (middle(orientation), middle(along)),
+        };
+        Ok(StateAt {
+            time: middle(time),
+            position,
+            orientation_rad,
+            velocity_mps,
+            is_exact: is_exact && matches!(regions.as_slice(), [Region::Point(_)]),
+        })
+    }
+}
+
+/// A planning problem.
+pub(crate) struct PlanningProblem<'a> {
+    pub element: Element<'a>,
+    pub initial: StateAt,
+    /// Its initial acceleration \[m/s²\].
+    pub acceleration_mps2: Option<f64>,
+    /// The goals, one of which has to be reached.
+    pub goals: Vec<Goal>,
+}
+
+/// A goal; a quantity that is not stated is free.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Goal {
+    /// The time steps between which it has to be reached.
+    pub time: Option<[f64; 2]>,
+    /// The regions, one of which has to be reached.
+    pub position: Vec<Region>,
+    /// The direction \[rad\].
+    pub orientation_rad: Option<[f64; 2]>,
+    /// The speed \[m/s\].
+    pub velocity_mps: Option<[f64; 2]>,
+}
+
+impl<'a> PlanningProblem<'a> {
+    pub(super) fn read(element: Element<'a>, unread: &mut Unread) -> Result<PlanningProblem<'a>, Fault> {
+        let stated = element.required("initialState")?;
+        // Both are 0 in all published scenarios.
+        let noted = [&StateAt::READ[..], &["yawRate", "slipAngle", "acceleration"]].concat();
+        unread.count_beyond(stated, &noted);
+        unread.count_beyond(element, &["initialState", "goalState"]);
+        Ok(PlanningProblem {
+            element,
+            initial: StateAt::read(stated)?,
+            acceleration_mps2: stated.child("acceleration").map(|value| value.interval()).transpose()?.map(middle),
+            goals: element.children("goalState").map(|goal| goal_of(goal, unread)).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+fn middle([from, to]: [f64; 2]) -> f64 {
+    0.5 * (from + to)
+}
+
+fn goal_of(element: Element<'_>, unread: &mut Unread) -> Result<Goal, Fault> {
+    let value = |key: &'static str| element.child(key).map(|value| value.interval()).transpose();
+    unread.count_beyond(element, &StateAt::READ);
+    Ok(Goal {
+        time: value("time")?,
+        position: element.child("position").map_or(Ok(Vec::new()), Region::read_all)?,
+        orientation_rad: value("orientation")?,
+        velocity_mps: value("velocity")?,
+    })
 }

@@ -15,7 +15,6 @@
 //! required keys that its parent states.
 
 mod node;
-mod twins;
 
 use interplay_common::json_schema::kind_of;
 use interplay_common::units::unit_of;
@@ -23,8 +22,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value as Json, json};
 
-pub(crate) use node::{Concern, SchemaNode};
-pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
+pub(crate) use node::{Concern, SchemaNode, TWIN_OF, in_degrees, rounded};
 
 /// The schema of a type of files, as the check reads it.
 pub(crate) fn generated<T: JsonSchema>() -> Json {
@@ -102,7 +100,7 @@ fn polish(schema: &mut Json) {
             object.values_mut().for_each(polish);
             if let Some(properties) = object.get_mut("properties").and_then(Json::as_object_mut) {
                 properties.iter_mut().for_each(|(key, property)| state_unit(key, property));
-                twins::add_twins(properties);
+                node::add_twins(properties);
                 state_exclusions(properties);
             }
         }

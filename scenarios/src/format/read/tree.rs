@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::text::error::{Document, Fault, Place};
-use crate::text::toml_value::toml;
+use crate::text::readable::toml;
 
 /// A value and its place.
 #[derive(Clone, Debug)]

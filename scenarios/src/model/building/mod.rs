@@ -1,6 +1,5 @@
 //! The building of a scenario: its network, its plant, the weather around it and the heat in it.
 
-pub(crate) mod boptest_forecast;
 pub(crate) mod boptest_plant;
 pub(crate) mod config;
 pub(crate) mod gains;

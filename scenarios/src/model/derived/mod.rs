@@ -1,9 +1,6 @@
 //! Quantities derived from a scenario: conflict zones, lane widths, schedules, and the effect of the seed.
 
-pub(crate) mod conflict_zones;
-pub(crate) mod detector_line;
 pub(crate) mod narrowest_lane;
-pub(crate) mod plan_deadlines;
 pub(crate) mod seed_dependence;
 pub(crate) mod swept_width;
 pub(crate) mod timetable;

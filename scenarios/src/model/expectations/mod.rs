@@ -2,5 +2,4 @@
 
 pub(crate) mod counterfactual;
 pub(crate) mod expect;
-pub(crate) mod expectation_names;
 pub(crate) mod metric_bound;

@@ -1,13 +1,10 @@
 //! The traffic of a scenario: vehicles, obstacles, lights and detectors, and their level of detail.
 
 pub(crate) mod conduct;
-pub(crate) mod detail;
-pub(crate) mod detector;
 pub(crate) mod goal;
 pub(crate) mod lane_reference;
 pub(crate) mod light;
 pub(crate) mod obstacle;
 pub(crate) mod plant;
 pub(crate) mod real_time;
-pub(crate) mod start_jitter;
 pub(crate) mod weights;

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
 
-use super::super::fault::{RoadFault, to_centimetres};
+use super::super::form::{RoadFault, to_centimetres};
 use super::connector::{Connector, LanePose, connector, tangent_ratio};
 use super::{beside, lane, limit_in_turn_mps, numbered, straight};
 

@@ -10,7 +10,7 @@ use interplay_planners::road::centre_line::{CentreLineError, Piece};
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation};
 use interplay_planners::{CentreLine, Profile};
 
-use super::fault::RoadFault;
+use super::form::RoadFault;
 
 /// The forms: file, type, and the description of the kind in the schema. A type has a `lane_width_m`, and `lanes`, which returns the lanes
 /// of a network. To add a form, write its file and a line here.

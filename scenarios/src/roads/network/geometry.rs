@@ -3,8 +3,8 @@
 use interplay_planners::CentreLine;
 use interplay_planners::road::centre_line::{CentreLineError, LineSection, Piece, smooth_points};
 
-use super::super::fault::{RoadFault, to_centimetres};
-use super::super::piece::PieceFault;
+use super::super::curve::PieceFault;
+use super::super::form::{RoadFault, to_centimetres};
 use super::lane_config::{LaneConfig, LanePlaceConfig};
 use crate::text::error::quoted;
 

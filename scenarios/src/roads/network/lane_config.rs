@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::super::fault::RoadFault;
-use super::super::piece::CurvePiece;
+use super::super::curve::CurvePiece;
+use super::super::form::RoadFault;
 use crate::text::name;
 
 /// A lane: a line with a width. The line is stated by `start` and `pieces`, or by `points`.

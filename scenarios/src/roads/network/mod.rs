@@ -10,7 +10,7 @@ use serde_json::json;
 
 pub use lane_config::{LaneConfig, LanePlaceConfig, LaneWidth, NeighbourConfig, NeighbourTable};
 
-use super::fault::RoadFault;
+use super::form::RoadFault;
 
 /// A network of lanes, one `[[road.lane]]` each. Each lane is driven in one direction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
