@@ -26,7 +26,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
 use interplay_simulation::measure::RegisterMetrics;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use commands::{
     check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
     run, schema, suite, sweep, view, why,

@@ -17,14 +17,12 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
-mod folders;
 mod whole;
 
 use std::io::{self, Write};
 use std::path::Path;
 
-pub use folders::NewFolders;
-pub use whole::{WholeFile, folder_of};
+pub use whole::{NewFolders, WholeFile, folder_of};
 
 /// Checks that a file can be written to `target`, and leaves no trace of that.
 ///
@@ -38,7 +36,7 @@ pub fn check(target: &Path) -> io::Result<()> {
         let what = if target.is_dir() { "it is a folder" } else { "it is not an ordinary file" };
         return Err(io::Error::other(what));
     }
-    let nearest = folders::above(target).find(|folder| folder.exists());
+    let nearest = whole::above(target).find(|folder| folder.exists());
     WholeFile::begin(&nearest.unwrap_or_default().join("new")).map(drop)
 }
 

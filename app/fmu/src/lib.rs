@@ -15,13 +15,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod archive;
 mod description;
 mod error;
 mod export;
 mod resources;
-mod version;
 
 pub use error::FmuError;
-pub use export::export;
-pub use version::FmiVersion;
+pub use export::{FmiVersion, export};

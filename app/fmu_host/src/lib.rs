@@ -16,7 +16,6 @@ mod archive;
 mod description;
 mod error;
 mod host;
-mod last_line;
 mod library;
 mod protocol;
 mod serve;

@@ -8,17 +8,14 @@
 //! A [`Session`] is a run with people in some seats. It does not depend on the network, so a script can play it as well
 //! ([`play_script`]). The server passes controls from pages to a session, and frames back.
 
-mod menu;
 mod protocol;
-mod saved_file;
 mod script;
 mod server;
 mod session;
 mod study;
 
 pub use protocol::PageMessage;
-pub use saved_file::{save_played, write_played};
-pub use script::{ScriptError, ScriptLine, play_script, read_script};
+pub use script::{ScriptError, ScriptLine, play_script, read_script, save_played, write_played};
 pub use server::{PlayServer, ServeError, ServeOptions, StopPlay};
 pub use session::{Controls, Score, ScoreRow, Session, SessionError, check_seats};
 pub use study::{PlannedStudy, Study, StudyError, StudyPlace};

@@ -1,9 +1,10 @@
 //! Messages between pages and server, one JSON document each.
 
 use interplay_presentation::stage::{Stage, StageFrame};
+use interplay_scenarios::{Registry, embedded};
 use serde::{Deserialize, Serialize};
 
-use crate::session::{PlayGoal, Score};
+use crate::session::{PlayGoal, Score, seats_of};
 use crate::study::StudyPlace;
 
 /// A message of a page.
@@ -171,4 +172,43 @@ pub(crate) enum ServerMessage {
         /// Clock of the page \[ms\].
         at: f64,
     },
+}
+
+/// The scenarios with vehicles that a person can drive, by family.
+#[derive(Clone, Debug)]
+pub(crate) struct Menu {
+    pub families: Vec<MenuFamily>,
+}
+
+impl Menu {
+    /// The menu of the scenarios in the binary.
+    pub fn of(registry: &Registry) -> Menu {
+        let mut families: Vec<MenuFamily> = Vec::new();
+        for file in embedded() {
+            let Ok(scenario) = registry.load(file.name, &[]) else { continue };
+            let seats = seats_of(&scenario);
+            if seats.is_empty() {
+                continue;
+            }
+            let family = file.name.split('/').next().unwrap_or(file.name);
+            let entry =
+                MenuScenario { name: file.name.to_owned(), title: scenario.title, shows: scenario.shows, seats };
+            match families.last_mut().filter(|last| last.family == family) {
+                Some(last) => last.scenarios.push(entry),
+                None => families.push(MenuFamily {
+                    family: family.to_owned(),
+                    title: entry.title.clone(),
+                    scenarios: vec![entry],
+                }),
+            }
+        }
+        Menu { families }
+    }
+
+    /// The scenario after one, and its first seat; after the last, the first.
+    pub fn after(&self, name: &str) -> Option<(String, String)> {
+        let all: Vec<&MenuScenario> = self.families.iter().flat_map(|family| &family.scenarios).collect();
+        let next = all.iter().position(|entry| entry.name == name).map_or(0, |place| (place + 1) % all.len());
+        all.get(next).map(|entry| (entry.name.clone(), entry.seats[0].clone()))
+    }
 }

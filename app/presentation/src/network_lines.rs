@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay, RoadNetwork};
 use interplay_scenarios::Scenario;
 
+use crate::camera::extent;
 use crate::curved_road::WorldLine;
-use crate::rectangle::extent;
-use crate::road_widths::SHOULDER_LANES;
 
 /// Largest distance between two points of a line, by the width of the lane.
 const POINT_DISTANCE_RATIO: f64 = 0.25;
@@ -263,6 +262,19 @@ fn ranges_m(lane: &Lane, [from_m, to_m]: [f64; 2]) -> Vec<f64> {
 fn line(lane: &Lane, side: LaneSide, range_m: [f64; 2]) -> WorldLine {
     ranges_m(lane, range_m).into_iter().map(|along_m| edge_position(lane, side, along_m, 0.0)).collect()
 }
+
+/// Width of the lines where vehicles stop or yield, in lane widths.
+pub const STOP_LINE_LANES: f64 = 0.11;
+/// How far the asphalt reaches beyond the edges, in lane widths.
+pub const SHOULDER_LANES: f64 = 0.05;
+/// Width of the verge, in lane widths.
+pub const VERGE_LANES: f64 = 0.34;
+/// Width of the kerb, in lane widths.
+pub const KERB_LANES: f64 = 0.07;
+/// Width of a line, in lane widths.
+pub const LINE_LANES: f64 = 0.035;
+/// Width of an arrow, in lane widths.
+pub const ARROW_WIDTH_LANES: f64 = 0.07;
 
 #[cfg(test)]
 mod tests {

@@ -5,8 +5,8 @@ use interplay_planners::{Axes, Corridor};
 use interplay_scenarios::{Branch, Road, Scenario};
 
 use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
-use crate::light_shapes::LightShape;
 use crate::network_lines::NetworkLines;
+use crate::signals::LightShape;
 
 /// Length of a dash and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;

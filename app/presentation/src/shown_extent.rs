@@ -1,11 +1,11 @@
 //! The extent that the camera shows: the ego, its partners, and vehicles nearby.
 
 use interplay_planners::State;
-use interplay_scenarios::Scenario;
-use interplay_simulation::frame::VehicleFrame;
+use interplay_scenarios::{Scenario, Vehicle};
+use interplay_simulation::frame::{Frame, VehicleFrame};
 
 use crate::body::scale;
-use crate::rectangle::extent;
+use crate::camera::extent;
 
 /// Length of a car of 1/10 scale \[m\].
 const CAR_M: f64 = 0.4;
@@ -177,4 +177,48 @@ fn are_closing([one, other]: [&State; 2]) -> bool {
     let (one_mps, other_mps) = (velocity(one), velocity(other));
     let [x, y] = [other.x_m - one.x_m, other.y_m - one.y_m];
     x * (other_mps[0] - one_mps[0]) + y * (other_mps[1] - one_mps[1]) < 0.0
+}
+
+/// Indices of the vehicles on the road that have a driver, without the ego, sorted by distance from the ego.
+pub fn nearest_vehicles(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
+    let ego = scenario.ego_index();
+    let Some(own) = frame.vehicles.get(ego).map(|vehicle| vehicle.state) else { return Vec::new() };
+    let away_m = |index: &usize| {
+        let state = &frame.vehicles[*index].state;
+        libm::hypot(state.x_m - own.x_m, state.y_m - own.y_m)
+    };
+    let is_driven = |index: &usize| {
+        *index != ego && scenario.vehicles[*index].obstacle.is_none() && !frame.vehicles[*index].is_absent
+    };
+    let mut near: Vec<usize> = (0..frame.vehicles.len()).filter(is_driven).collect();
+    near.sort_by(|one, other| away_m(one).total_cmp(&away_m(other)));
+    near
+}
+
+/// Most vehicles with a label and a safety ellipse besides the ego: more would cover the road.
+const MAX_LABELLED: usize = 8;
+
+/// Vehicles of a crowd are described within this distance from the ego, in lengths of their bodies.
+const NEAR_LENGTHS: f64 = 30.0;
+
+/// For each vehicle whether a recording has its plans, numbers and words at a tick: always, but in a crowd only near the ego.
+pub fn described(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
+    let ego = frame.vehicles.get(scenario.ego_index());
+    let is_near = |(vehicle, stated): (&VehicleFrame, &Vehicle)| {
+        let Some(ego) = ego.filter(|ego| !ego.is_absent) else { return false };
+        let reach_m = NEAR_LENGTHS * (stated.body.front_m + stated.body.rear_m);
+        let (own, other) = (&ego.state, &vehicle.state);
+        libm::hypot(other.x_m - own.x_m, other.y_m - own.y_m) <= reach_m
+    };
+    if !scenario.is_crowd() {
+        return vec![true; frame.vehicles.len()];
+    }
+    frame.vehicles.iter().zip(&scenario.vehicles).map(is_near).collect()
+}
+
+/// For each vehicle whether it has a label: the ego and the vehicles nearest to it.
+pub fn labelled(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
+    let mut near = nearest_vehicles(scenario, frame);
+    near.truncate(MAX_LABELLED);
+    (0..frame.vehicles.len()).map(|index| index == scenario.ego_index() || near.contains(&index)).collect()
 }

@@ -1,9 +1,13 @@
 //! Brake lights and indicators of vehicles, from their accelerations and plans.
 
-use interplay_planners::road::network::{Lane, LaneNeighbour, RoadNetwork, RouteLeg};
+use std::sync::Arc;
+
+use interplay_planners::road::network::{Lane, LaneNeighbour, LightColour, LightCycle, RoadNetwork, RouteLeg};
 use interplay_planners::{Route, State};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::VehicleFrame;
+
+use crate::palette::{Colour, VERMILLION};
 
 /// A vehicle brakes visibly if its acceleration is below this \[m/s²\].
 const BRAKING_MPS2: f64 = -0.1;
@@ -120,4 +124,44 @@ fn nearest_successor<'a>(network: &'a RoadNetwork, lane: &Lane, state: &State) -
     let successors = lane.successors.iter().filter_map(|name| network.lane(name));
     let off_m = |lane: &Lane| lane.centre.project(state.position(), None).across_m.abs();
     successors.min_by(|a, b| off_m(a).total_cmp(&off_m(b)))
+}
+
+const RED: Colour = VERMILLION.rgb;
+const AMBER: Colour = [0xF5, 0xB8, 0x2E];
+const GREEN: Colour = [0x3D, 0xD6, 0x8C];
+const OFF: Colour = [0x70, 0x74, 0x7A];
+
+/// The light at the end of a lane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightShape {
+    /// The name of the lane.
+    pub lane: String,
+    /// The ends of the bar, on the right and on the left of the lane \[m\].
+    pub bar: [[f64; 2]; 2],
+    /// Its colours over time.
+    pub cycle: Arc<LightCycle>,
+}
+
+impl LightShape {
+    /// The lights of a network.
+    pub fn all(network: &RoadNetwork) -> Vec<LightShape> {
+        let lit = network.lanes().iter().filter_map(|lane| Some((lane, lane.light.as_ref()?)));
+        let shape = |(lane, cycle): (&interplay_planners::road::network::Lane, &Arc<LightCycle>)| {
+            let end_m = lane.centre.length_m();
+            let half_m = lane.half_width_m(end_m);
+            let bar = [-half_m, half_m].map(|across_m| lane.centre.position(end_m, across_m));
+            LightShape { lane: lane.name.clone(), bar, cycle: Arc::clone(cycle) }
+        };
+        lit.map(shape).collect()
+    }
+
+    /// The colour at a time \[s\].
+    pub fn colour_at(&self, time_s: f64) -> Colour {
+        match self.cycle.colour_at(time_s) {
+            LightColour::Red => RED,
+            LightColour::RedAmber | LightColour::Amber => AMBER,
+            LightColour::Green => GREEN,
+            LightColour::Off => OFF,
+        }
+    }
 }

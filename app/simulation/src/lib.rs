@@ -46,5 +46,5 @@ struct Readme;
 
 pub use phases::{act, plan, predict, sense, time_points, watch};
 pub use simulation::{SavedRunError, Simulation, SimulationBuilder, Snapshot, ZoneNow, spawn};
-pub use state::not_copied::NotCopied;
+pub use state::detail::NotCopied;
 pub use state::{components, day, frame, standing, whole_run, worst_zones};

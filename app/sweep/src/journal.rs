@@ -15,10 +15,9 @@ use serde::de::DeserializeOwned;
 
 use crate::error::SweepError;
 use crate::journal_line::{JournalLine, judged, line_of};
-use crate::key::RunKey;
+use crate::key::{RunKey, program_version};
 use crate::row::SweepRow;
 use crate::shard::Shard;
-use crate::version::program_version;
 
 /// Prefix and extension of the names of journals.
 const PREFIX: &str = "journal";

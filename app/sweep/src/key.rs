@@ -7,8 +7,6 @@ use interplay_scenarios::{SweepPlan, SweepPoint};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use sha2::{Digest, Sha256};
 
-use crate::version::program_version;
-
 /// Digest of all that determines the result of a run: the program's version, the scenario, the changes to it, and the seed.
 /// The first half of a SHA-256.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -74,6 +72,11 @@ impl<'de> Deserialize<'de> for RunKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<RunKey, D::Error> {
         String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
     }
+}
+
+/// The version of the package and a digest of the sources that compute a run.
+pub fn program_version() -> String {
+    format!("{}+{}", env!("CARGO_PKG_VERSION"), env!("INTERPLAY_SOURCES"))
 }
 
 #[cfg(test)]

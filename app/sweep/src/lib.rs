@@ -45,23 +45,19 @@ mod key;
 mod measure;
 mod merge;
 mod people;
-mod people_rows;
 mod row;
-mod row_table;
 mod shard;
 mod statistics;
 mod sweep;
-mod version;
 
 pub use error::SweepError;
 pub use interplay_tables::{
     DetectorWriter, RowTable, SeriesWriter, TableColumn, TableError, TableFile, TableFormat, TableFormatError,
     TrajectoryWriter,
 };
-pub use key::RunKey;
+pub use key::{RunKey, program_version};
 pub use merge::{MergedSweep, merge};
 pub use people::{PeopleRows, PersonRun};
 pub use row::SweepRow;
 pub use shard::{Shard, ShardError};
 pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
-pub use version::program_version;

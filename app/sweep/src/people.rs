@@ -9,13 +9,11 @@ use interplay_scenarios::{Scenario, SweepPlan, SweepPoint};
 use serde_json::{Value as Json, json};
 
 use crate::error::SweepError;
-use crate::journal::Journal;
-use crate::key::RunKey;
+use crate::journal::{Journal, read_rows};
+use crate::key::{RunKey, program_version};
 use crate::measure::measured_run;
-use crate::people_rows::{PARTICIPANT, RESTARTS, path_in, rows};
 use crate::row::SweepRow;
 use crate::sweep::write_again;
-use crate::version::program_version;
 
 /// The name of a person in a row.
 const PERSON: &str = "person";
@@ -89,4 +87,20 @@ fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepErro
     }
     let row = measured_run(key, &point, run.played, None)?;
     Ok(if is_ego { SweepRow { plan_median_ms: None, plan_p99_ms: None, ..row } } else { row })
+}
+
+/// The columns of a run with a person.
+pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];
+pub(crate) const PARTICIPANT: &str = "participant";
+pub(crate) const RESTARTS: &str = "restarts";
+
+/// Their path.
+pub(crate) fn path_in(folder: &Path) -> PathBuf {
+    folder.join("people.jsonl")
+}
+
+/// The rows of people in a folder, in the order in which they drove.
+pub(crate) fn rows(folder: &Path) -> Result<Vec<SweepRow>, SweepError> {
+    let path = path_in(folder);
+    if path.is_file() { read_rows(&path) } else { Ok(Vec::new()) }
 }

@@ -14,9 +14,8 @@ use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
-use crate::people_rows::{COLUMNS, rows};
-use crate::row::SweepRow;
-use crate::row_table::write_rows;
+use crate::people::{COLUMNS, rows};
+use crate::row::{SweepRow, write_rows};
 use crate::shard::Shard;
 
 /// The file with the rows of a whole plan.

@@ -4,8 +4,7 @@ use interplay_scenarios::{DetectorConfig, DetectorLine, LaneReference, Scenario}
 use interplay_simulation::frame::Frame;
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::cell::{Cell, ColumnKind};
-use crate::error::TableError;
+use crate::cell::{Cell, ColumnKind, TableError};
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns. Speeds are averaged over vehicles (`mean_speed_mps`) and harmonically (`space_mean_speed_mps`): the latter is the

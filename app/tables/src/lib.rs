@@ -3,15 +3,13 @@
 
 mod cell;
 mod detectors;
-mod error;
 mod row_file;
 mod series;
 mod table;
 mod trajectories;
 
-pub use cell::{Cell, ColumnKind, TableSchema};
+pub use cell::{Cell, ColumnKind, TableError, TableSchema};
 pub use detectors::DetectorWriter;
-pub use error::TableError;
 pub use row_file::{TableFile, TableFormat, TableFormatError};
 pub use series::SeriesWriter;
 pub use table::{RowTable, TableColumn, TableReader, TableWriter};

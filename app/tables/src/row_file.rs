@@ -8,8 +8,7 @@ use interplay_files::{NewFolders, WholeFile};
 use interplay_simulation::watch::WatchError;
 use thiserror::Error;
 
-use crate::cell::{Cell, ColumnKind, TableSchema};
-use crate::error::TableError;
+use crate::cell::{Cell, ColumnKind, TableError, TableSchema};
 use crate::table::TableWriter;
 
 /// The formats of tables that a run writes.

@@ -8,8 +8,7 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{BuildingFrame, Frame, ZoneFrame};
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::cell::{Cell, ColumnKind};
-use crate::error::TableError;
+use crate::cell::{Cell, ColumnKind, TableError};
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns of the building as a whole.

@@ -7,8 +7,7 @@ use std::collections::BTreeMap;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use crate::cell::{Cell, ColumnKind};
-use crate::error::TableError;
+use crate::cell::{Cell, ColumnKind, TableError};
 use crate::row_file::{RowFile, TableFile};
 
 /// The columns of a table of trajectories.

@@ -4,7 +4,7 @@ use clap::Args;
 use interplay_scenarios::{Override, Registry, Scenario};
 
 use crate::flag_values::files;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 
 /// Check scenario files without running them; every error is located.

@@ -8,9 +8,7 @@ use interplay_presentation::report;
 use interplay_scenarios::Registry;
 use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 
-use crate::output::error::{CommandError, write_file};
-use crate::output::exit_status::ExitStatus;
-use crate::output::refusal::gave_up;
+use crate::output::error::{CommandError, ExitStatus, gave_up, write_file};
 use crate::output::{ending, json, print, print_error};
 
 /// Say what the rows of a sweep tell of the planners, or what two sweeps of one plan do differently.

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap_complete::Shell;
 use interplay_scenarios::embedded;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::printed;
 
 /// Commands that take a scenario, and the argument that is one.

@@ -10,8 +10,7 @@ use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::run::run;
 
 use crate::flag_values::files::{destroyed, is_same_file, short_name};
-use crate::output::error::{CommandError, write_file};
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::{CommandError, ExitStatus, write_file};
 use crate::output::{print_error, print_load_error};
 
 /// Write the building of a scenario, with its weather, as a functional mock-up unit (FMI 2.0 or 3.0, co-simulation).

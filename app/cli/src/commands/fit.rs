@@ -7,7 +7,7 @@ use clap::Args;
 use interplay_recordings::{FittedDriver, MeasureInterval, Recordings, RecordingsError, fit_driver};
 
 use super::predict::refused;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{ending, json, print};
 
 /// Fit the human driver model to recorded vehicles: time gap, comfort and style, with 95 % intervals.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use interplay_fmu_host::serve;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::print_error;
 
 /// Run a functional mock-up unit and answer lines of JSON: a run whose building is an FMU starts this by itself.

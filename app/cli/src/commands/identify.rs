@@ -13,8 +13,7 @@ use interplay_presentation::{plot, report, shell};
 use interplay_scenarios::{Fault, read_regular};
 use thiserror::Error;
 
-use crate::output::error::{CommandError, write_file};
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::{CommandError, ExitStatus, write_file};
 use crate::output::{json, print, print_error};
 
 /// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.

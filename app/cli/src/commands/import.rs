@@ -9,7 +9,7 @@ use interplay_presentation::shell;
 use interplay_scenarios::{ImportOptions, LoadError, Registry, Replacement, ScenarioFile, import_commonroad_file};
 use thiserror::Error;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 
 /// A network with more lanes stands in a file of its own.

@@ -4,7 +4,7 @@ use clap::Args;
 use interplay_scenarios::{Scenario, embedded, load};
 use serde_json::json;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{print_load_error, printed};
 
 /// List the embedded scenarios: name, what it shows, figure reproduced.

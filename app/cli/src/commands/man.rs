@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{print_error, printed};
 
 /// Print a manual page: of the whole, or of one command.

@@ -4,7 +4,6 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod export_fmu;
-pub(crate) mod first_run;
 pub(crate) mod fit;
 pub(crate) mod fmu_host;
 pub(crate) mod identify;

@@ -10,7 +10,7 @@ use interplay_scenarios::{LoadError, Registry};
 use thiserror::Error;
 
 use crate::commands::schema;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 
 /// What editors complete from, beside the scenario.

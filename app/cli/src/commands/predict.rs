@@ -8,7 +8,7 @@ use interplay_presentation::report;
 use interplay_recordings::{Recordings, RecordingsError, compare};
 
 use crate::flag_values::values::count;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::{ending, json, print, print_error, print_load_error};
 
 /// Say how well drivers predict recorded cars, from each second 1 to 5 s ahead.

@@ -7,7 +7,7 @@ use clap::Args;
 use interplay_presentation::figures::{self, Entry, EntryOutcome, Kind, find, make, registry, section};
 use interplay_presentation::page::Page;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::progress::Progress;
 use crate::output::{print_error, printed};
 

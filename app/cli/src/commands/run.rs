@@ -12,14 +12,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
 
-use crate::commands::first_run;
 use crate::flag_values::files::short_name;
 use crate::flag_values::values;
-use crate::output::error::CommandError;
-use crate::output::exit_status::ExitStatus;
-use crate::output::program::this_program;
-use crate::output::refusal::unwritten;
-use crate::output::{json, print, print_error, print_load_error, without_input};
+use crate::output::error::{CommandError, ExitStatus, unwritten};
+use crate::output::{json, print, print_error, print_load_error, this_program, without_input};
 use crate::process::watch::WatchedFiles;
 use crate::run_outputs::RunOutputs;
 
@@ -95,7 +91,7 @@ pub(crate) const DEFAULT_SCENARIO: &str = "lane-change/front-nice";
 impl Run {
     /// The run of the command without a subcommand: it writes no file, and ends with the commands to try next.
     pub(crate) fn first() -> Run {
-        Run { scenario: Some(first_run::SCENARIO.to_owned()), no_record: true, introduces: true, ..Run::default() }
+        Run { scenario: Some(SCENARIO.to_owned()), no_record: true, introduces: true, ..Run::default() }
     }
 
     pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
@@ -157,7 +153,7 @@ impl Run {
                     print_error(&format!("recorded to {}; to open it: {view}", path.display()));
                 }
                 if self.introduces {
-                    first_run::print_next_commands();
+                    print_next_commands();
                 }
                 if passed { ExitStatus::Well } else { ExitStatus::Failed }
             }
@@ -286,6 +282,24 @@ fn print_remarks(scenario: &Scenario) {
     }
     for remark in scenario.remarks.iter() {
         print_error(&format!("note: {remark}"));
+    }
+}
+
+/// The scenario of the first run: two real cars come to a crossing without priority.
+pub(crate) const SCENARIO: &str = "people/intersection";
+
+/// Prints three commands to try next, a line each with its effect.
+pub(crate) fn print_next_commands() {
+    let program = this_program();
+    let commands = [
+        (vec!["why", SCENARIO], "what the order depends on"),
+        (vec!["play", SCENARIO, "--as", "crossing"], "drive the other car yourself"),
+        (vec!["new", "my.toml", "--from", SCENARIO], "a scenario of your own"),
+    ];
+    let lines = commands.map(|(words, effect)| (shell::line([program.as_str()].into_iter().chain(words)), effect));
+    let width = lines.iter().map(|(command, _)| command.len()).max().unwrap_or_default();
+    for (command, effect) in lines {
+        print_error(&format!("next: {command:width$}  ({effect})"));
     }
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use interplay_scenarios::Registry;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::printed;
 
 /// Print the JSON Schema of the scenario format, from which editors complete and explain keys.

@@ -15,11 +15,10 @@ use rayon::prelude::*;
 
 use crate::flag_values::files::{self, ScenarioArgument, destroyed};
 use crate::flag_values::values;
-use crate::output::error::{CommandError, write_file};
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::{CommandError, ExitStatus, write_file};
 use crate::output::progress::Progress;
 use crate::output::{json, print, print_error, print_load_error};
-use crate::process::threads::pool;
+use crate::process::limits::pool;
 
 /// Run many scenarios side by side and say which of them do what they should.
 #[derive(Debug, Args)]

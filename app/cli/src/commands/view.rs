@@ -9,7 +9,7 @@ use interplay_presentation::record::{MAGIC, viewer_version};
 use interplay_scenarios::open_regular;
 use thiserror::Error;
 
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::ExitStatus;
 use crate::output::print_error;
 
 /// Open recordings in the installed Rerun viewer, once its version is seen to be the right one.

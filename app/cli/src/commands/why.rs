@@ -9,11 +9,10 @@ use interplay_simulation::why::{WhyReport, why};
 
 use crate::flag_values::files::short_name;
 use crate::flag_values::values;
-use crate::output::error::CommandError;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::{CommandError, ExitStatus};
 use crate::output::progress::Progress;
 use crate::output::{ending, json, print, print_error, print_load_error, without_input};
-use crate::process::threads::pool;
+use crate::process::limits::pool;
 
 /// Find out what the outcome of a drive depends on: run it again with one thing changed at a time.
 #[derive(Debug, Args)]

@@ -8,8 +8,10 @@ use interplay_presentation::figures::FigureError;
 use interplay_presentation::plot::PlotError;
 use interplay_presentation::record::RecordError;
 use interplay_simulation::run::RunError;
+use interplay_sweep::SweepError;
 use thiserror::Error;
 
+use crate::output::{print_error, print_load_error};
 use crate::run_outputs::OutputError;
 
 /// Why a command has no result, or why the result is not where it should be.
@@ -44,4 +46,42 @@ pub(crate) enum CommandError {
 /// Writes a file atomically.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> Result<(), CommandError> {
     interplay_files::write(path, content).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
+}
+
+/// How a command ended, from well to worst; its number is the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ExitStatus {
+    /// The command did its work, and all expectations held.
+    Well = 0,
+    /// An expectation failed.
+    Failed = 1,
+    /// The input was wrong.
+    BadInput = 2,
+    /// A run could not be finished.
+    Unfinished = 3,
+}
+
+/// Prints why a command has no result.
+pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
+    let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
+    match error {
+        SweepError::Refused(refusal) => print_load_error(*refusal),
+        other => print_error(&other.to_string()),
+    }
+    ending
+}
+
+/// Says why an output of a run cannot be written.
+pub(crate) fn unwritten(error: OutputError) -> ExitStatus {
+    match error {
+        OutputError::Refused(refusal) => {
+            print_load_error(*refusal);
+            ExitStatus::BadInput
+        }
+        OutputError::Table(error) => gave_up(error.into()),
+        other => {
+            print_error(&other.to_string());
+            ExitStatus::Unfinished
+        }
+    }
 }

@@ -1,20 +1,18 @@
 //! Output of commands: results on stdout, everything else on stderr.
 
 pub(crate) mod error;
-pub(crate) mod exit_status;
-pub(crate) mod program;
 pub(crate) mod progress;
-pub(crate) mod refusal;
 
 use std::borrow::Cow;
+use std::env;
 use std::io::{self, ErrorKind, Write};
 
+use interplay_presentation::shell::is_on_path;
 use interplay_scenarios::{Scenario, is_plain};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
-use crate::output::error::CommandError;
-use crate::output::exit_status::ExitStatus;
+use crate::output::error::{CommandError, ExitStatus};
 
 /// Prints a result. A closed pipe is not an error.
 ///
@@ -112,6 +110,12 @@ pub(crate) fn without_input(scenario: &Scenario) -> Option<String> {
          (`Simulation::apply`), or `--set 'vehicle.{name}.driver={{ kind = \"human\" }}'` gives it another driver",
         name = external.name
     ))
+}
+
+/// The name by which a shell finds this program again: `interplay` if that is on the path, otherwise what it was called by.
+pub(crate) fn this_program() -> String {
+    const NAME: &str = "interplay";
+    env::args().next().filter(|_| !is_on_path(NAME)).unwrap_or_else(|| NAME.to_owned())
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Limits of the system: a command that meets one ends with exit code 3 and a reason, not by a signal.
 
-use std::io;
-use std::thread;
+use std::num::NonZeroUsize;
+use std::{io, thread};
 
-use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+use crate::output::error::CommandError;
 
 /// Stack of the thread that does the work \[bytes\], whatever `ulimit -s` leaves to the first one.
 const STACK_BYTES: usize = 16 << 20;
@@ -44,3 +46,16 @@ pub(crate) fn writing_too_much_is_an_error() {
 /// Other systems have no such signal.
 #[cfg(not(unix))]
 pub(crate) fn writing_too_much_is_an_error() {}
+
+/// Most threads for each core: more would only wait for one another.
+const MOST_PER_CORE: usize = 4;
+
+/// Number of threads for `runs` in parallel: at most four per core; without a number, one per core.
+///
+/// # Errors
+/// [`CommandError::Threads`] if the system refuses them.
+pub(crate) fn pool(jobs: Option<NonZeroUsize>, runs: usize) -> Result<ThreadPool, CommandError> {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let jobs = jobs.map_or(cores, NonZeroUsize::get).min(MOST_PER_CORE * cores).min(runs.max(1));
+    ThreadPoolBuilder::new().num_threads(jobs).build().map_err(|reason| CommandError::Threads { jobs, reason })
+}

@@ -2,5 +2,4 @@
 
 pub(crate) mod limits;
 pub(crate) mod out_of_memory;
-pub(crate) mod threads;
 pub(crate) mod watch;

@@ -1,9 +1,7 @@
 //! Outputs of `run` besides its report and its recording, for the command and for Python: one value for each flag.
 
-mod animation;
 mod commonroad;
 mod tables;
-pub(crate) mod written_files;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,8 +15,7 @@ use interplay_sweep::TableError;
 use thiserror::Error;
 
 use commonroad::CommonRoadFile;
-use tables::{DetectorTable, SeriesFile, TrajectoryTable};
-use written_files::WrittenFiles;
+use tables::{DetectorTable, SeriesFile, TrajectoryTable, WrittenFiles};
 
 /// A file, or a pair of files, that a flag of `run` asks for.
 pub(crate) trait RunOutput {
@@ -179,5 +176,22 @@ impl BegunOutputs {
             tell(&(output.finish)(run)?);
         }
         Ok(())
+    }
+}
+
+impl RunOutput for AnimationFile {
+    fn files(&self) -> Vec<(&'static str, &Path)> {
+        vec![("animation", self.path())]
+    }
+
+    fn needs_frames(&self) -> bool {
+        true
+    }
+
+    fn begin(&self, _: &Scenario, _: &str) -> Result<BegunOutput, OutputError> {
+        self.check()?;
+        let file = self.clone();
+        let told = format!("animation in {}", file.path().display());
+        Ok(BegunOutput { watcher: None, finish: Box::new(move |run| Ok(file.write(run).map(|()| told)?)) })
     }
 }

@@ -5,7 +5,7 @@ mod fmi3;
 
 use interplay_building::network::PowerLimits;
 
-use crate::version::FmiVersion;
+use crate::export::FmiVersion;
 
 /// The description of a unit in a version of FMI.
 pub(crate) fn xml(unit: &Description<'_>, version: FmiVersion) -> String {

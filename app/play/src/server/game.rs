@@ -10,8 +10,7 @@ use tokio::sync::{mpsc, oneshot};
 use super::ServeOptions;
 use super::playing::Playing;
 use super::request::{PageAtGame, Request};
-use crate::menu::Menu;
-use crate::protocol::{Chosen, PageMessage, ServerMessage};
+use crate::protocol::{Chosen, Menu, PageMessage, ServerMessage};
 use crate::session::SessionError;
 use crate::study::Study;
 

@@ -302,7 +302,7 @@ impl Playing {
         if ticks == 0 || self.saved.as_ref().is_some_and(|(saved, _)| *saved == ticks) {
             return;
         }
-        match crate::saved_file::save_played(&self.session, &self.options.folder) {
+        match crate::script::save_played(&self.session, &self.options.folder) {
             Ok(path) => self.saved = Some((ticks, path)),
             Err(error) => self.saved = self.saved.take().or(Some((ticks, PathBuf::from(format!("nowhere: {error}"))))),
         }

@@ -11,9 +11,8 @@ use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
 use interplay_simulation::{Simulation, Snapshot};
 
-use super::error::SessionError;
-use super::goal::{self, PlayGoal};
-use super::seat::{Controls, Seat};
+use super::score::{self, PlayGoal};
+use super::seat::{Controls, Seat, SessionError};
 
 /// Interval between rewind snapshots \[s\].
 const SNAPSHOT_INTERVAL_S: f64 = 1.0;
@@ -116,7 +115,7 @@ impl Session {
 
     /// The goal of a seat.
     pub fn goal(&self, seat: &str) -> PlayGoal {
-        goal::of(&self.written, self.written.index_of(seat).unwrap_or_default())
+        score::of(&self.written, self.written.index_of(seat).unwrap_or_default())
     }
 
     /// Simulated time so far \[s\].

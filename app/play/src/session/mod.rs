@@ -1,17 +1,13 @@
 //! A run with people in some seats.
 
-mod error;
-mod goal;
 mod live;
 mod score;
 mod seat;
 #[cfg(test)]
 mod tests;
 
-pub use error::SessionError;
-pub(crate) use goal::PlayGoal;
 pub(crate) use live::seats_of;
 pub use live::{Session, check_seats};
+pub(crate) use score::{PlayGoal, planner_rows, planners_beside_person};
 pub use score::{Score, ScoreRow};
-pub(crate) use score::{planner_rows, planners_beside_person};
-pub use seat::Controls;
+pub use seat::{Controls, SessionError};

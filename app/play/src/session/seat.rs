@@ -3,9 +3,9 @@
 use interplay_planners::drivers::inputs::{self, WheelHandOver};
 use interplay_planners::drivers::lanes::{RoadLanes, towards};
 use interplay_planners::{Driver, Input, Scene};
-use interplay_simulation::Simulation;
-
-use super::error::SessionError;
+use interplay_simulation::run::RunError;
+use interplay_simulation::{NotCopied, Simulation};
+use thiserror::Error;
 
 /// The controls of a person: keys, a stick or a finger.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -103,4 +103,29 @@ impl Seat {
         self.target_m = Some(target_m);
         Input { acceleration_mps2, ..towards(scene, target_m, ego.state.speed_mps) }
     }
+}
+
+/// A request to a session failed.
+#[derive(Debug, Error)]
+pub enum SessionError {
+    /// The vehicle does not exist, or a person cannot drive it.
+    #[error("`{seat}` is not a seat; choose from {seats}")]
+    NoSeat {
+        /// The requested seat.
+        seat: String,
+        /// The vehicles that a person can drive.
+        seats: String,
+    },
+    /// The scenario has no vehicle for a person.
+    #[error("`{0}` has no vehicle that a person can drive; `interplay list` shows all scenarios")]
+    NoVehicles(String),
+    /// The planner does not exist, or cannot take the wheel.
+    #[error("`{0}` is not a planner that can take the wheel")]
+    NoPlanner(String),
+    /// The simulation failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The simulation cannot be copied.
+    #[error(transparent)]
+    NotCopied(#[from] NotCopied),
 }

@@ -4,13 +4,15 @@ use interplay_simulation::frame::{BuildingFrame, Frame};
 
 use super::camera::WIDTH_PX;
 use super::canvas::{Align, Canvas, Ink, LineEnd};
+use super::caption::{BAR, TITLE_PX, WORDS, draw_title};
 use super::chart::Chart;
-use super::overlay::{BAR, TITLE_PX, WORDS, draw_title};
-use super::pictures::{Pictures, Rgb};
+use super::file::{Pictures, Rgb};
 use super::rooms::Rooms;
 use crate::figures::RecordedRun;
-use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, GREEN, ORANGE, temperature_colour};
-use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, usual_wanted_c, zone_colour};
+use crate::palette::{
+    BLUE, COLOUR_RANGE_K, Colour, GREEN, ORANGE, deviation_colour, middle_c, one_decimal, temperature_colour,
+    usual_wanted_c, zone_colour,
+};
 
 const PAPER: Colour = [0xF7, 0xF7, 0xF4];
 const DARK_WORDS: Colour = [0x2A, 0x2C, 0x30];

@@ -1,8 +1,7 @@
 //! A small chart over the hours of a day.
 
 use super::canvas::{Align, Canvas, LineEnd};
-use crate::palette::Colour;
-use crate::wanted_temperature::one_decimal;
+use crate::palette::{Colour, one_decimal};
 
 const WORDS: Colour = [0x2A, 0x2C, 0x30];
 const GRID: Colour = [0xDD, 0xDD, 0xDA];

@@ -4,20 +4,19 @@ use interplay_planners::{Body, State};
 
 use super::camera::{CameraView, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
-use super::caption::{Caption, caption, contacts};
+use super::caption::{
+    BAR, Caption, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, caption, contacts, draw_edge_mark, draw_title,
+};
+use super::file::{Pictures, Rgb};
 use super::letters::{cut, width_of};
-use super::overlay::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_edge_mark, draw_title};
-use super::pictures::{Pictures, Rgb};
-use super::ribbon;
-use super::road;
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{PICTURE_S, PictureTime, moments};
-use super::vehicle;
-use crate::contact::{contact_place, star};
+use super::{ribbon, road, vehicle};
+use crate::camera::{Rectangle, overlap, rectangle_around};
 use crate::edge_mark::edge_marks;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, OTHERS, VERMILLION};
-use crate::rectangle::{Rectangle, overlap, rectangle_around};
+use crate::passing_words::{contact_place, star};
 use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];

@@ -13,13 +13,10 @@ mod camera;
 mod canvas;
 mod caption;
 mod chart;
-mod colours;
 mod driving;
 mod encode;
 mod file;
 mod letters;
-mod overlay;
-mod pictures;
 mod ribbon;
 mod road;
 mod rooms;
@@ -36,7 +33,7 @@ use std::io;
 use building::BuildingPictures;
 use driving::DrivingPictures;
 use encode::Film;
-use pictures::{PictureSequence, Pictures};
+use file::{PictureSequence, Pictures};
 
 use crate::figures::RecordedRun;
 

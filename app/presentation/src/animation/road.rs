@@ -3,9 +3,9 @@
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
 use crate::curved_road::WorldLine;
+use crate::network_lines::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 use crate::palette::{ARROW, ASPHALT, KERB, PAINT, PATH, RESERVED_LANE, TYRE, VERGE};
 use crate::road_shapes::RoadShapes;
-use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
 /// Thickness of the bar of a traffic light, in lane widths.
 const LIGHT_LANES: f64 = 0.14;

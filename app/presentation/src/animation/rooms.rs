@@ -4,8 +4,7 @@ use interplay_scenarios::FloorPlan;
 
 use super::canvas::{Align, Canvas};
 use super::letters::cut;
-use crate::palette::Colour;
-use crate::wanted_temperature::one_decimal;
+use crate::palette::{Colour, one_decimal};
 
 const WALL: Colour = [0x2F, 0x32, 0x36];
 const WORDS: Colour = [0xFF, 0xFF, 0xFF];

@@ -4,8 +4,8 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
-use super::colours::colours;
 use super::timing::RunTimes;
+use super::vehicle::colours;
 use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
 use crate::palette::{Colour, UNNAMED, VERMILLION};

@@ -4,7 +4,7 @@ use interplay_building::comfort::Setpoints;
 use serde::Deserialize;
 
 use super::entry::{Entry, FigureContent};
-use super::error::FigureError;
+use super::lookup::FigureError;
 use super::recorded_run::RecordedRun;
 use super::{climate, driving, theory};
 

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::drawings::EntryDrawing;
-use super::error::FigureError;
+use super::lookup::FigureError;
 use super::recorded_run::{RunOutcome, RunSpec};
 use crate::plot::{Drawing, TextTable};
 

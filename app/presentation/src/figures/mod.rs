@@ -12,12 +12,10 @@ mod climate;
 mod drawings;
 mod driving;
 mod entry;
-mod error;
 mod lookup;
 mod measures;
 mod recorded_run;
 mod section;
-mod sentences;
 mod space_time;
 #[cfg(test)]
 mod tests;
@@ -31,8 +29,7 @@ use rayon::prelude::*;
 
 use crate::plot::{Drawing, PlotError};
 pub use entry::{Entry, EntryOutcome, Kind, registry};
-pub use error::FigureError;
-pub use lookup::{UnknownFigure, find};
+pub use lookup::{FigureError, UnknownFigure, find};
 pub use recorded_run::{FrameLog, RecordedRun};
 use recorded_run::{RunOutcome, RunSpec};
 pub use section::{run_page, section};
@@ -106,9 +103,9 @@ fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) 
 /// The outcome of the first drawn run in words, and how each of the others differs from it.
 fn outcomes(drawn: &[&RecordedRun], beside: &[&RecordedRun]) -> Vec<(String, String)> {
     let Some((first, others)) = drawn.split_first() else { return Vec::new() };
-    let changes = others.iter().chain(beside).filter_map(|other| sentences::difference(first, other));
+    let changes = others.iter().chain(beside).filter_map(|other| section::difference(first, other));
     let changes: Vec<String> = changes.collect();
-    let mut words = vec![("Reproduced".to_owned(), sentences::outcome(first))];
+    let mut words = vec![("Reproduced".to_owned(), section::outcome(first))];
     words.extend((!changes.is_empty()).then(|| ("For comparison".to_owned(), changes.join(" "))));
     words
 }

@@ -8,7 +8,7 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
 use interplay_simulation::watch::{WatchError, Watcher};
 
-use super::error::FigureError;
+use super::lookup::FigureError;
 
 /// A run that a figure needs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,14 +7,13 @@ use interplay_building::identify::{
     ErrorReport, Estimator, Identification, IdentifySettings, Quantity, ResidualForecast, ZoneReport, identify,
 };
 use interplay_building::network::Network;
-use interplay_planners::Limits;
 use interplay_planners::drivers::game::payoff::Stakes;
 use interplay_planners::drivers::game::prospect::{ProspectTheory, weighting};
-use interplay_planners::{Body, SafetyEllipse};
+use interplay_planners::{Body, Limits, SafetyEllipse};
 use interplay_scenarios::load;
 
 use super::entry::FigureContent;
-use super::error::FigureError;
+use super::lookup::FigureError;
 use crate::plot::style::{BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, Panel, Panels, TextTable};
 

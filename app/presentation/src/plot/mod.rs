@@ -9,7 +9,6 @@ mod bars;
 mod drawing;
 mod footprints;
 mod identification;
-mod legend;
 mod panels;
 pub(crate) mod style;
 mod table;

@@ -7,8 +7,7 @@ use super::drawing::{
     Drawing, LARGE_TEXT_PX, LEFT_MARGIN_PX, MARGIN_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side, TICK_LABEL_HEIGHT_PX,
     TITLE_HEIGHT_PX, WIDTH_PX, X_LABEL_HEIGHT_PX,
 };
-use super::legend::{Legend, Sample};
-use super::style::{Dash, GREY, LIMIT, LineStyle, PALE};
+use super::style::{Dash, GREY, LIMIT, Legend, LineStyle, PALE, Sample};
 
 /// Height of the line with the name of a plot, above it.
 const PANEL_NAME_HEIGHT_PX: f64 = 40.0;

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use rerun::external::re_uri::ProxyUri;
 
-use super::error::{RecordError, ViewerAddressError};
+use super::open_recording::{RecordError, ViewerAddressError};
 
 /// Timeout for the connection to a viewer.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(2);

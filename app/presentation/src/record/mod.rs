@@ -22,10 +22,8 @@ mod blueprint;
 mod building;
 mod cameras;
 mod car;
-mod error;
 mod labels;
 mod layout;
-mod lights;
 mod live;
 mod mesh;
 mod open_recording;
@@ -51,19 +49,18 @@ use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
-pub use error::RecordError;
-use lights::LightLayer;
 pub use live::Viewer;
-pub use open_recording::{OpenRecording, record_sweep_run};
+pub use open_recording::{OpenRecording, RecordError, record_sweep_run};
 use palette::NamedColour;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
+use road::LightLayer;
 use status::StatusLines;
 use vehicles::VehicleLayer;
 
-use crate::crowd;
 use crate::network_lines::expected_bounds_m;
 use crate::requests::Requests;
+use crate::shown_extent;
 
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::CounterfactualReport;
@@ -219,7 +216,7 @@ impl Recorder {
             vehicle_colours: &self.vehicle_colours,
             frame,
             requests: &self.requests,
-            described: &crowd::described(&self.scenario, frame),
+            described: &shown_extent::described(&self.scenario, frame),
         };
         self.vehicles.log_frame(&tick)?;
         self.lights.log_frame(&tick)?;

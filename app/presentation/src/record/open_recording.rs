@@ -1,6 +1,7 @@
 //! Recordings that stay open after their run, until other runs have been judged; and recordings of runs of a sweep.
 
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use interplay_scenarios::Scenario;
@@ -9,8 +10,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
 use interplay_sweep::SweepRow;
+use rerun::RecordingStreamError;
+use thiserror::Error;
 
-use super::{RecordError, Recorder, Sink};
+use super::{Recorder, Sink};
 
 /// A watcher that records and stays open after the run; its clones share the recording. Dropped without
 /// [`OpenRecording::close`], it leaves no file.
@@ -62,3 +65,49 @@ pub fn record_sweep_run(folder: &Path, row: &SweepRow, scenario: &Scenario) -> R
     let report = run(&row.scenario, scenario, vec![Box::new(recording.clone())]).map_err(|error| error.to_string())?;
     recording.close(&report).map_err(|error| error.to_string())
 }
+
+/// A recording failed. No incomplete file is left behind.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// The file cannot be written.
+    #[error("cannot write the recording {}: {reason}; name another file with --record, or do without (--no-record)", path.display())]
+    Unwritable {
+        /// Path of the file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// No viewer listens at the address.
+    #[error(
+        "no Rerun viewer listens on {address} ({reason}); start one first (`rerun`), or record into a file instead of --connect"
+    )]
+    NoViewer {
+        /// Address at which a viewer was expected.
+        address: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// Rerun cannot parse its own default address.
+    #[error(transparent)]
+    Address(#[from] ViewerAddressError),
+    /// Rerun refused data or lost the viewer.
+    #[error("the recording broke off: {0}")]
+    Broken(Box<dyn std::error::Error + Send + Sync>),
+}
+
+impl RecordError {
+    pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> RecordError {
+        move |reason| RecordError::Unwritable { path: path.to_owned(), reason }
+    }
+}
+
+impl From<RecordingStreamError> for RecordError {
+    fn from(error: RecordingStreamError) -> Self {
+        RecordError::Broken(Box::new(error))
+    }
+}
+
+/// A text that is not the address of a viewer.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("not the address of a viewer; write it like {}", rerun::DEFAULT_CONNECT_URL)]
+pub struct ViewerAddressError;

@@ -13,8 +13,8 @@ use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
 use super::road::rotation;
 use super::{Logged, RecordedTick};
-use crate::crowd::labelled;
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
+use crate::shown_extent::labelled;
 use crate::signals::{IndicatorSide, indicator_side, is_braking};
 
 /// Heights of ellipses, paths, predictions, branches, plans and proposals above the road, in widths of a body.

@@ -5,9 +5,9 @@ use interplay_scenarios::{Scenario, Vehicle};
 use serde::Serialize;
 
 use crate::camera::car_m;
+use crate::network_lines::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 use crate::palette::{ARROW, ASPHALT, Colour, KERB, PAINT, PATH, RESERVED_LANE, VERGE, css};
 use crate::road_shapes::RoadShapes;
-use crate::road_widths::{ARROW_WIDTH_LANES, KERB_LANES, LINE_LANES, SHOULDER_LANES, STOP_LINE_LANES, VERGE_LANES};
 
 /// The road is traced this far around the routes of all vehicles, in lengths of a car.
 const MARGIN_CARS: f64 = 12.0;

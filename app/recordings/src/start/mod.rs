@@ -4,12 +4,8 @@
 //! the past [`PAST_S`]. A centred filter would use future records.
 
 mod known;
-mod later;
-mod times;
 
-pub(crate) use known::known_at;
-pub(crate) use later::{Later, Truth};
-pub(crate) use times::{HORIZONS_S, PAST_S};
+pub(crate) use known::{Later, Truth, known_at};
 
 use interplay_planners::motion_prediction::TrafficMoment;
 use rayon::prelude::*;
@@ -75,3 +71,8 @@ fn of_timeline(index: usize, timeline: &Timeline) -> Vec<Start> {
 
 #[cfg(test)]
 mod tests;
+
+/// Time before a start over which slopes are computed \[s\].
+pub(crate) const PAST_S: f64 = 1.2;
+/// The horizons at which predictions are evaluated \[s\].
+pub(crate) const HORIZONS_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];

@@ -1,16 +1,15 @@
 //! Recorded traffic from files: consecutive windows are joined, and rows that repeat others are marked.
 
-mod files;
 mod lane_map;
-mod repeats;
 mod timeline;
 mod windows;
 
 pub(crate) use timeline::{Timeline, Track};
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use interplay_scenarios::{recorded_traffic_in_commonroad, recorded_traffic_in_table};
+use interplay_scenarios::{is_commonroad, recorded_traffic_in_commonroad, recorded_traffic_in_table};
 use rayon::prelude::*;
 
 use crate::error::RecordingsError;
@@ -31,7 +30,7 @@ impl Recordings {
     pub fn read(arguments: &[PathBuf]) -> Result<Recordings, RecordingsError> {
         let mut recordings = Recordings::default();
         for (group, argument) in arguments.iter().enumerate() {
-            let found = files::found_at(argument)?;
+            let found = found_at(argument)?;
             let read: Vec<_> = found
                 .par_iter()
                 .map(|path| {
@@ -40,11 +39,11 @@ impl Recordings {
                 })
                 .collect::<Result<_, _>>()?;
             recordings.files += read.len();
-            recordings.groups.push(files::group_name(argument));
+            recordings.groups.push(group_name(argument));
             let joined = windows::joined(read);
             recordings.timelines.extend(joined.into_iter().map(|traffic| Timeline::of(traffic, group)));
         }
-        repeats::mark(&mut recordings.timelines);
+        windows::mark(&mut recordings.timelines);
         Ok(recordings)
     }
 
@@ -74,4 +73,44 @@ impl Recordings {
         let repeated = tracks().flat_map(|track| &track.repeats).filter(|repeats| **repeats).count();
         [tracks().map(|track| track.moments.len()).sum(), repeated]
     }
+}
+
+/// The recordings that an argument names: a file, or the files below a folder, sorted.
+fn found_at(argument: &Path) -> Result<Vec<PathBuf>, RecordingsError> {
+    if !argument.is_dir() {
+        let is_xml = argument.extension().is_some_and(|it| it.eq_ignore_ascii_case("xml"));
+        if is_xml || is_table(argument) {
+            return Ok(vec![argument.to_owned()]);
+        }
+        return Err(RecordingsError::UnknownFormat(argument.to_owned()));
+    }
+    let mut found = Vec::new();
+    collect(argument, &mut found)?;
+    found.sort();
+    if found.is_empty() { Err(RecordingsError::EmptyFolder(argument.to_owned())) } else { Ok(found) }
+}
+
+fn is_table(path: &Path) -> bool {
+    path.extension().is_some_and(|it| it.eq_ignore_ascii_case("csv"))
+}
+
+fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), RecordingsError> {
+    let unreadable = |reason| RecordingsError::UnreadableFolder { folder: folder.to_owned(), reason };
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let path = entry.path();
+        // A link to a folder could lead back to itself.
+        if entry.file_type().map_err(unreadable)?.is_dir() {
+            collect(&path, found)?;
+        } else if is_table(&path) || is_commonroad(&path) {
+            found.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// The name of an argument's group: its last path component, without the extension of a file.
+fn group_name(argument: &Path) -> String {
+    let name = if argument.is_dir() { argument.file_name() } else { argument.file_stem() };
+    name.map_or_else(|| argument.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

@@ -10,9 +10,6 @@
 
 mod balance;
 mod control;
-mod disturbance;
-mod failure;
-mod learn;
 mod spawn;
 
 use bevy_ecs::prelude::*;
@@ -22,13 +19,10 @@ use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
 
 use crate::plants::ThermalPlant;
-pub use balance::balance;
-pub use control::control;
-pub use disturbance::disturb;
-pub use failure::BuildingFailure;
-pub use learn::learn;
+pub use balance::{balance, disturb};
+pub use control::{BuildingFailure, control, learn};
 
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.

@@ -26,24 +26,20 @@ mod agent_interface;
 mod batch;
 mod episode;
 mod observation;
-mod policy;
 mod reward;
-mod settings;
 mod start;
 #[cfg(test)]
 mod tests;
 mod world;
 
 pub use action::{Action, ActionSpace, DiscreteMeta};
-pub use agent_interface::AgentInterface;
+pub use agent_interface::{AgentInterface, Policy, PolicyDriver, PolicyError};
 pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
 pub use episode::{Ending, Episode};
 pub use observation::{
     AgentView, BeliefView, ForeignView, Kinematics, LaneView, ObservationKind, ObservationSpace, OccupancyGrid,
     PlanView,
 };
-pub use policy::{Policy, PolicyDriver, PolicyError};
-pub use reward::{RewardTerm, RewardWeights};
-pub use settings::{EnvironmentError, EnvironmentSettings};
+pub use reward::{EnvironmentError, EnvironmentSettings, RewardTerm, RewardWeights};
 pub use start::StartDraw;
 pub use world::Environment;

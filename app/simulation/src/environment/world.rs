@@ -275,7 +275,7 @@ impl Environment {
     pub fn action_of(&self, agent: usize, planner: &mut Planner) -> Result<Vec<f32>, EnvironmentError> {
         let seat = &self.seats[agent];
         let Some(sensed) = &seat.sensed else { return Err(EnvironmentError::Over) };
-        let plan = planner.plan_sensed(sensed).unwrap_or_else(|_| super::policy::braking(&sensed.scene));
+        let plan = planner.plan_sensed(sensed).unwrap_or_else(|_| super::agent_interface::braking(&sensed.scene));
         Ok(seat.interface.numbers_of(&sensed.scene, &plan))
     }
 

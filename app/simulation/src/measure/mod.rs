@@ -3,19 +3,16 @@
 //! A [`Metric`] has one value for a vehicle or a run. Other measures do not: reaching a goal is also an event, plans are counted and
 //! timed together, the right of way is a list of pairs, beliefs and digests are not numbers, and a building is measured day by day.
 
-mod beliefs;
 mod building;
 mod completion;
 mod digest;
 mod metric;
-mod metric_table;
 mod metrics;
 mod milestones;
 mod planning;
 mod rectangle;
 mod registered;
 mod right_of_way;
-mod run_metric;
 mod values;
 mod vehicle_metric;
 mod waits;
@@ -26,21 +23,18 @@ use bevy_ecs::prelude::*;
 use interplay_planners::{Input, State};
 use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 
-pub use beliefs::{Beliefs, HeldBelief};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
 pub use metric::{
     Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
-pub use metric_table::metric_table;
 pub use milestones::{Milestones, is_arrival};
-pub use planning::Planning;
-pub use registered::{RegisterMetrics, metrics_of};
+pub use planning::{Beliefs, HeldBelief, Planning};
+pub use registered::{RegisterMetrics, metric_table, metrics_of};
 pub use right_of_way::{Passage, Passages};
-pub use run_metric::LeastOfRun;
 pub use values::{Measured, MetricValue, MetricValues};
-pub use vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
+pub use vehicle_metric::{Fold, LeastOfRun, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};

@@ -2,13 +2,13 @@
 
 use std::sync::Mutex;
 
-use interplay_planners::{Body, State};
+use interplay_planners::{Body, Input, State};
 use rapier2d::prelude::{
     ColliderSet, CollisionEvent, ContactPair, EventHandler, PhysicsWorld, RigidBodyHandle, RigidBodySet, SoftBodySet,
     SoftBodyTearEvent,
 };
 
-use super::footprint::length_m;
+use super::footprint::{Footprint, length_m};
 
 /// Mass of a vehicle per area of its footprint, that of a passenger car \[kg/m²\].
 const AREAL_DENSITY_KG_PER_M2: f64 = 185.0;
@@ -88,4 +88,26 @@ pub(super) fn transmitted_ns(world: &PhysicsWorld, pair: [RigidBodyHandle; 2]) -
     let [a, b] = pair.map(|handle| world.bodies.get(handle).and_then(|body| body.colliders().first().copied()));
     let contact = a.zip(b).and_then(|(a, b)| world.narrow_phase.contact_pair(a, b));
     contact.map_or(0.0, |contact| f64::from(contact.total_impulse_magnitude()))
+}
+
+/// One vehicle at the start of a tick.
+pub(super) struct Moving {
+    pub handle: RigidBodyHandle,
+    pub body: Body,
+    pub footprint: Footprint,
+    pub state: State,
+    pub input: Input,
+    /// Whether it is not on the road: then it touches no vehicle and does not move.
+    pub is_absent: bool,
+    /// Its state at the end of the tick, if it follows a record.
+    pub recorded: Option<State>,
+}
+
+/// Two vehicles, by their indices (ascending), that begin to touch.
+pub(super) struct Contact {
+    pub pair: [usize; 2],
+    /// The share of the tick that has passed by then.
+    pub share: f64,
+    /// Impulse of the contact \[N s\].
+    pub impulse_ns: f64,
 }

@@ -8,11 +8,10 @@ use interplay_planners::State;
 use interplay_scenarios::{Dynamic, Plant};
 use rapier2d::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
-use super::actuators::Actuators;
-use super::contacts::{Contacts, mass_kg, transmitted_ns};
+use super::contacts::{Contact, Contacts, Moving, mass_kg, transmitted_ns};
 use super::footprint::pose;
 use super::gap::FootprintGaps;
-use super::moving::{Contact, Moving};
+use super::kinematic::Actuators;
 use super::tyres::{Chassis, Planar};
 
 /// The state of the dynamic plant in addition to Rapier's bodies.

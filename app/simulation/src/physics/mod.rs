@@ -6,7 +6,6 @@
 //! Both libraries use `f32` and the planners `f64`: this folder converts, with positions relative to a
 //! vehicle, so that precision does not depend on the distance along the road.
 
-mod actuators;
 mod contacts;
 mod dynamic;
 #[cfg(test)]
@@ -14,9 +13,7 @@ mod dynamic_tests;
 mod footprint;
 mod gap;
 mod kinematic;
-mod moving;
 mod near_pairs;
-mod path;
 #[cfg(test)]
 mod tests;
 mod time_to_collision;
@@ -36,10 +33,10 @@ pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Fleet};
 use crate::state::frame::{Collision, Event, Level, PairGap};
+use contacts::{Contact, Moving};
 use dynamic::DynamicPlant;
 use footprint::{Footprint, length_m};
 use gap::{Closest, FootprintGaps};
-use moving::{Contact, Moving};
 
 /// Largest distance of two bodies that Rapier reports as a contact, for vehicles of passenger cars' size \[m\].
 const TOUCHING_M: f32 = 1e-4;

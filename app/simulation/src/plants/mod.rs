@@ -7,20 +7,15 @@
 //! The other program answers lines of JSON behind a socket, or the requests of BOPTEST. [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
 
 mod answer;
-mod benchmark;
 mod boptest;
 mod error;
-mod foreseen;
 mod interface;
 mod lines;
-mod network;
 mod socket;
 mod walls;
 
-pub use benchmark::Benchmark;
 pub use boptest::{BoptestError, BoptestPlant};
 pub use error::PlantError;
-pub use foreseen::Foreseen;
-pub use interface::{StepInputs, ThermalPlant};
-pub use network::NetworkPlant;
+pub use interface::{Benchmark, Foreseen, StepInputs, ThermalPlant};
 pub use socket::{SocketPlant, SocketPlantStart};
+pub use walls::NetworkPlant;

@@ -14,7 +14,7 @@ use super::error::PlantError;
 use super::interface::{StepInputs, ThermalPlant};
 use super::lines::Lines;
 use super::walls;
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 
 /// Space for a number and for the rest of an answer \[bytes\].
 const NUMBER_BYTES: usize = 64;

@@ -3,7 +3,12 @@
 //! Walls follow the model, with the zones as measured at every step. Errors of the estimate decay at the rates of the walls between
 //! zones of known temperature, so the estimate converges for every network.
 
+use interplay_building::discretise::Model;
 use interplay_building::network::Network;
+
+use super::error::PlantError;
+use super::interface::{StepInputs, ThermalPlant};
+use crate::state::detail::NotCopied;
 
 /// Temperatures of all nodes \[°C\] with the zones at `zones_c` and every wall at rest: the mean of its neighbours (zones and the
 /// outdoor air) by their conductances. Walls have no walls as neighbours, so each is a formula.
@@ -21,6 +26,34 @@ pub fn at_rest_c(network: &Network, zones_c: &[f64], ambient_c: f64) -> Vec<f64>
     }
     let walls_c = heat_kw.iter().zip(&conductance_kw_per_k).skip(zones).map(|(heat, conductance)| heat / conductance);
     zones_c.iter().copied().chain(walls_c).collect()
+}
+
+/// The thermal network of the scenario as the plant. It never fails.
+#[derive(Clone, Debug)]
+pub struct NetworkPlant {
+    /// The model of the network in steps of time.
+    pub model: Model,
+    /// Temperature of everything at the first midnight \[°C\].
+    pub initial_c: f64,
+}
+
+impl ThermalPlant for NetworkPlant {
+    fn start(&mut self) -> Result<Vec<f64>, PlantError> {
+        Ok(vec![self.initial_c; self.model.network().node_count()])
+    }
+
+    fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError> {
+        self.model.step(nodes_c, inputs.heat_kw, inputs.ambient_c, inputs.gains_kw);
+        Ok(())
+    }
+
+    fn is_foreign(&self) -> bool {
+        false
+    }
+
+    fn fork(&self) -> Result<Box<dyn ThermalPlant>, NotCopied> {
+        Ok(Box::new(self.clone()))
+    }
 }
 
 #[cfg(test)]

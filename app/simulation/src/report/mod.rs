@@ -1,10 +1,7 @@
 //! The report of a run: figures, and the verdicts on the scenario's expectations.
 
-mod belief;
-mod bounds;
 mod building;
 mod counterfactual;
-mod expectation;
 mod judge;
 mod judge_building;
 mod outcome;
@@ -13,10 +10,9 @@ use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
-pub use belief::BeliefReport;
 pub use building::{BuildingReport, ZoneOutcome};
-pub use expectation::Expectation;
-pub use outcome::{CounterfactualReport, PlansReport, Report, VehicleReport};
+pub use counterfactual::Expectation;
+pub use outcome::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
 use crate::state::components::to_nanosecond;

@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 
 use crate::phases::Slot;
 use crate::simulation::run_error::RunError;
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 
 /// Marks a parameter that belongs to a system, in the name of the system's type.
 const LOCAL: &str = "::Local<";

@@ -4,15 +4,13 @@ mod builder;
 mod extensions;
 pub(crate) mod run_error;
 mod saved_run;
-mod snapshot;
 pub mod spawn;
 mod wheel;
 pub(crate) mod world_state;
 mod zones;
 
 pub use builder::SimulationBuilder;
-pub use saved_run::SavedRunError;
-pub use snapshot::Snapshot;
+pub use saved_run::{SavedRunError, Snapshot};
 pub use zones::ZoneNow;
 
 use std::sync::Arc;
@@ -31,14 +29,13 @@ use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond};
-use crate::state::detail::LevelOfDetail;
+use crate::state::detail::{LevelOfDetail, NotCopied};
 use crate::state::frame::Frame;
 
 use crate::phases::time_points::TimePoints;
 use crate::phases::watch::{Watcher, Watchers};
 use crate::phases::{self, sense};
 use crate::simulation::world_state::WorldState;
-use crate::state::not_copied::NotCopied;
 
 /// A scenario as a world that the caller can step, observe, control, copy and resume.
 ///

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::climate::{BuildingError, BuildingFailure};
 use crate::phases::watch::WatchError;
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 
 /// Why a run failed.
 #[derive(Debug, Error)]

@@ -14,7 +14,7 @@ use crate::phases::watch::{Watcher, Watchers};
 use crate::physics::{Physics, VehicleBody};
 use crate::simulation::spawn::{self, VehicleState};
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, Identity, TrafficRow};
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 
 /// All state of a world, except watchers.
 pub struct WorldState {

@@ -5,9 +5,8 @@ use interplay_planners::perception::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Input, Planner};
 
-use crate::state::detail::LevelOfDetail;
+use crate::state::detail::{LevelOfDetail, NotCopied};
 use crate::state::frame::Frame;
-use crate::state::not_copied::NotCopied;
 
 /// The name of a vehicle.
 #[derive(Component, Clone, Debug)]

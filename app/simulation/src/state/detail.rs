@@ -3,8 +3,7 @@
 use interplay_planners::drivers::idm;
 use interplay_planners::{Driver, Planner, State};
 use interplay_scenarios::Scenario;
-
-use crate::state::not_copied::NotCopied;
+use thiserror::Error;
 
 /// A near vehicle stays near up to this multiple of the distance, so that drivers do not alternate.
 const STAYS_NEAR: f64 = 1.1;
@@ -66,6 +65,28 @@ impl LevelOfDetail {
 
 fn distance_m(a: &State, b: &State) -> f64 {
     libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m)
+}
+
+/// Why a running world cannot be copied.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{who} cannot be copied: {why}")]
+pub struct NotCopied {
+    /// The part of the world.
+    pub who: String,
+    /// Why the piece of state has no copy.
+    pub why: String,
+}
+
+impl NotCopied {
+    /// The entity of the vehicle called `name` was removed from the world, or lacks a component that it began with.
+    pub fn incomplete(name: &str) -> Self {
+        NotCopied { who: format!("the vehicle `{name}`"), why: "an added system removed it or a part of it".to_owned() }
+    }
+
+    /// The driver of the vehicle called `name` does not fork.
+    pub fn driver_of(name: &str) -> Self {
+        NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() }
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ pub mod components;
 pub mod day;
 pub(crate) mod detail;
 pub mod frame;
-pub(crate) mod not_copied;
 pub mod standing;
 pub mod whole_run;
 pub mod worst_zones;

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::estimate::Estimate;
+use super::pairs::{Estimate, Split};
 use super::records::RunRecord;
-use super::split::Split;
 
 /// First random stream of the intervals of buildings, which have streams of their own.
 const FIRST_STREAM: u64 = 1 << 48;

@@ -10,8 +10,7 @@ use serde::{Serialize, Serializer};
 
 use super::building::BuildingFigures;
 use super::compared::{ComparedColumns, FigureColumn, FigureKind};
-use super::estimate::{Estimate, Quantiles, Share};
-use super::pairs::{PairedDifference, correct};
+use super::pairs::{Estimate, PairedDifference, Quantiles, Share, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
 

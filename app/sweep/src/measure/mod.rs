@@ -11,9 +11,8 @@ use interplay_tables::{TableFile, TrajectoryWriter};
 
 use crate::column::{EgoRun, building_values};
 use crate::error::SweepError;
-use crate::key::RunKey;
+use crate::key::{RunKey, program_version};
 use crate::row::{RunResult, SweepRow};
-use crate::version::program_version;
 
 /// Makes a run and its row. If the run fails or panics, the row contains the reason.
 ///

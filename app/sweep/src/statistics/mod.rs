@@ -1,9 +1,5 @@
 //! Statistics of samples.
 
 mod intervals;
-mod quantile;
-mod significance;
 
-pub(crate) use intervals::{mean_interval, wilson_interval};
-pub(crate) use quantile::{median, quantile};
-pub(crate) use significance::{holm, sign_test};
+pub(crate) use intervals::{holm, mean_interval, median, quantile, sign_test, wilson_interval};

@@ -1,7 +1,6 @@
 //! Tables of rows as Parquet files. Only this module depends on Parquet.
 
 mod checksums;
-mod guard;
 mod read;
 mod write;
 

@@ -1,7 +1,10 @@
 //! Reads a table, whole or a row group at a time.
 
+use std::cell::Cell;
 use std::fs::File;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
+use std::sync::Once;
 
 use parquet::basic::{LogicalType, Type as PhysicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -11,10 +14,8 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::checksums::Checksums;
-use super::guard::guarded;
 use super::{RowTable, TableColumn};
-use crate::cell::{ColumnKind, TableSchema};
-use crate::error::TableError;
+use crate::cell::{ColumnKind, TableError, TableSchema};
 
 /// An open table.
 pub struct TableReader {
@@ -201,4 +202,28 @@ impl TableColumn {
             _ => {}
         }
     }
+}
+
+thread_local! {
+    /// Whether this thread is decoding a table.
+    static DECODES: Cell<bool> = const { Cell::new(false) };
+}
+/// One hook of the process reports panics; ours forwards those that do not come from decoding.
+static HOOK: Once = Once::new();
+
+/// The result of `decode`, or `None` if it panics; such a panic prints nothing.
+pub(super) fn guarded<T>(decode: impl FnOnce() -> T) -> Option<T> {
+    HOOK.call_once(|| {
+        let report = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            if !DECODES.get() {
+                report(panic);
+            }
+        }));
+    });
+    DECODES.set(true);
+    // The table is not used after a panic.
+    let decoded = panic::catch_unwind(AssertUnwindSafe(decode));
+    DECODES.set(false);
+    decoded.ok()
 }

@@ -13,8 +13,7 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
 use super::{ROWS_PER_GROUP, TableColumn, checksums, column_type};
-use crate::cell::{Cell, TableSchema};
-use crate::error::TableError;
+use crate::cell::{Cell, TableError, TableSchema};
 
 /// A table that is being written. It appears at its path when it is complete.
 pub struct TableWriter {

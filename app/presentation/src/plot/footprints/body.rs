@@ -4,9 +4,8 @@ use super::super::backend::width_of;
 use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::data::distance;
-use crate::body::BodyStyle;
-use crate::body::{BodyPaint, BodyPart, body_parts};
-use crate::rectangle::rounded_corners;
+use crate::body::{BodyPaint, BodyPart, BodyStyle, body_parts};
+use crate::camera::rounded_corners;
 
 /// Points of a rounded corner.
 const CORNER_POINTS: usize = 5;

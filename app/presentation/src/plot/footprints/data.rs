@@ -1,12 +1,11 @@
 //! Roads, vehicles and their footprints, and the sizes that all pictures of them share.
 
 use super::super::drawing::Drawing;
-use super::super::legend::{Legend, Sample};
-use super::super::style::{Colour, Dash, LineStyle, VERMILLION};
-use super::clipping::{clipped, clipped_line};
+use super::super::style::{Colour, Dash, Legend, LineStyle, Sample, VERMILLION};
+use super::strips::{clipped, clipped_line};
 use crate::body::BodyStyle;
+use crate::camera::extent;
 use crate::palette::{ASPHALT, PAINT};
-use crate::rectangle::extent;
 use crate::road_shapes::RoadShapes;
 
 /// Least distance of points of a path: rounding to pixels would make lines of closer points ragged.

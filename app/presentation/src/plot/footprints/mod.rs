@@ -4,7 +4,6 @@
 //! in one lane would cover one another otherwise. Where roads cross or turn, all snapshots are in one plan ([`FootprintPlot::plan`]).
 
 mod body;
-mod clipping;
 mod data;
 mod plan;
 mod strips;
@@ -24,10 +23,10 @@ impl FootprintPlot {
 mod tests {
     use super::*;
     use crate::body::BodyStyle;
+    use crate::camera::extent;
     use crate::palette::{ASPHALT, PAINT};
     use crate::plot::drawing::Mark;
     use crate::plot::style::{BLUE, Colour, ORANGE};
-    use crate::rectangle::extent;
     use crate::road_shapes::RoadShapes;
 
     fn car(label: &str, colour: Colour) -> FootprintVehicle {

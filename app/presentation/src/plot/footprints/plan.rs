@@ -8,8 +8,8 @@ use super::super::drawing::{
 use super::super::style::{Colour, Dash, GREY, LineStyle};
 use super::body;
 use super::data::{FootprintPlot, PATH, distance};
+use crate::camera::extent;
 use crate::palette::ASPHALT;
-use crate::rectangle::extent;
 
 /// Largest height of the plan.
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;

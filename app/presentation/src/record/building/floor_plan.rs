@@ -8,7 +8,7 @@ use super::super::Logged;
 use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
-use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, zone_colour};
+use crate::palette::{deviation_colour, middle_c, one_decimal, zone_colour};
 
 /// Width of a room, from wall to wall.
 const ROOM_PX: usize = 24;

@@ -29,7 +29,7 @@ use floor_plan::FloorPlanLayer;
 use interplay_simulation::frame::BuildingFrame;
 use series::ZonePlots;
 
-use crate::wanted_temperature::usual_wanted_c;
+use crate::palette::usual_wanted_c;
 
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";

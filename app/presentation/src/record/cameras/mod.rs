@@ -24,13 +24,13 @@ use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{Clear, Pinhole, Points2D, Transform3D};
 use super::re_sdk_types::components::{Radius, ViewCoordinates};
 use super::{SIM_TIME, TICK};
+use crate::camera::extent;
 use crate::camera::{self, CameraFrame, CameraView, ViewFormat};
-use crate::contact::{contact_place, star, vehicle_indices};
-use crate::crowd::labelled;
+use crate::camera::{Rectangle, rectangle_around};
 use crate::edge_mark::edge_marks;
 use crate::palette::{FLASH, VERMILLION};
-use crate::rectangle::extent;
-use crate::rectangle::{Rectangle, rectangle_around};
+use crate::passing_words::{contact_place, star, vehicle_indices};
+use crate::shown_extent::labelled;
 
 /// Path of the camera from above.
 pub const TOP: &str = "world/camera/top";

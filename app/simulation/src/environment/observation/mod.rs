@@ -1,21 +1,17 @@
 //! Observations of an agent, as numbers: one view in each file.
 
-mod belief;
-mod foreign;
 mod grid;
 mod kinematics;
 mod lane;
 mod plan;
 mod view;
 
-pub use belief::BeliefView;
-pub use foreign::{ForeignView, ObservationKind};
 pub use grid::OccupancyGrid;
 pub use kinematics::Kinematics;
 pub use lane::LaneView;
-pub use plan::PlanView;
-pub use view::ObservationSpace;
+pub use plan::{BeliefView, PlanView};
 pub(super) use view::Seen;
+pub use view::{ForeignView, ObservationKind, ObservationSpace};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

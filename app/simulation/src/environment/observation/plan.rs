@@ -1,6 +1,7 @@
 //! View of the announced plans of the nearest vehicles.
 
 use interplay_planners::Trajectory;
+use interplay_planners::scene::driver_estimate::DriverModel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,40 @@ impl PlanView {
                 let state = states.get(t).or(states.last()).unwrap_or(&agent.state);
                 let [x, y] = [state.x_m - scene.ego.state.x_m, state.y_m - scene.ego.state.y_m];
                 point.copy_from_slice(&[1.0, number(x), number(y)]);
+            }
+        }
+    }
+}
+
+/// The probabilities of the kinds of driver of each of the nearest vehicles: tough, normal, nice, IDM, none of these. Empty rows
+/// are 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BeliefView {
+    /// Number of rows.
+    pub count: usize,
+}
+
+impl Default for BeliefView {
+    fn default() -> Self {
+        BeliefView { count: 4 }
+    }
+}
+
+impl BeliefView {
+    pub(super) fn space(&self) -> ObservationSpace {
+        let names = names(&DriverModel::ALL.map(|model| model.name()));
+        let shape = vec![self.count, names.len()];
+        ObservationSpace { low: 0.0, ..ObservationSpace::normalised("Belief", shape, names, true) }
+    }
+
+    pub(super) fn write(&self, seen: &Seen<'_>, out: &mut [f32]) {
+        out.fill(0.0);
+        let rows = out.chunks_exact_mut(DriverModel::ALL.len());
+        for (other, row) in nearest_first(seen.scene).into_iter().zip(rows) {
+            let Some(belief) = seen.beliefs.iter().find(|belief| belief.vehicle == other.name) else { continue };
+            for (out, probability) in row.iter_mut().zip(belief.probabilities) {
+                *out = probability as f32;
             }
         }
     }

@@ -10,9 +10,9 @@ use interplay_building::weather::{TimeSeries, Weather};
 use interplay_scenarios::{BoptestForecast, BoptestPrices};
 use serde_json::json;
 
-use super::bench::{Bench, ZERO_CELSIUS_K, celsius, series};
+use super::api::{Bench, ZERO_CELSIUS_K, celsius, series};
 use crate::plants::boptest::boptest_error::BoptestError;
-use crate::plants::foreseen::Foreseen;
+use crate::plants::interface::Foreseen;
 
 /// Interval of requested series \[s\]; those of BOPTEST's cases change at these times at the earliest.
 pub const INTERVAL_S: f64 = 900.0;

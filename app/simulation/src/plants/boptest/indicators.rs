@@ -4,7 +4,7 @@ use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
 use serde_json::json;
 
-use super::bench::{Bench, series};
+use super::api::{Bench, series};
 use super::forecast::{KnownSeries, all_bounds};
 use crate::plants::boptest::boptest_error::BoptestError;
 use crate::state::day::Metered;

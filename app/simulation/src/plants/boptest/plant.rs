@@ -8,19 +8,16 @@ use interplay_fmu_host::HostProgram;
 use interplay_scenarios::{BoptestInput, BoptestPlantConfig, BoptestZone};
 use serde_json::{Value, json};
 
-use super::super::benchmark::Benchmark;
 use super::super::error::PlantError;
-use super::super::foreseen::Foreseen;
-use super::super::interface::{StepInputs, ThermalPlant};
+use super::super::interface::{Benchmark, Foreseen, StepInputs, ThermalPlant};
 use super::super::walls;
-use super::api::Test;
-use super::bench::{Bench, Signals, celsius, number};
+use super::api::{Bench, Signals, Test, celsius, number};
 use super::fmu::FmuBench;
 use super::forecast::foresee;
 use super::indicators::Known;
 use crate::plants::boptest::boptest_error::BoptestError;
 use crate::state::day::Metered;
-use crate::state::not_copied::NotCopied;
+use crate::state::detail::NotCopied;
 
 const DAY_S: f64 = 86_400.0;
 /// Maximum number of the case's names that an error lists.

@@ -8,8 +8,8 @@ use interplay_fmu_host::{Causality, Host, HostProgram, Request, Unit, UnitVariab
 use interplay_scenarios::BoptestPlantConfig;
 use serde_json::{Map, Value, json};
 
-use super::data::CaseData;
-use crate::plants::boptest::bench::{Bench, Signals, ZERO_CELSIUS_K};
+use super::CaseData;
+use crate::plants::boptest::api::{Bench, Signals, ZERO_CELSIUS_K};
 use crate::plants::boptest::boptest_error::BoptestError;
 
 const DAY_S: f64 = 86_400.0;
