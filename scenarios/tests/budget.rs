@@ -2,7 +2,6 @@
 
 mod common;
 
-use common::Catalogue;
 use interplay_scenarios::{RunCost, Scenario, SweepPlan, embedded, embedded_plans, from_text, load};
 
 const HEAD: &str = "title = 'a'\nshows = 'b'\n";
@@ -49,30 +48,29 @@ fn a_plan_at_every_step_costs_by_its_horizon() {
 
 #[test]
 fn what_a_run_could_not_finish_is_refused_with_the_key() {
-    let mut errors = Catalogue::default();
-    let mut refused = |name: &str, text: &str, fragments: &[&str]| {
-        errors.error(name, from_text("bad.toml", &format!("{HEAD}{text}"), &[]), fragments);
+    let refused = |text: &str, fragments: &[&str]| {
+        common::refused(from_text("bad.toml", &format!("{HEAD}{text}"), &[]), fragments);
     };
     let car = car("ego", 0);
     let text = format!("step_s = 1e6\nduration_s = 1e6\nplant = {{ kind = 'dynamic' }}\n{car}");
     let fragments = ["the run makes 1000000000 steps, more than 20000000", "`budget = { steps = 1000000000 }`"];
-    refused("sub-steps", &text, &[&fragments[..], &["lower `step_s`", "bad.toml:3"]].concat());
+    refused(&text, &[&fragments[..], &["lower `step_s`", "bad.toml:3"]].concat());
     let minutes = "[building]\nstep_s = 60\n[controller]\nkind = 'distributed'\ncompare = true\n";
-    refused("minutes", minutes, &["thousand million operations", "lengthen `building.step_s`", "bad.toml:4"]);
+    refused(minutes, &["thousand million operations", "lengthen `building.step_s`", "bad.toml:4"]);
     let tower = "[building]\ngrid = { rows = 10, columns = 100 }\n[controller]\nkind = 'clairvoyant'\n";
-    refused("tower", tower, &["not available for the exact model of 1000 temperatures", "forward Euler", "bad.toml:6"]);
+    refused(tower, &["not available for the exact model of 1000 temperatures", "forward Euler", "bad.toml:6"]);
     let euler = tower.replace("[controller]", "method = 'euler'\nstep_s = 60\n[controller]");
-    refused("euler", &euler, &["thousand million operations"]);
+    refused(&euler, &["thousand million operations"]);
     let cars: String = (0..64).map(|i| self::car(&format!("car-{i}"), 2 * i)).collect();
     let cars = cars.replace("speed_mps = 1 }", "speed_mps = 1 }\ndriver = { kind = 'negotiation' }");
     let fragments = ["the run makes 6400000 plans, more than 200000", "lower `duration_s` to 312", "bad.toml:3"];
-    refused("negotiators", &format!("duration_s = 10000\n{cars}"), &fragments);
+    refused(&format!("duration_s = 10000\n{cars}"), &fragments);
     let plans = format!("duration_s = 10000\nhorizon_steps = 200\nbudget = {{ plans = 7000000 }}\n{car}");
-    refused("recording", &plans, &["a recording of about 601 MB, more than 500 MB", "lower `horizon_steps`"]);
+    refused(&plans, &["a recording of about 601 MB, more than 500 MB", "lower `horizon_steps`"]);
     let other = "[[counterfactual]]\nname = 'long'\nset = { duration_s = 8900 }\nexpect = { no_collision = true }\n";
     let together = format!("duration_s = 9000\nbudget = {{ plans = 100000 }}\n{car}{other}");
     let fragments = ["with its 1 counterfactuals the scenario makes 179000 plans", "state fewer counterfactuals"];
-    refused("together", &together, &fragments);
+    refused(&together, &fragments);
 }
 
 #[test]

@@ -1,8 +1,7 @@
-//! Counterfactuals in a file: what they change, what they inherit, and their errors.
+//! Counterfactuals in a file: what they change and what they inherit. `refusals.rs` has their errors.
 
 mod common;
 
-use common::Catalogue;
 use interplay_planners::Driver;
 use interplay_planners::drivers::human::Style;
 use interplay_scenarios::{Override, Registry, Scenario, embedded, from_text, load};
@@ -109,58 +108,6 @@ fn a_counterfactual_survives_writing() {
     assert_eq!(loaded(&scenario.to_file().to_toml(), &[]), scenario);
 }
 
-#[test]
-fn faults_of_a_counterfactual_are_located_before_anything_runs() {
-    let mut errors = Catalogue::default();
-    let mut case = |name: &str, stated: &str, fragments: &[&str]| {
-        errors.error(name, from_text("mine.toml", &variant(stated), &[]), fragments);
-    };
-    case(
-        "unknown_key",
-        "set = { 'vehicle.crossing.driver.stile' = 'nice' }",
-        &["mine.toml:6:34", "in the counterfactual `what if`", "unknown key `stile`", "did you mean `style`"],
-    );
-    case("unknown_vehicle", "set = { vehicle.crosing.goal.lane = 0 }", &["mine.toml:6:17", "did you mean `crossing`"]);
-    case(
-        "bad_value",
-        "set = { 'vehicle.crossing.driver.style' = 'nicer' }",
-        &["mine.toml:6:43", "did you mean `nice`"],
-    );
-    case("bad_number", "set = { step_s = -1 }", &["mine.toml:6:18", "at least 0.001"]);
-    case("unknown_planner", "planner = 'conservativ'", &["mine.toml:6:11", "did you mean `conservative`"]);
-    case(
-        "bad_place",
-        "set = { vehicle.crossing.start.x_m = 9.0 }",
-        &["mine.toml:6:26", "in the counterfactual", "outside"],
-    );
-    case("no_path", "set = { 'vehicle..goal' = 1 }", &["mine.toml:6:", "not the path of a setting"]);
-    case("own_expectations", "set = { 'expect.order' = [] }", &["mine.toml:6:9", "[counterfactual.expect]"]);
-    case("no_change", "", &["mine.toml:4:", "changes nothing", "planner ="]);
-    case("same_value", "set = { vehicle.crossing.driver.style = 'tough' }", &["changes nothing", "already"]);
-    case("unknown_part", "sets = { }", &["unknown key `sets`", "did you mean `set`"]);
-    case("wrong_type", "set = 3", &["must be a table"]);
-    insta::assert_snapshot!("changes", errors.0);
-}
-
-#[test]
-fn wrong_expectations_are_located_too() {
-    let mut errors = Catalogue::default();
-    let mut case = |name: &str, expect: &str, fragments: &[&str]| {
-        let text = variant("planner = 'idm'").replace("order_differs = true", expect);
-        errors.error(name, from_text("mine.toml", &text, &[]), fragments);
-    };
-    case("nothing", "", &["mine.toml:4:", "expects nothing", "`order_differs`"]);
-    case("misspelt", "order_difers = true", &["mine.toml:8:1", "did you mean `order_differs`"]);
-    case("unknown_later", "later = [{ vehicle = 'eg', by_s = 0.3 }]", &["mine.toml:8:22", "did you mean `ego`"]);
-    case("no_bound", "later = [{ vehicle = 'ego' }]", &["`by_s`", "is missing", "mine.toml:8:"]);
-    case("unknown_order", "order = ['ego', 'crosing']", &["mine.toml:8:17", "did you mean `crossing`"]);
-    case("nothing_to_break", "breaks = ['ordr']", &["mine.toml:8:11", "has no `ordr`", "did you mean `order`"]);
-    let twice =
-        variant("planner = 'idm'") + "[[counterfactual]]\nname = 'what if'\nplanner = 'human'\nexpect.breaks = []\n";
-    errors.error("twice", from_text("mine.toml", &twice, &[]), &["mine.toml:10:", "two counterfactuals", "of its own"]);
-    insta::assert_snapshot!("expectations", errors.0);
-}
-
 /// A building has no order and no planner.
 #[test]
 fn a_building_has_counterfactuals_too() {
@@ -172,10 +119,9 @@ fn a_building_has_counterfactuals_too() {
     let sound = sound.unwrap_or_else(|error| panic!("{:?}", error.faults()));
     let changed = &sound.counterfactuals[0].scenario;
     assert_eq!((changed.controller().kind(), changed.days()), ("thermostat", 2));
-    let mut errors = Catalogue::default();
     let order = "set = { 'controller.kind' = 'thermostat' }\nexpect.order_differs = true";
-    errors.error("order", stated(order), &["mine.toml:7:", "there are no vehicles"]);
-    errors.error("planner", stated("planner = 'idm'\nexpect.order_differs = true"), &["there are no vehicles"]);
+    common::refused(stated(order), &["mine.toml:7:", "there are no vehicles"]);
+    common::refused(stated("planner = 'idm'\nexpect.order_differs = true"), &["there are no vehicles"]);
 }
 
 /// Settings that a file states for its planner are varied, and no others.

@@ -1,9 +1,9 @@
 //! Curved roads, and places in the lanes of every road.
 
-mod least;
+mod common;
 
+use common::{least, set};
 use interplay_scenarios::{Branch, Override, Road, Scenario, embedded, from_text, load};
-use least::{least, set};
 
 /// Two lanes of 3.5 m that turn by 200° to the left and by 110° to the right, with a start for each test.
 fn curved(vehicle: &str, overrides: &[Override]) -> Scenario {

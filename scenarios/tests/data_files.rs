@@ -33,8 +33,7 @@ impl Folder {
     }
 
     fn refused(&self, scenario: &str, words: &[&str]) {
-        let error = common::rendered(&self.load(scenario).expect_err("must be refused"), 2000);
-        words.iter().for_each(|word| assert!(error.contains(word), "no `{word}` in:\n{error}"));
+        common::refused(self.load(scenario), words);
     }
 }
 
@@ -200,4 +199,17 @@ fn prices_by_the_megawatt_hour_are_remarked_upon() {
     let said = remarks_of("380");
     assert!(said.contains("line 2: the price is 380 per kWh: is it per MWh?"), "{said}");
     assert!(!remarks_of("0.38").contains("MWh"));
+}
+
+#[test]
+fn hourly_prices_are_read_and_their_errors_are_located() {
+    let folder = Folder::new();
+    let scenario = format!("{HOUSE}[tariff]\nfile = 'prices.csv'\n");
+    folder.write("prices.csv", "hour,price_per_kwh\n0,0.25\n1,0.5\n");
+    let read = folder.load(&scenario).expect("two prices");
+    assert_eq!(read.tariff.expect("a tariff").prices_per_kwh, [0.25, 0.5]);
+    folder.write("prices.csv", "hour,price_per_kwh\n0,0.25\n1,cheap\n");
+    folder.refused(&scenario, &["prices.csv:3:1", "`cheap`"]);
+    folder.write("prices.csv", "hour,price_per_kwh\n0,-0.25\n");
+    folder.refused(&scenario, &["house.toml:17:8", "above 0"]);
 }

@@ -1,11 +1,12 @@
 //! The meaning of the format: variants, overrides, defaults, the schema, and the authored files.
 
-mod least;
+mod common;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use common::{LEAST, least, set};
 use interplay_common::bounds::Bound;
 use interplay_planners::Driver;
 use interplay_planners::drivers::human::Style;
@@ -13,7 +14,6 @@ use interplay_planners::trajectory::HomotopySearch;
 use interplay_scenarios::{
     Override, ParallelLanes, Registry, Road, Scenario, ScenarioFile, Source, embedded, from_text, load, schema,
 };
-use least::{LEAST, least, set};
 use serde_json::{Map, Value as Json};
 
 #[test]

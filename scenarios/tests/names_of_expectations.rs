@@ -1,9 +1,9 @@
-//! The names under which reports list expectations.
+//! The names under which reports list expectations, and the conflict zones that some of them judge.
 
 use std::collections::BTreeSet;
 
 use interplay_scenarios::MetricLimit::{AtLeast, AtMost, Is};
-use interplay_scenarios::{Expect, MetricBound};
+use interplay_scenarios::{Expect, MetricBound, from_text, load};
 
 type Outcome = Result<(), toml::de::Error>;
 
@@ -84,4 +84,39 @@ fn bounds_carry_their_own_keys() -> Outcome {
     ];
     assert_eq!(expect.zones[0].bounds(), zone);
     Ok(())
+}
+
+#[test]
+fn every_expectation_has_a_name() {
+    let text = "extends = 'intersection/nice'\ntitle = 'a'\nshows = 'b'\n[expect]\noff_road_at_most_m = 0.0\n\
+                gap_at_least_m = 0.1\ntime_to_collision_at_least_s = 0.5\n\
+                comfort = [{ vehicle = 'ego', jerk_at_most_mps3 = 9, braking_at_most_mps2 = 1 }]\n\
+                yields = [{ vehicle = 'crossing', to = 'ego' }]";
+    let names = from_text("mine.toml", text, &[]).expect("sound").expect.names();
+    for name in [
+        "off_road_at_most_m",
+        "gap_at_least_m",
+        "time_to_collision_at_least_s",
+        "comfort.ego.jerk_at_most_mps3",
+        "comfort.ego.braking_at_most_mps2",
+        "yields.crossing.to.ego",
+    ] {
+        assert!(names.contains(name), "{name} is not in {names:?}");
+    }
+    assert!(!names.iter().any(|name| name.ends_with(".vehicle") || name.contains("lateral")), "{names:?}");
+}
+
+/// The conflict zones of an intersection are the overlap of its roads, in either order of the vehicles.
+#[test]
+fn zones_of_an_intersection_are_those_of_its_roads() {
+    let scenario = load("intersection/stop-sign", &[]).expect("authored");
+    let vehicle = |name: &str| scenario.vehicle(name).expect("authored");
+    let zones = scenario.road.conflict_zones(vehicle("ego"), vehicle("first"));
+    let [zone] = zones.as_slice() else { panic!("{zones:?}") };
+    let (near, far) = (0.0, 0.37);
+    let is = |zone: [f64; 2], wanted: [f64; 2]| zone.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(is(zone.first_m, [-0.5 * far, 0.5 * far]) && is(zone.second_m, [near, far]), "{zone:?}");
+    let turned = scenario.road.conflict_zones(vehicle("first"), vehicle("ego"));
+    assert_eq!((turned[0].first_m, turned[0].second_m), (zone.second_m, zone.first_m));
+    assert!(scenario.road.conflict_zones(vehicle("first"), vehicle("second")).is_empty());
 }

@@ -1,6 +1,7 @@
 //! Networks of lanes, written out and as short forms, and vehicles on them.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use interplay_planners::Route;
 use interplay_planners::road::network::{NeighbourRelation, RightOfWay, RoadNetwork};
@@ -245,4 +246,20 @@ fn flags_change_a_lane_by_name() {
     let scenario = from_text("a.toml", text, &[set]).expect("a sound change");
     let network = scenario.network.expect("a network");
     assert_eq!(network.lane("a").and_then(|lane| lane.speed_limit_mps), Some(9.5));
+}
+
+/// Lanes of a millimetre would be compared at millions of places before the cars turn out not to fit.
+#[test]
+fn cars_on_lanes_of_a_millimetre_are_refused_at_once() {
+    let car = |name: &str, lane: &str| {
+        format!("[[vehicle]]\nname = \"{name}\"\nstart = {{ lane = \"{lane}\", along_m = 5.0, speed_mps = 9.0 }}\n")
+    };
+    let road = "kind = \"narrow-passage\"\npassage_width_m = 3.2\npassage_m = 5000.0\nlane_width_m = 0.001";
+    let cars = [car("one", "west-in"), car("other", "east-in")].concat();
+    let begun = Instant::now();
+    let error = from_text("bad.toml", &format!("title = \"a\"\nshows = \"b\"\n[road]\n{road}\n{cars}"), &[]);
+    let error = error.expect_err("the cars do not fit");
+    let too_wide = error.faults().iter().filter(|fault| fault.message().contains("wide, but lane")).count();
+    assert_eq!(too_wide, 2, "{error:?}");
+    assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
 }

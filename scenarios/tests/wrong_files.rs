@@ -1,4 +1,4 @@
-//! Errors of missing and unreadable files; as `errors.rs`.
+//! Errors of missing and unreadable files, and of files that extend others.
 
 mod common;
 
@@ -7,13 +7,43 @@ use std::fs;
 use common::Catalogue;
 use interplay_scenarios::{SweepPlan, load};
 
+/// A scenario with a misspelt key.
+const PARENT: &str = r#"title = "Two cars"
+shows = "One follows the other"
+duration_s = 5.0
+
+[road]
+kind = "lanes"
+lane_count = 2
+
+[[vehicle]]
+name = "ego"
+start = { x_m = 0.0, y_m = 0.185, speed_mps = 1.0 }
+goal = { lane = 1 }
+driver = { kind = "negotiation", beta = 0.8 }
+
+[[vehicle]]
+name = "front"
+start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }
+body = { widht_m = 0.19 }
+driver = { kind = "human", style = "nice" }
+
+[expect]
+no_collision = true
+order = ["front", "ego"]
+
+[[expect.completes]]
+vehicle = "ego"
+before_s = 4.0
+"#;
+
 #[test]
 fn missing_files() {
     let mut errors = Catalogue::default();
-    errors.error("no_such_name", load("lane-change/front-nicer", &[]), &["did you mean", "lane-change/front-nice"]);
-    errors.error("no_such_name_near", load("something-else-entirely", &[]), &["interplay list"]);
-    errors.error("no_such_file", load("front-tuogh.toml", &[]), &["no file", "lane-change/front-tough"]);
-    errors.error("no_name", load("", &[]), &["no scenario and no file"]);
+    errors.add("no_such_name", load("lane-change/front-nicer", &[]), 100);
+    errors.add("no_such_name_near", load("something-else-entirely", &[]), 100);
+    errors.add("no_such_file", load("front-tuogh.toml", &[]), 100);
+    errors.add("no_name", load("", &[]), 100);
     insta::assert_snapshot!("missing_files", errors.0);
 }
 
@@ -31,12 +61,32 @@ fn unreadable_files() {
         state.to_be_bytes()[0]
     });
     write("large.toml", &random.collect::<Vec<u8>>());
-    errors.file(folder.path(), "empty.toml", &["is empty", "`title`"]);
-    errors.file(folder.path(), "blank.toml", &["is empty"]);
-    errors.file(folder.path(), "binary.toml", &["binary.toml:2:1", "not UTF-8"]);
-    errors.file(folder.path(), "large.toml", &["larger than 1 MiB"]);
-    errors.file(folder.path(), "", &["is a directory"]);
+    errors.file(folder.path(), "empty.toml");
+    errors.file(folder.path(), "blank.toml");
+    errors.file(folder.path(), "binary.toml");
+    errors.file(folder.path(), "large.toml");
+    errors.file(folder.path(), "");
     insta::assert_snapshot!("unreadable_files", errors.0);
+}
+
+#[test]
+fn chains_of_files() {
+    let mut errors = Catalogue::default();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a writable folder");
+    write("a.toml", "extends = 'b.toml'\ntitle = 'a'\n");
+    write("b.toml", "title = 'b'\nextends = 'a.toml'\n");
+    write("itself.toml", "extends = 'itself.toml'\n");
+    write("orphan.toml", "title = 'a'\nextends = 'front-nise.toml'\n");
+    write("list.toml", "extends = ['a.toml']\n");
+    write("parent.toml", PARENT);
+    write("child.toml", "extends = 'parent.toml'\ntitle = 'The error is my parent’s'\n");
+    errors.file(folder.path(), "a.toml");
+    errors.file(folder.path(), "itself.toml");
+    errors.file(folder.path(), "orphan.toml");
+    errors.file(folder.path(), "list.toml");
+    errors.file(folder.path(), "child.toml");
+    insta::assert_snapshot!("chains_of_files", errors.0);
 }
 
 const SECRET: &str = "root:x:0:0:root:/root:/bin/bash\nalice:$6$secret:1000:1000::/home/alice:/bin/sh\n";

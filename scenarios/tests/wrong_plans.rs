@@ -1,253 +1,78 @@
 //! Errors of wrong plans of many runs, and their places.
 
-#[path = "common/plans.rs"]
-mod plans;
+use std::path::Path;
 
 use interplay_scenarios::{LoadError, SweepPlan};
-use plans::read;
+use serde::Deserialize;
+
+/// A plan as it would be read from the file `plan.toml`.
+fn read(text: &str) -> Result<SweepPlan, LoadError> {
+    SweepPlan::from_text("plan.toml", text, Path::new(""))
+}
 
 fn sound(text: &str) -> SweepPlan {
     read(text).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()))
 }
 
-/// Each wrong plan, with the line, the column and a fragment of its error.
-const WRONG: &[plans::WrongPlan] = &[
-    ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
-    ("title = 'A'\nshows = 'B'\n[road]\nkind = 'lanes'\n", 3, 2, "is a scenario, not a plan of runs"),
-    ("scenario = []\n", 1, 12, "must have at least 1"),
-    ("scenario = ['lane-chnge']\n", 1, 13, "no scenario, no family and no file `lane-chnge`"),
-    ("scenario = ['lane-change', 'lane-change/front-nice']\n", 1, 28, "in the plan twice"),
-    ("scenario = ['lane-change/front-nice']\nsample = 3\n", 2, 1, "unknown key `sample`"),
-    ("scenario = ['lane-change/front-nice']\nsamples = 0\n", 2, 11, "must be at least 1"),
-    ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
-    ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
-    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "neither a style nor a kind of driver"),
-    (
-        "scenario = ['intersection/nice']\nplanner = [{ name = 'A conservative ego crosses second', kind = 'idm' }]\n\
-         counterfactuals = true\n",
-        3,
-        19,
-        "which a planner is called, too",
-    ),
-    ("scenario = ['building/tower']\nplanner = ['idm']\n", 2, 12, "no vehicles"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.sped_mps = [1.0]\n",
-        3,
-        21,
-        "unknown key `sped_mps`",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.fron.start.speed_mps = [1.0]\n",
-        3,
-        9,
-        "there is no `fron`",
-    ),
-    // Keys of one table, stated line by line.
-    (
-        "scenario = ['lane-change/front-nice']\n[set]\nvehicle.ego.driver.kind = 'negotiation'\nvehicle.ego.driver.patience_steps = -1\n",
-        4,
-        37,
-        "must be at least 1",
-    ),
-    ("scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = []\n", 3, 33, "must not be empty"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",
-        3,
-        33,
-        "neither a list nor a distribution",
-    ),
-    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [2, 1] }\n", 3, 26, "is empty"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [2.0, 1.0], count = 3 }\n",
-        3,
-        24,
-        "is empty",
-    ),
-    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0] }\n", 3, 24, "needs a `count`"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1, 2], step = 0 }\n",
-        3,
-        24,
-        "`step` apart",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0], count = 0 }\n",
-        3,
-        44,
-        "`count` must be",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0, sd = 0.0 } }\n",
-        3,
-        25,
-        "above 0",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0 } }\n",
-        3,
-        25,
-        "`mean` and `sd`",
-    ),
-    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { log_uniform = [0.0, 1.0] }\n", 3, 30, "above 0"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [1.0, 2.0], sd = 1 }\n",
-        3,
-        38,
-        "does not belong",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [-1.0, 2.0] }\n",
-        3,
-        14,
-        "must be at least 0.001",
-    ),
-    ("scenario = ['lane-change/front-nice']\n[vary]\nseed = [1, 2]\n", 3, 1, "follows from its sample"),
-    ("scenario = ['lane-change/front-nice']\nsamples = 1000000000000\n", 2, 11, "1000000000000 runs"),
-    (
-        "scenario = ['lane-change/front-nice']\nsamples = 9223372036854775807\nplanner = ['idm', 'game', 'human']\n",
-        2,
-        11,
-        "more runs than can be counted",
-    ),
-    ("scenario = ['lane-change/front-nice']\nsamples = 2\nmax_runs = 1\n", 2, 11, "2 runs, and at most 1"),
-    // A value that the file accepts and the scenario does not: the vehicles would overlap.
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.x_m = { uniform = [-1.65, -0.3] }\n",
-        3,
-        21,
-        "overlap at the start",
-    ),
-    // One seed for all runs would make one run of all samples.
-    ("scenario = ['lane-change/front-nice']\nset = { seed = 4 }\nsamples = 3\n", 2, 9, "follows from its sample"),
-    (
-        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\nset = { seed = 4 }\n",
-        4,
-        9,
-        "follows from its sample",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'x', set = { 'seed' = 4 } }]\n",
-        2,
-        35,
-        "follows from its sample",
-    ),
-    ("scenario = ['lane-change/front-nice']\nset = { real_time.plan_budget_ms = 5 }\n", 2, 9, "counted by the clock"),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nreal_time.plan_budget_ms = [5, 9]\n",
-        3,
-        11,
-        "counted by the clock",
-    ),
-    // A fault caused by a set value is blamed on it, with and without values that vary.
-    (
-        "scenario = ['lane-change/front-nice']\nset = { duration_s = 0.5 }\n",
-        2,
-        22,
-        "is not before the end of the run at 0.5 s",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nset = { duration_s = 0.5 }\n[vary]\nvehicle.front.start.speed_mps = [1.0, 1.1]\n",
-        2,
-        22,
-        "is not before the end of the run at 0.5 s",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nset = { step_s = 0.1 }\n[[style]]\nname = 'short'\nset = { duration_s = 0.5 }\n",
-        5,
-        22,
-        "with the style `short`",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'short', kind = 'idm', set = { duration_s = 0.5 } }]\n",
-        2,
-        65,
-        "with the style `as-written` and the planner `short`",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.y_m = 0.3 }\n[vary]\n\
-         vehicle.rear.start.speed_mps = [1.0, 1.1]\nvehicle.front.start.x_m = [-1.65, -0.35]\n",
-        5,
-        35,
-        "with `vehicle.front.start.x_m = -0.35`",
-    ),
-    // Of two incompatible changes, the one that varies is blamed, or else the one that the fault is about.
-    (
-        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = 0.1 }\n[vary]\nvehicle.ego.start.y_m = [0.185, 0.5]\n",
-        4,
-        33,
-        "with `vehicle.ego.start.y_m = 0.5`",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'x', set = { duration_s = 1.5 } }]\n[set]\n\
-         'expect.completes.ego.after_s' = 2.0\n",
-        4,
-        34,
-        "is not before the end of the run",
-    ),
-    // Misspelt distributions.
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { unifrom = [1.0, 1.2] }\n",
-        3,
-        35,
-        "`unifrom` is not a distribution",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { mean = 1.0, sd = 0.1 }\n",
-        3,
-        35,
-        "`mean` is not a distribution",
-    ),
-    (
-        "scenario = ['intersection/nice']\n[vary]\n'vehicle.*.driver.safety_weight' = { lognormal = [1.0, 1.2] }\n",
-        3,
-        38,
-        "`lognormal` is not a distribution",
-    ),
-    // Changes of vehicles in a building.
-    ("scenario = ['building/tower']\nstyle = ['nice']\n", 2, 10, "no vehicles"),
-    ("scenario = ['building/tower']\nset = { 'vehicle.*.driver.kind' = 'idm' }\n", 2, 18, "no vehicles"),
-    (
-        "scenario = ['building/tower']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
-        2,
-        10,
-        "`building/tower` has no vehicles, so `jitter`",
-    ),
-    // Repeated statements.
-    (
-        "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[vary]\nhorizon_steps = [20, 25]\n",
-        2,
-        9,
-        "is set here, and varies",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nplanner = ['as-written', 'idm']\n[vary]\nvehicle.ego.driver.kind = ['game', 'human']\n",
-        2,
-        26,
-        "is set here, and varies",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\nstyle = ['nice']\n[vary]\nvehicle.'*'.driver.style = ['nice', 'tough']\n",
-        2,
-        10,
-        "is set here, and varies",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\nvary = { horizon_steps = [20, 25] }\n[vary]\nhorizon_steps = [20, 25]\n",
-        4,
-        10,
-        "varies in all runs and with this style",
-    ),
-    (
-        "scenario = ['lane-change/front-nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\nset = { start_jitter = { position_m = 0.2 } }\n",
-        3,
-        9,
-        "`start_jitter` is laid over it",
-    ),
-];
+/// The text of each plan, the place of its first fault, and words of what is said of it.
+#[derive(Deserialize)]
+struct Refusals {
+    wrong: Vec<[String; 3]>,
+    without_effect: Vec<[String; 3]>,
+}
+
+fn all_are_refused(of: impl Fn(Refusals) -> Vec<[String; 3]>) {
+    let plans = toml::from_str(include_str!("refusals/plans.toml")).expect("a table of plans");
+    let mut wrong = Vec::new();
+    for [text, place, words] in of(plans) {
+        let found = read(&text).err().map(|error| {
+            let fault = &error.faults()[0];
+            let (line, column) = fault.line_and_column().unwrap_or_default();
+            (fault.file().map(str::to_owned), format!("{line}:{column}"), fault.message().to_owned())
+        });
+        let is_there = found.as_ref().is_some_and(|(file, at, message)| {
+            file.as_deref() == Some("plan.toml") && *at == place && message.contains(&words)
+        });
+        if !is_there {
+            wrong.push(format!("{text}{found:?} and not {:?}", (place, words)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
 
 #[test]
 fn wrong_plans_are_refused_where_they_are_wrong() {
-    plans::all_are_refused(WRONG);
+    all_are_refused(|plans| plans.wrong);
+}
+
+#[test]
+fn changes_and_samples_without_effect_are_refused_where_they_are_written() {
+    all_are_refused(|plans| plans.without_effect);
+}
+
+/// Changes with an effect in some run, and samples with a drawn value.
+#[test]
+fn changes_and_samples_with_an_effect_are_accepted() {
+    for text in [
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.ego.driver.settled_steps = 20 }\nplanner = ['negotiation', 'idm']\n",
+        "scenario = ['lane-change/front-nice']\nset = { 'vehicle.*.goal.speed_mps' = 1.1, 'vehicle.front.goal.speed_mps' = 1.2 }\n",
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.driver.style = 'tough' }\nstyle = ['as-written', 'nice']\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { vehicle.ego.sensing.speed_sd_mps = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { vehicle.ego.sensing.drop_rate = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { start_jitter.speed_mps = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nsampling = 'random'\n[vary]\nhorizon_steps = [20, 25]\n",
+        "scenario = ['building/tower']\nsamples = 3\n",
+        "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[[style]]\nname = 'a'\n[[style]]\nname = 'b'\n\
+         vary = { horizon_steps = [25, 30] }\n",
+        "scenario = ['lane-change/front-nice']\nset = { real_time.plan_budget_ms = 10 }\nplanner = ['as-written', { name = 'late', \
+         set = { real_time.deadline = 'enforced' } }]\n",
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start = { heading_rad = 0.0 } }\n[vary]\n\
+         vehicle.front.start.speed_mps = [1.0, 1.1]\n",
+        "scenario = ['lane-change/front-nice']\nseed = 4\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+    ] {
+        let plan = read(text);
+        assert!(plan.is_ok(), "{text}: {:?}", plan.err().map(|error| error.faults().to_vec()));
+    }
 }
 
 /// The faults of the runs of a valid plan.
