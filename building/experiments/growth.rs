@@ -30,7 +30,6 @@ const MARGIN: f64 = 70.0;
 const ROOMS: [f64; 2] = [0.5, 2.9];
 const SECONDS: [f64; 2] = [-3.0, 2.5];
 
-/// A design with its times.
 struct Curve {
     name: &'static str,
     colour: &'static str,

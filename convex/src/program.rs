@@ -65,7 +65,6 @@ pub struct Program {
     pub(crate) linear: Vec<(usize, f64)>,
 }
 
-/// A named group of variables.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Group {
     pub(crate) name: Cow<'static, str>,

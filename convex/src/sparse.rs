@@ -46,7 +46,6 @@ impl SparseColumns {
         }
     }
 
-    /// Number of columns.
     pub(crate) fn columns(&self) -> usize {
         self.start.len() - 1
     }

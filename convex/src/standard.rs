@@ -20,7 +20,6 @@ pub(crate) struct StandardForm {
     pub(crate) b: Vec<f64>,
     /// K as a product of cones, each with the range of its rows.
     pub(crate) cones: Vec<(Cone, Range<usize>)>,
-    /// The rows of each block.
     pub(crate) blocks: Arc<[Range<usize>]>,
     /// The program of which this is the standard form. Only its pattern and names are used: its numbers are not updated.
     source: Program,

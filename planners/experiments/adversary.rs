@@ -27,7 +27,6 @@ use interplay_planners::drivers::{contingency, human, nash};
 use interplay_planners::plan::certificate::{last_resorts, overlap_m};
 use interplay_planners::{Agent, Driver, Scene, State, Trajectory};
 
-/// Ticks of a run.
 const TICKS: usize = 60;
 /// How far starts and speeds vary to either side \[m\], \[m/s\].
 const ALONG_M: f64 = 0.5;
@@ -41,7 +40,6 @@ const BY_THE_EGO: &str = "by the ego";
 /// Numbers that vary, a vehicle: place, speed, and the weight of a human.
 const NUMBERS: usize = 3;
 
-/// One run.
 struct Encounter {
     /// The smallest gap between the ego and any other vehicle \[m\]; not positive at a contact.
     gap_m: f64,

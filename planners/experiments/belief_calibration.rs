@@ -37,9 +37,7 @@ use interplay_planners::prediction::Prediction;
 use interplay_planners::scene::driver_estimate::{DriverEstimate, DriverModel, SAFETY_WEIGHT_EDGES};
 use interplay_planners::{Driver, Planner, Scene, State};
 
-/// Ticks in a second.
 const SECOND: usize = 10;
-/// Ticks of a run.
 const TICKS: usize = 60;
 /// Plans that are further apart after a second belong to drivers who can be told apart \[m\].
 const APART_M: f64 = 0.02;
@@ -53,7 +51,6 @@ const LEAST_WEIGHT: f64 = 1e-3;
 /// The named styles: name, safety weight, kind of driver.
 const STYLES: [(&str, f64, DriverModel); 3] =
     [("tough", 0.0, DriverModel::Tough), ("normal", 8.0, DriverModel::Normal), ("nice", 50.0, DriverModel::Nice)];
-/// The families of scenarios.
 const FAMILIES: [&str; 3] = ["lane keeping", "intersection", "lane change"];
 
 /// What was believed a second after the interaction began.

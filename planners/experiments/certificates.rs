@@ -21,7 +21,6 @@ use interplay_planners::PlanError;
 use interplay_planners::plan::certificate::violations;
 
 const SEEDS: u64 = 4;
-/// Ticks of a run.
 const TICKS: u64 = 50;
 
 fn main() -> std::io::Result<()> {

@@ -18,7 +18,6 @@ use common::starts::perturbed;
 use common::world::{LANES, Run, Vehicle, egos, families, run};
 use interplay_planners::Driver;
 
-/// Ticks of a run.
 const TICKS: usize = 80;
 /// How often each start is driven.
 const REPEATS: usize = 2;

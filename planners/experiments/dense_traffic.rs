@@ -31,7 +31,6 @@ const SPACING_M: f64 = 40.0;
 const STEP_S: f64 = 0.2;
 const HORIZON: usize = 40;
 
-/// Work of all plans.
 #[derive(Default)]
 struct Work {
     plans: usize,

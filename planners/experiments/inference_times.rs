@@ -23,7 +23,6 @@ use interplay_planners::perception::belief::{DriverBeliefs, Settings};
 use interplay_planners::perception::sensing::SensedScene;
 use interplay_planners::prediction::Prediction;
 
-/// Ticks of a run.
 const TICKS: usize = 80;
 /// How often each start is driven.
 const REPEATS: usize = 2;

@@ -39,7 +39,6 @@ const SEEDS: u64 = 4;
 const CHEAPER: f64 = 1e-3;
 /// Every how many ticks the problems are searched.
 const CHECKED_EVERY: u64 = 4;
-/// Ticks of a run.
 const TICKS: u64 = 50;
 
 #[derive(Default)]

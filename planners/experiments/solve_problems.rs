@@ -34,13 +34,11 @@ use serde::Serialize;
 
 type Inputs = Vec<Vec<[f64; 2]>>;
 
-/// One problem's outcome.
 #[derive(Serialize)]
 struct Outcome {
     id: String,
     /// Cost of the admissible inputs nearest to the guess.
     start_cost: f64,
-    /// Why no optimum was found.
     error: Option<String>,
     cost: Option<f64>,
     /// Largest violation of a safety row (1 − d²).

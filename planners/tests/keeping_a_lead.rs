@@ -8,9 +8,7 @@ use interplay_planners::Driver;
 use interplay_planners::drivers::game::ExpressedBounds;
 use interplay_planners::drivers::{bayesian, game};
 
-/// Ticks of a run.
 const TICKS: usize = 60;
-/// Starts of a family.
 const STARTS: u64 = 30;
 
 /// The places of an ego when it is in its lane, added up over the starts of a family, and the mean time until then \[s\].

@@ -7,7 +7,6 @@ use common::world::{families, run};
 use interplay_planners::Driver;
 use interplay_planners::drivers::{conservative, negotiation};
 
-/// Ticks of a run.
 const TICKS: usize = 60;
 /// Starts of a ramp merge with a tough front and a nice rear driver.
 const STARTS: u64 = 30;

@@ -12,7 +12,6 @@ fn negotiator(partners_at_most: usize) -> Driver {
     Driver::Negotiation(negotiation::Settings { partners_at_most, ..negotiation::Settings::default() })
 }
 
-/// The ego's first plan.
 fn first_plan(vehicles: &[Vehicle]) -> Plan {
     let (traffic, mut planners) = begin(vehicles);
     planners[0].plan(&traffic.scene(0)).expect("a plan")

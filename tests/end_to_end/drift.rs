@@ -54,7 +54,6 @@ fn animations_show_what_their_scenarios_do_today() {
 struct Marked<'a> {
     command: &'a str,
     lines: Vec<&'a str>,
-    /// The text before the mark.
     before: &'a str,
 }
 

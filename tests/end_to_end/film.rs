@@ -17,7 +17,6 @@ pub struct Film {
     pub report: Report,
 }
 
-/// Keeps what it is shown.
 #[derive(Clone, Default)]
 pub struct Camera(Arc<Mutex<Vec<Frame>>>);
 

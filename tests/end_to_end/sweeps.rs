@@ -78,12 +78,10 @@ fn scenarios_that_are_the_same_are_counted_each() {
     assert!(merged.stderr.contains("is not shard 2/2 but 1/2"), "{}", merged.stderr);
 }
 
-/// When a sweep is killed.
 #[cfg(unix)]
 enum Moment {
     /// When this number of rows exists.
     Rows(usize),
-    /// After this number of milliseconds.
     Millis(u64),
 }
 

@@ -13,7 +13,6 @@ const ROOM: &str = "title = 'A room'\nshows = 'B'\niterations = 3\n[building]\ns
     capacity_kj_per_k = 900.0\nheating_limit_kw = 8.0\ncooling_limit_kw = 0.0\n[[building.wall]]\nbetween = ['room', 'ambient']\n\
     resistance_k_per_kw = 6.0\ncapacity_kj_per_k = 9000.0\n[weather]\nkind = 'synthetic'\n[weather.climate]\nmean_c = 4.0\n\
     [setpoints]\noccupied_c = [21.0]\n[controller]\nkind = 'pid'\n";
-/// The same room as a unit.
 const UNIT: &str = "extends = 'room.toml'\n[building.plant]\nkind = 'boptest'\nfmu = 'room.fmu'\nsampling_s = 1800.0\nwarmup_days = 0\n\
     timeout_s = 60.0\n[[building.plant.zones]]\ntemperature = 'room.temperature'\n\
     inputs = [{ name = 'room.heat', per_kw = 1.0, max = 100.0 }]\n";

@@ -75,7 +75,6 @@ pub enum PageMessage {
     },
 }
 
-/// A scenario of the menu.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct MenuScenario {
     pub name: String,
@@ -85,7 +84,6 @@ pub(crate) struct MenuScenario {
     pub seats: Vec<String>,
 }
 
-/// A family of the menu.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct MenuFamily {
     pub family: String,
@@ -94,7 +92,6 @@ pub(crate) struct MenuFamily {
     pub scenarios: Vec<MenuScenario>,
 }
 
-/// A scenario and a seat.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct Chosen {
     pub scenario: String,
@@ -105,7 +102,6 @@ pub(crate) struct Chosen {
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(crate) enum ServerMessage {
-    /// The menu.
     Menu {
         families: Vec<MenuFamily>,
         /// The scenario of the command line, or the present one.
@@ -114,7 +110,6 @@ pub(crate) enum ServerMessage {
     /// The world before the first tick.
     World {
         scenario: String,
-        /// The vehicle of this page.
         seat: String,
         /// The vehicles that a person can drive.
         seats: Vec<String>,
@@ -142,7 +137,6 @@ pub(crate) enum ServerMessage {
         paused: bool,
         /// `you`, or the kind of planner at the wheel.
         driven_by: String,
-        /// The vehicle of this page.
         seat: String,
         /// The number of the last applied controls.
         ack: u64,

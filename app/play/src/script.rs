@@ -10,7 +10,6 @@ use thiserror::Error;
 use crate::protocol::PageMessage;
 use crate::session::{Controls, Session, SessionError};
 
-/// Most lines of a script.
 const MAX_LINES: usize = 1_000_000;
 
 /// A message with its tick.

@@ -9,7 +9,6 @@ use thiserror::Error;
 
 use crate::session::{Session, SessionError, check_seats};
 
-/// Most runs per person.
 const MAX_TRIALS: usize = 500;
 /// Most runs of a plan, including those of planners.
 const MAX_RUNS: u64 = 50_000;
@@ -63,7 +62,6 @@ struct Trial {
     seat: String,
 }
 
-/// A person with progress.
 struct Participant {
     number: u32,
     trials: Vec<Trial>,

@@ -107,7 +107,6 @@ pub type BodyArea = [f64; 4];
 /// The rider of a bicycle.
 pub const RIDER: BodyArea = [-0.28, 0.12, -0.8, 0.8];
 
-/// The head of a pedestrian.
 const HEAD: BodyArea = [-0.5, 0.5, -0.42, 0.42];
 
 /// The corners of a rectangle along and across a body.

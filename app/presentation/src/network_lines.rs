@@ -34,7 +34,6 @@ pub struct NetworkLines<'a> {
     bounds: Vec<[[f64; 2]; 2]>,
 }
 
-/// A side of a lane.
 #[derive(Clone, Copy, PartialEq)]
 enum LaneSide {
     Right,

@@ -65,7 +65,6 @@ impl SectionStatus {
         }
     }
 
-    /// A sign for the status.
     fn sign(&self) -> &'static str {
         match self {
             SectionStatus::Shown => "–",
@@ -96,7 +95,6 @@ dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin:
 /// The value of the meta tag `generator`, which marks pages of Interplay.
 const GENERATOR: &str = "Interplay";
 
-/// The whole page.
 fn whole_page(page: &Page) -> String {
     let markup = html! {
         (DOCTYPE)

@@ -138,7 +138,6 @@ fn scenario(config: BoptestPlantConfig) -> Scenario {
     scenario_with(config, "controller.kind=\"pid\"")
 }
 
-/// The same with a controller.
 fn scenario_with(config: BoptestPlantConfig, controller: &str) -> Scenario {
     let text = "title = 'A'\nshows = 'B'\niterations = 1\n[[building.zone]]\nname = 'house'\nheating_limit_kw = 8.0\n\
                 [[building.wall]]\nbetween = ['house', 'ambient']\nresistance_k_per_kw = 5.0\n[weather]\nkind = 'synthetic'\n\

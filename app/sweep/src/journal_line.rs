@@ -8,7 +8,6 @@ const END: &str = "\"}";
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 8;
 
-/// The condition of a line.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum JournalLine {
     /// A row that matches its checksum.

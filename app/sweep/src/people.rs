@@ -94,7 +94,6 @@ pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];
 pub(crate) const PARTICIPANT: &str = "participant";
 pub(crate) const RESTARTS: &str = "restarts";
 
-/// Their path.
 pub(crate) fn path_in(folder: &Path) -> PathBuf {
     folder.join("people.jsonl")
 }

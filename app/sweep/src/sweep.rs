@@ -62,7 +62,6 @@ pub struct SweepOutcome {
     pub damaged: Vec<(PathBuf, usize)>,
 }
 
-/// Path of the table of a shard.
 pub(crate) fn table_path(folder: &Path, shard: Shard) -> PathBuf {
     folder.join(match shard {
         Shard::WHOLE => RUNS_FILE.to_owned(),

@@ -41,7 +41,6 @@ pub struct DetectorWriter {
     awaited_s: Vec<Option<f64>>,
 }
 
-/// A detector that counts.
 struct Counting {
     stated: DetectorConfig,
     lanes: Vec<(String, DetectorLine)>,
@@ -53,7 +52,6 @@ struct Counting {
     passed_s: Vec<Option<f64>>,
 }
 
-/// A vehicle that passes.
 #[derive(Clone, Copy, Debug)]
 struct Passing {
     time_s: f64,

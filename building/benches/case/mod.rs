@@ -11,7 +11,6 @@ const STEPS: usize = 48;
 
 /// A controller after its first day, and its second day.
 pub struct Case {
-    /// The controller.
     pub controller: Box<dyn Control>,
     targets: Targets,
     initial_c: Vec<f64>,

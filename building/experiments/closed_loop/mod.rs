@@ -10,35 +10,26 @@ use interplay_building::control::Controller;
 use interplay_building::day::{Day, KeyFigures, RunHistory, RunOptimum, Surroundings};
 use interplay_building::discretise::Model;
 
-/// A building and its days.
 pub struct World {
-    /// The building as it is.
     pub model: Model,
     /// The building as controllers believe it to be.
     pub believed: Model,
-    /// Targets and prices.
     pub agenda: Agenda,
-    /// Weather and people.
     pub surroundings: Surroundings,
-    /// Steps of a day.
     pub steps: usize,
     /// Temperature of all nodes at first \[°C\].
     pub initial_c: f64,
-    /// Number of days.
     pub days: usize,
 }
 
-/// What a run came to.
 pub struct Totals {
     /// Cost J (3.2).
     pub cost: f64,
-    /// Money for electricity.
     pub money: f64,
     /// Electricity \[kWh\].
     pub electricity_kwh: f64,
     /// Discomfort \[K·h per zone\].
     pub discomfort_k_h: f64,
-    /// Days with a fallback.
     pub fallbacks: usize,
     /// Time of the controller in a day \[s\].
     pub design_s: f64,

@@ -10,7 +10,6 @@ const MINUTES_PER_DAY: usize = 1440;
 const SUBSTEPS: u32 = 10;
 const STEPS_S: [f64; 5] = [300.0, 600.0, 900.0, 1800.0, 3600.0];
 
-/// Which house.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Kind {
     Air,

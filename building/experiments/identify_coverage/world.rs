@@ -9,7 +9,6 @@ const SENSOR_STEP_K: f64 = 0.1;
 const PERSON_KW: f64 = 0.1;
 const EVENING_KW: f64 = 0.3;
 
-/// A world.
 #[derive(Clone, Copy, PartialEq)]
 pub enum World {
     /// Random heat and sensor noise are white, and all else is measured.

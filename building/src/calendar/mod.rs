@@ -43,7 +43,6 @@ pub enum Weekday {
     Sunday,
 }
 
-/// All weekdays in order.
 const WEEK: [Weekday; 7] = [
     Weekday::Monday,
     Weekday::Tuesday,

@@ -17,7 +17,6 @@ use crate::staged::{HeatInput, PlanStage, SoftBound};
 
 use super::Disturbance;
 
-/// Prices of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Prices {
     /// A kelvin beyond the band of a zone for an hour.
@@ -26,7 +25,6 @@ pub(crate) struct Prices {
     pub emissions_per_kg: f64,
     /// How far plans stay within the comfort band \[K\].
     pub margin_k: f64,
-    /// Whether the peak has a price.
     pub has_peak: bool,
 }
 
@@ -41,11 +39,8 @@ pub(crate) fn inputs(network: &Network) -> Vec<HeatInput> {
 /// Steps that become a stage: their targets and disturbance are those from `first` on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
-    /// Index of the map.
     pub map: usize,
-    /// First step.
     pub first: usize,
-    /// Number of steps.
     pub steps: usize,
 }
 

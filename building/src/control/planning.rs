@@ -102,7 +102,6 @@ pub(super) trait PlanningDesign: Clone + fmt::Debug + Send + Sync + 'static {
     /// The estimator of the disturbance, and the plans.
     fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory);
 
-    /// The plans.
     fn history(&self) -> &PlanHistory;
 
     /// Plans the day; returns no plan before the first day has ended.

@@ -2,7 +2,6 @@
 
 use crate::staged::dense::dot;
 
-/// Most products with a map.
 const MAX_PRODUCTS: usize = 600;
 /// A singular value is found when it changes by no more than this share from one product to the next.
 const SINGULAR_VALUE_TOLERANCE: f64 = 1e-9;

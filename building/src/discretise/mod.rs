@@ -280,7 +280,6 @@ fn check(step_s: f64) -> Result<(), ModelError> {
 pub(crate) enum Gain {
     /// Its diagonal, for f constant.
     Diagonal(Vec<f64>),
-    /// All of it.
     Dense(DMatrix<f64>),
     /// A polynomial in the Laplacian.
     Series(ChebyshevSeries),

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::network::Network;
 
-/// Modes of a network.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Spectrum {
     /// λ, ascending \[1/s\].

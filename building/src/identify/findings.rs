@@ -20,9 +20,7 @@ pub(super) struct Findings<'a> {
     pub telemetry: &'a Telemetry,
     pub settings: &'a IdentifySettings,
     pub split: &'a TrainTestSplit,
-    /// One a zone.
     pub estimates: &'a [Estimate],
-    /// One a zone.
     pub zones: &'a [RunZone],
 }
 

@@ -87,9 +87,7 @@ pub(super) fn run(
         .collect()
 }
 
-/// Errors of free runs.
 pub(super) struct RunErrors {
-    /// How many runs.
     pub runs: usize,
     /// Root mean square error of each zone \[K\].
     errors_k: Vec<f64>,

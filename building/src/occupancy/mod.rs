@@ -123,7 +123,6 @@ pub struct People {
     pub biases: Vec<f64>,
 }
 
-/// A zone's real day.
 #[derive(Clone, Debug)]
 struct Day {
     peak_kw: f64,

@@ -22,7 +22,6 @@ pub(super) struct Groups {
     pub peak: Pairs,
 }
 
-/// A direction of the unknowns.
 #[derive(Debug)]
 pub(super) struct Direction {
     pub v: Vec<f64>,

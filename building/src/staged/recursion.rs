@@ -17,7 +17,6 @@ use super::dense::{
 use super::program::StagedProgram;
 use crate::discretise::Model;
 
-/// Curvature of the Newton system.
 #[derive(Debug)]
 pub(super) struct Curvature {
     /// E, inputs stage by stage.
@@ -28,7 +27,6 @@ pub(super) struct Curvature {
     pub power: Vec<f64>,
 }
 
-/// Factors of a stage.
 #[derive(Debug)]
 struct StageFactor {
     /// `L_R`, inputs by inputs.
@@ -37,7 +35,6 @@ struct StageFactor {
     y: DMatrix<f64>,
 }
 
-/// The factored Newton system.
 #[derive(Debug)]
 pub(super) struct Recursion<'a> {
     program: &'a StagedProgram,

@@ -68,7 +68,6 @@ impl Default for Climate {
     }
 }
 
-/// A thunderstorm.
 #[derive(Clone, Copy, Debug)]
 struct Storm {
     start_h: f64,

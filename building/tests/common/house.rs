@@ -5,7 +5,6 @@ use interplay_building::identify::{Boundary, Hold, MeasuredWall, MeasuredZone, N
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
 use interplay_common::random::Random;
 
-/// Parameters of a house.
 #[derive(Clone, Copy)]
 pub struct House {
     pub air_kj_per_k: f64,

@@ -23,7 +23,6 @@ pub enum Construction {
     Mixed,
 }
 
-/// A building.
 pub struct OrdinaryBuilding {
     pub construction: Construction,
     pub model: Model,

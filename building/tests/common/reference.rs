@@ -42,7 +42,6 @@ pub fn testbed_scaled(capacity: f64, inner: f64, outer: f64) -> Model {
     Model::euler(&Network::new(&zones, &walls).expect("valid"), STEP_S).expect("stable")
 }
 
-/// The building of the reference.
 pub fn testbed() -> Model {
     testbed_scaled(1.0, 1.0, 1.0)
 }
@@ -90,7 +89,6 @@ pub fn chapter_5(wanted_c: Vec<f64>, zones: usize) -> Targets {
     setpoints.targets(zones, STEP_S, STEPS).expect("valid")
 }
 
-/// Some days in a row.
 pub fn run(
     plant: &Model,
     initial_c: f64,

@@ -8,7 +8,6 @@ use interplay_planners::{CentreLine, Driver, Profile, Route, Scene};
 
 use crate::common::world::{begin, lane_change, moved_to};
 
-/// The names of the roads.
 pub const ROADS: [&str; 3] = ["straight", "pieces", "bend"];
 
 const TICKS: usize = 40;

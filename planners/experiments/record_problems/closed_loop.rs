@@ -9,7 +9,6 @@ use crate::world::{Vehicle, begin, intersection, lane_change, ramp_merge};
 
 const TICKS: usize = 80;
 
-/// Where the drivers meet.
 #[derive(Clone, Copy)]
 enum Place {
     LaneChange([Style; 2]),
@@ -19,7 +18,6 @@ enum Place {
     Curved(CurvedRoad, [Style; 2]),
 }
 
-/// A scenario by its name.
 #[derive(Clone, Copy)]
 pub struct Scenario {
     pub name: &'static str,
@@ -51,17 +49,13 @@ pub const CURVED_SCENARIOS: [Scenario; 8] = [
     Scenario { name: "roundabout-tough", place: Place::Curved(CurvedRoad::Roundabout, [Tough, Nice]) },
 ];
 
-/// One driver's decision.
 pub struct Decision<'a> {
-    /// Who decides.
     pub driver: &'a Driver,
-    /// What it was shown.
     pub scene: &'a Scene,
     /// What it planned the step before.
     pub last: Option<&'a Trajectory>,
     /// What it proposed the step before.
     pub last_proposal: Option<&'a Trajectory>,
-    /// What it answered.
     pub plan: &'a Plan,
 }
 

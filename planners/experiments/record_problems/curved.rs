@@ -12,7 +12,6 @@ use interplay_planners::{Agent, CentreLine, Driver, Profile, Route, State, predi
 use crate::junction::{crossing, on_route, routes};
 use crate::world::{HORIZON, STEP_S, Vehicle, human, lane_change, moved_to, ramp_merge};
 
-/// Where the drivers meet.
 #[derive(Clone, Copy)]
 pub enum CurvedRoad {
     /// A lane change in a bend of two lanes.

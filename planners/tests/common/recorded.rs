@@ -43,11 +43,9 @@ pub fn optimiser(kind: &str) -> Optimiser<Robust> {
 pub struct Recorded {
     /// `scenario/tick/vehicle`.
     pub id: String,
-    /// Number of steps.
     pub horizon: usize,
     /// Time step \[s\].
     pub step_s: f64,
-    /// The deciding vehicles.
     pub vehicles: Vec<Vehicle>,
     /// Pairs of deciding vehicles that keep apart.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -62,7 +60,6 @@ pub struct Recorded {
     pub memory: Option<WarmStartRecord>,
 }
 
-/// One deciding vehicle.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Vehicle {
     /// Front, rear, width, front axle, rear axle \[m\].
@@ -144,7 +141,6 @@ impl Recorded {
         self.memory.as_ref().map(|record| record.warm_start(self.horizon)).unwrap_or_default()
     }
 
-    /// The guess.
     pub fn guess(&self) -> Vec<Vec<Input>> {
         self.guess.iter().map(|inputs| inputs.iter().copied().map(Input::from_array).collect()).collect()
     }

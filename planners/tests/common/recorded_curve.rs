@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 
 use super::Line;
 
-/// A curved road.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Curve {
     /// Heading of the centre line at its begin \[rad\].
@@ -67,7 +66,6 @@ impl Curve {
         }
     }
 
-    /// The road.
     pub fn route(&self) -> Arc<Route> {
         let part = |row: &[f64; 13]| LinePolynomial {
             length_m: row[0],
@@ -79,7 +77,6 @@ impl Curve {
         Arc::new(Route::curved(centre, self.right.profile(), self.left.profile(), Profile::constant(0.0)))
     }
 
-    /// The edges of the road.
     pub fn edge(&self, vehicle: usize, body: Body, route: &Arc<Route>) -> RoadEdge {
         let route = Arc::clone(route);
         RoadEdge { vehicle, body, route, penalty: Penalty::ROAD_EDGE }

@@ -25,7 +25,6 @@ pub struct Distance {
     pub centres: Vec<[f64; 2]>,
     /// `M`: xx, xy, yy, at `t = 1…N`, or one for all.
     pub metrics: Vec<[f64; 3]>,
-    /// What a distance costs.
     pub price: Price,
 }
 
@@ -33,22 +32,18 @@ pub struct Distance {
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Price {
-    /// Weight.
     Linear(f64),
     /// Base, loyalty, aversion.
     Exact([f64; 3]),
 }
 
-/// Bounds on a mean speed.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Mean {
-    /// Lower and upper bound.
     pub bounds: [Option<f64>; 2],
     /// Linear and quadratic weight.
     pub penalty: [f64; 2],
 }
 
-/// A moving ellipse.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Ellipse {
     /// Centres at `t = 1…N`.
@@ -62,7 +57,6 @@ pub struct Ellipse {
     pub penalty: [f64; 2],
 }
 
-/// Two vehicles that keep apart.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Apart {
     /// The vehicle that keeps out, and the one around which.
@@ -76,7 +70,6 @@ pub struct Apart {
     pub penalty: [f64; 2],
 }
 
-/// The persuasion constraint.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct PersuasionRow {
     /// Reference to stay near at `t = 0…N−1`.

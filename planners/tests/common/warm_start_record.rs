@@ -59,7 +59,6 @@ impl WarmStartRecord {
     }
 }
 
-/// Six digits of a number.
 fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

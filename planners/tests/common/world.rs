@@ -23,21 +23,18 @@ pub const HORIZON: usize = 30;
 /// Centres of the two lanes \[m\].
 pub const LANES: [f64; 2] = [0.185, 0.555];
 
-/// One vehicle with its driver.
 pub struct Vehicle {
     pub agent: Agent,
     pub goal: Goal,
     pub driver: Driver,
 }
 
-/// What happened.
 #[derive(Default)]
 pub struct Run {
     /// Names, in the order of the vehicles.
     pub names: Vec<String>,
     /// Per tick, the states of all vehicles; the first are the starts.
     pub states: Vec<Vec<State>>,
-    /// Vehicle 0's plans.
     pub plans: Vec<Plan>,
     /// How long they took \[ms\].
     pub plan_ms: Vec<f64>,
@@ -226,7 +223,6 @@ fn states(traffic: &Traffic) -> Vec<State> {
 }
 
 impl Vehicle {
-    /// Gives the vehicle another driver.
     pub fn drive(&mut self, driver: Driver) {
         self.driver = driver;
     }

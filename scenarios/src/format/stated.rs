@@ -51,7 +51,6 @@ impl<Settings> Stated<Settings> {
         self.keys.remove(key)
     }
 
-    /// Its keys.
     pub(crate) fn into_keys(self) -> Map<String, Json> {
         self.keys
     }
@@ -94,7 +93,6 @@ impl<Settings> PartialEq for Stated<Settings> {
     }
 }
 
-/// The schema is that of the settings.
 impl<Settings: JsonSchema> JsonSchema for Stated<Settings> {
     fn inline_schema() -> bool {
         Settings::inline_schema()

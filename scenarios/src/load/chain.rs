@@ -10,7 +10,6 @@ use crate::text::error::{Fault, Place, quoted};
 /// The most files of a chain of `extends`.
 const MAX_CHAIN_LENGTH: usize = 16;
 
-/// What names a source.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum NamedBy {
     /// The user of the command: errors may show the text of the source.

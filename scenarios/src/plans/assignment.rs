@@ -122,7 +122,6 @@ pub(super) fn path_of(path: &str, place: &Place) -> Result<SettingPath, Fault> {
 /// A planner of the ego, or drivers of the others.
 #[derive(Clone)]
 pub(super) struct Arm {
-    /// Its name.
     pub name: String,
     /// The kind of driver of the ego, if it is changed.
     kind: Option<TomlNode>,

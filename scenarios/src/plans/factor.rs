@@ -10,21 +10,16 @@ use crate::format::read::tree::{Table, TomlNode, TomlValue, kind_of};
 use crate::plans::plan_file::Sampling;
 use crate::text::error::{Fault, Place, quoted};
 
-/// A path whose value varies.
 #[derive(Clone)]
 pub(super) struct Factor {
-    /// The path.
     pub path: SettingPath,
-    /// The place of its values.
     pub place: Place,
     values: Values,
     draws: UnitDraws,
 }
 
-/// The values of a path.
 #[derive(Clone)]
 enum Values {
-    /// A list.
     List(Vec<TomlNode>),
     /// Evenly spaced whole numbers: the first, the step, and how many.
     Integers(i128, i128, usize),

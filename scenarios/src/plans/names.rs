@@ -14,10 +14,8 @@ use crate::streets::Street;
 use crate::text::error::{Document, Fault, Place, quoted};
 use crate::text::name::fits;
 
-/// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedScenario {
-    /// Its name in the results.
     pub name: String,
     /// Its family: the folder of an embedded scenario, otherwise its name.
     pub family: String,

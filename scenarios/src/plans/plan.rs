@@ -83,7 +83,6 @@ pub(super) struct Indices {
     pub planner: usize,
     /// The combination on the grid.
     pub cell: u64,
-    /// The sample within it.
     pub draw: u64,
 }
 
@@ -91,7 +90,6 @@ pub(super) struct Indices {
 pub(super) struct OtherValue {
     /// Index of the factor among those of the run.
     pub factor: usize,
-    /// The value.
     pub value: TomlNode,
 }
 

@@ -252,7 +252,6 @@ impl SweepPlan {
     }
 }
 
-/// The faults of a scenario.
 fn messages(outcome: Result<Scenario, Vec<Fault>>) -> BTreeSet<String> {
     outcome.err().into_iter().flatten().map(|fault| fault.message().to_owned()).collect()
 }

@@ -47,7 +47,6 @@ pub(super) struct Rivals<'s> {
     kinds: Vec<(String, Vec<&'s str>)>,
 }
 
-/// How a setting is removed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Removal {
     /// By a value at this path.

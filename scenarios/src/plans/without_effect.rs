@@ -30,7 +30,6 @@ type Root<'a, 'r> = (&'r Table, SchemaNode<'a>);
 struct Change<'a> {
     /// The part of the plan that states it, in words.
     by: String,
-    /// Where it is written.
     key: &'a Place,
     is_varied: bool,
     /// Whether it applies to every vehicle but the ego.

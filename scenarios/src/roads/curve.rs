@@ -67,7 +67,6 @@ pub struct CurveLaneEnd {
 /// A turn of the road's middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turn {
-    /// The number of its piece.
     pub piece: usize,
     /// Radius of the road's middle \[m\].
     pub radius_m: f64,
@@ -117,7 +116,6 @@ impl RoadCurve {
         Some(LaneEnd { end_m: end.end_m, height_m: self.lane_width_m, taper_m: end.taper_m })
     }
 
-    /// The turns among the pieces.
     pub(crate) fn turns(&self) -> impl Iterator<Item = Turn> {
         self.pieces
             .iter()
@@ -263,11 +261,15 @@ pub(crate) enum PieceFault {
     /// It is neither straight nor a turn.
     NoPiece,
     /// It does not state both the angle and the radius of a turn; this key is missing.
-    HalfTurn { key: &'static str },
-    /// A turn by 0.
+    HalfTurn {
+        key: &'static str,
+    },
     NoTurn,
     /// The inner edge of the turn crosses itself.
-    TooTight { radius_m: f64, least_m: f64 },
+    TooTight {
+        radius_m: f64,
+        least_m: f64,
+    },
 }
 
 impl CurvePiece {

@@ -50,7 +50,6 @@ impl RoadFault {
     }
 }
 
-/// A length to the centimetre.
 pub(crate) fn to_centimetres(length_m: f64) -> f64 {
     (100.0 * length_m).round() / 100.0
 }

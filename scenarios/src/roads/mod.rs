@@ -133,7 +133,6 @@ impl Default for Road {
 }
 
 impl Road {
-    /// The default kind of road.
     pub(crate) const DEFAULT_KIND: &'static str = "lanes";
     /// The kinds with parallel lanes; the others are networks.
     pub(crate) const PARALLEL_KINDS: [&'static str; 4] = ["lanes", "ramp-merge", "intersection", "curve"];
@@ -188,7 +187,6 @@ impl Road {
         }
     }
 
-    /// The turns of a curve.
     pub(crate) fn turns(&self) -> Vec<Turn> {
         match self {
             Road::Curve(curve) => curve.turns().collect(),

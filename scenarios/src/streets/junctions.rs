@@ -23,7 +23,6 @@ fn approach(draft: &mut Draft, arms: &[&str], others: usize, suffix: &str, limit
     }
 }
 
-/// A roundabout with one lane.
 pub(super) fn ring(draft: &mut Draft) {
     let radius_m = draft.between(14.0, 26.0);
     draft.road(&format!("kind = \"roundabout\"\nlane_count = 1\nradius_m = {radius_m:.1}"));

@@ -116,7 +116,6 @@ impl SourceCode for Document {
     }
 }
 
-/// Where something is written.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     pub document: Arc<Document>,

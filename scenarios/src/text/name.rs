@@ -14,7 +14,6 @@ const CHARACTERS: [(RangeInclusive<char>, &str); 4] =
 /// How many characters a name has at most; it has at least one.
 const MAX_CHARACTERS: usize = 64;
 
-/// Whether a text is a name.
 pub(crate) fn is_name(text: &str) -> bool {
     let fits = |character: char| CHARACTERS.iter().any(|(range, _)| range.contains(&character));
     (1..=MAX_CHARACTERS).contains(&text.chars().count()) && text.chars().all(fits)

@@ -78,7 +78,6 @@ impl ScenarioFile {
         plain(&self.stated())
     }
 
-    /// The keys that it states.
     pub(crate) fn stated(&self) -> Map<String, Json> {
         // The largest seeds are beyond the whole numbers of TOML.
         let mut keys = Stated::<ScenarioFile>::from(ScenarioFile { seed: None, ..self.clone() }).into_keys();

@@ -40,7 +40,6 @@ pub fn refused<T: Debug>(result: Result<T, LoadError>, fragments: &[&str]) {
 pub struct Catalogue(pub String);
 
 impl Catalogue {
-    /// Expects an error.
     pub fn add<T>(&mut self, name: &str, result: Result<T, LoadError>, width: usize) {
         let error = result.err().unwrap_or_else(|| panic!("{name}: accepted"));
         writeln!(self.0, "=== {name}\n{}", rendered(&error, width)).expect("writing to a string cannot fail");

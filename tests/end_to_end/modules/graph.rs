@@ -32,7 +32,6 @@ struct Methods {
 pub struct Crate(pub BTreeMap<Place, Module>);
 
 impl Crate {
-    /// Reads a crate from its root file.
     pub fn read(root: &Path) -> Crate {
         let mut modules = Crate::default();
         let folder = root.parent().expect("a file lies in a folder");

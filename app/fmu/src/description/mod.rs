@@ -15,16 +15,13 @@ pub(crate) fn xml(unit: &Description<'_>, version: FmiVersion) -> String {
     }
 }
 
-/// The content of a description.
 #[derive(Clone, Debug)]
 pub(crate) struct Description<'a> {
-    /// The title of the scenario.
     pub title: &'a str,
     /// The name of the library.
     pub identifier: &'a str,
     /// The GUID, which the resources repeat.
     pub guid: &'a str,
-    /// The names of the zones.
     pub zones: &'a [String],
     /// The power limits of each zone.
     pub limits: &'a PowerLimits,
@@ -34,7 +31,6 @@ pub(crate) struct Description<'a> {
     pub stop_s: f64,
 }
 
-/// A variable of both versions.
 struct Variable {
     pub name: String,
     pub description: String,

@@ -76,7 +76,6 @@ mod by_columns {
 pub struct Resources(PathBuf);
 
 impl Resources {
-    /// Writes the resources.
     pub fn write(test: &str, content: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("interplay fmu {test} {}", process::id()));
         fs::create_dir_all(&folder).expect("a folder");
@@ -84,7 +83,6 @@ impl Resources {
         Self(folder)
     }
 
-    /// The folder.
     pub fn path(&self) -> &Path {
         &self.0
     }

@@ -13,21 +13,18 @@ pub const OK: c_int = 0;
 /// The status of a call that failed.
 pub const ERROR: c_int = 3;
 
-/// A version of FMI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fmi {
     Two,
     Three,
 }
 
-/// Both versions.
 pub const BOTH: [Fmi; 2] = [Fmi::Two, Fmi::Three];
 
 /// A copy of the state, as the importer holds it.
 #[derive(Debug)]
 pub struct State(pub *mut c_void);
 
-/// What an instance logged.
 pub type Log = RefCell<Vec<String>>;
 
 /// An instance, which is freed when it is dropped.
@@ -97,7 +94,6 @@ impl Unit {
         (status, values)
     }
 
-    /// Sets inputs.
     pub fn set(&self, references: &[u32], values: &[f64]) -> c_int {
         let (count, references, value_count) = (references.len(), references.as_ptr(), values.len());
         // SAFETY: both lists have the stated length; FMI 2.0 is told one length, which the tests keep to.
@@ -146,7 +142,6 @@ impl Unit {
         }
     }
 
-    /// Returns to a state.
     pub fn restore(&self, state: &State) -> c_int {
         // SAFETY: the pointer is null or that of a state.
         unsafe {
@@ -157,7 +152,6 @@ impl Unit {
         }
     }
 
-    /// Frees a state.
     pub fn forget(&self, state: &mut State) -> c_int {
         // SAFETY: the pointer is null or that of a state.
         unsafe {
@@ -168,7 +162,6 @@ impl Unit {
         }
     }
 
-    /// The bytes of a state.
     pub fn bytes(&self, state: &State) -> (c_int, Vec<u8>) {
         let (instance, mut size) = (self.instance, 0);
         // SAFETY: the pointers are those of a state and of variables, and the list has the stated size.

@@ -19,10 +19,8 @@ const IDLE_WAIT: Duration = Duration::from_millis(250);
 /// Most pages at a time.
 const MAX_PAGES: usize = 16;
 
-/// The game with its pages.
 pub(super) struct Game {
     options: ServeOptions,
-    /// The address of the animation.
     animation: String,
     received: Receiver<Request>,
     requests: Sender<Request>,

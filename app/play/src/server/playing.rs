@@ -43,7 +43,6 @@ pub(super) struct Playing {
     ends_s: Option<f64>,
     has_ended: bool,
     saved: Option<(usize, PathBuf)>,
-    /// The address of the animation.
     animation: String,
     /// The progress in a study.
     pub study: Option<StudyPlace>,

@@ -6,23 +6,32 @@ use tokio::sync::{mpsc, oneshot};
 use crate::protocol::ServerMessage;
 use crate::session::ScoreRow;
 
-/// A request to the game.
 pub(super) enum Request {
     /// A page has connected; the game answers with its number.
-    Join { seat: Option<String>, outgoing: mpsc::Sender<String>, number: oneshot::Sender<u64> },
-    /// A message of a page.
-    Said { page: u64, text: String },
-    /// A page is gone.
-    Leave { page: u64 },
+    Join {
+        seat: Option<String>,
+        outgoing: mpsc::Sender<String>,
+        number: oneshot::Sender<u64>,
+    },
+    Said {
+        page: u64,
+        text: String,
+    },
+    Leave {
+        page: u64,
+    },
     /// A page requests the animation of the run; the answer has the written and the played scenario.
-    Animation { answer: oneshot::Sender<Option<[Scenario; 2]>> },
+    Animation {
+        answer: oneshot::Sender<Option<[Scenario; 2]>>,
+    },
     /// The measures of planners from the same start.
-    Others { run: u64, rows: Vec<ScoreRow> },
-    /// The server ends.
+    Others {
+        run: u64,
+        rows: Vec<ScoreRow>,
+    },
     Stop,
 }
 
-/// A page.
 pub(super) struct PageAtGame {
     pub number: u64,
     /// The seat in its address.

@@ -16,13 +16,11 @@ use super::seat::{Controls, Seat, SessionError};
 
 /// Interval between rewind snapshots \[s\].
 const SNAPSHOT_INTERVAL_S: f64 = 1.0;
-/// Most rewind snapshots.
 const MAX_SNAPSHOTS: usize = 20;
 
 /// A run with people in some seats, and the record of their inputs.
 pub struct Session {
     name: String,
-    /// The scenario as it is written.
     written: Arc<Scenario>,
     /// The scenario with its seats driven from outside.
     scenario: Arc<Scenario>,

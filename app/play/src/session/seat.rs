@@ -35,7 +35,6 @@ pub(super) struct Seat {
     pub handed_to: Option<Option<String>>,
     /// The kind of planner at the wheel; `None` for the person.
     pub planner: Option<String>,
-    /// The recorded inputs.
     pub record: inputs::Settings,
     /// With lane keeping, the lateral target on the route \[m\].
     target_m: Option<f64>,

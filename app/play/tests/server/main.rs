@@ -13,7 +13,6 @@ use tungstenite::Message;
 
 use self::pages::Served;
 
-/// The files in a folder.
 fn files(folder: &Path) -> usize {
     std::fs::read_dir(folder).map_or(0, Iterator::count)
 }

@@ -39,7 +39,6 @@ impl Served {
         self.url.trim_end_matches('/').rsplit('/').next().expect("a token")
     }
 
-    /// The status of a request.
     pub fn status(&self, path: &str, headers: &str) -> u16 {
         let mut stream = TcpStream::connect(self.address).expect("the server listens");
         write!(stream, "GET {path} HTTP/1.1\r\n{headers}Connection: close\r\n\r\n").expect("the server reads");
@@ -67,7 +66,6 @@ impl Served {
     }
 }
 
-/// A page at the server.
 pub struct Page(pub WebSocket<TcpStream>);
 
 impl Page {

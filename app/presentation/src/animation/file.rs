@@ -105,7 +105,6 @@ pub enum AnimationError {
 }
 
 impl AnimationError {
-    /// The error of an encoder.
     pub(super) fn encoding(error: impl std::error::Error + Send + Sync + 'static) -> AnimationError {
         AnimationError::Encoding(Box::new(error))
     }

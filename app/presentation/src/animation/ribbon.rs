@@ -5,7 +5,6 @@
 use super::canvas::{Canvas, Ink, LineEnd};
 use crate::palette::Colour;
 
-/// Opacity of the area.
 const OPACITY: f64 = 0.42;
 /// Width of the lines \[px\].
 const LINE_PX: f64 = 2.0;

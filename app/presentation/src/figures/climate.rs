@@ -15,7 +15,6 @@ pub const MAX_DRAWN_ZONES: usize = 4;
 /// Most days that are drawn individually.
 const MAX_DRAWN_DAYS: usize = 5;
 
-/// The steps of a building.
 fn steps(recorded: &RecordedRun) -> impl Iterator<Item = &BuildingFrame> {
     recorded.frames.iter().filter_map(|frame| frame.building.as_ref())
 }

@@ -40,7 +40,6 @@ pub(super) enum EntryDrawing {
 }
 
 impl Entry {
-    /// Draws the entry from its runs.
     pub(super) fn draw(&self, runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
         let title = self.title.as_str();
         let first = || runs.first().copied().ok_or_else(|| FigureError::NotRun(self.to_string()));

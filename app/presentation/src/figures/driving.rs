@@ -151,7 +151,6 @@ pub fn motion(title: &str, recorded: &RecordedRun) -> Panels {
     over_time(title, panels)
 }
 
-/// The frames that have vehicles.
 fn vehicle_frames(recorded: &RecordedRun) -> impl Iterator<Item = &Frame> {
     recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty())
 }

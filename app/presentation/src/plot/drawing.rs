@@ -39,13 +39,9 @@ pub struct Drawing {
 /// One mark; places are pixels from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Mark {
-    /// A filled polygon.
     Fill { ring: Vec<[f64; 2]>, colour: Colour, opacity: f64 },
-    /// A line through points.
     Line { points: Vec<[f64; 2]>, style: LineStyle },
-    /// A filled disc.
     Disc { centre: [f64; 2], radius: u32, colour: Colour },
-    /// Words.
     Text { at: [f64; 2], words: String, size: f64, colour: Colour, side: Side },
 }
 
@@ -58,7 +54,6 @@ pub(super) enum Side {
 }
 
 impl Drawing {
-    /// An empty picture.
     pub(super) fn new(width: f64, height: f64) -> Drawing {
         Drawing { size: (width.ceil() as u32, height.ceil() as u32), marks: Vec::new() }
     }

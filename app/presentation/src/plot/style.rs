@@ -92,9 +92,7 @@ pub fn line_styles() -> impl Iterator<Item = LineStyle> {
 /// The sample of an entry of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Sample {
-    /// A line in its style.
     Line(LineStyle),
-    /// A rectangle in its colour.
     Patch(Colour),
 }
 
@@ -107,7 +105,6 @@ const GAP_PX: f64 = 10.0;
 /// Space between two entries in a row.
 const ENTRY_SPACING_PX: f64 = 34.0;
 
-/// The legend of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Legend {
     entries: Vec<(Sample, String)>,

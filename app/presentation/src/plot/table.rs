@@ -9,7 +9,6 @@ const MARGIN_PX: f64 = 30.0;
 /// Height of the line with the title.
 const TITLE_HEIGHT_PX: f64 = 56.0;
 const ROW_HEIGHT_PX: f64 = 42.0;
-/// Space between two columns.
 const COLUMN_SPACING_PX: f64 = 44.0;
 
 /// A table of words.

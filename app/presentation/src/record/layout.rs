@@ -137,7 +137,6 @@ fn number_panels(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
     panels
 }
 
-/// The view of a camera from above.
 fn from_above(title: &str, camera: &str, [width, height]: [f64; 2]) -> View {
     let bounds = Range2D { x_range: [0.0, width].into(), y_range: [0.0, height].into() };
     let bounds = blueprint::components::VisualBounds2D(bounds);

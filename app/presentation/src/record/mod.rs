@@ -99,7 +99,6 @@ pub enum Sink {
 /// The result of logging to Rerun.
 type Logged = RecordingStreamResult<()>;
 
-/// A tick to log.
 struct RecordedTick<'a> {
     stream: &'a RecordingStream,
     scenario: &'a Scenario,

@@ -51,7 +51,6 @@ impl StatusLines {
     }
 }
 
-/// The goal of a vehicle.
 fn goal(scenario: &Scenario, vehicle: &Vehicle) -> String {
     let target = vehicle.target(&scenario.road);
     match &vehicle.goal.lane {
@@ -95,7 +94,6 @@ fn action(scenario: &Scenario, index: usize, now: &VehicleFrame, request: Option
     parts.join("; ")
 }
 
-/// The verb for a passing.
 fn verb(passing: &PlannedPassing, stands: bool, brakes: bool) -> &'static str {
     match passing.side {
         PassingSide::Ahead => "goes ahead of",

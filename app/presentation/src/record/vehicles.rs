@@ -188,7 +188,6 @@ impl DrawnVehicle {
         Ok(())
     }
 
-    /// Removes the safety ellipse.
     fn hide_ellipse(&mut self, stream: &RecordingStream) -> Logged {
         if std::mem::take(&mut self.has_ellipse) {
             stream.log(self.at("safety"), &Transform3D::update_fields().with_mat3x3(HIDDEN))?;

@@ -131,7 +131,6 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
-/// Rounds to a tenth.
 fn rounded(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
 }

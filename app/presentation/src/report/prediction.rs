@@ -127,7 +127,6 @@ fn driving_row(driving: &DrivingStatistics) -> Vec<String> {
     ]
 }
 
-/// A share with its interval.
 fn share(estimate: MeasureInterval) -> String {
     let [value, low, high] = [estimate.value, estimate.low, estimate.high].map(|share| 100.0 * share);
     format!("{value:.1} % [{low:.1} to {high:.1}]")

@@ -23,7 +23,6 @@ impl Case {
         all.filter(|expectation| !expectation.passed)
     }
 
-    /// The counterfactual runs.
     pub(super) fn counterfactuals(&self) -> impl Iterator<Item = &CounterfactualReport> {
         self.outcome.iter().flat_map(|report| &report.counterfactuals)
     }

@@ -5,7 +5,6 @@ use interplay_scenarios::RecordedMoment;
 use crate::geometry::LaneLine;
 use crate::traffic::{Timeline, Track};
 
-/// A lane change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LaneChange {
     /// Time gap to the vehicle ahead in the new lane; none without one \[s\].

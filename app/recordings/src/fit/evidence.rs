@@ -29,7 +29,6 @@ pub(super) struct EvidenceStart {
     along_m: [f64; HORIZONS.len()],
 }
 
-/// The evidence of a vehicle.
 pub(super) fn evidence(timeline: &Timeline, track: usize) -> Evidence {
     let car = &timeline.tracks[track];
     let starts = timeline.seconds(track, PAST_S).filter_map(|(at, _)| {

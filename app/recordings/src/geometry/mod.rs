@@ -2,7 +2,6 @@
 
 use interplay_planners::plan::certificate::overlap_m;
 
-/// A rectangle in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Box2 {
     /// Its centre \[m\].
@@ -14,7 +13,6 @@ pub(crate) struct Box2 {
 }
 
 impl Box2 {
-    /// Whether two rectangles overlap.
     pub(crate) fn overlaps(&self, other: &Box2) -> bool {
         overlap_m(&self.corners(), &other.corners()) > 0.0
     }

@@ -69,7 +69,6 @@ impl Resamples {
         Resamples { cars, car_of_start, counts: (0..RESAMPLES).into_par_iter().map(drawn).collect() }
     }
 
-    /// Number of cars.
     pub(crate) fn cars(&self) -> usize {
         self.cars
     }

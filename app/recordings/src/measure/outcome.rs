@@ -8,7 +8,6 @@ use crate::traffic::Recordings;
 
 const COUNT: usize = HORIZONS_S.len();
 
-/// The outcome of one prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Outcome {
     /// Predicted minus recorded position along the road at each horizon \[m\].

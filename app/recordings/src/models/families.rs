@@ -11,7 +11,6 @@ pub(super) const FIT_HORIZON: usize = 2;
 /// The step of a prediction at that horizon.
 pub(super) const FIT_STEP: usize = 15;
 
-/// A model with parameters.
 pub(super) struct Family {
     pub name: &'static str,
     pub parameters: &'static [Parameter],

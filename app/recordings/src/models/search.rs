@@ -6,7 +6,6 @@ pub(super) struct Parameter {
     pub name: &'static str,
     /// The values, in order.
     pub values: &'static [f64],
-    /// Index of the initial value.
     pub start: usize,
 }
 

@@ -97,7 +97,6 @@ pub(crate) struct Truth {
     pub across_m: f64,
 }
 
-/// The record after a start.
 #[derive(Clone, Copy)]
 pub(crate) struct Later<'a> {
     pub timeline: &'a Timeline,

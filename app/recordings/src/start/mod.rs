@@ -16,7 +16,6 @@ use crate::traffic::{Recordings, Timeline};
 /// Slower vehicles count as standing and are not predicted \[m/s\].
 const MIN_SPEED_MPS: f64 = 1.0;
 
-/// A start of predictions.
 #[derive(Clone, Debug)]
 pub(crate) struct Start {
     /// Index of the group of recordings.
@@ -31,7 +30,6 @@ pub(crate) struct Start {
     pub way: LaneLine,
     /// The car's arc length on `way` \[m\].
     pub along_m: f64,
-    /// What is known.
     pub known: TrafficMoment,
     /// The car's position at each horizon.
     pub truth: [Truth; HORIZONS_S.len()],

@@ -18,7 +18,6 @@ const MAX_PROBES: usize = 15;
 /// Lane width of a vehicle outside all lanes \[m\].
 const USUAL_WIDTH_M: f64 = 3.5;
 
-/// The lanes of a map.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LaneMap {
     lanes: Vec<MapLane>,
@@ -51,7 +50,6 @@ impl LaneMap {
         self.lanes.is_empty()
     }
 
-    /// Whether a point is on any lane.
     pub(crate) fn covers(&self, point: [f64; 2]) -> bool {
         self.lanes.iter().any(|lane| lane.covers(point))
     }

@@ -7,7 +7,6 @@ use super::lane_map::LaneMap;
 /// Traffic on one map with one time axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {
-    /// Index of its group.
     pub group: usize,
     /// Time step \[s\].
     pub step_s: f64,

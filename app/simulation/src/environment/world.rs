@@ -25,7 +25,6 @@ pub struct Environment {
     time_s: f64,
 }
 
-/// An agent and its vehicle.
 struct Seat {
     vehicle: usize,
     name: String,

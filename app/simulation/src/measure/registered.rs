@@ -28,9 +28,7 @@ const TAKEN: [&str; 10] = [
 /// A metric as a registry stores it; its type leads back to the computation.
 #[derive(Debug)]
 enum KnownMetric {
-    /// A metric of Interplay.
     Own(&'static dyn Metric),
-    /// A metric of another crate.
     Foreign(Box<dyn Metric>),
 }
 

@@ -10,7 +10,6 @@ use super::near_pairs::near_pairs;
 /// The outline of a vehicle or an obstacle: a shape, and its pose relative to the mass centre.
 #[derive(Clone)]
 pub(super) struct Footprint {
-    /// The shape.
     pub shape: SharedShape,
     /// Its pose relative to the mass centre.
     pub centre: Pose,
@@ -91,7 +90,6 @@ const MAX_STEP_TICKS: f64 = 0.25;
 
 /// The motion of one vehicle during a tick.
 pub(super) struct Path {
-    /// Footprint of the vehicle.
     pub footprint: Footprint,
     /// Whether it is not on the road.
     pub is_absent: bool,

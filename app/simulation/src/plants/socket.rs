@@ -23,7 +23,6 @@ const REST_BYTES: usize = 64 * 1024;
 #[derive(Debug, Serialize)]
 #[serde(tag = "message", rename_all = "kebab-case")]
 enum Request<'a> {
-    /// The run begins.
     Start {
         protocol: u32,
         scenario: &'a str,
@@ -45,7 +44,6 @@ enum Request<'a> {
         ambient_c: f64,
         sun_w_per_m2: f64,
     },
-    /// The run is over.
     End,
 }
 

@@ -61,7 +61,6 @@ impl Extensions {
         self.states.push(AddedState { id: TypeId::of::<T>(), copy: Arc::new(copy) });
     }
 
-    /// The first system, by name.
     pub(crate) fn first_system(&self) -> Option<&'static str> {
         self.systems.first().map(|system| system.name)
     }

@@ -21,7 +21,6 @@ use crate::simulation::world_state::WorldState;
 use crate::state::components::HandedIn;
 use crate::state::detail::NotCopied;
 
-/// The version of this format.
 const FORMAT: u32 = 1;
 
 /// Inputs of a vehicle from outside, before a step.
@@ -30,7 +29,6 @@ const FORMAT: u32 = 1;
 pub(crate) struct HandedInput {
     /// Number of steps completed before.
     pub step: usize,
-    /// The vehicle.
     pub vehicle: String,
     /// One input, or those of a plan.
     pub inputs: Vec<Input>,

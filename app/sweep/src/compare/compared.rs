@@ -7,7 +7,6 @@ use interplay_simulation::measure::metrics_of;
 
 use super::records::RunRecord;
 
-/// All columns that are compared.
 pub(super) struct ComparedColumns {
     pub figures: Vec<FigureColumn>,
     pub splits: Vec<SplitColumn>,
@@ -15,7 +14,6 @@ pub(super) struct ComparedColumns {
 
 /// A figure of a planner, computed from a column.
 pub(super) struct FigureColumn {
-    /// Its key.
     pub key: String,
     /// Its name, in words with the unit.
     pub title: String,
@@ -41,7 +39,6 @@ pub(super) enum FigureKind {
 
 /// A metric by which one of a pair of runs is better.
 pub(super) struct SplitColumn {
-    /// Its key.
     pub key: &'static str,
     /// Its name, in words.
     pub title: String,

@@ -18,7 +18,6 @@ use crate::sweep::RUNS_FILE;
 const TEXTS: [&str; 6] = ["version", "scenario", "family", "style", "planner", "digest"];
 const COUNTS: [&str; 2] = ["sample", "seed"];
 
-/// One row.
 #[derive(Clone, Debug)]
 pub(super) struct RunRecord {
     pub scenario: Arc<str>,

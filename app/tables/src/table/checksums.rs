@@ -40,7 +40,6 @@ pub(super) fn of_names(schema: &TableSchema) -> String {
     of_values(schema.iter().map(|(name, _)| Some(name)))
 }
 
-/// The checksums of a file.
 pub(super) struct Checksums(Option<String>);
 
 impl Checksums {

@@ -36,7 +36,6 @@ impl YoulaFilter {
         out
     }
 
-    /// Number of zones.
     fn zones(&self) -> usize {
         self.0.first().map_or(1, DMatrix::nrows)
     }

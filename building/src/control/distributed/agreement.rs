@@ -52,7 +52,6 @@ const MEMORY: usize = 6;
 /// short step does not mean that they are near the optimum.
 const SMALL_STEPS: usize = 10;
 
-/// Rules of the exchange.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
     pub scheme: Scheme,
@@ -62,7 +61,6 @@ pub(super) struct Rules {
     pub delay: usize,
 }
 
-/// What the zones agreed on.
 pub(super) struct Agreement {
     pub heat_kw: Vec<f64>,
     /// True J before the first round and after each.

@@ -23,7 +23,6 @@ use crate::lifted::Lifted;
 /// missing.
 const MAX_REPEATS: usize = 8;
 
-/// The content of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Subject {
     Temperature,
@@ -44,7 +43,6 @@ struct Edge {
     heard: [Vec<f64>; 2],
     /// Messages that are not yet delivered.
     late: [VecDeque<Vec<f64>>; 2],
-    /// Whether this round's message arrives.
     live: bool,
     /// How many rounds old the messages heard are, unless all of them are late.
     age: [usize; 2],

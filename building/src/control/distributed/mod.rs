@@ -40,7 +40,6 @@ pub struct Distributed {
     messages: Messages,
     /// Feedback of each zone on its own error.
     gains_kw_per_k: Vec<f64>,
-    /// The zones' models, for these targets.
     zone_models: Option<(Targets, ZoneModels)>,
 }
 

@@ -46,7 +46,6 @@ impl Bound<'_> {
     }
 }
 
-/// The problem.
 pub(super) struct ZoneProblem<'a> {
     pub gradient: Vec<f64>,
     pub curvature: &'a DMatrix<f64>,
@@ -161,7 +160,6 @@ pub(super) struct ZoneModels {
     pub zones: Vec<Zone>,
 }
 
-/// What one zone knows beforehand.
 #[derive(Clone, Debug)]
 pub(super) struct Zone {
     /// Itself and its neighbours, with their responses to its heat.

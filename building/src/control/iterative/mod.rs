@@ -165,7 +165,6 @@ impl Iterative {
     }
 }
 
-/// A matrix by rows.
 pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }

@@ -31,7 +31,6 @@ const MOST_INPUTS: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct Predictive {
     settings: PredictiveSettings,
-    /// The model over the horizon.
     lifted: Lifted,
     estimate: Estimate,
     forecast: Disturbance,

@@ -33,7 +33,6 @@ const STARTS: [(f64, f64); 4] = [(0.0, 0.0), (0.7, 0.0), (0.9, -0.5), (0.5, 0.5)
 pub(in crate::identify) struct ArmaFit {
     /// β.
     pub regression: Vec<f64>,
-    /// The error model.
     pub arma: Arma,
     /// Covariance of (β, α, μ); the variance of what the data do not determine is infinite.
     pub covariance: DMatrix<f64>,
@@ -72,7 +71,6 @@ struct Problem<'a> {
     order: usize,
 }
 
-/// A point of the search.
 #[derive(Clone)]
 struct Point {
     parameters: DVector<f64>,

@@ -19,7 +19,6 @@ pub(super) enum HiddenNode {
 /// What a model may have beyond a smaller one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Extension {
-    /// A hidden node.
     Node(HiddenNode),
     /// Sun on a hidden node, in all zones whose sun is measured and which have the node.
     Sun(HiddenNode),
@@ -62,7 +61,6 @@ impl Extension {
     }
 }
 
-/// Which node of a zone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Air,

@@ -47,7 +47,6 @@ struct Arrow {
 #[derive(Debug, Clone)]
 pub(super) struct Schedule {
     arrows: Vec<Arrow>,
-    /// The arrow of each row.
     pub of_row: Vec<usize>,
 }
 

@@ -75,7 +75,6 @@ impl Observations {
 pub(super) struct Evaluation {
     pub log_likelihood: f64,
     pub gradient: Vec<f64>,
-    /// Fisher information.
     pub information: DMatrix<f64>,
 }
 
@@ -217,7 +216,6 @@ fn measured(observations: &Observations, model: &ContinuousModel) -> Vec<Measure
     measured
 }
 
-/// Sums over the innovations.
 struct Sums {
     log_likelihood: f64,
     gradient: Vec<f64>,

@@ -51,7 +51,6 @@ pub(super) struct InitialState {
     pub contains_first_outputs: bool,
 }
 
-/// A model in steps.
 #[derive(Debug, Clone)]
 pub(super) struct SampledModel {
     /// Φ.

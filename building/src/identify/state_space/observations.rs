@@ -12,7 +12,6 @@ pub(super) struct InputLayout {
     pub heat: Vec<Option<usize>>,
     /// The irradiance of each zone, if it is measured.
     pub sun: Vec<Option<usize>>,
-    /// How many columns there are.
     pub count: usize,
 }
 

@@ -22,7 +22,6 @@ const AT_BOUND: f64 = 1e-3;
 /// A quantity depends on a parameter if a change of its logarithm changes its own by more than this share.
 const DEPENDENCE: f64 = 0.2;
 
-/// What a quantity is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum QuantityKind {
     /// Sum of the capacities of a zone.

@@ -15,7 +15,6 @@ const LONGEST_LAG_S: f64 = 12.0 * 3600.0;
 /// … and up to this share of the rows.
 const LONGEST_LAG_SHARE: usize = 20;
 
-/// The scores of a fit.
 pub(super) struct Sandwich {
     scores: Vec<f64>,
     parameters: usize,

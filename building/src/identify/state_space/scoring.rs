@@ -34,7 +34,6 @@ pub(super) struct Constraint<'a> {
     pub tolerance: f64,
 }
 
-/// A likelihood to maximise.
 pub(super) struct Ascent<'a> {
     pub model: &'a Parametrisation<'a>,
     pub observations: &'a Observations,
@@ -45,7 +44,6 @@ pub(super) struct Ascent<'a> {
     pub least_gain: f64,
 }
 
-/// The end of an ascent.
 #[derive(Debug, Clone)]
 pub(super) struct Maximum {
     pub theta: Vec<f64>,

@@ -42,7 +42,6 @@ const SCREENING_GAIN: f64 = 5e-3;
 const FINISHED_STARTS: usize = 7;
 const MOST_STEPS: usize = 200;
 
-/// A model with its estimate.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
     pub structure: Structure,

@@ -32,7 +32,6 @@ const HIDDEN_START_VARIANCE: f64 = 9.0;
 /// What a row of unknown heat adds to the variance of the air \[K²\]. Chosen: as for the start.
 const UNKNOWN_HEAT_VARIANCE: f64 = 9.0;
 
-/// A node with its zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {
     pub zone: usize,
@@ -58,11 +57,9 @@ pub(super) enum End {
 pub(super) struct Conductance {
     pub from: usize,
     pub to: End,
-    /// The parameter.
     pub parameter: usize,
 }
 
-/// A network with its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Structure {
     /// The hidden nodes, sorted.

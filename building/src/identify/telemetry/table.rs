@@ -236,7 +236,6 @@ impl<'a> Lines<'a> {
         self.starts.get(number.saturating_sub(1)).copied().unwrap_or(self.text.len())
     }
 
-    /// The text of a line.
     fn text(&self, number: usize) -> &'a str {
         let start = number.checked_sub(1).and_then(|index| self.starts.get(index)).copied().unwrap_or(0);
         self.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default()

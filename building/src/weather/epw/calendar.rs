@@ -11,7 +11,6 @@ use jiff::civil::{self, date};
 /// The year in which all days of the year are kept: a leap year, so that each of them exists.
 const YEAR: i16 = 2000;
 
-/// A day of the year.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Date(civil::Date);
 

@@ -35,7 +35,6 @@ pub(super) struct Header {
     /// The weekday of the first day, if the file states one.
     pub(super) weekday: Option<Weekday>,
     pub(super) intervals_per_hour: u32,
-    /// How many lines it has.
     pub(super) lines: usize,
 }
 

@@ -11,7 +11,6 @@ pub(super) struct Rows {
     pub columns: [Vec<f64>; FIELDS.len()],
     pub leap: bool,
     pub doubts: Vec<Doubt>,
-    /// The line of each row, from one.
     pub lines: Vec<usize>,
     /// The year of each day's first row; none if that is not a year.
     pub years: Vec<Option<i16>>,
@@ -23,7 +22,6 @@ pub(super) struct Doubt {
     /// The row, from zero.
     pub row: usize,
     pub field: Field,
-    /// What is wrong, in words.
     pub problem: String,
 }
 

@@ -126,7 +126,6 @@ impl CentreLine {
     }
 }
 
-/// The segments of a section.
 fn section(section: &LineSection) -> Result<Vec<Segment>, CentreLineError> {
     let &LineSection { line, from_m, to_m } = section;
     let nothing = CentreLineError::NoSection { from_m, to_m };

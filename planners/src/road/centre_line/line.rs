@@ -12,7 +12,6 @@ use super::segment::{Jet, Segment};
 #[derive(Clone, Debug, PartialEq)]
 pub struct CentreLine(pub(super) Shape);
 
-/// How a line is represented.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     /// A straight line through the origin, without ends.
@@ -49,9 +48,7 @@ pub(super) struct Curve {
     pub segments: Vec<Segment>,
     /// Arc length of all segments \[m\].
     pub length_m: f64,
-    /// The chord of each segment.
     pub chords: Vec<Chord>,
-    /// The same in groups.
     pub groups: Vec<ChordGroup>,
     /// For the begin of each of equally long sections, and for the end of the line: the number of the segment there.
     sections: Vec<u32>,

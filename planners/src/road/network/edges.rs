@@ -81,7 +81,6 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
     }
 }
 
-/// A place on a route.
 struct Place<'a> {
     network: &'a RoadNetwork,
     centre: &'a CentreLine,

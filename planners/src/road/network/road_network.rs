@@ -205,7 +205,6 @@ const OVERLAP_RATIO: f64 = 0.9;
 /// Least cosine of the angle between two parts of a lane that run side by side: those at a larger angle cross, which can be driven.
 const MIN_COS: f64 = 0.866;
 
-/// Most places that are compared.
 const MAX_PLACES: f64 = 20_000.0;
 
 /// A place of a lane that is compared with others.

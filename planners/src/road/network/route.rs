@@ -76,7 +76,6 @@ pub struct TightestTurn {
 }
 
 impl From<Corridor> for Route {
-    /// A straight road without ends.
     fn from(corridor: Corridor) -> Route {
         let Corridor { heading_rad, right_m, left_m, end } = corridor;
         let right = end.map_or_else(|| Profile::constant(right_m), |end| Profile::lane_end(right_m, end));

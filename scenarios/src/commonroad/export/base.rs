@@ -15,7 +15,6 @@ use crate::model::scenario::Scenario;
 /// Roads and planning problem of an exported scenario, as text.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Base {
-    /// Attributes of the outermost element.
     pub attributes: Vec<(String, String)>,
     /// The name among the benchmarks.
     pub benchmark: String,
@@ -27,7 +26,6 @@ pub(super) struct Base {
     pub problem_id: u64,
     /// The goals of the planning problem.
     pub goals: GoalPlaces,
-    /// The ids that are taken.
     pub ids: Ids,
     /// The type of each obstacle of the source, by its id.
     pub kinds: BTreeMap<u64, String>,

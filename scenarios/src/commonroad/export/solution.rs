@@ -26,7 +26,6 @@ const REAR_AXLE_M: f64 = 1.422_717_093_6;
 const WHEELBASE_M: f64 = 1.156_195_706_4 + REAR_AXLE_M;
 const MAX_STEERING_RAD: f64 = 1.066;
 
-/// A state of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct KinematicState {
     position: [f64; 2],

@@ -21,9 +21,7 @@ const LANELET: [&str; 2] = ["lanelet", "lanelets"];
 pub(super) struct Lanes {
     /// The lanes as a file states them.
     pub configs: Vec<LaneConfig>,
-    /// Where each is written.
     pub places: Vec<Place>,
-    /// The network of these lanes.
     pub network: RoadNetwork,
     /// The name of the lane of each lanelet, by its id.
     pub names: BTreeMap<String, String>,

@@ -29,11 +29,9 @@ pub(super) struct Follower {
     /// Its state when the run begins.
     pub start: State,
     pub body: Body,
-    /// Whether it never moves.
     pub stands: bool,
     /// Whether one of our drivers could drive it.
     pub is_car: bool,
-    /// Where it is written.
     pub place: Place,
 }
 

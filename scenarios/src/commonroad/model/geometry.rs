@@ -12,17 +12,12 @@ pub(crate) struct Rectangle {
     pub centre: [f64; 2],
 }
 
-/// A shape or region.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Region {
     Rectangle(Rectangle),
-    Circle {
-        radius_m: f64,
-        centre: [f64; 2],
-    },
+    Circle { radius_m: f64, centre: [f64; 2] },
     Polygon(Vec<[f64; 2]>),
     Point([f64; 2]),
-    /// Lanelets, by their ids.
     Lanelets(Vec<String>),
 }
 

@@ -4,7 +4,6 @@ use super::super::xml::{Element, Unread};
 use super::geometry::points;
 use crate::text::error::Fault;
 
-/// A lanelet.
 pub(crate) struct Lanelet<'a> {
     pub id: String,
     pub element: Element<'a>,
@@ -30,11 +29,9 @@ pub(crate) struct Lanelet<'a> {
     pub signs: Vec<String>,
     /// The traffic lights at its end, by their ids.
     pub lights: Vec<String>,
-    /// Whether it has a stop line.
     pub has_stop_line: bool,
 }
 
-/// The lanelet beside another one.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Adjacent {
     pub id: String,
@@ -127,7 +124,6 @@ fn adjacent(element: Element<'_>, name: &'static str) -> Result<Option<Adjacent>
     Ok(Some(Adjacent { id, is_oncoming: other.attribute("drivingDir") == Some("opposite") }))
 }
 
-/// An intersection.
 pub(crate) struct Intersection {
     /// The lanelets of each approach, by their ids.
     pub incoming: Vec<Vec<String>>,

@@ -4,14 +4,12 @@ use super::super::xml::{Element, Unread};
 use super::geometry::Region;
 use crate::text::error::Fault;
 
-/// An obstacle.
 pub(crate) struct Obstacle<'a> {
     pub id: String,
     pub element: Element<'a>,
     pub role: Role,
     /// Its type, such as `car` or `parkedVehicle`.
     pub kind: String,
-    /// The parts of its shape.
     pub shape: Vec<Region>,
     /// Its states in the order of the file, the initial one first; empty if it has none.
     pub states: Vec<StateAt>,
@@ -19,12 +17,9 @@ pub(crate) struct Obstacle<'a> {
     pub has_occupancies: bool,
 }
 
-/// The role of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// It stands.
     Static,
-    /// It moves.
     Dynamic,
     /// It belongs to the surroundings, such as a building, or its existence is unknown.
     Surroundings,
@@ -124,7 +119,6 @@ impl StateAt {
     }
 }
 
-/// A planning problem.
 pub(crate) struct PlanningProblem<'a> {
     pub element: Element<'a>,
     pub initial: StateAt,

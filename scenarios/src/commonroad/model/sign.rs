@@ -8,7 +8,6 @@ use crate::text::error::Fault;
 /// A traffic sign, which may have several parts.
 pub(crate) struct Sign {
     pub id: String,
-    /// The meaning of each part.
     pub meanings: Vec<SignMeaning>,
 }
 
@@ -53,14 +52,12 @@ impl Sign {
     }
 }
 
-/// A traffic light.
 pub(crate) struct Light {
     pub id: String,
     /// Its colours in order, each for a number of steps.
     pub phases: Vec<(LightColour, f64)>,
     /// When the first phase begins, in steps.
     pub offset: f64,
-    /// Whether it works.
     pub is_active: bool,
 }
 

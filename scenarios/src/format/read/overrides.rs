@@ -234,7 +234,6 @@ fn other_names(root: &Table) -> Vec<String> {
     vehicles.iter().filter_map(TomlNode::label).filter(|name| *name != ego).map(str::to_owned).collect()
 }
 
-/// The whole argument of a flag.
 fn whole(flag: &str, argument: &str) -> Place {
     Place::new(&Document::new(flag, argument, 0), 0..argument.len())
 }

@@ -86,7 +86,6 @@ impl Source {
         }
     }
 
-    /// Its name in errors.
     pub(crate) fn title(&self) -> String {
         match self {
             Source::Embedded(file) => format!("{}.toml", file.name),

@@ -9,7 +9,6 @@ use toml::de::{DeTable, DeValue};
 use crate::text::error::{Document, Fault, Place};
 use crate::text::readable::toml;
 
-/// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct TomlNode {
     pub place: Place,
@@ -28,7 +27,6 @@ pub(crate) enum TomlValue {
     Table(Table),
 }
 
-/// Keys with their values.
 pub(crate) type Table = BTreeMap<String, TomlEntry>;
 
 /// A value with the place of its key.

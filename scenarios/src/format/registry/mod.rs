@@ -63,7 +63,6 @@ pub struct Registry {
     schema: Arc<Json>,
 }
 
-/// The kinds of other crates.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ForeignKinds {
     drivers: Vec<ForeignKind<dyn DriverKind>>,

@@ -48,7 +48,6 @@ pub struct RecordedGainsFile {
 }
 
 impl RecordedGainsFile {
-    /// Its statement in a file.
     pub(crate) fn config(&self) -> GainsConfig {
         GainsConfig { file: self.found.clone(), ..self.stated.clone() }
     }

@@ -126,7 +126,6 @@ impl Expect {
 }
 
 impl ExpectedSpeed {
-    /// Every bound.
     pub(crate) fn bounds(&self) -> [MetricBoundKey; 4] {
         use MetricLimit::{Above, Below};
         [
@@ -139,7 +138,6 @@ impl ExpectedSpeed {
 }
 
 impl ExpectedComfort {
-    /// Every bound.
     pub(crate) fn bounds(&self) -> [MetricBoundKey; 4] {
         use MetricLimit::AtMost;
         let lateral_mps2 = self.lateral_acceleration_at_most_mps2;

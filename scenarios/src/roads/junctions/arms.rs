@@ -23,14 +23,12 @@ pub(super) struct Arm {
     pub compass: Compass,
     /// The right of way at the end of its lanes.
     pub right_of_way: RightOfWay,
-    /// The strip between its directions.
     pub median: Median,
 }
 
 /// The strip between the directions of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Median {
-    /// Nothing.
     None,
     /// A lane that leads to the left.
     TurningLane,

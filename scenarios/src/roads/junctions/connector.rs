@@ -3,14 +3,12 @@
 use interplay_planners::CentreLine;
 use interplay_planners::road::centre_line::{CentreLineError, Piece};
 
-/// A position and a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LanePose {
     pub position: [f64; 2],
     pub heading_rad: f64,
 }
 
-/// A curve between two lanes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Connector {
     pub centre: CentreLine,

@@ -17,7 +17,6 @@ pub(super) struct RingJoint {
     straight_m: f64,
 }
 
-/// The lines of an arm.
 pub(super) struct ArmLines {
     /// From the end of the arm to the yield line, and on to the ring.
     pub inwards: [CentreLine; 2],
@@ -25,7 +24,6 @@ pub(super) struct ArmLines {
     pub outwards: [CentreLine; 2],
 }
 
-/// A ring and an arm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ring {
     /// Radius of the ring \[m\].

@@ -7,7 +7,6 @@ use super::data::distance;
 use crate::body::{BodyPaint, BodyPart, BodyStyle, body_parts};
 use crate::camera::rounded_corners;
 
-/// Points of a rounded corner.
 const CORNER_POINTS: usize = 5;
 /// Opacity of the windows of a pale footprint, so that its number can be read on them.
 const PALE_GLASS_OPACITY: f64 = 0.2;

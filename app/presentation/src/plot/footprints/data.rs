@@ -93,7 +93,6 @@ impl FootprintPlot {
         spaced(driven.map(|(_, point)| place(*point)))
     }
 
-    /// Length of the longest body.
     pub(super) fn longest_m(&self) -> f64 {
         let bodies = self.snapshots.iter().flat_map(|snapshot| &snapshot.bodies);
         bodies.map(|body| distance(body[0], body[2])).fold(0.0, f64::max).max(1e-3)
@@ -120,7 +119,6 @@ pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     pixels
 }
 
-/// The distance of two points.
 pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }

@@ -11,7 +11,6 @@ use super::data::{FootprintPlot, PATH, distance};
 use crate::camera::extent;
 use crate::palette::ASPHALT;
 
-/// Largest height of the plan.
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.
 const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
@@ -58,13 +57,11 @@ fn contains([front_right, front_left, rear_right, rear_left]: &[[f64; 2]; 4], po
     })
 }
 
-/// A translucent colour on asphalt.
 fn on_asphalt(colour: Colour, opacity: f64) -> Colour {
     let mixed = |part: usize| opacity * f64::from(colour[part]) + (1.0 - opacity) * f64::from(ASPHALT[part]);
     [0, 1, 2].map(|part| mixed(part) as u8)
 }
 
-/// From metres to pixels.
 struct Map {
     low_m: [f64; 2],
     high_m: [f64; 2],

@@ -11,7 +11,6 @@ use super::data::{FootprintPlot, PATH, SHOULDER_PX};
 
 /// Space at the left of each strip, for the number and the time of its snapshot.
 const LEFT_MARGIN_PX: f64 = 150.0;
-/// Space between two strips.
 const STRIP_SPACING_PX: f64 = 16.0;
 /// Height of the tick labels of the x axis.
 const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
@@ -19,12 +18,10 @@ const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
 const MIN_BODY_LENGTH_PX: f64 = 40.0;
 /// The length of the longest body in strips that move along with the ego.
 const FOLLOWED_BODY_LENGTH_PX: f64 = 64.0;
-/// Largest height of a strip.
 const MAX_STRIP_HEIGHT_PX: f64 = 150.0;
 
 /// The part of the road that the strips show, and its scale.
 struct Window {
-    /// Pixels per metre.
     scale: f64,
     /// Length of the visible part \[m\].
     length_m: f64,

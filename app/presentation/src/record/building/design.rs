@@ -40,7 +40,6 @@ pub const MESSAGES: &str = "building/exchange/messages";
 pub struct DesignPlots {
     /// Whether this controller makes plans.
     learns: bool,
-    /// The design of the day.
     design: Design,
     /// Messages sent so far, by zone.
     messages: Vec<usize>,

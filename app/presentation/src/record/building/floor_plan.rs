@@ -12,11 +12,9 @@ use crate::palette::{deviation_colour, middle_c, one_decimal, zone_colour};
 
 /// Width of a room, from wall to wall.
 const ROOM_PX: usize = 24;
-/// Width of a wall.
 const WALL_PX: usize = 1;
 /// Width of the strip around the building that stands for the outdoor air, of one floor and of several, which have names.
 const OUTDOORS_PX: [usize; 2] = [10, 44];
-/// Space between two floors.
 const BETWEEN_FLOORS_PX: usize = 40;
 /// Labels of more rooms than this have no space for names.
 const MAX_NAMED_ROOMS: usize = 16;

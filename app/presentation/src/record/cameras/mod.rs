@@ -81,7 +81,6 @@ struct CameraTick {
     labelled: Vec<bool>,
 }
 
-/// A contact of two vehicles.
 struct Contact {
     time_s: f64,
     between: [usize; 2],

@@ -7,7 +7,6 @@ use super::rows::{TextRows, differences, figures, heading, version_name, versus}
 use crate::page::{Page, Section};
 use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
 
-/// Explanation of the columns.
 const LEGEND: [&str; 3] = [
     "Success: the ego reached its goal without a contact. Stuck: it never reached its goal, although no vehicles touched. First: it \
      had the first place in the order, or on a network no vehicle went before it. As in the file: the order and right of way that \

@@ -103,7 +103,6 @@ const NO_VALUE: &str = "-";
 /// Probabilities below this are written as powers of ten.
 const LEAST_PROBABILITY: f64 = 1e-3;
 
-/// The heading of a group.
 pub(super) fn heading(group: &GroupFigures) -> String {
     match (&group.family, &group.style) {
         (Some(family), Some(style)) => format!("{family}, {style}"),
@@ -253,7 +252,6 @@ fn estimate(estimate: &Estimate, decimals: usize) -> String {
     format!("{:.decimals$} ({})", estimate.mean, span(estimate.interval, decimals))
 }
 
-/// A difference with its sign.
 fn signed(difference: Option<&Estimate>, decimals: usize) -> String {
     difference.map_or_else(no_value, |one| format!("{:+.decimals$} ({})", one.mean, span(one.interval, decimals)))
 }

@@ -39,7 +39,6 @@ impl ObservationSpace {
     }
 }
 
-/// The inputs of a view.
 pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
     /// Beliefs about the other drivers; empty unless a view shows them.

@@ -110,7 +110,6 @@ struct Lanes {
     width_m: Option<f64>,
 }
 
-/// A position among lanes.
 #[derive(Clone, Copy, Debug)]
 struct PlaceInLanes {
     along_m: f64,

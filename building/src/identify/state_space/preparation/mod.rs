@@ -7,7 +7,6 @@ use std::borrow::Cow;
 
 use crate::identify::telemetry::Telemetry;
 
-/// Telemetry for a filter.
 pub(super) struct Prepared<'a> {
     pub telemetry: Cow<'a, Telemetry>,
     /// Rows from which on the heat is not known until the next row, sorted.

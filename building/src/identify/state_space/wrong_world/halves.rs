@@ -13,7 +13,6 @@ const CONTRADICTION_OF_FAR: (f64, f64) = (1.96, 0.25);
 /// Number of standard errors from which on the record itself is suspected.
 const SUSPICION: f64 = 4.0;
 
-/// The two halves.
 pub(in crate::identify::state_space) struct Halves {
     fits: [(Fit, Precision); 2],
 }

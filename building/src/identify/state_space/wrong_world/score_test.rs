@@ -19,7 +19,6 @@ use crate::identify::state_space::scoring::free_parameters;
 use crate::identify::state_space::structure::{ParameterKind, Place};
 use crate::identify::telemetry::Neighbour;
 
-/// Level of each test.
 const LEVEL: f64 = 0.002;
 /// Daily harmonics of the heat of people, and a constant.
 const HARMONICS: usize = 3;
