@@ -7,7 +7,7 @@ use interplay_planners::drivers::human::Style;
 
 use super::factor::{DrawSettings, Factor, factors};
 use crate::format::json_schema::SchemaNode;
-use crate::format::read::overrides::{SettingPath, lay_planner, settings_of};
+use crate::format::read::overrides::{SettingPath, ego_kind, lay_planner, settings_of};
 use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue};
 use crate::format::registry::Registry;
 use crate::model::traffic::weights::StartJitter;
@@ -66,6 +66,20 @@ impl<'a> Assignment<'a> {
     pub fn is_below(&self, first_keys: &[&str]) -> bool {
         let written = self.path.as_ref().map(|path| path.written()).unwrap_or_default();
         first_keys.iter().any(|key| written.split('.').next() == Some(key))
+    }
+
+    /// The path in a scenario, as the plan writes it.
+    pub fn path(&self, root: &Table) -> String {
+        self.path.as_ref().map_or_else(|| ego_kind(root, self.place()).written(), |path| path.written())
+    }
+
+    /// The place of the last word of the path.
+    pub fn key(&self) -> &Place {
+        self.path.as_ref().and_then(|path| path.places().last()).unwrap_or(self.place())
+    }
+
+    pub fn value(&self) -> &TomlNode {
+        &self.value
     }
 
     /// The place of the value.

@@ -13,12 +13,12 @@ pub(crate) mod plan_file;
 pub(crate) mod standard_changes;
 
 mod assignment;
+mod conflicts;
 mod factor;
 mod names;
 mod plan;
 mod read;
 mod refusals;
-mod settings_below;
 mod without_effect;
 
 pub use plan::{SweepPlan, SweepPoint};

@@ -1,97 +1,66 @@
 //! Changes of a plan that later changes undo.
 //!
 //! In each run a plan merges into the scenario, in this order: the change of the starts, the settings of all runs, the style, the
-//! planner, the factors of all runs, and the factors of the style. A later setting undoes an earlier one if it states it or a table
-//! around it, excludes it, or is of a kind that does not know it.
+//! planner, the factors of all runs, and the factors of the style. A value in the scenario keeps its place in the plan until a later
+//! change replaces it, excludes it, or is of a kind that does not know it: a change has an effect as long as its places are there.
 //!
 //! A setting must have an effect in at least one run. A factor must have an effect wherever it varies, since the rows of all these
 //! runs state its value.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use super::assignment::{Arm, Assignment};
+use super::assignment::Assignment;
+use super::conflicts::NO_EFFECT;
 use super::factor::Factor;
-use super::plan::{Indices, PlannedScenario, SweepPlan};
-use super::settings_below::{NO_EFFECT, Removal, Rivals, key_of, settings_below};
-use crate::format::json_schema::SchemaNode;
-use crate::format::read::overrides::{OTHER_VEHICLES, SettingPath, ego_kind};
+use super::plan::{Indices, SweepPlan};
 use crate::format::read::tree::{Table, TomlNode, TomlValue};
 use crate::model::scenario::Scenario;
 use crate::plans::plan_file::Sampling;
 use crate::text::error::{Fault, Place, quoted};
 
-/// The settings that a value of a change replaces in a scenario; of a `kind`, with its word.
-type Settings = BTreeMap<String, Option<String>>;
+/// The most values of a list that are laid over the scenario.
+const MAX_VALUES: usize = 100;
 
-/// A scenario as it is written, and the schema of scenarios.
-type Root<'a, 'r> = (&'r Table, SchemaNode<'a>);
+/// The span and the last word of a value of the plan in a scenario.
+type Mark = (usize, usize, String);
 
-/// A change of a plan in one scenario.
+/// A change of a plan in one run: a setting with its value, or a factor with its different values.
 struct Change<'a> {
     /// The part of the plan that states it, in words.
-    by: String,
-    key: &'a Place,
-    is_varied: bool,
-    /// Whether it applies to every vehicle but the ego.
-    is_of_others: bool,
-    /// Its settings, as the plan writes them, each with the ways to remove it from the vehicles that it applies to.
-    settings: BTreeMap<String, Vec<Rivals<'a>>>,
-    /// The settings that each of its values replaces, equal ones once.
-    values: BTreeSet<Settings>,
+    by: &'a str,
+    values: Vec<Assignment<'a>>,
+    is_of_counterfactual: bool,
 }
 
-type Changes<'a> = Vec<Change<'a>>;
+/// A value of a change that is in the scenario.
+struct Setting<'c> {
+    mark: Mark,
+    path: String,
+    change: &'c Change<'c>,
+}
 
-/// The effect of a setting at a place of the plan.
 #[derive(Default)]
-struct Effect {
-    is_seen: bool,
-    /// Why it has no effect, in the first such run.
-    undone: Option<Fault>,
+struct Effects {
+    /// Why a setting has no effect, by its place and path; `None` if it has one in some run.
+    settings: BTreeMap<(usize, usize, String), Option<Fault>>,
+    factors: BTreeMap<(usize, usize), Fault>,
 }
-
-/// The settings of a plan by their places.
-type Effects = BTreeMap<(usize, usize, String), Effect>;
 
 impl SweepPlan {
     /// The settings without effect in any run, and the factors without effect in some.
     pub(super) fn without_effect(&self) -> Vec<Fault> {
-        let mut effects = Effects::new();
-        let mut varied: BTreeMap<(usize, usize), Fault> = BTreeMap::new();
-        for scenario in &self.scenarios {
-            let TomlValue::Table(root) = &scenario.tree.value else { continue };
-            let root = (root, self.registry.complete());
-            let everywhere = changes(&self.changes, "the plan", root);
-            let (fixed, factors) = everywhere.split_at(everywhere.len() - self.changes.factors.len());
-            let (planners, counterfactuals) = self.planners_of(scenario, root);
-            for style in &self.styles {
-                let own = changes(style, &format!("the style {}", quoted(&style.name)), root);
-                let (set, own_factors) = own.split_at(own.len() - style.factors.len());
-                let factors: Vec<&Change> = factors.iter().chain(own_factors).collect();
-                for (index, factor) in factors.iter().enumerate() {
-                    if let Some(fault) = factor.undone_in_part(&factors[index + 1..]) {
-                        varied.entry(span(factor.key)).or_insert(fault);
-                    }
-                }
-                for planner in &planners {
-                    let laid: Vec<&Change> = fixed.iter().chain(set).chain(planner).collect();
-                    note(&laid, laid.len(), &factors, &mut effects);
-                }
-                for counterfactual in &counterfactuals {
-                    let laid: Vec<&Change> = fixed.iter().chain(set).chain(counterfactual).collect();
-                    note(&laid, laid.len() - counterfactual.len(), &factors, &mut effects);
-                    for change in counterfactual {
-                        if let Some((factor, fault)) = change.undone_by_factor(&factors) {
-                            varied.entry(span(factor.key)).or_insert(fault);
-                        }
-                    }
+        let mut effects = Effects::default();
+        for scenario in 0..self.scenarios.len() {
+            for style in 0..self.styles.len() {
+                for planner in 0..self.planner_count(scenario) as usize {
+                    self.note(&Indices { scenario, style, planner, cell: 0, draw: 0 }, &mut effects);
                 }
             }
         }
-        let idle = effects.into_values().filter(|effect| !effect.is_seen).filter_map(|effect| effect.undone);
         // One refusal for each change, even if it states several settings.
-        let mut found: BTreeMap<(usize, usize), Fault> = varied;
-        for fault in idle {
+        let mut found = effects.factors;
+        for fault in effects.settings.into_values().flatten() {
             if let Some(place) = fault.place() {
                 found.entry(span(place)).or_insert(fault);
             }
@@ -99,39 +68,149 @@ impl SweepPlan {
         found.into_values().collect()
     }
 
-    /// The changes of the planners and of the counterfactuals of a scenario.
-    fn planners_of<'a>(
-        &'a self,
-        scenario: &'a PlannedScenario,
-        root: Root<'a, '_>,
-    ) -> (Vec<Changes<'a>>, Vec<Changes<'a>>) {
-        let named = |what: &str, arm: &'a Arm| changes(arm, &format!("{what} {}", quoted(&arm.name)), root);
-        let planners = self.planners.iter().map(|arm| named("the planner", arm));
-        let of_scenario = format!("{} with its counterfactual", quoted(&scenario.named.name));
-        let counterfactuals = scenario.counterfactuals.iter().map(|arm| named(&of_scenario, arm));
-        (planners.collect(), counterfactuals.collect())
+    /// Notes the effect of each change with one scenario, style and planner. A change that cannot be laid over the scenario is
+    /// refused elsewhere.
+    fn note(&self, place: &Indices, effects: &mut Effects) {
+        let (scenario, style) = (&self.scenarios[place.scenario], &self.styles[place.style]);
+        let TomlValue::Table(mut root) = scenario.tree.value.clone() else { return };
+        let (planner, is_counterfactual) = (self.planner(place), place.planner >= self.planners.len());
+        let of_scenario = || format!("{} with its counterfactual", quoted(&scenario.named.name));
+        let by_style = format!("the style {}", quoted(&style.name));
+        let by_planner = if is_counterfactual { of_scenario() } else { "the planner".to_owned() };
+        let by_planner = format!("{by_planner} {}", quoted(&planner.name));
+        let arms = [
+            (&self.changes, "the plan", false),
+            (style, by_style.as_str(), false),
+            (planner, by_planner.as_str(), is_counterfactual),
+        ];
+        let fixed = arms.iter().flat_map(|&(arm, by, is_of_counterfactual)| {
+            arm.assignments().map(move |one| Change { by, values: vec![one], is_of_counterfactual })
+        });
+        let factors = arms.iter().flat_map(|&(arm, by, is_of_counterfactual)| {
+            arm.factors.iter().map(move |one| Change { by, values: different(one), is_of_counterfactual })
+        });
+        let (fixed, factors): (Vec<Change>, Vec<Change>) = (fixed.collect(), factors.collect());
+        let mut settings: Vec<Setting> = Vec::new();
+        for change in &fixed {
+            if change.values[0].lay(&mut root, self.registry.complete()).is_err() {
+                return;
+            }
+            let marks = self.marks(&root);
+            settings.retain(|setting| marks.contains(&setting.mark) || effects.undone(setting, change, &root));
+            settings.extend(change.settings(&change.values[0], &root, &marks));
+        }
+        for (index, factor) in factors.iter().enumerate() {
+            let laid: Vec<BTreeSet<Mark>> =
+                factor.values.iter().filter_map(|one| Some(self.laid_over(&root, one)?.1)).collect();
+            let is_kept = |setting: &Setting| laid.is_empty() || laid.iter().any(|marks| marks.contains(&setting.mark));
+            settings.retain(|setting| is_kept(setting) || effects.undone(setting, factor, &root));
+            if place.planner == 0 {
+                let undone = factors[index + 1..].iter().find_map(|later| self.undone_in_part(&root, factor, later));
+                if let Some(fault) = undone {
+                    effects.factors.entry(span(factor.key())).or_insert(fault);
+                }
+            }
+        }
+        for setting in settings.iter().filter(|setting| !setting.change.is_of_counterfactual) {
+            effects.settings.insert(setting.key(), None);
+        }
+    }
+
+    /// The scenario with one more change, and the values of the plan in it.
+    fn laid_over(&self, root: &Table, change: &Assignment<'_>) -> Option<(Table, BTreeSet<Mark>)> {
+        let mut root = root.clone();
+        change.lay(&mut root, self.registry.complete()).ok()?;
+        let marks = self.marks(&root);
+        Some((root, marks))
+    }
+
+    /// The fault of a factor of which a value is undone by a value of a later one.
+    fn undone_in_part(&self, root: &Table, factor: &Change, later: &Change) -> Option<Fault> {
+        factor.values.iter().find_map(|own| {
+            let (root, marks) = self.laid_over(root, own)?;
+            let settings = factor.settings(own, &root, &marks);
+            later.values.iter().find_map(|other| {
+                let (root, marks) = self.laid_over(&root, other)?;
+                let undone = settings.iter().find(|setting| !marks.contains(&setting.mark))?;
+                Some(undone.fault(later, &root))
+            })
+        })
+    }
+
+    fn marks(&self, root: &Table) -> BTreeSet<Mark> {
+        let mut marks = BTreeSet::new();
+        for (key, entry) in root {
+            each_value(&mut vec![key.as_str()], &entry.node, &mut |words, place| {
+                if Arc::ptr_eq(&place.document, &self.place.document) {
+                    marks.insert(mark(words, place));
+                }
+            });
+        }
+        marks
     }
 }
 
-/// Notes for each setting of the first `count` changes of one run whether it has an effect.
-fn note(laid: &[&Change], count: usize, factors: &[&Change], effects: &mut Effects) {
-    for (index, change) in laid[..count].iter().enumerate() {
-        let later = || laid[index + 1..].iter().chain(factors).copied();
-        for (setting, places) in &change.settings {
-            let (from, to) = span(change.key);
-            let effect = effects.entry((from, to, setting.clone())).or_default();
-            if effect.is_seen || places.is_empty() {
-                continue;
-            }
-            let mut undone = None;
-            effect.is_seen = !places.iter().all(|rivals| {
-                undone = later().find_map(|other| Some((other, other.removal_by_all(rivals)?)));
-                undone.is_some()
-            });
-            if let Some((other, removal)) = undone.filter(|_| !effect.is_seen) {
-                effect.undone.get_or_insert_with(|| change.fault(setting, other, &removal));
-            }
+impl Effects {
+    /// Notes that a change undoes a setting; false.
+    fn undone(&mut self, setting: &Setting, other: &Change, root: &Table) -> bool {
+        if !setting.change.is_of_counterfactual {
+            self.settings.entry(setting.key()).or_insert_with(|| Some(setting.fault(other, root)));
+        } else if other.is_varied() {
+            let message =
+                format!("{} sets `{}`, and what varies here is laid over it", setting.change.by, setting.path);
+            let fault = Fault::at(other.key(), "the counterfactual is without effect", message);
+            let help = "leave it out of `vary`, or run without the counterfactuals";
+            self.factors.entry(span(other.key())).or_insert_with(|| fault.help(help));
         }
+        false
+    }
+}
+
+impl Change<'_> {
+    fn key(&self) -> &Place {
+        self.values[0].key()
+    }
+
+    fn is_varied(&self) -> bool {
+        self.values[0].is_varied
+    }
+
+    /// The settings of one of its values that are among those in a scenario.
+    fn settings<'c>(&'c self, value: &Assignment<'_>, root: &Table, marks: &BTreeSet<Mark>) -> Vec<Setting<'c>> {
+        let path = value.path(root);
+        let (mut words, mut found) = (path.split('.').collect(), Vec::new());
+        each_value(&mut words, value.value(), &mut |words, place| {
+            let mark = mark(words, place);
+            if marks.contains(&mark) {
+                found.push(Setting { mark, path: words.join("."), change: self });
+            }
+        });
+        found
+    }
+}
+
+impl Setting<'_> {
+    fn key(&self) -> (usize, usize, String) {
+        let (from, to) = span(self.change.key());
+        (from, to, self.path.clone())
+    }
+
+    /// The refusal of a setting that another change undoes.
+    fn fault(&self, other: &Change, root: &Table) -> Fault {
+        let states = if self.change.is_varied() { "varies" } else { "is set" };
+        let (verb, wins) = if other.is_varied() { ("varies", "varies here") } else { ("sets", "wins") };
+        let whole = other.values[0].path(root);
+        let mut path = whole.clone();
+        each_value(&mut whole.split('.').collect(), other.values[0].value(), &mut |words, _| {
+            if words.len() == self.path.split('.').count()
+                && words.iter().zip(self.path.split('.')).all(|(one, own)| *one == own || [*one, own].contains(&"*"))
+            {
+                path = words.join(".");
+            }
+        });
+        let (setting, by) = (&self.path, other.by);
+        let message = format!("`{setting}` {states} here, and {by} {verb} `{path}`, which is laid over it");
+        Fault::at(self.change.key(), NO_EFFECT, message).also(other.key(), wins).help(HELP)
     }
 }
 
@@ -139,106 +218,36 @@ fn span(place: &Place) -> (usize, usize) {
     (place.span.start, place.span.end)
 }
 
-/// The changes of an arm in a scenario: the driver of the ego, its settings, then the factors.
-fn changes<'a>(arm: &'a Arm, by: &str, root: Root<'a, '_>) -> Changes<'a> {
-    let change = |path: &SettingPath, key, values: &mut dyn Iterator<Item = &TomlNode>, is_varied| {
-        Change::new(by, path, key, values, is_varied, root)
-    };
-    let kind =
-        arm.kind().map(|kind| change(&ego_kind(root.0, &kind.place), &kind.place, &mut [kind].into_iter(), false));
-    let set =
-        arm.settings().iter().map(|(path, value)| change(path, key_of(path, value), &mut [value].into_iter(), false));
-    let varied = arm.factors.iter().map(|factor: &Factor| {
-        let number = TomlNode { place: factor.place.clone(), value: TomlValue::Float(0.0) };
-        let values = if factor.listed().is_empty() { std::slice::from_ref(&number) } else { factor.listed() };
-        change(&factor.path, factor.key(), &mut values.iter(), true)
-    });
-    kind.into_iter().chain(set).chain(varied).collect()
+fn mark(words: &[&str], place: &Place) -> Mark {
+    (place.span.start, place.span.end, words.last().copied().unwrap_or_default().to_owned())
 }
 
-impl<'a> Change<'a> {
-    fn new(
-        by: &str,
-        path: &SettingPath,
-        key: &'a Place,
-        values: &mut dyn Iterator<Item = &TomlNode>,
-        is_varied: bool,
-        (root, schema): Root<'a, '_>,
-    ) -> Change<'a> {
-        let (mut settings, mut all) = (BTreeMap::new(), BTreeSet::new());
-        let (written, paths) = (path.written(), path.in_scenario(root));
-        for value in values {
-            for setting in settings_below(&written, value, schema).into_keys() {
-                let below = setting.strip_prefix(&written).unwrap_or_default();
-                let of = |path: &SettingPath| Rivals::find(&format!("{}{below}", path.written()), schema);
-                let rivals = || paths.iter().map(of).collect();
-                settings.entry(setting.clone()).or_insert_with(rivals);
+/// Visits each value that is not a table, with the words that lead to it.
+fn each_value<'t>(words: &mut Vec<&'t str>, node: &'t TomlNode, visit: &mut dyn FnMut(&[&str], &Place)) {
+    match &node.value {
+        TomlValue::Table(table) => {
+            for (key, entry) in table {
+                words.push(key);
+                each_value(words, &entry.node, visit);
+                words.pop();
             }
-            all.insert(paths.iter().flat_map(|path| settings_below(&path.written(), value, schema)).collect());
         }
-        Change { by: by.to_owned(), key, is_varied, is_of_others: path.is_of_others(), settings, values: all }
-    }
-
-    /// A path of one of its settings in a scenario as the plan writes it.
-    fn written(&self, path: &str) -> String {
-        let mut words: Vec<&str> = path.split('.').collect();
-        if let Some(name) = words.get_mut(1).filter(|_| self.is_of_others) {
-            *name = OTHER_VEHICLES;
+        TomlValue::Array(items) if items.iter().any(|item| item.table().is_some()) => {
+            items.iter().for_each(|item| each_value(words, item, visit));
         }
-        words.join(".")
+        _ => visit(words, &node.place),
     }
+}
 
-    /// How all its values remove a setting, if they do: as the first does.
-    fn removal_by_all(&self, rivals: &Rivals) -> Option<Removal> {
-        let removals: Option<Vec<Removal>> = self.values.iter().map(|value| rivals.removal(value)).collect();
-        removals?.into_iter().next()
+/// The values of a factor that may replace different settings: each table and word of a list, and one number.
+fn different(factor: &Factor) -> Vec<Assignment<'_>> {
+    let is_number = |node: &TomlNode| matches!(node.value, TomlValue::Integer(_) | TomlValue::Float(_));
+    let listed = factor.listed().iter().take(MAX_VALUES).filter(|node| !is_number(node)).cloned();
+    let mut values: Vec<TomlNode> = listed.collect();
+    if values.is_empty() {
+        values.push(factor.value(0));
     }
-
-    /// The fault of a factor of which a value is undone in all vehicles by a value of later ones.
-    fn undone_in_part(&self, later: &[&Change]) -> Option<Fault> {
-        self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
-            let by = |rivals: &Rivals| {
-                later
-                    .iter()
-                    .find_map(|other| Some((*other, other.values.iter().find_map(|value| rivals.removal(value))?)))
-            };
-            let undone: Option<Vec<(&Change, Removal)>> = places.iter().map(by).collect();
-            let (other, removal) = undone?.into_iter().next()?;
-            Some(self.fault(setting, other, &removal))
-        })
-    }
-
-    /// The fault of a factor that undoes this change of a counterfactual.
-    fn undone_by_factor<'b>(&self, factors: &[&'b Change<'b>]) -> Option<(&'b Change<'b>, Fault)> {
-        self.settings.iter().filter(|(_, places)| !places.is_empty()).find_map(|(setting, places)| {
-            let by = |rivals: &Rivals| factors.iter().find(|factor| factor.removal_by_all(rivals).is_some()).copied();
-            let factor = places.iter().map(by).collect::<Option<Vec<_>>>()?.into_iter().next()?;
-            let message = format!("{} sets `{setting}`, and what varies here is laid over it", self.by);
-            let help = "leave it out of `vary`, or run without the counterfactuals";
-            Some((factor, Fault::at(factor.key, "the counterfactual is without effect", message).help(help)))
-        })
-    }
-
-    /// The refusal of a setting that another change removes.
-    fn fault(&self, setting: &str, other: &Change, removal: &Removal) -> Fault {
-        let (states, verb) =
-            (if self.is_varied { "varies" } else { "is set" }, if other.is_varied { "varies" } else { "sets" });
-        let by = |path: &str| format!("{} {verb} `{}`", other.by, other.written(path));
-        let wins = match removal {
-            Removal::Replaced(_) if other.is_varied && !self.is_varied => {
-                "varies: what varies is laid over it".to_owned()
-            }
-            Removal::Replaced(path) => format!("{}, which is laid over it", by(path)),
-            Removal::Excluded(path) => format!("{}, which excludes it and is laid over it", by(path)),
-            Removal::Unknown(path, kind) => {
-                format!("{}, of which the kind `{kind}` is laid over it and does not know it", by(path))
-            }
-        };
-        let message = format!("`{setting}` {states} here, and {wins}");
-        let fault = Fault::at(self.key, NO_EFFECT, message);
-        let wins = if other.is_varied { "varies here" } else { "wins" };
-        fault.also(other.key, wins).help(HELP)
-    }
+    values.into_iter().map(|value| Assignment::varied(&factor.path, value)).collect()
 }
 
 /// The help for a change without effect.

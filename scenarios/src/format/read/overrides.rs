@@ -145,7 +145,7 @@ fn extended(before: &[Step], key: &str, written: &Place) -> Result<Vec<Step>, Fa
 pub(crate) struct SettingPath(Vec<Step>);
 
 /// The word of a path that stands for every vehicle but the ego.
-pub(crate) const OTHER_VEHICLES: &str = "*";
+const OTHER_VEHICLES: &str = "*";
 
 impl SettingPath {
     /// No step yet.
@@ -185,7 +185,7 @@ impl SettingPath {
     }
 
     /// The paths that it stands for in a scenario: one for each vehicle but the ego if it has a `*`, otherwise itself.
-    pub fn in_scenario(&self, root: &Table) -> Vec<SettingPath> {
+    fn in_scenario(&self, root: &Table) -> Vec<SettingPath> {
         if !self.is_of_others() {
             return vec![self.clone()];
         }
@@ -198,17 +198,14 @@ impl SettingPath {
     }
 
     /// Whether it stands for every vehicle but the ego.
-    pub fn is_of_others(&self) -> bool {
+    fn is_of_others(&self) -> bool {
         let word = |index: usize| self.0.get(index).map(|step: &Step| step.word.as_str());
         (word(0), word(1)) == (Some("vehicle"), Some(OTHER_VEHICLES))
     }
 }
 
 /// The schema at the end of a path, if known.
-pub(crate) fn schema_at<'a, 's>(
-    root: SchemaNode<'s>,
-    words: impl IntoIterator<Item = &'a str>,
-) -> Option<SchemaNode<'s>> {
+fn schema_at<'a, 's>(root: SchemaNode<'s>, words: impl IntoIterator<Item = &'a str>) -> Option<SchemaNode<'s>> {
     let mut words = words.into_iter();
     words.try_fold(root, |schema, word| schema.entries().or_else(|| schema.property(word)))
 }
