@@ -1,6 +1,10 @@
 //! The synthetic climate, forecasts and occupancy: in range, repeatable, and wrong as they should be.
 
+use interplay_building::calendar::{Calendar, RunDays};
+use interplay_building::comfort::{Agenda, Setpoints};
+use interplay_building::identify::{Mapping, Telemetry, TelemetryError};
 use interplay_building::occupancy::{Deviation, Occupancy};
+use interplay_building::schedule::{DayChoice, Period, Timetable, ZoneSchedule};
 use interplay_building::weather::{Climate, ErrorLevel, Forecast};
 
 const DAY_S: f64 = 86_400.0;
@@ -126,4 +130,236 @@ fn real_occupancy_deviates_by_the_stated_amounts() {
 fn without_deviation_occupancy_equals_the_schedule() {
     let people = Occupancy { deviation: Deviation::NONE, ..Occupancy::default() }.people(3, 1);
     assert_eq!(people.actual_kw(4, STEP_S, STEPS), people.scheduled_kw(0, STEP_S, STEPS));
+}
+
+fn names() -> Vec<String> {
+    ["office", "flat", "store"].map(str::to_owned).to_vec()
+}
+
+fn period(from_h: f64, to_h: f64) -> Period {
+    Period { from_h, to_h, wanted_c: 20.0 + from_h / 10.0, band_k: None, people_kw: 0.5 }
+}
+
+fn schedule(zone: &str, days: &[DayChoice], periods: &[Period]) -> ZoneSchedule {
+    let (days, periods) = (days.to_vec(), periods.to_vec());
+    ZoneSchedule { zones: vec![zone.to_owned()], days, other_c: None, base_kw: 0.1, periods }
+}
+
+/// A week from Monday, 2026-07-06, with a holiday on Wednesday.
+fn week() -> RunDays {
+    let holidays = vec!["2026-07-08".to_owned()];
+    let calendar = Calendar { first_day: Some("2026-07-06".to_owned()), first_weekday: None, holidays };
+    calendar.days(None).expect("dates")
+}
+
+#[test]
+fn zones_follow_their_own_schedules_by_weekday() {
+    let schedules = [
+        schedule(
+            "office",
+            &[DayChoice::Workday],
+            &[Period { band_k: Some(1.5), ..period(8.0, 12.0) }, period(13.0, 17.0)],
+        ),
+        schedule("flat", &[DayChoice::Everyday], &[period(0.0, 7.0), period(18.0, 24.0)]),
+    ];
+    let timetable = Timetable::new(&schedules, &names(), week()).expect("hours");
+    let setpoints = Setpoints { occupied_c: vec![23.0], ..Setpoints::default() };
+    let agenda = Agenda::new(setpoints.clone(), 3, STEP_S, STEPS).expect("setpoints").following(timetable.clone());
+    let monday = agenda.of_day(0);
+    let at = |hour: f64, zone: usize| ((2.0 * hour) as usize - 1) * 3 + zone;
+    let occupied: Vec<bool> = [8.0, 12.0, 12.5, 13.0, 17.0, 17.5].map(|hour| monday.occupied[at(hour, 0)]).to_vec();
+    assert_eq!(occupied, [true, true, false, true, true, false], "both ends belong to a period");
+    assert_eq!([monday.reference_c[at(10.0, 0)], monday.reference_c[at(15.0, 0)]], [20.8, 21.3]);
+    assert_eq!([monday.band_k[at(10.0, 0)], monday.band_k[at(15.0, 0)]], [1.5, 0.5], "the common band by default");
+    assert_eq!([monday.error_weight[at(10.0, 0)], monday.error_weight[at(12.5, 0)]], [1.0, 0.0], "free at noon");
+    assert_eq!(monday.reference_c[at(10.0, 2)], 23.0, "the store follows the setpoints");
+    assert!(monday.occupied[at(10.0, 2)] && !monday.occupied[at(10.0, 1)]);
+    for (day, at_work) in [(0, true), (1, true), (2, false), (3, true), (4, true), (5, false), (6, false), (7, true)] {
+        let targets = agenda.of_day(day);
+        assert_eq!(targets.occupied[at(10.0, 0)], at_work, "day {day}");
+        assert!(targets.occupied[at(6.0, 1)], "the flat is lived in on day {day}");
+    }
+    let people = Occupancy { deviation: Deviation::NONE, ..Occupancy::default() }.people(3, 1).following(timetable);
+    let common = Occupancy { deviation: Deviation::NONE, ..Occupancy::default() }.people(3, 1);
+    let (monday_kw, holiday_kw) = (people.scheduled_kw(0, STEP_S, STEPS), people.scheduled_kw(2, STEP_S, STEPS));
+    // In the step from 10:00 to 10:30, and from 12:00 to 12:30.
+    assert_eq!(
+        [monday_kw[60], monday_kw[72], holiday_kw[60]],
+        [0.6, 0.1, 0.0],
+        "0.1 kW of machines on days with a schedule"
+    );
+    assert_eq!(people.actual_kw(0, STEP_S, STEPS), monday_kw, "people who keep to their schedule");
+    let store = |kw: &[f64]| -> Vec<f64> { kw.iter().skip(2).step_by(3).copied().collect() };
+    assert_eq!(store(&monday_kw), store(&common.scheduled_kw(0, STEP_S, STEPS)), "the store is like before");
+}
+
+/// Actual occupancy deviates from schedules, but an unoccupied zone stays unoccupied.
+#[test]
+fn people_deviate_from_their_schedules() {
+    let schedules = [schedule("office", &[DayChoice::Workday], &[period(8.0, 17.0)])];
+    let timetable = Timetable::new(&schedules, &names(), week()).expect("hours");
+    let people = Occupancy::default().people(3, 5).following(timetable);
+    let office = |day: usize| -> Vec<f64> { people.actual_kw(day, STEP_S, STEPS).iter().step_by(3).copied().collect() };
+    let (monday, tuesday, holiday) = (office(0), office(1), office(2));
+    assert_ne!(monday, tuesday);
+    assert!(holiday.iter().all(|kw| *kw == 0.0), "{holiday:?}");
+    assert!(monday[4] == 0.1 && monday[46] == 0.1, "only machines at night");
+    let noon_kw = monday[24..30].iter().sum::<f64>() / 6.0;
+    assert!((0.2..1.2).contains(&noon_kw) && (noon_kw - 0.6).abs() > 1e-3, "{noon_kw}");
+}
+
+#[test]
+fn contradictory_schedules_are_refused() {
+    let refused = |schedules: &[ZoneSchedule], key: &str, words: &str| {
+        let error = Timetable::new(schedules, &names(), RunDays::default()).expect_err(words);
+        assert!(error.key.as_str() == key && error.to_string().contains(words), "{}: {error}", error.key);
+    };
+    let day = [period(8.0, 12.0)];
+    refused(&[schedule("ofice", &[DayChoice::Everyday], &day)], "zones.0", "did you mean `office`");
+    let twice = [schedule("flat", &[DayChoice::Workday], &day), schedule("flat", &[DayChoice::Friday], &day)];
+    refused(&twice, "zones.0", "two schedules for Fridays");
+    let doubled = ZoneSchedule { zones: vec!["flat".to_owned(); 2], ..schedule("flat", &[DayChoice::Everyday], &day) };
+    refused(&[doubled], "zones.1", "named twice");
+    let holidays = [schedule("flat", &[DayChoice::Everyday], &day), schedule("flat", &[DayChoice::Holiday], &day)];
+    refused(&holidays, "zones.0", "two schedules for");
+    refused(
+        &[schedule("flat", &[DayChoice::Everyday], &[period(22.0, 7.0)])],
+        "period.0.to_h",
+        "from 22 to 24 and from 0 to 7",
+    );
+    let overlapping = [period(8.0, 12.0), period(11.0, 13.0)];
+    refused(&[schedule("flat", &[DayChoice::Everyday], &overlapping)], "period.1.from_h", "overlaps");
+    refused(&[schedule("flat", &[DayChoice::Everyday], &[period(8.0, 25.0)])], "period.0.to_h", "at most 24");
+    let fine = [
+        schedule("flat", &[DayChoice::Workday], &day),
+        schedule("flat", &[DayChoice::Weekend, DayChoice::Holiday], &day),
+    ];
+    assert!(Timetable::new(&fine, &names(), RunDays::default()).is_ok_and(|timetable| timetable.days_differ()));
+    let same = [schedule("flat", &[DayChoice::Everyday], &day)];
+    assert!(Timetable::new(&same, &names(), RunDays::default()).is_ok_and(|timetable| !timetable.days_differ()));
+}
+
+const MAPPING: &str = r#"
+walls = [["home", "outdoor"]]
+table = { separator = ";", skip_rows = 2 }
+boundary = [{ name = "outdoor", temperature = "out" }]
+
+[time]
+column = "t"
+format = "%d.%m.%Y %H:%M"
+zone = "Europe/Zurich"
+step_s = 3600.0
+
+[[zone]]
+name = "home"
+temperature = "in"
+heat = [{ kind = "meter", column = "E", unit = "kwh" }]
+"#;
+
+/// Eight hours with the end of summer time in them, and a meter that counts 1, 2, 3, … kWh an hour.
+const TABLE: &str = "Logger 17;;;\nBasel, living room\nt;in;out;E\n\
+    24.10.2026 23:00;20;5;100\n25.10.2026 00:00;20;5;101\n25.10.2026 01:00;20;5;103\n25.10.2026 02:00;20;5;106\n\
+    25.10.2026 02:00;20;5;110\n25.10.2026 03:00;20;5;115\n25.10.2026 04:00;20;5;121\n25.10.2026 05:00;20;5;128\n";
+
+fn read(mapping: &str, table: &str) -> Result<Telemetry, TelemetryError> {
+    Telemetry::read("home.csv", table, &Mapping::parse("home.toml", mapping).expect("a mapping"))
+}
+
+#[test]
+fn the_repeated_hour_of_a_clock_change_is_not_a_gap() {
+    let telemetry = read(MAPPING, TABLE).expect("regular in time");
+    assert_eq!(telemetry.segments, std::slice::from_ref(&(0..8)));
+    let hours: Vec<f64> = telemetry.time_s.iter().map(|time_s| time_s / 3600.0).collect();
+    assert_eq!(hours, [23.0, 24.0, 25.0, 26.0, 27.0, 28.0, 29.0, 30.0]);
+    let even = MAPPING.replace("zone = \"Europe/Zurich\"\n", "");
+    let error = read(&even, TABLE).expect_err("one time stands twice");
+    assert!(error.to_string().starts_with("home.csv:8:1: "), "{error}");
+}
+
+#[test]
+fn a_meter_gives_the_mean_power_until_the_next_row() {
+    let powers = |reading: &str| {
+        let mapping = MAPPING.replace("unit = \"kwh\"", &format!("unit = \"kwh\", reading = \"{reading}\""));
+        read(&mapping, TABLE).expect("a table").zones[0].power_kw.clone()
+    };
+    assert_eq!(powers("counter"), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 7.0]);
+    assert_eq!(powers("until-row"), [101.0, 103.0, 106.0, 110.0, 115.0, 121.0, 128.0, 128.0]);
+    assert_eq!(powers("from-row"), [100.0, 101.0, 103.0, 106.0, 110.0, 115.0, 121.0, 128.0]);
+    let joules = MAPPING.replace("unit = \"kwh\"", "unit = \"mj\", factor = -1.8");
+    assert!((read(&joules, TABLE).expect("a table").zones[0].power_kw[0] + 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_wrong_with_clocks_and_meters_is_located() {
+    let refused = |mapping: &str, table: &str| read(mapping, table).expect_err("must be refused").to_string();
+    let error = refused(MAPPING, &TABLE.replace("5;115", "5;99"));
+    assert!(error.starts_with("home.csv:9:") && error.contains("falls from 110 to 99"), "{error}");
+    assert!(error.contains("time.batch"), "{error}");
+    let spring = "\n\nt;in;out;E\n29.03.2026 01:00;20;5;1\n29.03.2026 02:00;20;5;2\n";
+    let error = refused(MAPPING, spring);
+    assert!(error.starts_with("home.csv:5:1: clocks of Europe/Zurich never showed"), "{error}");
+    let error = refused(&MAPPING.replace("\"out\"", "\"outside\""), TABLE);
+    assert!(error.starts_with("home.csv:3:1: column `outside`"), "{error}");
+    let unreadable = |mapping: &str| Mapping::parse("home.toml", mapping).expect_err("must be refused").to_string();
+    let error = unreadable(&MAPPING.replace("Europe/Zurich", "Europe/Zurch"));
+    assert!(error.starts_with("home.toml:9:8: ") && error.contains("`Europe/Zurich`"), "{error}");
+    let error = unreadable(&MAPPING.replace("%H:%M", "%H:%M %z"));
+    assert!(error.contains("without an offset"), "{error}");
+    let error = unreadable(&format!("{MAPPING}heat_hold = \"first-order\"\n"));
+    assert!(error.contains("`zero-order`"), "{error}");
+}
+
+#[test]
+fn whole_days_are_weather_for_a_scenario() {
+    let rows = (10..80).map(|hour| format!("{}.06.2026 {:02}:00;20;{};{hour}\n", 1 + hour / 24, hour % 24, hour % 24));
+    let table = format!("\n\nt;in;out;E\n{}", rows.collect::<String>());
+    let recorded = read(MAPPING, &table).expect("a table").recorded_days().expect("whole days");
+    assert_eq!((recorded.skip_days, recorded.days, recorded.step_s), (1, 2, Some(3600.0)));
+    assert!(recorded.csv.starts_with("time_s,outdoor_c\n36000,10\n39600,11\n"), "{}", &recorded.csv[..40]);
+    assert!(!recorded.are_means && !recorded.has_other_sun);
+}
+
+const DATED: &str =
+    "\n\nt;in;out;E\n2026-07-06T00:00:00Z;20;5;1\n2026-07-06T03:00:00+02:00;21;5;2\n2026-07-06T02:00:00Z;20;5;3\n";
+
+#[test]
+fn the_suffix_z_means_utc() {
+    let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S%z");
+    let telemetry = read(&mapping, DATED).expect("three hours");
+    assert_eq!(telemetry.time_s, [0.0, 3600.0, 7200.0]);
+}
+
+#[test]
+fn an_offset_that_the_format_lacks_is_named() {
+    let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S");
+    let error = read(&mapping, DATED).expect_err("the format has no offset").to_string();
+    assert!(error.contains("it has an offset from UTC: set `time.format` to `%Y-%m-%dT%H:%M:%S%z`"), "{error}");
+}
+
+#[test]
+fn a_gap_of_an_hour_is_attributed_to_a_clock_change() {
+    let even = MAPPING.replace("zone = \"Europe/Zurich\"\n", "");
+    let spring = "\n\nt;in;out;E\n29.03.2026 01:00;20;5;1\n29.03.2026 03:00;21;5;2\n";
+    for table in [TABLE, spring] {
+        let error = read(&even, table).expect_err("an hour too much or too little").to_string();
+        assert!(error.contains("`time.zone`") && error.contains("`%z`"), "{error}");
+    }
+    let error = read(&even, &spring.replace("03:00", "05:00")).expect_err("three hours are missing").to_string();
+    assert!(error.contains("add the missing rows") && !error.contains("time.zone"), "{error}");
+}
+
+#[test]
+fn all_faults_of_a_mapping_are_reported_together() {
+    let spoilt = MAPPING
+        .replace("step_s = 3600.0", "step_s = -1.0")
+        .replace("skip_rows = 2", "skip_rows = \"two\"")
+        .replace("temperature = \"in\"", "temprature = \"in\"")
+        .replace("unit = \"kwh\"", "unit = \"kw\"");
+    let error = Mapping::parse("home.toml", &spoilt).expect_err("four faults");
+    let shown = error.to_string();
+    let lines: Vec<&str> = shown.lines().collect();
+    assert_eq!((lines.len(), error.others.len()), (4, 3), "{shown}");
+    let words = ["home.toml:3:", "home.toml:10:", "home.toml:14:", "home.toml:15:"];
+    assert!(lines.iter().zip(words).all(|(line, word)| line.starts_with(word)), "{shown}");
+    assert!(lines[2].contains("`temprature`") && !shown.contains("is missing"), "{shown}");
 }

@@ -2,10 +2,12 @@
 
 mod common;
 
-use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, intersection, run, vehicle};
-use interplay_planners::drivers::conservative;
+use common::starts::perturbed;
+use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, families, intersection, run, vehicle};
+use interplay_planners::drivers::game::ExpressedBounds;
 use interplay_planners::drivers::human::{Human, Settings, Style};
 use interplay_planners::drivers::scripted::{self, Order};
+use interplay_planners::drivers::{bayesian, conservative, game, negotiation};
 use interplay_planners::prediction::{Prediction, constant_velocity};
 use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::trajectory::HomotopySearch;
@@ -209,4 +211,59 @@ proptest! {
             }
         }
     }
+}
+
+const TICKS: usize = 60;
+const STARTS: u64 = 30;
+
+/// The places of an ego when it is in its lane, added up over the starts of a family, and the mean time until then \[s\].
+fn merged(family: &str, ego: &Driver) -> (usize, f64) {
+    let (_, pose) = families().into_iter().find(|(name, _)| name == family).expect("a family");
+    let merged = |seed| Run::merged(&run(perturbed(pose(ego.clone()), seed), TICKS)).expect("merges");
+    let (places, times): (Vec<_>, Vec<_>) = (1..=STARTS).map(merged).unzip();
+    (places.into_iter().sum(), times.into_iter().sum::<f64>() / STARTS as f64)
+}
+
+/// Asserts that an ego merges later as printed, and gets no better place.
+fn assert_later_as_printed(family: &str, ego: &Driver, printed: &Driver, later_s: f64) {
+    let [(place, time_s), (printed_place, printed_s)] = [ego, printed].map(|ego| merged(family, ego));
+    assert!(time_s < printed_s - later_s && place <= printed_place, "{family}: {time_s} and {printed_s} s");
+}
+
+/// As printed the signal also draws back an ego that is ahead of the other.
+#[test]
+fn an_ego_drawn_back_to_the_vehicle_behind_merges_later() {
+    let with = |ahead_share| Driver::Bayesian(bayesian::Settings { ahead_share, ..bayesian::Settings::default() });
+    let (ego, printed) = (Driver::Bayesian(bayesian::Settings::default()), with(1.0));
+    for (family, later_s) in [("lane-change/nice-nice", 0.5), ("ramp-merge/tough-nice", 0.15)] {
+        assert_later_as_printed(family, &ego, &printed, later_s);
+    }
+}
+
+/// As printed an ego that seems surer to pass than it is slows down.
+#[test]
+fn an_ego_that_must_not_seem_too_sure_merges_later() {
+    let with = |expressed_bounds| {
+        Driver::Game(game::Settings { slack_weight: 1.5, expressed_bounds, ..game::Settings::default() })
+    };
+    let (ego, printed) = (with(ExpressedBounds::OneSided), with(ExpressedBounds::Interval));
+    assert_later_as_printed("ramp-merge/nice-nice", &ego, &printed, 0.3);
+}
+
+/// At how many starts the ego merges behind both.
+fn last(ego: &Driver) -> usize {
+    let (_, pose) = families().into_iter().find(|(name, _)| name == "ramp-merge/tough-nice").expect("a family");
+    let place = |seed| run(perturbed(pose(ego.clone()), seed), TICKS).merged();
+    (1..=STARTS).filter(|seed| place(*seed).is_none_or(|(place, _)| place == 2)).count()
+}
+
+/// A conservative ego merges between the two from each of these starts. One that asks the tough driver five times before it gives up
+/// comes too late for that at one start in six or more, one that minds what its fallback costs at one in thirty at most.
+#[test]
+fn an_ego_that_asks_on_while_its_fallback_becomes_dearer_loses_its_place() {
+    let minds = negotiation::Settings::default();
+    let patient = negotiation::Settings { retreat_dearer_at_most: 1e6, ..minds };
+    assert_eq!(last(&Driver::Conservative(conservative::Settings::default())), 0);
+    let [lost, lost_by_patience] = [minds, patient].map(|settings| last(&Driver::Negotiation(settings)));
+    assert!(lost <= 1 && lost_by_patience >= 5, "{lost} and {lost_by_patience} of {STARTS}");
 }
