@@ -1,9 +1,11 @@
 //! Every authored scenario meets its expectations.
 
-use interplay_scenarios::embedded;
+use interplay_scenarios::{Override, embedded, load};
+use rayon::prelude::*;
 use serde_json::json;
 
 use crate::command::{interplay, scratch};
+use crate::film::film;
 
 #[test]
 fn every_authored_scenario_passes_without_collision_or_plan_failure() {
@@ -75,4 +77,33 @@ fn without_a_command_the_first_scenario_runs() {
     }
     assert!(lines.len() + next.len() <= 15, "the first screen is short: {outcome:?}");
     assert!(!folder.join("recordings").exists(), "it writes no file");
+}
+
+/// A scenario, a change of it, and the expectations that then fail.
+const UNSUITED: &[(&str, &str, &[&str])] = &[
+    ("full-size/lane-change", CONSERVATIVE, &["order"]),
+    ("full-size/lane-keeping", CONSERVATIVE, &["order", "speed.ego.max_above_mps"]),
+    ("full-size/ramp-merge", CONSERVATIVE, &["order"]),
+    ("full-size/intersection", CONSERVATIVE, &["order", "completes.ego"]),
+    ("intersection/slanted-nice", CONSERVATIVE, &["order", "completes.ego"]),
+    ("intersection/slanted-tough", RECKLESS, &["order"]),
+    ("intersection/four-way", CONSERVATIVE, &["order"]),
+    ("intersection/stop-sign", RECKLESS, &["no_collision", "order"]),
+    ("crash/side-impact", "plant.kind='kinematic'", &["speed.crossing.min_below_mps", "speed.follower.min_below_mps"]),
+    ("crash/side-impact", "vehicle.ego.driver={ kind = 'conservative' }", &["collisions"]),
+];
+
+const CONSERVATIVE: &str = "vehicle.ego.driver={ kind = 'conservative' }";
+const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
+
+#[test]
+fn unsuited_drivers_break_their_expectations() {
+    UNSUITED.par_iter().for_each(|(name, change, expected): &(&str, &str, &[&str])| {
+        let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
+        let report = film(name, scenario).report;
+        let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.as_str());
+        let failed: Vec<&str> = failed.collect();
+        assert!(expected.iter().all(|what| failed.contains(what)), "{name} with {change}: {failed:?} fail");
+        assert!(!report.passed);
+    });
 }

@@ -4,14 +4,13 @@
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
 //! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
-//! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`], [`played`]
+//! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
 //! - recorded vehicles, imported scenarios, and maps far from the origin: [`recorded`]
 //! - predictions of recorded cars, and drivers fitted to them: [`predictions`]
-//! - drivers that cannot manage a scenario: [`unsuited`]
-//! - buildings: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`], [`sample_telemetry`];
+//! - buildings: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`];
 //!   buildings simulated by other programs: [`foreign_plants`]; buildings exported to other programs: [`fmu`]
 //! - bit-identical repetition: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - the workspace: [`architecture`], [`modules`], [`lines`]; its language: [`plain_words`]; its packages: [`packages`],
@@ -53,15 +52,12 @@ mod own;
 mod packages;
 mod plain_words;
 mod plants;
-mod played;
 mod predictions;
 mod python_package;
 mod recorded;
 mod recordings;
-mod rectangles;
 mod replacements;
 mod replay;
-mod sample_telemetry;
 mod similarity;
 mod street_contents;
 mod streets;
@@ -72,4 +68,3 @@ mod traffic;
 mod trajectories;
 mod unharmed;
 mod unit_plants;
-mod unsuited;

@@ -4,8 +4,8 @@ use interplay_planners::State;
 use interplay_scenarios::{Branch, LaneReference, Road};
 use interplay_simulation::frame::Origin;
 
+use crate::collisions::distance;
 use crate::film::{FILMS, Film, kinematic};
-use crate::rectangles::distance;
 
 /// The states at every tick and after the last one: `[tick][vehicle]`.
 fn moments(film: &Film) -> Vec<Vec<State>> {

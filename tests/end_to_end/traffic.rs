@@ -12,9 +12,9 @@ use interplay_simulation::frame::PairGap;
 use interplay_simulation::run::run;
 use serde_json::{Value, json};
 
+use crate::collisions::{Point, corners, distance};
 use crate::command::{interplay, scratch};
 use crate::film::{FILMS, Film, authored, film, kinematic};
-use crate::rectangles::{Point, corners, distance};
 
 /// Every two vehicles of a film by index.
 fn pairs(film: &Film) -> Vec<[usize; 2]> {

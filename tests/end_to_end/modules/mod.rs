@@ -21,7 +21,6 @@
 
 mod graph;
 mod module;
-mod uses;
 
 use std::collections::BTreeMap;
 
