@@ -4,7 +4,7 @@
 No command may panic, abort, hang, or refuse what was accepted, no recording may be twice as large as `check` states, no text may have
 control characters, and no result may be NaN or infinite.
 A refusal names a file with its line, or a flag. Inputs that led to a message not seen before are kept in
-tests/faults/corpus/TARGET.json while these are small; they come first in the next call, and further mistakes are made in
+tests/faults/corpus/corpus.json while these are small; they come first in the next call, and further mistakes are made in
 them. Prints counts as Markdown; exits with 1 if anything did not hold, and keeps that input as small as it could be made.
 The same seed and corpus make the same inputs.
 
@@ -31,7 +31,7 @@ import messages
 import targets
 from target import Target, cost_is_small
 
-CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
+CORPUS = pathlib.Path(__file__).resolve().parent / "corpus" / "corpus.json"
 MOST_CORPUS_BYTES, MOST_INPUT_BYTES = 25_000, 8_000
 # A hang takes this much time of a processor, or this much time at all: the machine may have other work.
 PROCESSOR_LIMIT_S, TIMEOUT_S = 120, 1200
@@ -163,13 +163,17 @@ def _is_same(found: Outcome, wanted: Outcome) -> bool:
     return found.kinds == wanted.kinds and (found.fault is None) == (wanted.fault is None)
 
 
+def read_corpus() -> dict[str, dict[str, str]]:
+    """The kept inputs of each target, by their keys."""
+    return json.loads(CORPUS.read_text("utf-8")) if CORPUS.exists() else {}
+
+
 class Session:
     """All inputs of one target, what is known of them, and the corpus that remains."""
 
     def __init__(self, binary: str, name: str, target: Target) -> None:
         self.binary, self.name, self.target = binary, name, target
-        self.archive = CORPUS / f"{name}.json"
-        self.kept: dict[str, str] = json.loads(self.archive.read_text("utf-8")) if self.archive.exists() else {}
+        self.kept = read_corpus().get(name, {})
         self.corpus = [self.kept[key] for key in sorted(self.kept)]
         self.seen: dict[str, int] = collections.Counter()
         self.unplaced: dict[str, str] = {}
@@ -221,7 +225,8 @@ class Session:
         if self.target.keeps and len(content) <= MOST_INPUT_BYTES and used + len(content) <= MOST_CORPUS_BYTES:
             self.kept.setdefault(f"{prefix}{zlib.crc32(content):08x}", text)
             # Sorted and in ASCII, an input a line: equal inputs give equal bytes, and a difference can be read.
-            self.archive.write_text(json.dumps(self.kept, indent=0, sort_keys=True) + "\n", "utf-8")
+            corpus = read_corpus() | {self.name: self.kept}
+            CORPUS.write_text(json.dumps(corpus, indent=0, sort_keys=True) + "\n", "utf-8")
 
     def row(self) -> str:
         """Counts as a row of a table."""
