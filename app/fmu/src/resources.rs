@@ -1,4 +1,8 @@
 //! The file `plant.txt`, which the shared library reads (format in `library/plant.rs`).
+//!
+//! ZIP archives with uncompressed files (APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
+//!
+//! The date of all files is the first of January 1980, so that the same files give the same archive.
 
 use std::fmt::{Display, Write};
 

@@ -18,7 +18,6 @@
 //! undetermined. Here the expected cost under an uncertain disturbance determines the feedback, it is causal, and a bias
 //! of the disturbance is learned from day to day.
 
-mod clairvoyant;
 pub mod concurrent;
 mod controller;
 pub mod cooperative;
@@ -39,9 +38,8 @@ pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
 
-pub use clairvoyant::{Clairvoyant, ClairvoyantSettings};
 pub use controller::{Controller, ForeignController};
 pub use error::ControlError;
 pub use interface::{Control, ControllerKind, DayAhead, DayRecord, Disturbance, Observation};
-pub use optimum::{BandPenalty, DayOptimum, optimum};
+pub use optimum::{BandPenalty, Clairvoyant, ClairvoyantSettings, DayOptimum, optimum};
 pub use planning::{Design, Exchange};

@@ -6,6 +6,12 @@
 //!
 //! linear in b_ik = 1/(c_i R_ik), a_i = 1/c_i and, where irradiance I is measured, s_i = A_i/c_i with an aperture A_i. The
 //! dissertation drops T_s on a_i, and on w_i where it cancels nothing.
+//!
+//! The model of the non-parametric term q, eq. 2.11 and 2.12, so that the network can predict.
+//!
+//! q is the residual of the network in each step, computed from the measured temperatures. The dissertation uses smoothed ones,
+//! but a smoother uses future values, which a forecast does not have. Two models are fitted: a constant with ARMA(r,1), as in the dissertation, and
+//! a daily profile (harmonics) with ARMA(r,1).
 
 use std::ops::Range;
 

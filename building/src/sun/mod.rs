@@ -8,9 +8,8 @@
 //! reflectance ρ of the ground, the global horizontal radiation G, and the tilt β of the plane. Angles of the sun are true ones,
 //! without refraction; azimuths are clockwise from north.
 
-mod erbs;
 mod perez;
 mod position;
 
-pub use erbs::{SplitRadiation, split_global};
+pub use perez::{SplitRadiation, split_global};
 pub use position::{Plane, Site, SkyRadiation, SunPosition, days_since_2000};

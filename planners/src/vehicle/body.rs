@@ -1,4 +1,15 @@
 //! The rectangle that a vehicle covers, and its axles.
+//!
+//! Steering without an optimiser: along a road, at a lateral position.
+//!
+//! With the lateral error `e` and the heading error `θ`, small angles give `e′ = v θ`. The heading rate
+//!
+//! ```text
+//! θ′ = 2/τ (θ_d − θ),   θ_d = −e/(2 τ v), at most θ_max
+//! ```
+//!
+//! makes `e″ = −2/τ e′ − e/τ²`: critically damped, without overshoot. The bicycle turns at `θ′ = v sin β/L_r`, from which
+//! follow the slip angle `β` and the steering angle `tan δ = L/L_r tan β`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

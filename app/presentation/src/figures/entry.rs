@@ -6,8 +6,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::drawings::EntryDrawing;
-use super::lookup::FigureError;
+use super::lookup::{EntryDrawing, FigureError};
 use super::recorded_run::{RunOutcome, RunSpec};
 use crate::plot::{Drawing, TextTable};
 

@@ -9,7 +9,6 @@
 //! ```
 
 mod climate;
-mod drawings;
 mod driving;
 mod entry;
 mod lookup;

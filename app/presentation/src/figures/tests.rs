@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use interplay_scenarios::{Override, load};
 
-use super::drawings::EntryDrawing;
+use super::lookup::EntryDrawing;
 use super::*;
 
 /// Figures of each chapter from the first to the last, and tables.

@@ -1,7 +1,6 @@
 //! Reports as texts: for a person, for a build server.
 
 mod building;
-mod columns;
 mod comparison;
 mod identification;
 mod identified_scenario;

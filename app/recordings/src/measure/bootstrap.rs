@@ -4,7 +4,7 @@ use interplay_common::random::Random;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::outcome::Outcome;
+use super::Outcome;
 
 const RESAMPLES: u64 = 1000;
 /// Seed of all intervals: the same recordings give the same intervals.

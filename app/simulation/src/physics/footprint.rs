@@ -1,4 +1,12 @@
 //! Footprints as Parry's shapes: boxes around the bodies, and the distance between two of them.
+//!
+//! Motion of vehicles within a tick, and the next time at which two of them can touch.
+//!
+//! Every component of a state changes linearly from its value at the beginning of the tick to that at its end. Over the whole
+//! tick, two points of two vehicles approach by at most `‖Δp_a − Δp_b‖ + |Δθ_a| r_a + |Δθ_b| r_b`, with the
+//! displacements `Δp` of the mass centres, the rotations `Δθ` and the distances `r` of the farthest corners. So two
+//! vehicles that are `gap` apart cannot touch before the share `gap / approach` of a tick has passed. Checking again at that
+//! time (conservative advancement) finds, at any speed, every contact that is longer than the shortest step.
 
 use interplay_planners::{Body, State};
 use interplay_scenarios::Outline;

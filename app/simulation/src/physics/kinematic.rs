@@ -1,4 +1,9 @@
 //! The kinematic plant: every vehicle follows the bicycle model exactly, or its record, and Rapier only detects contacts.
+//!
+//! Actuators: commands take effect with a lag and a rate limit.
+//!
+//! An actuator with the value `u` and the command `w` obeys `τ u′ = w − u`, and changes by no more than `u′_max` per second. Over
+//! a sub-step `h` with constant `w` the lag alone gives `u⁺ = w + (u − w) e^(−h/τ)`, whatever `τ ≥ 0`.
 
 use interplay_planners::{Bicycle, Input, State};
 use interplay_scenarios::Dynamic;

@@ -12,6 +12,16 @@
 //! π values the heat that is left at the end of the horizon: it is the multiplier of the state at the start of the last plan, so
 //! that a day ahead heat is worth as much as now. Without it every plan would end with a cold building. It is kept within the dearest
 //! price of heat in the horizon.
+//!
+//! What is learned of the forecast from day to day: heat that it misses at the same hour of every day.
+//!
+//! ```text
+//! m ← (1 − λ) m + λ d_k          mean of the missed heat of a step and zone
+//! v ← (1 − λ) (v + λ (d_k − m)²) its variance from day to day
+//! bias = m · m² / (m² + v λ/(2 − λ))
+//! ```
+//!
+//! A mean that is small beside its own uncertainty `v λ/(2 − λ)` is not trusted: what does not repeat is not expected.
 
 mod kalman;
 mod settings;

@@ -9,6 +9,18 @@
 //! solves a programme at every step, and what it corrects it corrects within a step, but from a day it learns `d` only.
 //!
 //! A step without a plan (a number that is not finite, or a solver without a result) follows the last plan, and says so.
+//!
+//! What the controller believes of the building's state, and of heat that its model does not explain.
+//!
+//! ```text
+//! T⁻(t+1) = A T(t) + B (k T₀ + u + w + d)        the step that the model expects
+//! d ← d + λ h₁⁻¹ (T_measured − E T⁻)             heat of the step that it does not
+//! T(t+1) = T⁻(t+1), with the zones as measured
+//! ```
+//!
+//! The temperatures of walls are not measured after midnight and follow the model. In the steady state no innovation is left,
+//! whatever constant heat the forecast misses: control without offset (Pannocchia and Rawlings, "Disturbance models for
+//! offset-free model-predictive control", 2003).
 
 use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;

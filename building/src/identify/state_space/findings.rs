@@ -11,7 +11,7 @@ use super::likelihood::{Filtered, Observations, filter};
 use super::network_run::{FreeRunErrors, NetworkRun};
 use super::profile::{Estimated, Profiler};
 use super::quantities::{Precision, QuantityKind};
-use super::sandwich::Sandwich;
+use super::scoring::Sandwich;
 use super::selection::Choice;
 use super::trust::{QuantityEvidence, ZoneEvidence, judge};
 use super::wrong_world::halves::{Agreement, Halves};

@@ -22,7 +22,6 @@ mod observations;
 mod preparation;
 mod profile;
 mod quantities;
-mod sandwich;
 mod scoring;
 mod selection;
 mod starts;

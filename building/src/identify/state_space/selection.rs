@@ -7,6 +7,16 @@
 //!
 //! Every model contains the one that it extends, so it begins next to it and cannot be worse. One that is worse is a failed search,
 //! which its row of the table says.
+//!
+//! Estimated time of the search among models, so that a search of hours is refused before it begins.
+//!
+//! ```text
+//! time ∝ rows · models · (2 · zones)^2.5
+//! ```
+//!
+//! The time of a model is proportional to the rows that are fitted, and grows with the states of all zones together, of which a filter
+//! and its derivatives have matrices. How many models are tried depends on which of them are better: as many as three rounds of all that
+//! may be added are counted.
 
 use rayon::prelude::*;
 

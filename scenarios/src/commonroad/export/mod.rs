@@ -10,7 +10,6 @@
 mod base;
 mod goal;
 mod lanelets;
-mod parallel;
 mod solution;
 mod source;
 mod xml_text;
