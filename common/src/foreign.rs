@@ -26,7 +26,6 @@ impl<Kind: ?Sized> ForeignSettings<Kind> {
         Ok(ForeignSettings { settings: share(settings), table })
     }
 
-    /// The settings.
     pub fn settings(&self) -> &Kind {
         &self.settings
     }

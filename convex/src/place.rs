@@ -22,7 +22,6 @@ pub enum ProblemPlace {
     QuadraticCostOf(VariablePlace, VariablePlace),
     /// The linear cost as a whole.
     LinearCost,
-    /// The linear cost of a variable.
     LinearCostOf(VariablePlace),
     /// The coefficient of a variable in a row.
     Coefficient {
@@ -31,7 +30,6 @@ pub enum ProblemPlace {
         /// The row in which the coefficient stands.
         row: RowPlace,
     },
-    /// The right-hand side of a row.
     RightHandSide(RowPlace),
 }
 

@@ -171,7 +171,6 @@ impl NewFolders {
         Ok(folders)
     }
 
-    /// Keeps the folders.
     pub fn keep(mut self) {
         self.0.clear();
     }

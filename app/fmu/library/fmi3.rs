@@ -10,7 +10,6 @@ use calls::{text, with_instance};
 /// `fmi3IntermediateUpdateCallback`, which is never called: time, three requests, whether the step may end early, and what then.
 pub type IntermediateUpdate = unsafe extern "C" fn(*mut c_void, f64, bool, bool, bool, bool, *mut bool, *mut f64);
 
-/// The version of the standard.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()

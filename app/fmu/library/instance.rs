@@ -15,9 +15,7 @@ const MAX_TIME_ERROR_SHARE: f64 = 1e-6;
 pub struct Instance {
     /// Name of the instance, for the log.
     pub name: CString,
-    /// Where errors are logged.
     pub logger: Logger,
-    /// The simulated building.
     pub plant: DiscretePlant,
 }
 

@@ -55,7 +55,6 @@ impl Logger {
 pub mod status {
     use std::ffi::c_int;
 
-    /// The call succeeded.
     pub const OK: c_int = 0;
     /// The call failed; the instance remains usable.
     pub const ERROR: c_int = 3;

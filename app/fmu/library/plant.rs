@@ -17,7 +17,6 @@ pub struct DiscretePlant {
     pub guid: String,
     /// Time from one step to the next \[s\].
     pub step_s: f64,
-    /// Number of zones.
     pub zones: usize,
     nodes: usize,
     /// Number of nodes that get heat of people, sun or machines, zones first.
@@ -33,11 +32,9 @@ pub struct DiscretePlant {
     ambient_c: Vec<f64>,
     /// Heat w of people, sun and machines, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
     gains_kw: Vec<f64>,
-    /// The present state.
     pub present: PlantState,
 }
 
-/// The state of a plant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantState {
     /// Number of steps since the first midnight.
@@ -132,7 +129,6 @@ impl DiscretePlant {
         self.present.step as f64 * self.step_s
     }
 
-    /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes
     }

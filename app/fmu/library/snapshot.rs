@@ -22,7 +22,6 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Copies the present state.
     pub fn of(plant: &DiscretePlant) -> Self {
         Self { guid: plant.guid.clone(), state: plant.present.clone() }
     }
@@ -55,7 +54,6 @@ impl Snapshot {
         Ok(())
     }
 
-    /// The bytes of the state.
     pub fn to_bytes(&self) -> Vec<u8> {
         let PlantState { step, nodes_c, heat_kw } = &self.state;
         let mut bytes = HEADER.to_vec();

@@ -5,7 +5,6 @@ use interplay_building::network::NetworkError;
 use interplay_simulation::climate::BuildingError;
 use thiserror::Error;
 
-/// A scenario cannot be exported.
 #[derive(Debug, Error)]
 pub enum FmuError {
     /// The scenario has no building.
@@ -21,7 +20,6 @@ pub enum FmuError {
     /// The matrices would be too large.
     #[error("the network has {nodes} nodes (zones, and walls that store heat); an FMU has at most {limit}")]
     TooManyNodes {
-        /// Number of nodes.
         nodes: usize,
         /// Largest number that can be exported.
         limit: usize,
@@ -36,10 +34,7 @@ pub enum FmuError {
     },
     /// The compiler could not build the library for this system.
     #[error("this build of interplay has no FMU library: the compiler could not build it for {platform}")]
-    NoLibrary {
-        /// Name of the system.
-        platform: String,
-    },
+    NoLibrary { platform: String },
     /// The network is invalid.
     #[error("the building cannot be exported: {0}")]
     Network(#[from] NetworkError),

@@ -73,7 +73,6 @@ fn guid(title: &str, numbers: &str) -> String {
     format!("{{{}}}", parts.join("-"))
 }
 
-/// A version of FMI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FmiVersion {
     /// FMI 2.0.

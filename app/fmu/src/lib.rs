@@ -15,6 +15,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![allow(missing_docs, reason = "only this workspace uses the crate; a comment says what a name and its type do not")]
+
 mod description;
 mod error;
 mod export;

@@ -18,7 +18,6 @@ const MAX_FILE_BYTES: usize = 1 << 30;
 const STORED: u16 = 0;
 const DEFLATED: u16 = 8;
 
-/// A file of an archive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packed {
     /// Its path within the archive.

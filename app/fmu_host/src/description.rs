@@ -2,45 +2,37 @@
 
 use roxmltree::{Document, Node};
 
-/// A unit for co-simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// Its identity, which its library checks.
     pub guid: String,
     /// The name of its library, without the extension.
     pub library: String,
-    /// Its inputs and outputs.
     pub variables: Vec<UnitVariable>,
 }
 
 /// An input or an output of a unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitVariable {
-    /// Its name.
     pub name: String,
     /// Its value reference in the library.
     pub reference: u32,
-    /// Whether it is an input.
     pub causality: Causality,
-    /// The kind of its values.
     pub kind: VariableKind,
     /// Its unit, such as `K`; none where it is not stated.
     pub unit: Option<String>,
 }
 
-/// Which side sets a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
     /// The program that runs the unit.
     Input,
-    /// The unit.
     Output,
 }
 
 /// The kinds of values that this program reads and writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
-    /// A number.
     Real,
     /// Yes or no.
     Boolean,

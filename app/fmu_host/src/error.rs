@@ -10,48 +10,24 @@ use thiserror::Error;
 pub enum HostError {
     /// The file cannot be read.
     #[error("cannot read the FMU {}: {reason}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Read { path: PathBuf, reason: io::Error },
     /// The file is not an archive.
     #[error("{} is not an FMU: {reason}", path.display())]
-    Archive {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
+    Archive { path: PathBuf, reason: String },
     /// The unit is described as one that this program cannot run.
     #[error("cannot run the FMU {}: {reason}", path.display())]
-    Description {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
+    Description { path: PathBuf, reason: String },
     /// The files of the unit cannot be unpacked to the disk.
     #[error("cannot unpack the FMU: {reason}")]
-    Unpack {
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Unpack { reason: io::Error },
     /// The program that calls the unit cannot be started.
     #[error(
         "cannot start `{program}`, which runs FMUs: {reason}; `interplay` must be found there or in the search path"
     )]
-    Start {
-        /// The program.
-        program: String,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Start { program: String, reason: io::Error },
     /// The process has ended.
     #[error("the FMU crashed at `{question}`: its process ended with {how}{said}")]
     Crashed {
-        /// The request.
         question: String,
         /// The exit code or the signal.
         how: String,
@@ -63,7 +39,6 @@ pub enum HostError {
         "the FMU gave no answer to `{question}` within {timeout_s} s{said}; `building.plant.timeout_s` is that limit"
     )]
     Timeout {
-        /// The request.
         question: String,
         /// Longest time of an answer \[s\].
         timeout_s: f64,
@@ -72,10 +47,5 @@ pub enum HostError {
     },
     /// The unit or its library refused.
     #[error("the FMU failed at `{question}`: {reason}")]
-    Failed {
-        /// The request.
-        question: String,
-        /// The reason that it states.
-        reason: String,
-    },
+    Failed { question: String, reason: String },
 }

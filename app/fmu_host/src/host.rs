@@ -21,9 +21,7 @@ const PROGRAM: &str = "interplay";
 /// calls [`serve`](crate::serve).
 #[derive(Clone, Debug)]
 pub struct HostProgram {
-    /// The program.
     pub program: OsString,
-    /// Its first arguments.
     pub arguments: Vec<OsString>,
 }
 

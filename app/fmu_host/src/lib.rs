@@ -12,6 +12,8 @@
 //!
 //! `unsafe` is allowed in `library`, which calls the unit, and in `standard_output`, which separates the unit's output from the answers.
 
+#![allow(missing_docs, reason = "only this workspace uses the crate; a comment says what a name and its type do not")]
+
 mod archive;
 mod description;
 mod error;

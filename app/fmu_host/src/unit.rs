@@ -61,12 +61,10 @@ impl Unit {
         Ok(Self { folder, description })
     }
 
-    /// The description of the unit.
     pub fn description(&self) -> &Description {
         &self.description
     }
 
-    /// Its library.
     pub fn library(&self) -> PathBuf {
         self.folder.path().join(SYSTEM).join(format!("{}.{ENDING}", self.description.library))
     }

@@ -8,6 +8,8 @@
 //! A [`Session`] is a run with people in some seats. It does not depend on the network, so a script can play it as well
 //! ([`play_script`]). The server passes controls from pages to a session, and frames back.
 
+#![allow(missing_docs, reason = "only this workspace uses the crate; a comment says what a name and its type do not")]
+
 mod protocol;
 mod script;
 mod server;

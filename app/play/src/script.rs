@@ -12,26 +12,21 @@ use crate::session::{Controls, Session, SessionError};
 
 const MAX_LINES: usize = 1_000_000;
 
-/// A message with its tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptLine {
     /// Number of ticks before the message.
     pub tick: usize,
-    /// The message of a page.
     pub message: PageMessage,
 }
 
-/// A script cannot be played.
 #[derive(Debug, Error)]
 pub enum ScriptError {
     /// A line is not a message.
     #[error("{file}:{line}: {reason}; a line is a message with its tick, such as {EXAMPLE}")]
     Line {
-        /// The file.
         file: String,
         /// The line, from 1.
         line: usize,
-        /// The fault.
         reason: String,
     },
     /// The file is too long.

@@ -13,7 +13,6 @@ const MAX_TRIALS: usize = 500;
 /// Most runs of a plan, including those of planners.
 const MAX_RUNS: u64 = 50_000;
 
-/// A study cannot be made.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// A run of the plan is refused, or its row cannot be written.
@@ -27,12 +26,7 @@ pub enum StudyError {
     NoSuchSeat(String),
     /// A scenario has none of the seats.
     #[error("`{scenario}` has none of the seats {seats}; name one of each scenario with --as, after commas")]
-    NoSeatHere {
-        /// The scenario.
-        scenario: String,
-        /// The requested seats.
-        seats: String,
-    },
+    NoSeatHere { scenario: String, seats: String },
     /// The plan has too many runs.
     #[error("the plan has {0} runs; a study has at most {MAX_RUNS}; lower its `samples`")]
     TooLarge(u64),
@@ -48,7 +42,6 @@ pub struct PlannedStudy {
     minutes: f64,
 }
 
-/// A study in progress.
 pub struct Study {
     planned: PlannedStudy,
     rows: PeopleRows,
@@ -74,9 +67,7 @@ struct Participant {
 pub struct StudyPlace {
     /// The number of the person; `None` before the person has agreed.
     pub participant: Option<u32>,
-    /// Number of finished runs.
     pub done: usize,
-    /// Number of all runs.
     pub of: usize,
     /// Duration of all runs \[min\].
     pub minutes: f64,
@@ -94,7 +85,6 @@ impl PlannedStudy {
         Ok(PlannedStudy { plan, trials, minutes: duration_s / 60.0 })
     }
 
-    /// The plan.
     pub fn plan(&self) -> &SweepPlan {
         &self.plan
     }
@@ -135,7 +125,6 @@ impl Study {
         self.now = Some(Participant { number, trials, done: 0, restarts: 0 });
     }
 
-    /// The person leaves the study.
     pub fn leave(&mut self) {
         self.now = None;
     }

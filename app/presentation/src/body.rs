@@ -10,7 +10,6 @@ const MAX_SCALE_MODEL_M: f64 = 1.7;
 /// The scale of vehicles of full size.
 const FULL_SIZE_SCALE: f64 = 10.0;
 
-/// The look of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyStyle {
     /// A car with bonnet and boot.
@@ -19,9 +18,7 @@ pub enum BodyStyle {
     Van,
     /// A lorry: a cab and a box.
     Lorry,
-    /// A bicycle with its rider.
     Bicycle,
-    /// A pedestrian.
     Walker,
     /// An obstacle that is drawn as its outline.
     Plain,
@@ -71,9 +68,7 @@ pub fn scale(body: &Body) -> f64 {
 /// The material of a part of a vehicle, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyPaint {
-    /// Paint in the vehicle's colour.
     Own,
-    /// Glass of windows.
     Glass,
     /// Dark material of gaps and tyres.
     Tyre,
@@ -97,14 +92,12 @@ pub struct BodyPart {
     pub ring: Vec<[f64; 2]>,
     /// Radius of the corners, by the width of the body.
     pub radius: f64,
-    /// The material of the part.
     pub paint: BodyPaint,
 }
 
 /// A rectangle along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
 pub type BodyArea = [f64; 4];
 
-/// The rider of a bicycle.
 pub const RIDER: BodyArea = [-0.28, 0.12, -0.8, 0.8];
 
 const HEAD: BodyArea = [-0.5, 0.5, -0.42, 0.42];

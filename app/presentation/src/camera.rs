@@ -36,7 +36,6 @@ pub struct ViewFormat {
 pub struct CameraView {
     /// The position in the middle of the view \[m\].
     pub centre_m: [f64; 2],
-    /// Scale of the view.
     pub px_per_m: f64,
     /// Width and height \[px\].
     pub size_px: [f64; 2],
@@ -256,7 +255,6 @@ fn smooth(values: &[f64], deviation: f64) -> Vec<f64> {
 /// Left, top, right and bottom \[px\].
 pub type Rectangle = [f64; 4];
 
-/// The rectangle around some points.
 pub fn rectangle_around(points: impl IntoIterator<Item = [f64; 2]>) -> Rectangle {
     let [[left, top], [right, bottom]] = extent(points);
     [left, top, right, bottom]

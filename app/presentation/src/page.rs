@@ -11,30 +11,22 @@ use crate::plot::TextTable;
 /// The content of a page, from which HTML is made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
-    /// Title of the page.
     pub title: String,
-    /// Paragraphs below the title.
     pub opening: Vec<String>,
-    /// Sections of the page.
     pub sections: Vec<Section>,
 }
 
-/// A section of a page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Anchor for links, unique on the page.
     pub id: String,
-    /// Heading of the section.
     pub heading: String,
     /// Whether the expectations of the section held.
     pub verdict: SectionStatus,
-    /// Paragraphs, each with its heading.
     pub words: Vec<(String, String)>,
     /// Pictures as SVG, each with its alternative text.
     pub pictures: Vec<(String, String)>,
-    /// Tables.
     pub tables: Vec<TextTable>,
-    /// Commands that reproduce the content.
     pub commands: Vec<String>,
     /// Files in the folder of the page, each with its description.
     pub files: Vec<(String, String)>,
@@ -43,19 +35,15 @@ pub struct Section {
 /// Whether what was expected of a part came true.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SectionStatus {
-    /// The section has no expectations.
     #[default]
     Shown,
-    /// All expectations held.
     Held,
-    /// An expectation failed.
     Missed,
     /// The section could not be made, with the reason.
     Broken(String),
 }
 
 impl SectionStatus {
-    /// The status in words.
     pub fn word(&self) -> &'static str {
         match self {
             SectionStatus::Shown => "shown",

@@ -35,7 +35,6 @@ pub struct Requests {
 }
 
 impl Requests {
-    /// Observes the next tick.
     pub fn observe(&mut self, scenario: &Scenario, frame: &Frame) {
         let before = std::mem::take(&mut self.asked);
         self.has_arrived.resize(frame.vehicles.len(), false);

@@ -36,19 +36,15 @@ pub struct RoadShapes {
     pub lane_m: f64,
     /// Closed polygons that together cover the road.
     pub surfaces: Vec<WorldLine>,
-    /// Solid lines.
     pub edges: Vec<WorldLine>,
-    /// Dashes between lanes.
     pub dashes: Vec<WorldLine>,
     /// Lines across lanes where vehicles stop or yield.
     pub stop_lines: Vec<WorldLine>,
-    /// Closed polygons of footpaths.
     pub paths: Vec<WorldLine>,
     /// Closed polygons of lanes that are reserved for some users.
     pub reserved_lanes: Vec<WorldLine>,
     /// The bars of zebra crossings, closed polygons.
     pub zebra_bars: Vec<WorldLine>,
-    /// Traffic lights.
     pub lights: Vec<LightShape>,
     /// Arrows: place, direction \[rad\], and the allowed directions.
     arrows: Vec<([f64; 2], f64, Ways)>,
@@ -219,11 +215,8 @@ impl RoadShapes {
 
 /// An arrow on the road, all lengths in metres of the world.
 pub struct ArrowShape {
-    /// The common straight line.
     pub stem: WorldLine,
-    /// The lines that branch off.
     pub bends: Vec<WorldLine>,
-    /// The triangles at the ends.
     pub heads: Vec<[[f64; 2]; 3]>,
 }
 

@@ -134,16 +134,13 @@ const OFF: Colour = [0x70, 0x74, 0x7A];
 /// The light at the end of a lane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightShape {
-    /// The name of the lane.
     pub lane: String,
     /// The ends of the bar, on the right and on the left of the lane \[m\].
     pub bar: [[f64; 2]; 2],
-    /// Its colours over time.
     pub cycle: Arc<LightCycle>,
 }
 
 impl LightShape {
-    /// The lights of a network.
     pub fn all(network: &RoadNetwork) -> Vec<LightShape> {
         let lit = network.lanes().iter().filter_map(|lane| Some((lane, lane.light.as_ref()?)));
         let shape = |(lane, cycle): (&interplay_planners::road::network::Lane, &Arc<LightCycle>)| {

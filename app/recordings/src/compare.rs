@@ -36,7 +36,6 @@ pub struct PredictionComparison {
 pub struct GroupComparison {
     /// Its name; `all` for all groups together.
     pub name: String,
-    /// Number of starts.
     pub starts: usize,
     /// Number of cars with these starts.
     pub cars: usize,
@@ -44,11 +43,9 @@ pub struct GroupComparison {
     pub recorded_contact_share_3s: MeasureInterval,
     /// Share of the recorded cars that are outside all lanes of the map after 3 s; none without a map.
     pub recorded_off_road_share: Option<MeasureInterval>,
-    /// The models.
     pub models: Vec<ComparedModel>,
 }
 
-/// A model with its measures.
 #[derive(Clone, Debug, Serialize)]
 pub struct ComparedModel {
     /// The model.

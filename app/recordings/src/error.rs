@@ -6,17 +6,11 @@ use std::path::PathBuf;
 use interplay_scenarios::LoadError;
 use thiserror::Error;
 
-/// Why recordings give no result.
 #[derive(Debug, Error)]
 pub enum RecordingsError {
     /// A folder cannot be read.
     #[error("cannot read folder `{}`: {reason}", .folder.display())]
-    UnreadableFolder {
-        /// The folder.
-        folder: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    UnreadableFolder { folder: PathBuf, reason: io::Error },
     /// A folder has no recordings.
     #[error("there is no .xml and no .csv file in folder `{}`", .0.display())]
     EmptyFolder(PathBuf),
@@ -28,18 +22,13 @@ pub enum RecordingsError {
     Refused(Box<LoadError>),
     /// The recordings have no vehicle of this name.
     #[error("the recordings have no vehicle `{vehicle}`")]
-    UnknownVehicle {
-        /// The requested name.
-        vehicle: String,
-    },
+    UnknownVehicle { vehicle: String },
     /// A vehicle follows others for too short a time.
     #[error(
         "`{vehicle}` follows another vehicle at {starts} whole seconds that have 1.2 s before them and 5 s after them; {needed} are needed"
     )]
     TooLittleFollowing {
-        /// The vehicle.
         vehicle: String,
-        /// Number of starts.
         starts: usize,
         /// Number of starts that are needed.
         needed: usize,
@@ -48,10 +37,7 @@ pub enum RecordingsError {
     #[error(
         "{starts} starts of moving cars with 1.2 s before them and 5 s after them are too few: both halves of the cars need some"
     )]
-    TooFewStarts {
-        /// Number of starts.
-        starts: usize,
-    },
+    TooFewStarts { starts: usize },
 }
 
 impl From<LoadError> for RecordingsError {

@@ -10,6 +10,8 @@
 //!
 //! The inputs of a prediction are causal: none of them depends on records after its start.
 
+#![allow(missing_docs, reason = "only this workspace uses the crate; a comment says what a name and its type do not")]
+
 mod compare;
 mod driving;
 mod error;

@@ -73,7 +73,6 @@ impl Journal {
         Ok(Journal { path: path.to_owned(), file, synced: Instant::now() })
     }
 
-    /// Appends a row.
     pub fn append(&mut self, row: &SweepRow) -> Result<(), SweepError> {
         let failed = |reason: io::Error| SweepError::file("write to", &self.path)(reason);
         let line = line_of(&serde_json::to_string(row).map_err(|reason| failed(reason.into()))?);
@@ -172,7 +171,6 @@ impl LineRun {
 }
 
 impl JournalIndex {
-    /// No journal.
     pub fn empty() -> JournalIndex {
         JournalIndex { journals: Vec::new(), places: HashMap::new(), damaged: Vec::new() }
     }

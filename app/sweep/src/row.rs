@@ -46,7 +46,6 @@ pub struct SweepRow {
     pub plan_p99_ms: Option<f64>,
 }
 
-/// The result of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     /// Digest of all states, bit for bit.

@@ -13,7 +13,6 @@ use crate::key::RunKey;
 pub struct Shard {
     /// Its number, from 1.
     pub index: u32,
-    /// Number of shards.
     pub count: u32,
 }
 
@@ -28,7 +27,6 @@ pub enum ShardError {
     Beyond {
         /// The number.
         index: u64,
-        /// Number of shards.
         count: u32,
     },
     /// A variable of the scheduler does not contain a number.
@@ -36,7 +34,6 @@ pub enum ShardError {
     Variable {
         /// Its name.
         variable: &'static str,
-        /// Its value.
         value: String,
     },
     /// No variable states which shard this is.

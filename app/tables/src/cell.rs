@@ -6,16 +6,11 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
-    /// True or false.
     Flag,
-    /// A whole number.
     Count,
-    /// A number.
     Number,
-    /// A text.
     Text,
 }
 
@@ -25,13 +20,9 @@ pub type TableSchema = Vec<(String, ColumnKind)>;
 /// A value of a row; `None` is a missing value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// True or false.
     Flag(Option<bool>),
-    /// A whole number.
     Count(Option<u64>),
-    /// A number.
     Number(Option<f64>),
-    /// A text.
     Text(Option<String>),
 }
 
@@ -40,24 +31,10 @@ pub enum Cell {
 pub enum TableError {
     /// A file cannot be read or written.
     #[error("cannot {what} `{}`: {reason}", path.display())]
-    File {
-        /// The operation.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        reason: io::Error,
-    },
+    File { what: &'static str, path: PathBuf, reason: io::Error },
     /// A table cannot be read or written.
     #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
-    Table {
-        /// The operation.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        reason: Box<dyn Error + Send + Sync>,
-    },
+    Table { what: &'static str, path: PathBuf, reason: Box<dyn Error + Send + Sync> },
     /// The user's inputs are inconsistent.
     #[error("{0}")]
     Input(String),

@@ -1,6 +1,8 @@
 //! Tables of rows, as Parquet or comma-separated values, and the tables that a run writes while it advances: trajectories of vehicles
 //! ([`TrajectoryWriter`]), counts of detectors ([`DetectorWriter`]), and series of the building ([`SeriesWriter`]).
 
+#![allow(missing_docs, reason = "only this workspace uses the crate; a comment says what a name and its type do not")]
+
 mod cell;
 mod detectors;
 mod row_file;

@@ -14,9 +14,7 @@ use crate::table::TableWriter;
 /// The formats of tables that a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {
-    /// Comma-separated values.
     Csv,
-    /// Parquet.
     Parquet,
 }
 
@@ -33,7 +31,6 @@ pub struct TableFile {
 pub struct TableFormatError(String);
 
 impl TableFile {
-    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -107,7 +104,6 @@ impl RowFile {
         Ok(())
     }
 
-    /// Completes the file.
     pub fn finish(self) -> Result<(), WatchError> {
         match self.rows {
             Rows::Csv(path, file) => {

@@ -58,7 +58,6 @@ const WEEK: [Weekday; 7] = [
 pub enum DayKind {
     /// A weekday that is not a holiday.
     Plain(Weekday),
-    /// A holiday.
     Holiday,
 }
 

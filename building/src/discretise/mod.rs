@@ -143,7 +143,6 @@ impl Model {
         Ok(Self { network: network.clone(), step_s, method: Discretisation::Euler, gain })
     }
 
-    /// The network.
     pub fn network(&self) -> &Network {
         &self.network
     }

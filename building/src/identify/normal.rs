@@ -57,7 +57,6 @@ impl LogLikelihood {
         all
     }
 
-    /// The maximum.
     pub fn maximum(&self) -> Vec<f64> {
         let all: Vec<usize> = (0..self.scale.len()).collect();
         self.newton_step(&vec![0.0; all.len()], &all)

@@ -61,7 +61,6 @@ impl ZoneModel {
         Self { zone, terms }
     }
 
-    /// What the coefficients are.
     pub fn coefficients(&self, telemetry: &Telemetry) -> Vec<Coefficient> {
         let name = |term: &Term| match *term {
             Term::Wall(neighbour) => Coefficient::Wall { to: telemetry.name(neighbour).into() },

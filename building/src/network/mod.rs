@@ -120,7 +120,6 @@ impl Network {
         }
     }
 
-    /// Number of zones.
     pub fn zone_count(&self) -> usize {
         self.zone_count
     }

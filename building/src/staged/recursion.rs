@@ -143,7 +143,6 @@ fn propagate(p: &mut DMatrix<f64>, map: &StageMap, f: &DMatrix<f64>, h: &DMatrix
 /// One input: equipment that heats a zone, or cools it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatInput {
-    /// The zone.
     pub zone: usize,
     /// Heat that a unit of the input brings into the zone: 1, or −1 where it cools.
     pub sign: f64,

@@ -59,7 +59,6 @@ impl Draft {
         self.random.chance(probability)
     }
 
-    /// One of some words.
     pub fn one_of<'a>(&mut self, words: &[&'a str]) -> &'a str {
         words[self.count(0, words.len() - 1)]
     }

@@ -98,7 +98,6 @@ impl Street {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
 
-    /// Its name.
     pub fn name(&self) -> String {
         format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)
     }

@@ -33,7 +33,6 @@ const MAX_MESSAGE_BYTES: usize = 4096;
 /// Most queued messages for a slow page. When the queue is full, the page is closed.
 const MAX_QUEUED: usize = 256;
 
-/// Options of the server.
 #[derive(Clone, Debug)]
 pub struct ServeOptions {
     /// The address; by default that of this machine alone.
@@ -44,7 +43,6 @@ pub struct ServeOptions {
     pub chosen: Option<(String, String)>,
     /// A second seat, for a second page.
     pub joined: Option<String>,
-    /// The folder of saved runs.
     pub folder: PathBuf,
     /// The kinds of drivers and metrics.
     pub registry: Registry,
@@ -64,17 +62,11 @@ impl ServeOptions {
     }
 }
 
-/// The server failed.
 #[derive(Debug, Error)]
 pub enum ServeError {
     /// The address is not available.
     #[error("cannot listen on {address}: {reason}; `--port 0` takes a free port")]
-    Listen {
-        /// The address.
-        address: SocketAddr,
-        /// The reason.
-        reason: std::io::Error,
-    },
+    Listen { address: SocketAddr, reason: std::io::Error },
     /// The system refuses threads, sockets or random numbers.
     #[error("the server cannot be started: {0}")]
     Start(String),
@@ -130,7 +122,6 @@ impl PlayServer {
         PlayServer { study: Some(study), ..self }
     }
 
-    /// The address of the page.
     pub fn url(&self) -> String {
         let port = self.listener.local_addr().map_or(self.options.port, |address| address.port());
         format!("http://{}/{}/", SocketAddr::new(self.options.address, port), self.guard.token())

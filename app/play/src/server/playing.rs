@@ -89,7 +89,6 @@ impl Playing {
         })
     }
 
-    /// The first seat.
     pub fn main_seat(&self) -> &str {
         &self.seats[0].seat
     }
@@ -133,7 +132,6 @@ impl Playing {
         self.is_paused = is_paused;
     }
 
-    /// Whether the run has ended.
     pub fn has_ended(&self) -> bool {
         self.has_ended
     }

@@ -91,17 +91,14 @@ impl Session {
         Ok(session)
     }
 
-    /// The name of the scenario.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The seats of people.
     pub fn seats(&self) -> impl Iterator<Item = &str> {
         self.seats.iter().map(|seat| seat.name.as_str())
     }
 
-    /// The scenario as it is written.
     pub fn written(&self) -> &Scenario {
         &self.written
     }
@@ -111,7 +108,6 @@ impl Session {
         Stage::of(&self.scenario)
     }
 
-    /// The goal of a seat.
     pub fn goal(&self, seat: &str) -> PlayGoal {
         score::of(&self.written, self.written.index_of(seat).unwrap_or_default())
     }

@@ -17,10 +17,8 @@ pub(crate) fn planners_beside_person() -> Vec<&'static Driver> {
     ranked
 }
 
-/// The score of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Score {
-    /// The run of the person.
     pub you: ScoreRow,
     /// Runs of planners from the same start.
     pub others: Vec<ScoreRow>,
@@ -28,10 +26,8 @@ pub struct Score {
     pub story: Vec<String>,
 }
 
-/// The measures of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScoreRow {
-    /// The driver.
     pub name: String,
     /// Whether the vehicle had a goal to reach.
     pub has_task: bool,
@@ -113,7 +109,6 @@ pub(crate) fn planner_rows(written: &Scenario, seat: &str, duration_s: f64) -> R
 pub struct PlayGoal {
     /// `lane`, `cross`, `last-lane` or `drive`.
     pub kind: &'static str,
-    /// The goal in words.
     pub text: String,
     /// The line to cross \[m\].
     pub line: Option<[[f64; 2]; 2]>,

@@ -110,7 +110,6 @@ pub enum SessionError {
     /// The vehicle does not exist, or a person cannot drive it.
     #[error("`{seat}` is not a seat; choose from {seats}")]
     NoSeat {
-        /// The requested seat.
         seat: String,
         /// The vehicles that a person can drive.
         seats: String,

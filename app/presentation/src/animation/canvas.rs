@@ -34,7 +34,6 @@ pub enum LineEnd {
 /// Colour and opacity of a mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ink {
-    /// Red, green and blue.
     pub colour: Colour,
     /// From 0, invisible, to 1, opaque.
     pub opacity: f64,
@@ -47,7 +46,6 @@ impl From<Colour> for Ink {
 }
 
 impl Ink {
-    /// A translucent colour.
     pub fn translucent(colour: Colour, opacity: f64) -> Ink {
         Ink { colour, opacity }
     }
@@ -67,7 +65,6 @@ impl Ink {
     }
 }
 
-/// A picture to draw on.
 pub struct Canvas {
     pixels: Pixmap,
 }
@@ -98,7 +95,6 @@ impl Canvas {
         below[..count].copy_from_slice(&other.pixels.data()[..count]);
     }
 
-    /// Fills a polygon.
     pub fn fill(&mut self, ring: &[[f64; 2]], ink: impl Into<Ink>) {
         if self.touches(ring, 0.0) {
             self.fill_path(path(ring, true), ink.into());
@@ -124,7 +120,6 @@ impl Canvas {
         }
     }
 
-    /// Fills a disc.
     pub fn disc(&mut self, [x, y]: [f64; 2], radius: f64, ink: impl Into<Ink>) {
         if self.touches(&[[x, y]], radius) {
             self.fill_path(PathBuilder::from_circle(x as f32, y as f32, radius as f32), ink.into());

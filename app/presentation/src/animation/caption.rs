@@ -25,7 +25,6 @@ const CONTACT_SHOWN_S: f64 = 0.35;
 pub struct Caption {
     /// The request with its answer, the intended passings, or the collision.
     pub first: String,
-    /// The last event.
     pub second: String,
     /// Whether the first line reports a collision.
     pub alarms: bool,
@@ -39,7 +38,6 @@ impl Caption {
     }
 }
 
-/// The caption at a time.
 pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
     let frame = run.frame(time_s);

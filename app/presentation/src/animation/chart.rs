@@ -34,7 +34,6 @@ impl Chart {
         [left + share * (right - left), bottom - height * (bottom - top)]
     }
 
-    /// Draws title, grid and numbers.
     pub fn draw_axes(&self, canvas: &mut Canvas, title: &str) {
         let [left, top, right, bottom] = self.place;
         canvas.text([left - 34.0, top - 13.0], Align::Left, SIZE_PX + 1.0, title, WORDS);
@@ -64,7 +63,6 @@ impl Chart {
         }
     }
 
-    /// Draws a dashed curve.
     pub fn dashed(&self, canvas: &mut Canvas, points: &[[f64; 2]], width: f64, colour: Colour) {
         let (mut run, mut dash) = (0.0, Vec::new());
         for point in points.windows(2).flat_map(|pair| between(self.pixel(pair[0]), self.pixel(pair[1]))) {

@@ -10,7 +10,6 @@ use super::caption::BAR;
 use super::encode::has_ffmpeg;
 use crate::palette::Colour;
 
-/// The formats of animations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnimationFormat {
     /// A GIF that repeats forever.
@@ -35,16 +34,10 @@ pub struct AnimationFile {
 pub enum AnimationFormatError {
     /// The ending of the file name is not that of a format.
     #[error("`{path}` does not end like an animation; use .gif, .webp, .png (a filmstrip) or .mp4 (through ffmpeg)")]
-    UnknownEnding {
-        /// Path of the file.
-        path: String,
-    },
+    UnknownEnding { path: String },
     /// MP4 needs ffmpeg, which is not installed.
     #[error("`{path}` needs the program ffmpeg, which is not on the path; use .gif, .webp or .png (a filmstrip)")]
-    NoFfmpeg {
-        /// Path of the file.
-        path: String,
-    },
+    NoFfmpeg { path: String },
 }
 
 impl AnimationFile {
@@ -53,7 +46,6 @@ impl AnimationFile {
         AnimationFile { path, format: AnimationFormat::Gif }
     }
 
-    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -96,12 +88,7 @@ pub enum AnimationError {
     Film(io::Error),
     /// The file cannot be written.
     #[error("cannot write the animation {}: {reason}; choose another path", path.display())]
-    Unwritable {
-        /// Path of the file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Unwritable { path: PathBuf, reason: io::Error },
 }
 
 impl AnimationError {

@@ -12,7 +12,6 @@ pub const BASELINE_RATIO: f64 = 0.31;
 
 static FONT: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::try_from_slice(FONT_BYTES).ok());
 
-/// Words of one size.
 pub struct Word<'a> {
     words: &'a str,
     size: f64,

@@ -9,7 +9,6 @@ const OPACITY: f64 = 0.42;
 /// Width of the lines \[px\].
 const LINE_PX: f64 = 2.0;
 
-/// The ink of the area.
 pub fn ink(colour: Colour) -> Ink {
     Ink::translucent(colour, OPACITY)
 }

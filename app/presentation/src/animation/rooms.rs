@@ -18,7 +18,6 @@ const BETWEEN_PX: f64 = 18.0;
 const FLOOR_NAME_PX: f64 = 12.0;
 const ABOVE_FLOOR_PX: f64 = 8.0;
 
-/// The rooms of a building.
 pub struct Rooms {
     plan: FloorPlan,
     names: Vec<String>,

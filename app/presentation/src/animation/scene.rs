@@ -21,11 +21,9 @@ const NEAR_CARS: f64 = 30.0;
 /// The visible state of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
-    /// Present colour.
     pub colour: Colour,
     /// Whether it is not on the road.
     pub is_absent: bool,
-    /// Present position, heading and speed.
     pub state: State,
     /// Steering angle of the front wheels \[rad\].
     pub steering_rad: f64,
@@ -50,7 +48,6 @@ pub struct DrivingRun<'a> {
     pub scenario: &'a Scenario,
     /// One colour a vehicle, for each tick.
     colours: Vec<Vec<Colour>>,
-    /// The ticks with vehicles.
     pub frames: Vec<&'a Frame>,
     /// The open requests at each tick.
     requests: Vec<Requests>,

@@ -13,9 +13,7 @@ use crate::plot::{Drawing, TextTable};
 /// Whether an entry is a figure or a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A figure of the dissertation.
     Figure,
-    /// A table of the dissertation.
     Table,
 }
 
@@ -32,7 +30,6 @@ pub struct Entry {
     pub says: String,
     /// The error of the dissertation that concerns this entry, and its effect.
     pub erratum: Option<String>,
-    /// The runs that are drawn.
     pub runs: Vec<RunSpec>,
     /// Runs that are measured for comparison, such as another planner or the equations as printed.
     pub beside: Vec<RunSpec>,
@@ -44,7 +41,6 @@ pub struct Entry {
 pub struct FigureContent {
     /// Pictures, in the order of the page.
     pub pictures: Vec<Drawing>,
-    /// Tables of measures.
     pub tables: Vec<TextTable>,
     /// Results in sentences, each with its heading.
     pub words: Vec<(String, String)>,

@@ -81,12 +81,7 @@ pub enum FigureError {
     Run(#[from] RunError),
     /// A run that several figures share failed.
     #[error("{scenario}: {reason}")]
-    Shared {
-        /// Name of the scenario.
-        scenario: String,
-        /// Why the run failed.
-        reason: Arc<FigureError>,
-    },
+    Shared { scenario: String, reason: Arc<FigureError> },
     /// A run that the figure needs was not made.
     #[error("{0}: the run was not made")]
     NotRun(String),
@@ -104,12 +99,7 @@ pub enum FigureError {
     Model(#[from] ModelError),
     /// The page cannot be written.
     #[error("cannot write {}: {reason}; name another folder with --report", path.display())]
-    Page {
-        /// Path of the page.
-        path: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Page { path: PathBuf, reason: io::Error },
 }
 
 fn with_faults(error: &LoadError) -> String {

@@ -15,7 +15,6 @@ use super::lookup::FigureError;
 pub struct RunSpec {
     /// Label that distinguishes this run from the others of its figure.
     pub label: String,
-    /// Name of the authored scenario.
     pub scenario: String,
     /// Changes of the scenario, in the form of `--set`.
     pub sets: Vec<String>,
@@ -37,11 +36,8 @@ pub struct RecordedRun {
     pub label: String,
     /// Words of the command that repeats the run.
     pub command: Vec<String>,
-    /// The scenario of the run.
     pub scenario: Scenario,
-    /// The frames of all ticks.
     pub frames: Vec<Frame>,
-    /// The report of the run.
     pub report: Report,
     /// End of the animation of the run \[s\]; by default it ends when nothing more happens.
     pub shown_until_s: Option<f64>,

@@ -27,7 +27,6 @@ pub enum PlotError {
     /// A file or folder cannot be written.
     #[error("cannot write the plots to {}: {reason}; name another folder", folder.display())]
     Unwritable {
-        /// Path of the folder.
         folder: PathBuf,
         /// The message of the operating system.
         reason: io::Error,

@@ -25,7 +25,6 @@ const MARGIN_PX: f64 = 24.0;
 /// Bars in groups. A bar begins at 0; the line on it is its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntervalBars {
-    /// Title of the picture.
     pub title: String,
     /// Quantity of the axis, with its unit.
     pub axis: String,
@@ -35,7 +34,6 @@ pub struct IntervalBars {
     pub groups: Vec<(String, Vec<IntervalBar>)>,
 }
 
-/// A bar with its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntervalBar {
     pub name: String,
@@ -46,7 +44,6 @@ pub struct IntervalBar {
 }
 
 impl IntervalBars {
-    /// The picture.
     pub fn draw(&self) -> Drawing {
         let bars = || self.groups.iter().flat_map(|(_, bars)| bars);
         let labels_px = bars().map(|bar| width_of(&bar.name, SMALL_TEXT_PX)).fold(0.0, f64::max);

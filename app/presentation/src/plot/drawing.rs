@@ -10,7 +10,6 @@ use crate::camera::overlap;
 pub const SMALL_TEXT_PX: f64 = 22.0;
 /// Size of text in legends and beside axes.
 pub const MEDIUM_TEXT_PX: f64 = 24.0;
-/// Size of titles.
 pub const LARGE_TEXT_PX: f64 = 29.0;
 /// Width of pictures with plots.
 pub const WIDTH_PX: f64 = 1400.0;
@@ -126,7 +125,6 @@ impl Drawing {
         found
     }
 
-    /// Number of marks.
     #[cfg(test)]
     pub fn mark_count(&self) -> usize {
         self.marks.len()

@@ -12,10 +12,8 @@ use super::style::{Dash, GREY, LIMIT, Legend, LineStyle, PALE, Sample};
 /// Height of the line with the name of a plot, above it.
 const PANEL_NAME_HEIGHT_PX: f64 = 40.0;
 
-/// Plots in rows and columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panels {
-    /// The title of the picture.
     pub title: String,
     /// The name of the x axis with its unit, the same for all plots.
     pub across: String,
@@ -23,7 +21,6 @@ pub struct Panels {
     pub columns: usize,
     /// Distance of the ticks of the x axis, such as 6 for hours of a day. `None`: a round number is chosen.
     pub every: Option<f64>,
-    /// The plots, by rows.
     pub panels: Vec<Panel>,
 }
 
@@ -54,21 +51,17 @@ pub enum Marks {
     Alone,
 }
 
-/// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Name in the legend; an empty one has no entry.
     pub name: String,
     /// Points of the curve; one that is not finite breaks the line.
     pub points: Vec<[f64; 2]>,
-    /// Style of the line.
     pub style: LineStyle,
-    /// The marks of the points.
     pub marks: Marks,
 }
 
 impl Curve {
-    /// A curve without marks.
     pub fn new(name: impl Into<String>, style: LineStyle, points: Vec<[f64; 2]>) -> Curve {
         Curve { name: name.into(), points, style, marks: Marks::None }
     }
@@ -109,7 +102,6 @@ fn with_room(values: Range<f64>) -> Range<f64> {
 }
 
 impl Panels {
-    /// The picture.
     pub fn drawing(&self) -> Drawing {
         let columns = self.columns.max(1);
         let rows = self.panels.len().div_ceil(columns);

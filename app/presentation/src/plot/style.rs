@@ -29,9 +29,7 @@ pub enum Dash {
     /// A solid line.
     #[default]
     Solid,
-    /// Long dashes.
     Long,
-    /// Short dashes.
     Short,
     /// Long and short dashes in turn.
     Mixed,

@@ -11,17 +11,14 @@ const TITLE_HEIGHT_PX: f64 = 56.0;
 const ROW_HEIGHT_PX: f64 = 42.0;
 const COLUMN_SPACING_PX: f64 = 44.0;
 
-/// A table of words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextTable {
     pub title: String,
-    /// The names of the columns.
     pub header: Vec<String>,
     pub rows: Vec<Vec<String>>,
 }
 
 impl TextTable {
-    /// A table of these words.
     pub fn new<const N: usize>(title: impl Into<String>, header: [&str; N], rows: Vec<[String; N]>) -> TextTable {
         let rows = rows.into_iter().map(|row| row.to_vec()).collect();
         TextTable { title: title.into(), header: header.map(str::to_owned).to_vec(), rows }
@@ -36,7 +33,6 @@ impl TextTable {
         TextTable { title: self.title, header: turned.next().unwrap_or_default(), rows: turned.collect() }
     }
 
-    /// The picture.
     pub fn drawing(&self) -> Drawing {
         let widths: Vec<f64> = (0..self.header.len()).map(|column| self.column_width(column)).collect();
         let table: f64 = widths.iter().map(|width| width + COLUMN_SPACING_PX).sum();

@@ -26,11 +26,9 @@ pub enum LayoutNode {
     Column(Vec<(f32, LayoutNode)>),
     /// Tabs with their titles, the first one active. A view on a tab shows its own title.
     Tabs(Vec<(&'static str, LayoutNode)>),
-    /// A single view.
     View(View),
 }
 
-/// A view of some entities.
 pub struct View {
     class: &'static str,
     title: String,
@@ -46,13 +44,11 @@ impl View {
         View { class, title: title.to_owned(), origin: "/".to_owned(), contents, properties: Vec::new() }
     }
 
-    /// The title above the view.
     #[cfg(test)]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The view without an entity.
     pub fn without(mut self, entity: &str) -> View {
         self.contents.push(format!("- {entity}"));
         self

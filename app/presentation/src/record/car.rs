@@ -23,7 +23,6 @@ const WALKER_WIDTHS: f64 = 2.9;
 /// Height of obstacles of real roads \[m\].
 const PLAIN_M: f64 = 0.9;
 
-/// The solids of a vehicle.
 pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
     let placed = Placed(&vehicle.body);
     let mut mesh = Mesh::default();

@@ -87,12 +87,10 @@ const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
 /// Time after which an incomplete chunk is written to a file. It exceeds any run, so that only the size of chunks counts.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(24 * 3600);
 
-/// The destination of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Sink {
     /// A file, usually `*.rrd`, which is written when the recording is finished.
     File(PathBuf),
-    /// A running viewer.
     Live(Viewer),
 }
 

@@ -71,12 +71,7 @@ pub fn record_sweep_run(folder: &Path, row: &SweepRow, scenario: &Scenario) -> R
 pub enum RecordError {
     /// The file cannot be written.
     #[error("cannot write the recording {}: {reason}; name another file with --record, or do without (--no-record)", path.display())]
-    Unwritable {
-        /// Path of the file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Unwritable { path: PathBuf, reason: io::Error },
     /// No viewer listens at the address.
     #[error(
         "no Rerun viewer listens on {address} ({reason}); start one first (`rerun`), or record into a file instead of --connect"
@@ -84,7 +79,6 @@ pub enum RecordError {
     NoViewer {
         /// Address at which a viewer was expected.
         address: String,
-        /// The system's reason.
         reason: io::Error,
     },
     /// Rerun cannot parse its own default address.

@@ -62,7 +62,6 @@ pub struct TimePlot {
 }
 
 impl TimePlot {
-    /// A plot of some series.
     pub fn new(duration_s: f64, title: &str, contents: Vec<String>) -> TimePlot {
         TimePlot { view: View::new("TimeSeries", title, contents), duration_s }
     }

@@ -8,11 +8,9 @@ use interplay_scenarios::{Scenario, Vehicle};
 /// Space above and below a curve that runs along its bound, as a share of the range.
 const RANGE_MARGIN_SHARE: f64 = 0.05;
 
-/// A panel of a recording.
 pub struct PlannerPanel {
     /// The kind of planner that it shows; `None` for all kinds.
     pub kind: Option<&'static str>,
-    /// The numbers.
     pub content: &'static DiagnosticPanel,
 }
 

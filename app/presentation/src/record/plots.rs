@@ -41,7 +41,6 @@ struct PlannerPaths {
     explanation: &'static Explanation,
 }
 
-/// The plots of a run.
 pub struct Plots {
     /// The paths of each planner, in the scenario's order of vehicles.
     planners: Vec<PlannerPaths>,
@@ -78,7 +77,6 @@ impl Plots {
         Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, gaps_m: None, is_over: false })
     }
 
-    /// Whether an optional series exists.
     pub fn has(&self, path: &str) -> bool {
         self.seen.contains_key(path)
     }
@@ -122,7 +120,6 @@ impl Plots {
         series.iter().map(label).max().unwrap_or(0)
     }
 
-    /// Logs one tick.
     pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
         let RecordedTick { stream, scenario, frame, described, .. } = *tick;
         let drives = |(vehicle, stated): &(&VehicleFrame, &Vehicle)| !vehicle.is_absent && stated.obstacle.is_none();

@@ -145,7 +145,6 @@ pub struct LightLayer {
 }
 
 impl LightLayer {
-    /// The lights of a scenario.
     pub fn begin(scenario: &Scenario) -> LightLayer {
         let lights = scenario.network.as_deref().map(LightShape::all).unwrap_or_default();
         LightLayer { shown: vec![None; lights.len()], lane_m: scenario.road.lane_width_m(), lights }

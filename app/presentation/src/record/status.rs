@@ -12,7 +12,6 @@ use super::{Logged, RecordedTick};
 use crate::passing_words::{has_words, meeting_verb};
 use crate::signals::is_braking;
 
-/// Path of the status lines.
 pub const STATUS: &str = "status";
 /// A vehicle below this share of its wanted speed counts as standing.
 const STANDING_SHARE: f64 = 0.08;
@@ -26,7 +25,6 @@ pub struct StatusLines {
 }
 
 impl StatusLines {
-    /// Logs the lines of a tick.
     pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
         let RecordedTick { stream, scenario, vehicle_colours, frame, requests, described } = *tick;
         if frame.vehicles.is_empty() {

@@ -98,7 +98,6 @@ impl VehicleLayer {
         Ok(VehicleLayer { vehicles, ego })
     }
 
-    /// Logs one tick.
     pub fn log_frame(&mut self, tick: &RecordedTick) -> Logged {
         let RecordedTick { stream, scenario, frame, requests, described, .. } = *tick;
         let labelled = labelled(scenario, frame);

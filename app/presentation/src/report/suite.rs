@@ -10,7 +10,6 @@ use super::summary::{Align, lines, written};
 /// One run of a suite: its report, or why it could not be finished.
 #[derive(Debug)]
 pub struct Case {
-    /// Name of the run.
     pub name: String,
     /// The report of the run, or why it could not be finished.
     pub outcome: Result<Report, RunError>,

@@ -22,9 +22,7 @@ use crate::signals::{IndicatorSide, indicator_side, is_braking};
 /// A world as a page draws it; lengths in metres.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stage {
-    /// Title of the scenario.
     pub title: String,
-    /// What the scenario shows.
     pub shows: String,
     /// Length of a tick \[s\].
     pub step_s: f64,
@@ -36,9 +34,7 @@ pub struct Stage {
     pub vehicles: Vec<StageVehicle>,
     /// The road, in the order in which it is painted.
     pub road: Vec<RoadShape>,
-    /// Traffic lights.
     pub lights: Vec<StageLight>,
-    /// The colour beside the road.
     pub grass: String,
 }
 
@@ -69,7 +65,6 @@ pub struct StageFrame {
     pub states: Vec<[f64; 4]>,
     /// Acceleration and steering angle during it.
     pub inputs: Vec<[f64; 2]>,
-    /// Whether each vehicle is absent.
     pub absent: Vec<bool>,
     /// Whether the brake lights are on.
     pub brakes: Vec<bool>,
@@ -77,11 +72,8 @@ pub struct StageFrame {
     pub turn: Vec<Option<&'static str>>,
     /// Planned positions; empty for vehicles driven by people.
     pub plans: Vec<Vec<[f64; 2]>>,
-    /// Requests between vehicles.
     pub proposals: Vec<StageProposal>,
-    /// Beliefs about other drivers.
     pub beliefs: Vec<StageBelief>,
-    /// Events in words.
     pub events: Vec<StageEvent>,
 }
 

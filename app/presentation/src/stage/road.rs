@@ -20,22 +20,9 @@ const MAX_ROUTE_CARS: f64 = 400.0;
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum RoadShape {
-    /// A filled ring.
-    Fill {
-        ring: Vec<[f64; 2]>,
-        colour: String,
-    },
-    /// A line around a ring.
-    Outline {
-        ring: Vec<[f64; 2]>,
-        width_m: f64,
-        colour: String,
-    },
-    Line {
-        points: Vec<[f64; 2]>,
-        width_m: f64,
-        colour: String,
-    },
+    Fill { ring: Vec<[f64; 2]>, colour: String },
+    Outline { ring: Vec<[f64; 2]>, width_m: f64, colour: String },
+    Line { points: Vec<[f64; 2]>, width_m: f64, colour: String },
 }
 
 /// A traffic light as a page paints it.

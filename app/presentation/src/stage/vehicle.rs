@@ -26,7 +26,6 @@ pub struct StageVehicle {
     pub shadow: Option<Ring>,
     /// Wheels, if they are visible.
     pub wheels: Option<StageWheels>,
-    /// Lamps, if it has any.
     pub lamps: Option<StageLamps>,
 }
 

@@ -18,7 +18,6 @@ pub struct Spread {
     pub count: usize,
     /// 5 % of the sample are below.
     pub low: f64,
-    /// The median.
     pub median: f64,
     /// 95 % of the sample are below.
     pub high: f64,
@@ -27,7 +26,6 @@ pub struct Spread {
 /// Statistics of the vehicles of a group of recordings, without rows that repeat others. A statistic without a sample is none.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrivingStatistics {
-    /// Name of the group.
     pub name: String,
     /// Time gaps, bumper to bumper, to vehicles ahead in the lane within 60 m, each second, at speeds above 3 m/s \[s\].
     pub time_gap_s: Option<Spread>,

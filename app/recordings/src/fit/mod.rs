@@ -28,7 +28,6 @@ fn usual_gap_s() -> f64 {
 /// A driver that is fitted to a vehicle.
 #[derive(Clone, Debug, Serialize)]
 pub struct FittedDriver {
-    /// The vehicle.
     pub vehicle: String,
     /// Number of starts with a vehicle ahead on which it was fitted.
     pub starts: usize,
@@ -55,7 +54,6 @@ const BLOCK: usize = 4;
 const RESAMPLES: u64 = 400;
 
 impl Recordings {
-    /// The names of all vehicles.
     pub fn vehicle_ids(&self) -> Vec<&str> {
         self.timelines.iter().flat_map(|timeline| &timeline.tracks).map(|track| track.id.as_str()).collect()
     }

@@ -13,11 +13,8 @@ const SEED: u64 = 46;
 /// A number with its 95 % interval, by a bootstrap over cars.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeasureInterval {
-    /// The number.
     pub value: f64,
-    /// The lower bound.
     pub low: f64,
-    /// The upper bound.
     pub high: f64,
 }
 

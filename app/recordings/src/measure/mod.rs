@@ -12,7 +12,6 @@ use crate::geometry::Box2;
 use crate::start::{HORIZONS_S, Later, Start};
 use crate::traffic::Recordings;
 
-/// Errors at a horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HorizonErrors {
     /// The time after the start \[s\].
@@ -26,7 +25,6 @@ pub struct HorizonErrors {
     pub negative_log_likelihood: MeasureInterval,
 }
 
-/// Measures of a model's predictions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelMeasures {
     /// Errors after 1 to 5 s.

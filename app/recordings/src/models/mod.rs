@@ -13,10 +13,8 @@ use families::{FAMILIES, Family};
 /// Maximum number of starts of each group on which a planning model is fitted; other models are fitted on all starts.
 const MAX_PLANNED_STARTS: usize = 350;
 
-/// A model with its name.
 #[derive(Clone, Debug, Serialize)]
 pub struct NamedModel {
-    /// Its name.
     pub name: String,
     /// Its fitted parameters, by name with unit.
     pub fitted: Vec<(String, f64)>,

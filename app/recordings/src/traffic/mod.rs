@@ -53,7 +53,6 @@ impl Recordings {
         Recordings { groups: vec!["test".to_owned()], timelines, files: 1 }
     }
 
-    /// Number of files.
     pub fn files(&self) -> usize {
         self.files
     }

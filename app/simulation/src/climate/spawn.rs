@@ -42,7 +42,6 @@ pub enum BuildingError {
 /// A building and its temperatures at the first midnight.
 #[derive(Debug)]
 pub struct ClimateState {
-    /// The building.
     pub building: Building,
     /// Every node of its network, in order.
     pub nodes: Vec<NodeState>,

@@ -56,7 +56,6 @@ impl AgentInterface {
         self.views.iter().map(|(_, length)| length).sum()
     }
 
-    /// The space of actions.
     pub fn action_space(&self) -> ActionSpace {
         self.action.space(self.horizon)
     }

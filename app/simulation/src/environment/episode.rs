@@ -23,7 +23,6 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Goal => "goal",

@@ -115,7 +115,6 @@ pub enum EnvironmentError {
     /// A setting is invalid.
     #[error("`{setting}`: {reason}")]
     Setting {
-        /// The setting.
         setting: &'static str,
         /// What is wrong with it, and what would work.
         reason: String,
@@ -126,7 +125,6 @@ pub enum EnvironmentError {
     /// An action is invalid.
     #[error("the action of `{agent}` {reason}")]
     Action {
-        /// The agent.
         agent: String,
         /// What is wrong with it, and what would work.
         reason: String,

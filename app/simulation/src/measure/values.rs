@@ -13,7 +13,6 @@ pub enum MetricValue {
     Flag(bool),
     /// A whole number.
     Count(u64),
-    /// A number.
     Number(f64),
 }
 

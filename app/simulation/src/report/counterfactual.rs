@@ -83,7 +83,6 @@ fn breaks(names: &[String], scenario: &Scenario, run: &Report) -> Expectation {
 pub struct Expectation {
     /// The key in the scenario file, with the vehicle where there is one.
     pub what: String,
-    /// The expected value.
     pub want: Value,
     /// The actual value.
     pub got: Value,

@@ -51,7 +51,6 @@ pub struct Report {
     /// The building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub building: Option<BuildingReport>,
-    /// The expectations.
     pub expectations: Vec<Expectation>,
     /// The counterfactual runs; none before they are judged.
     pub counterfactuals: Vec<CounterfactualReport>,
@@ -66,7 +65,6 @@ pub struct CounterfactualReport {
     pub passed: bool,
     /// Names from first to last, as in [`Report::order`].
     pub order: Vec<String>,
-    /// Its expectations.
     pub expectations: Vec<Expectation>,
     /// Digest of all states, bit for bit.
     pub digest: String,
@@ -93,7 +91,6 @@ impl Serialize for Report {
 /// The outcome for one vehicle.
 #[derive(Clone, Debug, Serialize)]
 pub struct VehicleReport {
-    /// Its name.
     pub name: String,
     /// The kind of its driver.
     pub driver: String,

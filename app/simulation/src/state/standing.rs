@@ -34,7 +34,6 @@ pub enum StandingReason {
     Passing {
         /// The vehicle for which it waits.
         waits_for: String,
-        /// The obstacle.
         obstacle: String,
     },
     /// There is not enough room to pass an obstacle.
@@ -75,7 +74,6 @@ pub struct Standing<'a> {
 }
 
 impl<'a> Standing<'a> {
-    /// The vehicles of a frame.
     pub fn of(vehicles: &'a [Vehicle], frame: &'a Frame) -> Self {
         Standing { vehicles, frame }
     }

@@ -45,11 +45,9 @@ pub struct MetricSplits(pub Vec<MetricSplit>);
 /// A split by the better value of a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetricSplit {
-    /// The key of the metric.
     pub key: &'static str,
     /// Its name, in words.
     pub title: String,
-    /// The split.
     pub split: Split,
 }
 
@@ -175,7 +173,6 @@ pub struct Share {
 /// A mean with its 95 % bootstrap interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// The mean.
     pub mean: f64,
     /// Lower and upper bound.
     pub interval: [f64; 2],
@@ -186,11 +183,9 @@ pub struct Estimate {
 /// Quantiles of a measure over runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
-    /// The smallest.
     pub least: f64,
     /// At 5 %.
     pub p05: f64,
-    /// The median.
     pub median: f64,
 }
 

@@ -60,7 +60,6 @@ impl RunRecord {
         self.number(column).map(|number| number != 0.0)
     }
 
-    /// The text in a column.
     pub fn text(&self, column: &str) -> Option<&str> {
         match self.table.column(column)? {
             TableColumn::Texts(all) => all[self.row].as_deref(),
@@ -176,11 +175,9 @@ pub struct VersionComparison {
 /// A planner under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionGroup {
-    /// The family.
     pub family: String,
     /// The drivers of the other vehicles.
     pub style: String,
-    /// The planner.
     pub planner: String,
     /// Number of pairs that differ in any bit of any state.
     pub changed: usize,

@@ -19,13 +19,9 @@ pub(crate) const ROWS_PER_GROUP: usize = 10_000;
 /// Values of one column, one for each row; `None` is a missing value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableColumn {
-    /// True or false.
     Flags(Vec<Option<bool>>),
-    /// Whole numbers.
     Counts(Vec<Option<u64>>),
-    /// Numbers.
     Numbers(Vec<Option<f64>>),
-    /// Texts.
     Texts(Vec<Option<String>>),
 }
 
@@ -54,7 +50,6 @@ impl TableColumn {
         }
     }
 
-    /// A value.
     pub fn cell(&self, row: usize) -> Cell {
         match self {
             TableColumn::Flags(all) => Cell::Flag(all.get(row).copied().flatten()),
@@ -68,9 +63,7 @@ impl TableColumn {
 /// Columns of a table, with their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowTable {
-    /// The columns by name.
     pub columns: Vec<(String, TableColumn)>,
-    /// Number of rows.
     pub row_count: usize,
 }
 

@@ -25,7 +25,6 @@ pub struct TableReader {
 }
 
 impl TableReader {
-    /// Opens a table.
     pub fn open(path: &Path) -> Result<TableReader, TableError> {
         let file = File::open(path).map_err(TableError::file("read", path))?;
         let opened = guarded(|| SerializedFileReader::new(file)).ok_or_else(|| strange(path, DAMAGED))?;
@@ -77,7 +76,6 @@ impl TableReader {
         all.iter().find(|entry| entry.key == key)?.value.clone()
     }
 
-    /// Number of row groups.
     pub fn group_count(&self) -> usize {
         self.reader.num_row_groups()
     }
@@ -185,7 +183,6 @@ impl RowTable {
         Ok(whole)
     }
 
-    /// The column of a name.
     pub fn column(&self, name: &str) -> Option<&TableColumn> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
     }

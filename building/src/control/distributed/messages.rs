@@ -136,7 +136,6 @@ impl Messages {
         self.undelivered = 0;
     }
 
-    /// The neighbours of a zone.
     pub fn neighbours(&self, zone: usize) -> impl Iterator<Item = usize> + '_ {
         self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
     }

@@ -51,7 +51,6 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// Number of arrows.
     pub fn arrow_count(&self) -> usize {
         self.arrows.len()
     }

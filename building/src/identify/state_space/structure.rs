@@ -161,7 +161,6 @@ impl Structure {
         }
     }
 
-    /// A hidden node of a zone.
     pub fn node(&self, zone: usize, hidden: HiddenNode) -> Option<usize> {
         self.nodes.iter().position(|node| *node == Node { zone, place: Place::Hidden(hidden) })
     }

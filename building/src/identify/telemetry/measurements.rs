@@ -16,7 +16,6 @@ pub struct Telemetry {
     pub segments: Vec<Range<usize>>,
     /// How many rows of the table were left out because a value was missing.
     pub left_out_rows: usize,
-    /// The zones.
     pub zones: Vec<MeasuredZone>,
     /// Temperatures that act on zones and are not modelled.
     pub boundaries: Vec<Boundary>,
@@ -123,7 +122,6 @@ impl Telemetry {
             .collect()
     }
 
-    /// The name of a neighbour.
     pub fn name(&self, neighbour: Neighbour) -> &str {
         match neighbour {
             Neighbour::Zone(zone) => &self.zones[zone].name,

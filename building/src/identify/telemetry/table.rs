@@ -309,7 +309,6 @@ pub enum DecimalSign {
 }
 
 impl DecimalSign {
-    /// The character of the sign.
     pub fn character(self) -> char {
         match self {
             Self::Point => '.',

@@ -55,7 +55,6 @@ impl Segment {
         Segment { from_m: 0.0, length_m, coefficients, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }
 
-    /// Its polynomial.
     pub fn polynomial(&self) -> LinePolynomial {
         let [x, y] = [0, 1].map(|axis| self.coefficients.map(|pair| pair[axis]));
         LinePolynomial { length_m: self.length_m, x, y }

@@ -71,7 +71,6 @@ impl<'s> SchemaNode<'s> {
         Bound::read(self.definition()).chain(Bound::read(self.stated).filter(move |_| self.definition_name().is_some()))
     }
 
-    /// The default.
     pub fn default(self) -> Option<&'s Json> {
         self.stated.get("default")
     }

@@ -158,7 +158,6 @@ impl SettingPath {
         extended(&self.0, key, place).map(SettingPath)
     }
 
-    /// The path as it is written.
     pub fn written(&self) -> String {
         let words: Vec<&str> = self.0.iter().map(|step| step.word.as_str()).collect();
         words.join(".")

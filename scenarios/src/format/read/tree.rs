@@ -176,7 +176,6 @@ impl TomlNode {
         }
     }
 
-    /// The text, if this is one.
     pub fn text(&self) -> Option<&str> {
         match &self.value {
             TomlValue::Text(text) => Some(text),

@@ -43,7 +43,6 @@ pub struct RecordedGainsFile {
     pub stated: GainsConfig,
     /// Where the table was found: an absolute path.
     pub found: String,
-    /// Its zones.
     pub zones: Vec<ZoneRecord>,
 }
 

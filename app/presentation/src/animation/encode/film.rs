@@ -17,7 +17,6 @@ use crate::shell::is_on_path;
 /// Distance between the pictures that determine the palette.
 const PALETTE_STRIDE: usize = 9;
 
-/// Pictures with a common palette.
 pub struct Film {
     /// Width and height \[px\].
     pub size: [u32; 2],
@@ -52,7 +51,6 @@ impl Film {
         Some(Film { size: pictures.size(), colours: table.colours, pictures: drawn })
     }
 
-    /// Number of pictures.
     pub fn count(&self) -> usize {
         self.pictures.len()
     }
@@ -120,7 +118,6 @@ pub fn has_ffmpeg() -> bool {
     is_on_path("ffmpeg")
 }
 
-/// Pictures as MP4.
 pub fn mp4(pictures: &dyn Pictures) -> io::Result<Vec<u8>> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("animation.mp4");

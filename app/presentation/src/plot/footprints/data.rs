@@ -18,7 +18,6 @@ pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 /// Vehicles at equal steps of time. Lengths are in metres of the world; the x axis runs along the main road.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintPlot {
-    /// Title of the picture.
     pub title: String,
     pub road: RoadShapes,
     /// Lateral coordinates of the right and the left edge, if all vehicles drive along x on one straight road.
@@ -30,17 +29,14 @@ pub struct FootprintPlot {
     pub path: Vec<(f64, [f64; 2])>,
 }
 
-/// A vehicle with footprints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FootprintVehicle {
     /// Name of the vehicle in the legend.
     pub label: String,
     pub colour: Colour,
-    /// Look of the vehicle.
     pub style: BodyStyle,
 }
 
-/// The vehicles at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintSnapshot {
     /// Time of the snapshot \[s\].

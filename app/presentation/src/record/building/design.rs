@@ -85,7 +85,6 @@ impl DesignPlots {
         self.seen.contains(part)
     }
 
-    /// Logs one step.
     pub fn step(&mut self, stream: &RecordingStream, shown: &[usize], frame: &BuildingFrame) -> Logged {
         if !self.learns {
             return Ok(());

@@ -43,7 +43,6 @@ impl FloorPlanLayer {
         Ok(FloorPlanLayer { rooms, middles_c })
     }
 
-    /// Logs one step.
     pub fn step(&self, stream: &RecordingStream, names: &[String], frame: &BuildingFrame) -> Logged {
         let [width, height] = self.size();
         let pixels = self.pixels(frame, [width, height]);

@@ -19,10 +19,8 @@ const HALF_WIDTH: f64 = 600.0;
 /// The text panels on the tab of the building. With vehicles, the tab of the interaction has the text about the recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextPanels {
-    /// No text panel.
     None,
     Events,
-    /// The text about the recording.
     About,
     /// The text about the recording, and the events.
     AboutAndEvents,

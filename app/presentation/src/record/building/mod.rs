@@ -39,9 +39,7 @@ const MAX_SHOWN_ZONES: usize = 16;
 /// Most groups of zones, each with one plot.
 const MAX_GROUPS: usize = 12;
 
-/// Logs the building.
 pub struct BuildingLayer {
-    /// Names of the zones.
     pub names: Vec<String>,
     /// Indices of the zones that are recorded in full: all, or some of many.
     pub shown: Vec<usize>,
@@ -87,7 +85,6 @@ impl BuildingLayer {
         self.ranges.are_final = true;
     }
 
-    /// Logs one step.
     pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> Logged {
         stream.set_time_sequence(ITERATION, i64::try_from(frame.day + 1).unwrap_or(i64::MAX));
         self.ranges.widen(frame);

@@ -9,7 +9,6 @@ use super::super::palette::{self, FAILURE, MARKING, NEUTRAL};
 use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
 use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
-/// The series of a building.
 pub struct ZonePlots {
     /// The comfort band of zones without a schedule \[K\].
     band_k: f64,
@@ -25,7 +24,6 @@ fn zone(index: usize, what: &str) -> String {
 }
 
 impl ZonePlots {
-    /// Logs names and colours.
     pub fn begin(
         stream: &RecordingStream,
         names: &[String],
@@ -54,7 +52,6 @@ impl ZonePlots {
         Ok(ZonePlots { band_k, limits_kw, wanted: vec![false; shown.len()] })
     }
 
-    /// Logs one step.
     pub fn step(&mut self, stream: &RecordingStream, shown: &[usize], frame: &BuildingFrame) -> Logged {
         let log = |path: &str, value: f64| stream.log(path, &Scalars::single(value));
         for (place, &index) in shown.iter().enumerate() {

@@ -87,7 +87,6 @@ struct Contact {
     place_m: [f64; 2],
 }
 
-/// The cameras of a run.
 pub struct Cameras {
     format: ViewFormat,
     /// Ticks that have not been logged.

@@ -25,7 +25,6 @@ const REQUEST: &str = "PUT /forecast";
 pub struct KnownSeries {
     /// The times \[s\].
     pub times_s: Vec<f64>,
-    /// The series by their names.
     pub by_name: BTreeMap<String, Vec<f64>>,
 }
 

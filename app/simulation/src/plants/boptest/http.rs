@@ -25,7 +25,6 @@ pub struct Server {
 pub struct Answer {
     /// The status of HTTP.
     pub status: u16,
-    /// The body.
     pub body: Vec<u8>,
     /// Whether the head stated the length of the body, and the body has that length.
     is_whole: bool,
