@@ -49,9 +49,6 @@ pub struct Host {
 
 impl Host {
     /// Starts the process, which loads the library and creates an instance.
-    ///
-    /// # Errors
-    /// [`HostError`].
     pub fn start(program: &HostProgram, unit: &Unit, timeout: Duration) -> Result<Self, HostError> {
         let started = Command::new(&program.program)
             .args(&program.arguments)

@@ -19,9 +19,6 @@ pub struct Agenda {
 
 impl Agenda {
     /// The targets of days of `steps` steps, for zones without schedules, prices or heat pumps.
-    ///
-    /// # Errors
-    /// [`SetpointsError`].
     pub fn new(setpoints: Setpoints, zones: usize, step_s: f64, steps: usize) -> Result<Self, SetpointsError> {
         let common = setpoints.targets(zones, step_s, steps)?;
         let timetable = Timetable::default();

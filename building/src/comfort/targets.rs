@@ -110,9 +110,6 @@ impl SetpointsError {
 
 impl Setpoints {
     /// The targets of a day of `steps` steps. Both ends of the occupation count as occupied.
-    ///
-    /// # Errors
-    /// [`SetpointsError`].
     pub fn targets(&self, zones: usize, step_s: f64, steps: usize) -> Result<Targets, SetpointsError> {
         self.check(zones)?;
         const ROUNDING_H: f64 = 1e-9;

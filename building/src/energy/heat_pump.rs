@@ -33,9 +33,6 @@ pub struct CopPoint {
 
 impl HeatPump {
     /// Refuses settings that are out of range, and points whose temperatures do not rise.
-    ///
-    /// # Errors
-    /// [`SettingError`].
     pub fn check(&self) -> Result<(), SettingError> {
         setting::check(self)?;
         for (curve, points) in [("heating", &self.heating), ("cooling", &self.cooling)] {

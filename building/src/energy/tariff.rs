@@ -82,9 +82,6 @@ pub struct TariffError {
 
 impl Tariff {
     /// Refuses a tariff that states no prices, or with a mean price that is not positive.
-    ///
-    /// # Errors
-    /// [`TariffError`].
     pub fn check(&self) -> Result<(), TariffError> {
         let refused = |key: &str, problem: String| Err(TariffError { key: key.into(), problem });
         if let Err(error) = setting::check(self) {
@@ -120,9 +117,6 @@ impl Tariff {
     }
 
     /// Refuses prices that would begin anew in the middle of a day of a run of `days` days.
-    ///
-    /// # Errors
-    /// [`TariffError`].
     pub fn check_days(&self, days: usize) -> Result<(), TariffError> {
         let count = self.prices_per_kwh.len();
         if count == 0 || is_whole(self.days()) || is_whole(1.0 / self.days()) || self.days() >= days as f64 {

@@ -29,9 +29,6 @@ struct Iterate<'a> {
 }
 
 /// Solves a problem until the cost is certain to `tolerance` of itself.
-///
-/// # Errors
-/// [`StagedError`].
 pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
     program.check()?;
     let mut iterate = Iterate::start(program);

@@ -49,9 +49,6 @@ impl AnimationFile {
     /// Draws a run and writes the file, whole or not at all; folders are made as needed.
     ///
     /// A run of 12 s takes about 3 s on two cores as a GIF.
-    ///
-    /// # Errors
-    /// [`AnimationError`].
     pub fn write(&self, recorded: &RecordedRun) -> Result<(), AnimationError> {
         let content = encoded(recorded, self.format())?;
         interplay_files::write(self.path(), &content).map_err(|reason| self.unwritable(reason))

@@ -71,9 +71,6 @@ impl RecordedRun {
     }
 
     /// Runs a scenario, called `name` in the report, and keeps all frames.
-    ///
-    /// # Errors
-    /// [`RunError`].
     pub fn record(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
         let frame_log = FrameLog::default();
         let report = run(name, &scenario, vec![Box::new(frame_log.clone())])?;

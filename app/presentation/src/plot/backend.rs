@@ -53,9 +53,6 @@ impl Drawing {
     }
 
     /// Writes `name.svg` and `name.png` into a folder, which is created if necessary. Returns their paths.
-    ///
-    /// # Errors
-    /// [`PlotError`].
     pub fn save(&self, folder: &Path, name: &str) -> Result<[PathBuf; 2], PlotError> {
         let [vector, raster] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
         let unwritable = |reason| PlotError::Unwritable { folder: folder.to_owned(), reason };

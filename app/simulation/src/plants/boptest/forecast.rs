@@ -67,9 +67,6 @@ impl KnownSeries {
 }
 
 /// The forecasts that the settings request, over `horizon_s` from the first midnight on, which is now.
-///
-/// # Errors
-/// [`BoptestError`].
 pub fn foresee(
     settings: &BoptestForecast,
     prices: BoptestPrices,

@@ -22,9 +22,6 @@ pub struct Known {
 
 impl Known {
     /// Requests them at the beginning of a test, for its whole duration: first time and length \[s\].
-    ///
-    /// # Errors
-    /// [`BoptestError`].
     pub fn ask(
         listed: &BoptestIndicators,
         prices: BoptestPrices,
@@ -51,9 +48,6 @@ impl Known {
     }
 
     /// The reading of the electricity meter between two times \[s\]; none if no electricity is measured.
-    ///
-    /// # Errors
-    /// [`BoptestError`].
     pub fn metered(
         &self,
         config: &BoptestPlantConfig,
@@ -86,9 +80,6 @@ impl Known {
     }
 
     /// The indicators of the test, from its results.
-    ///
-    /// # Errors
-    /// [`BoptestError`].
     pub fn compute(&self, config: &BoptestPlantConfig, test: &mut dyn Bench) -> Result<Indicators, BoptestError> {
         let Some(listed) = &config.indicators else { return Err(invalid("`building.plant.indicators` is missing")) };
         let temperatures = config.zones.iter().map(|zone| &zone.temperature);

@@ -38,9 +38,6 @@ pub struct FmuBench {
 
 impl FmuBench {
     /// Unpacks the FMU and starts its process.
-    ///
-    /// # Errors
-    /// [`BoptestError`].
     pub fn start(path: &Path, config: &BoptestPlantConfig, program: &HostProgram) -> Result<Self, BoptestError> {
         let unit = Unit::open(path)?;
         let timeout = Duration::try_from_secs_f64(config.timeout_s).unwrap_or(Duration::MAX);
