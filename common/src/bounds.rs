@@ -53,6 +53,7 @@ impl Bound {
         stated.into_iter().flatten()
     }
 
+    /// The bounds of every setting.
     pub fn of_every_setting() -> [Bound; 2] {
         [Self::Finite, Self::Magnitude(LARGEST_SETTING)]
     }

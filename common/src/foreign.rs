@@ -26,6 +26,7 @@ impl<Kind: ?Sized> ForeignSettings<Kind> {
         Ok(ForeignSettings { settings: share(settings), table })
     }
 
+    /// The settings.
     pub fn settings(&self) -> &Kind {
         &self.settings
     }

@@ -66,7 +66,9 @@ impl fmt::Display for SettingKey {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{key}` is {value}; it must be {bound}")]
 pub struct SettingError {
+    /// Key of the setting.
     pub key: SettingKey,
+    /// Value of the setting.
     pub value: f64,
     /// The bound that the value breaks.
     pub bound: Bound,

@@ -22,6 +22,7 @@ pub enum ProblemPlace {
     QuadraticCostOf(VariablePlace, VariablePlace),
     /// The linear cost as a whole.
     LinearCost,
+    /// The linear cost of a variable.
     LinearCostOf(VariablePlace),
     /// The coefficient of a variable in a row.
     Coefficient {
@@ -30,6 +31,7 @@ pub enum ProblemPlace {
         /// The row in which the coefficient stands.
         row: RowPlace,
     },
+    /// The right-hand side of a row.
     RightHandSide(RowPlace),
 }
 

@@ -152,7 +152,7 @@ fn five_vehicles_share_a_problem() {
 #[test]
 fn strangers_are_kept_out_of() {
     let mut vehicles = convoy(3);
-    vehicles[1].drive(common::world::human(Style::Tough));
+    vehicles[1].drive(world::human(Tough));
     let run = run(vehicles, 60);
     assert!(run.collision.is_none() && run.failures.is_empty(), "{:?} {:?}", run.collision, run.failures);
     assert!(run.nearest > 0.99, "{}", run.nearest);
@@ -260,7 +260,7 @@ fn contingency(probability_at_least: f64) -> Driver {
 
 /// The scenes that the ego infers in closed loop, with what the others may do, and its plans.
 fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
-    let (mut traffic, mut planners) = world::begin(vehicles);
+    let (mut traffic, mut planners) = begin(vehicles);
     let mut beliefs = DriverBeliefs::new(belief::Settings::default());
     let mut seen = Vec::new();
     for _ in 0..30 {
@@ -281,7 +281,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
 
 #[test]
 fn without_alternatives_the_problem_is_the_conservative_one() {
-    for (scene, ..) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
+    for (scene, ..) in seen(&lane_keeping(contingency(0.05), Tough)) {
         let one = futures(&scene, &[], &settings(0.05));
         let others: Vec<_> = scene.others.iter().collect();
         assert_eq!(contingency::problem(&scene, &one, 0), conservative::problem(&scene, &others));
@@ -293,7 +293,7 @@ fn without_alternatives_the_problem_is_the_conservative_one() {
 #[test]
 fn every_branch_keeps_out_of_the_ellipses_of_its_future() {
     let mut several = 0;
-    for (scene, inferred_futures, plan) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
+    for (scene, inferred_futures, plan) in seen(&lane_keeping(contingency(0.05), Tough)) {
         let problem = plan.problem.as_ref().expect("a problem");
         let found = futures(&scene, &inferred_futures.alternatives, &settings(0.05));
         assert_eq!(found.len(), problem.participants.len());
@@ -330,11 +330,11 @@ fn every_branch_keeps_out_of_the_ellipses_of_its_future() {
 #[test]
 fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
     let peak = |probability_at_least: f64| {
-        let vehicles = lane_keeping(contingency(probability_at_least), Style::Tough);
+        let vehicles = lane_keeping(contingency(probability_at_least), Tough);
         let run = run_inferring(vehicles, TICKS, &belief::Settings::default(), None);
         assert_eq!(run.collision, None);
         let speeds: Vec<f64> = run.states.iter().map(|states| states[0].speed_mps).collect();
-        speeds.windows(2).map(|pair| (pair[0] - pair[1]) / world::STEP_S).fold(0.0, f64::max)
+        speeds.windows(2).map(|pair| (pair[0] - pair[1]) / STEP_S).fold(0.0, f64::max)
     };
     let (branching, likeliest) = (peak(0.05), peak(1.0));
     assert!(branching < 0.8 * likeliest, "{branching} against {likeliest} m/s²");
@@ -342,7 +342,7 @@ fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
 
 #[test]
 fn an_unlikely_driver_that_shows_itself_at_once_has_a_future_of_its_own() {
-    let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Style::Nice)).swap_remove(0);
+    let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Nice)).swap_remove(0);
     let mass = |known: &[Alternative]| known.iter().map(|one| one.probability).sum::<f64>();
     assert!(inferred_futures.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));
     assert_eq!(

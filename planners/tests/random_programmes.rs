@@ -243,7 +243,7 @@ fn descents_end_at_optima() {
 /// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.
 #[test]
 fn a_mean_speed_is_as_binding_as_its_price() {
-    let mut free = common::alone(3);
+    let mut free = alone(3);
     free.terms.retain(|term| !matches!(term, Term::KeepOut(_)));
     let guess = vec![vec![Input::default(); HORIZON]];
     let mean = |weight: f64| {

@@ -133,7 +133,7 @@ impl Model {
     pub fn euler(network: &Network, step_s: f64) -> Result<Self, ModelError> {
         check(step_s)?;
         // Gershgorin's bound settles most cases without the eigenvalues.
-        if step_s * spectrum::rate_bound_per_s(network) > 2.0 {
+        if step_s * rate_bound_per_s(network) > 2.0 {
             let fastest_per_s = spectrum::rates_per_s(network).last().copied().unwrap_or(0.0);
             if step_s * fastest_per_s > 2.0 {
                 return Err(ModelError::Unstable { step_s, largest_step_s: 2.0 / fastest_per_s });

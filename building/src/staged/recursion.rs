@@ -176,7 +176,7 @@ impl StageMap {
                 let column = conduct(&laplacian, &gain.as_slice()[j * nodes..(j + 1) * nodes]);
                 conducted.column_mut(j).copy_from_slice(&column);
             }
-            gain += &one - dense::product(&one, &conducted);
+            gain += &one - product(&one, &conducted);
             gain = 0.5 * (&gain + gain.transpose());
         }
         Self { span, gain, laplacian }
@@ -194,14 +194,14 @@ impl StageMap {
             net_kw[input.zone] += input.sign * v;
         }
         let mut next = x.to_vec();
-        dense::add_product(&self.gain, &net_kw, 1.0, &mut next);
+        add_product(&self.gain, &net_kw, 1.0, &mut next);
         next
     }
 
     /// Aᵀ y and Mᵀ Bᵀ y.
     pub(super) fn transposed(&self, inputs: &[HeatInput], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut gained = vec![0.0; y.len()];
-        dense::add_product(&self.gain, y, 1.0, &mut gained);
+        add_product(&self.gain, y, 1.0, &mut gained);
         let back = y.iter().zip(self.conduct(&gained)).map(|(y, conducted)| y - conducted).collect();
         (back, inputs.iter().map(|input| input.sign * gained[input.zone]).collect())
     }

@@ -35,6 +35,7 @@ const STEERING_CHANGE: f64 = 0.1;
 /// Our human driver, as a prediction of a vehicle in traffic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedDriver {
+    /// The driver.
     pub settings: human::Settings,
     /// Weight of changes of the acceleration \[s⁴/m²\].
     pub acceleration_change: f64,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Action, AgentView, RewardWeights, StartDraw};
+use super::{Action, AgentView, StartDraw};
 use crate::simulation::run_error::RunError;
 
 /// Declares the terms of a reward and their weights.

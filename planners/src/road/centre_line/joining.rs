@@ -8,6 +8,7 @@ use super::segment::{Knot, Segment};
 /// A section of a line that becomes part of a joined line.
 #[derive(Clone, Copy, Debug)]
 pub struct LineSection<'a> {
+    /// The centre line.
     pub line: &'a CentreLine,
     /// Arc length at which the section begins \[m\].
     pub from_m: f64,
@@ -18,6 +19,7 @@ pub struct LineSection<'a> {
 /// Several sections joined to one line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JoinedLine {
+    /// The centre line.
     pub line: CentreLine,
     /// For each section, where it begins and ends on the line \[m\]. Between them are the curves that join them.
     pub sections_m: Vec<[f64; 2]>,

@@ -8,6 +8,7 @@ use super::segment::{Knot, MAX_HALF_TURN_RAD, Segment};
 /// A piece of a centre line, given by its curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Piece {
+    /// A straight piece.
     Straight {
         /// Length of the piece \[m\].
         length_m: f64,

@@ -21,7 +21,9 @@ pub struct Lane {
     pub width: Profile,
     /// Names of the lanes that begin where this one ends.
     pub successors: Vec<String>,
+    /// The neighbouring lane on the left.
     pub left: Option<LaneNeighbour>,
+    /// The neighbouring lane on the right.
     pub right: Option<LaneNeighbour>,
     /// Speed limit; `None` without one \[m/s\].
     pub speed_limit_mps: Option<f64>,

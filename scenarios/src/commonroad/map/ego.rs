@@ -6,7 +6,6 @@ use interplay_planners::{Body, State};
 use super::super::model::{CommonRoad, PlanningProblem, Region};
 use super::lanes::Lanes;
 use super::notes::{NOT_YET, Notes};
-use super::places;
 use super::places::{self, OnLanes};
 use super::vehicles::{in_world, rounded};
 use crate::format::stated::Stated;

@@ -14,7 +14,6 @@ use rayon::prelude::*;
 use super::likelihood::{Filtered, Observations};
 use super::selection::Fit;
 use crate::identify::report::{SuspectedCause, Suspicion};
-use crate::identify::state_space::likelihood::Observations;
 use crate::identify::telemetry::Telemetry;
 
 /// A fit, and what it is judged by.
