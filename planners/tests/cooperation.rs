@@ -9,7 +9,6 @@ use interplay_planners::drivers::contingency::diagnostics::FUTURES;
 use interplay_planners::drivers::contingency::{futures, shared_steps};
 use interplay_planners::drivers::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 use interplay_planners::drivers::cooperative::{self, cooperators};
-use interplay_planners::drivers::human::Style;
 use interplay_planners::drivers::human::Style::{Nice, Tough};
 use interplay_planners::drivers::negotiation::diagnostics::ACCEPTANCE;
 use interplay_planners::drivers::{conservative, contingency, negotiation};

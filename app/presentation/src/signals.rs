@@ -143,7 +143,7 @@ pub struct LightShape {
 impl LightShape {
     pub fn all(network: &RoadNetwork) -> Vec<LightShape> {
         let lit = network.lanes().iter().filter_map(|lane| Some((lane, lane.light.as_ref()?)));
-        let shape = |(lane, cycle): (&interplay_planners::road::network::Lane, &Arc<LightCycle>)| {
+        let shape = |(lane, cycle): (&Lane, &Arc<LightCycle>)| {
             let end_m = lane.centre.length_m();
             let half_m = lane.half_width_m(end_m);
             let bar = [-half_m, half_m].map(|across_m| lane.centre.position(end_m, across_m));

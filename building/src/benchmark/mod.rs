@@ -175,7 +175,9 @@ pub struct ThermalZone {
 /// The concentration of carbon dioxide in a zone and its limit, at each time \[ppm\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct AirQuality {
+    /// The concentration.
     pub concentration_ppm: Vec<f64>,
+    /// The limit.
     pub limit_ppm: Vec<f64>,
 }
 
@@ -199,6 +201,7 @@ pub struct MeasuredRun {
     pub zones: Vec<ThermalZone>,
     /// Zones whose air is judged.
     pub air: Vec<AirQuality>,
+    /// Powers.
     pub powers: Vec<PowerSignal>,
     /// Flows of fresh water.
     pub water: Vec<Water>,

@@ -58,6 +58,7 @@ const WEEK: [Weekday; 7] = [
 pub enum DayKind {
     /// A weekday that is not a holiday.
     Plain(Weekday),
+    /// A holiday.
     Holiday,
 }
 

@@ -24,7 +24,9 @@ pub struct Disturbance {
 pub struct DayAhead<'a> {
     /// Temperatures of the nodes at midnight \[°C\], zones first.
     pub initial_c: &'a [f64],
+    /// The targets of the day.
     pub targets: &'a Targets,
+    /// The forecast disturbance.
     pub forecast: &'a Disturbance,
     /// What is forecast for the day after, where that is known.
     pub outlook: Option<&'a Disturbance>,

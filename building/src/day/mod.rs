@@ -39,7 +39,9 @@ pub const MAX_REGRET_INPUTS: usize = 500;
 pub struct Day {
     /// Temperatures of the nodes at midnight \[°C\], zones first.
     pub initial_c: Vec<f64>,
+    /// The forecast disturbance of the day.
     pub forecast: Disturbance,
+    /// The actual disturbance of the day.
     pub actual: Disturbance,
     /// The record of the steps so far.
     pub record: DayRecord,

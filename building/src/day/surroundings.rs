@@ -18,6 +18,7 @@ pub struct Surroundings {
     pub forecast: Forecast,
     /// Seed of the forecast's errors.
     pub forecast_seed: u64,
+    /// The people.
     pub people: People,
     /// Radiation on the planes of the building's windows over time \[W/m²\], in the order of
     /// [`Network::window_planes`](crate::network::Network::window_planes).

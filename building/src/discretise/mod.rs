@@ -143,6 +143,7 @@ impl Model {
         Ok(Self { network: network.clone(), step_s, method: Discretisation::Euler, gain })
     }
 
+    /// The network.
     pub fn network(&self) -> &Network {
         &self.network
     }
@@ -290,7 +291,7 @@ pub(crate) enum Gain {
 /// C^-½ Σₖ aₖ Tₖ(2S/ρ − I) C^-½
 /// ```
 #[derive(Clone, Debug)]
-struct ChebyshevSeries {
+pub(crate) struct ChebyshevSeries {
     coefficients: Vec<f64>,
     inverse_root: Vec<f64>,
     bound_per_s: f64,
@@ -298,12 +299,12 @@ struct ChebyshevSeries {
 
 impl Gain {
     /// f(C⁻¹L)·C⁻¹ from the modes.
-    pub(super) fn dense(spectrum: &Spectrum, f: impl Fn(f64) -> f64) -> Self {
+    fn dense(spectrum: &Spectrum, f: impl Fn(f64) -> f64) -> Self {
         Self::Dense(spectrum.function(f))
     }
 
     /// f(C⁻¹L)·C⁻¹ as a series, without a matrix; `f` must be analytic around \[0, ∞).
-    pub(super) fn series(network: &Network, f: impl Fn(f64) -> f64) -> Self {
+    fn series(network: &Network, f: impl Fn(f64) -> f64) -> Self {
         // A network without any conductance has the spectrum {0}; any interval will do.
         let bound_per_s = rate_bound_per_s(network).max(f64::MIN_POSITIVE.sqrt());
         let coefficients = chebyshev(|x| f(0.5 * bound_per_s * (x + 1.0)));
@@ -311,7 +312,7 @@ impl Gain {
     }
 
     /// The product with one number per node.
-    pub(super) fn product(&self, network: &Network, x: &[f64]) -> Vec<f64> {
+    fn product(&self, network: &Network, x: &[f64]) -> Vec<f64> {
         match self {
             Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
             Self::Dense(matrix) => {

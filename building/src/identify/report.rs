@@ -11,6 +11,7 @@ use crate::network::{Wall, Zone};
 /// The result of an identification: the report, the series to draw, and the network.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identification {
+    /// The report.
     pub report: IdentificationReport,
     /// The series to draw, one for each zone.
     pub series: Vec<ZoneSeries>,
@@ -202,6 +203,7 @@ pub struct WallReport {
 /// The series of a zone to draw. Every series has one value a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZoneSeries {
+    /// Name of the zone.
     pub name: String,
     /// Time since the midnight before the first row \[s\].
     pub time_s: Vec<f64>,

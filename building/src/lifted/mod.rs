@@ -205,7 +205,7 @@ enum ZoneGain {
 }
 
 impl ZoneGain {
-    pub(super) fn compute(model: &Model) -> Self {
+    fn compute(model: &Model) -> Self {
         let zones = model.network().zone_count();
         match model.gain() {
             Gain::Diagonal(diagonal) => Self::Diagonal(diagonal[..zones].to_vec()),
@@ -217,7 +217,7 @@ impl ZoneGain {
         }
     }
 
-    pub(super) fn solve(&self, model: &Model, y: &[f64]) -> Vec<f64> {
+    fn solve(&self, model: &Model, y: &[f64]) -> Vec<f64> {
         match self {
             Self::Diagonal(diagonal) => y.iter().zip(diagonal).map(|(y, d)| y / d).collect(),
             Self::Factor(factor) => factor.solve(&DVector::from_column_slice(y)).data.into(),

@@ -7,7 +7,9 @@ use interplay_common::setting::{SettingError, SettingKey};
 /// A zone or a wall of a described building, by its position in the description, from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
+    /// A zone.
     Zone(usize),
+    /// A wall.
     Wall(usize),
 }
 
@@ -74,6 +76,7 @@ pub enum NetworkError {
         part: Part,
         /// The zone or wall, in words.
         called: String,
+        /// The error of the setting.
         error: SettingError,
     },
     /// A factor of the believed building is out of range.

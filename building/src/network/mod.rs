@@ -120,6 +120,7 @@ impl Network {
         }
     }
 
+    /// Number of zones.
     pub fn zone_count(&self) -> usize {
         self.zone_count
     }

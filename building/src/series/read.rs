@@ -16,6 +16,7 @@ const MAX_JITTER: f64 = 0.01;
 /// How long a value holds in a table of one row \[s\].
 const ONLY_ROW_S: f64 = 3600.0;
 
+/// A table of series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeriesTable {
     /// Time of the first row since the midnight before it \[s\], or since the first midnight where times are counted from there.
@@ -45,6 +46,7 @@ pub struct SeriesColumn {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct SeriesError {
+    /// The line, from one.
     pub line: usize,
     /// What is wrong, and what would work.
     pub problem: String,
@@ -106,6 +108,7 @@ impl SeriesTable {
         self.columns.iter().find(|column| column.title.eq_ignore_ascii_case(title.trim()))
     }
 
+    /// The titles of all series.
     pub fn titles(&self) -> Vec<&str> {
         self.columns.iter().map(|column| column.title.as_str()).collect()
     }

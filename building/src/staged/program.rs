@@ -5,6 +5,7 @@ use super::recursion::{HeatInput, StageMap};
 /// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftBound {
+    /// The node.
     pub node: usize,
     /// 1 for an upper bound, −1 for a lower one.
     pub sign: f64,
@@ -51,11 +52,13 @@ pub struct Peak {
 /// An optimal control problem of stages.
 #[derive(Clone, Debug)]
 pub struct StagedProgram {
+    /// Maps of the stages.
     pub maps: Vec<StageMap>,
     /// The inputs, the same in all stages.
     pub inputs: Vec<HeatInput>,
     /// Temperatures at the start \[°C\], of each node.
     pub initial_c: Vec<f64>,
+    /// The stages.
     pub stages: Vec<PlanStage>,
     /// The peak, where it has a price.
     pub peak: Option<Peak>,

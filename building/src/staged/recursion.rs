@@ -11,7 +11,7 @@
 use nalgebra::DMatrix;
 
 use super::dense::{
-    self, add_product, cholesky, product, solve_lower, solve_lower_transposed, solve_right, subtract_square,
+    add_product, cholesky, product, solve_lower, solve_lower_transposed, solve_right, subtract_square,
     symmetric_product, transposed_product,
 };
 use super::program::StagedProgram;
@@ -143,6 +143,7 @@ fn propagate(p: &mut DMatrix<f64>, map: &StageMap, f: &DMatrix<f64>, h: &DMatrix
 /// One input: equipment that heats a zone, or cools it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatInput {
+    /// The zone.
     pub zone: usize,
     /// Heat that a unit of the input brings into the zone: 1, or −1 where it cools.
     pub sign: f64,

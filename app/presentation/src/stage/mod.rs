@@ -79,7 +79,7 @@ pub struct StageFrame {
 
 /// The motion that a vehicle requests of another.
 #[derive(Clone, Debug, Serialize)]
-struct StageProposal {
+pub(crate) struct StageProposal {
     pub from: String,
     pub to: String,
     /// The positions of the motion \[m\].
@@ -90,7 +90,7 @@ struct StageProposal {
 
 /// The belief of a driver about another one.
 #[derive(Clone, Debug, Serialize)]
-struct StageBelief {
+pub(crate) struct StageBelief {
     /// The driver with the belief.
     pub of: String,
     /// The other driver.
@@ -103,7 +103,7 @@ struct StageBelief {
 
 /// An event.
 #[derive(Clone, Debug, Serialize)]
-struct StageEvent {
+pub(crate) struct StageEvent {
     pub vehicle: String,
     /// `note`, `warning` or `alarm`.
     pub level: &'static str,

@@ -241,7 +241,7 @@ fn evidence(timeline: &Timeline, track: usize) -> Evidence {
 
 impl Evidence {
     /// The weighted squared errors of a candidate at each start.
-    pub(super) fn squares(&self, driver: &PredictedDriver) -> Vec<f64> {
+    fn squares(&self, driver: &PredictedDriver) -> Vec<f64> {
         let model = MotionModel::Driver(driver.clone());
         let square = |start: &EvidenceStart| -> f64 {
             let motion = model.predict(&start.known);
@@ -255,7 +255,7 @@ impl Evidence {
     }
 
     /// Root mean squared error after 3 s of a driver, or of constant velocity \[m\].
-    pub(super) fn rmse_m(&self, driver: Option<&PredictedDriver>) -> f64 {
+    fn rmse_m(&self, driver: Option<&PredictedDriver>) -> f64 {
         let model = driver.map_or(MotionModel::ConstantVelocity, |driver| MotionModel::Driver(driver.clone()));
         let last = HORIZONS.len() - 1;
         let step = (HORIZONS[last].0 / STEP_S).round() as usize;

@@ -31,7 +31,7 @@ impl Box2 {
 
 /// A position relative to a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Projection {
+pub(crate) struct Projection {
     /// Arc length of the nearest point of the line \[m\].
     pub along_m: f64,
     /// Distance from it, positive to the left \[m\].

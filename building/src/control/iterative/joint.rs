@@ -42,6 +42,7 @@ pub struct Joint {
     pub price: Vec<f64>,
     /// The response under the feedback.
     pub response: Response,
+    /// The plan of the day.
     pub plan: DayOptimum,
     /// The expected cost: that of the plan, and that added by the disturbance.
     pub cost: f64,

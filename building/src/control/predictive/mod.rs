@@ -185,7 +185,7 @@ impl Default for PredictiveSettings {
 
 impl PredictiveSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self) -> Result<(), SettingError> {
+    fn check(&self) -> Result<(), SettingError> {
         setting::check(self)
     }
 
@@ -195,7 +195,7 @@ impl PredictiveSettings {
     }
 
     /// Cost of leaving the comfort band.
-    pub(super) fn penalty(&self) -> BandPenalty {
+    fn penalty(&self) -> BandPenalty {
         BandPenalty { linear: self.discomfort_linear, quadratic: self.discomfort_quadratic }
     }
 }

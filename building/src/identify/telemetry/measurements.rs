@@ -16,6 +16,7 @@ pub struct Telemetry {
     pub segments: Vec<Range<usize>>,
     /// How many rows of the table were left out because a value was missing.
     pub left_out_rows: usize,
+    /// The zones.
     pub zones: Vec<MeasuredZone>,
     /// Temperatures that act on zones and are not modelled.
     pub boundaries: Vec<Boundary>,
@@ -122,6 +123,7 @@ impl Telemetry {
             .collect()
     }
 
+    /// The name of a neighbour.
     pub fn name(&self, neighbour: Neighbour) -> &str {
         match neighbour {
             Neighbour::Zone(zone) => &self.zones[zone].name,

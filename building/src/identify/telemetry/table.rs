@@ -309,6 +309,7 @@ pub enum DecimalSign {
 }
 
 impl DecimalSign {
+    /// The character of the sign.
     pub fn character(self) -> char {
         match self {
             Self::Point => '.',

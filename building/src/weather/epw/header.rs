@@ -133,6 +133,7 @@ impl<'a> Fields<'a> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct EpwError {
+    /// The line, from one.
     pub line: usize,
     /// What is wrong with it.
     pub problem: EpwProblem,

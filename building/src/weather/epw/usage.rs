@@ -9,6 +9,7 @@ use super::{Epw, HOUR_S};
 /// What a run takes from a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EpwUse<'a> {
+    /// The fields.
     pub fields: &'a [Field],
     /// The time from which they are taken, after the midnight of the file's first day \[s\].
     pub from_s: f64,
@@ -23,6 +24,7 @@ pub struct EpwUse<'a> {
 pub struct EpwRemark {
     /// The first line that it is about, from one.
     pub line: usize,
+    /// What it is.
     pub text: String,
 }
 

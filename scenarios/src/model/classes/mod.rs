@@ -84,7 +84,7 @@ pub enum VehicleClass {
 
 /// Body, limits and safety ellipse of a class.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct ClassDimensions {
+pub(crate) struct ClassDimensions {
     pub body: Body,
     pub limits: Limits,
     pub safety: SafetyEllipse,

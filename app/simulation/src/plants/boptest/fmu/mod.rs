@@ -23,7 +23,7 @@ const YEAR_S: f64 = 365.0 * 86_400.0;
 const WEATHER: &str = "weather.csv";
 
 #[derive(Debug, Default)]
-struct CaseData {
+pub(crate) struct CaseData {
     series: BTreeMap<String, Series>,
 }
 
