@@ -22,5 +22,6 @@ mod error;
 mod export;
 mod resources;
 
+pub use description::FmiVersion;
 pub use error::FmuError;
-pub use export::{FmiVersion, export};
+pub use export::export;

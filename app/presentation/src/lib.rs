@@ -27,6 +27,7 @@ mod palette;
 mod passing_words;
 pub mod plot;
 pub mod record;
+mod rectangle;
 pub mod report;
 mod requests;
 mod road_shapes;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay, RoadNetwork};
 use interplay_scenarios::Scenario;
 
-use crate::camera::extent;
 use crate::curved_road::WorldLine;
+use crate::rectangle::extent;
 
 /// Largest distance between two points of a line, by the width of the lane.
 const POINT_DISTANCE_RATIO: f64 = 0.25;

@@ -5,7 +5,7 @@ use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 
 use crate::body::scale;
-use crate::camera::extent;
+use crate::rectangle::extent;
 
 /// Length of a car of 1/10 scale \[m\].
 const CAR_M: f64 = 0.4;

@@ -4,12 +4,15 @@
 //! a row, and those that follow from the report of a run and are not metrics: the ego's task, aggregates over the other
 //! vehicles, and sums over a building's days.
 
+use std::path::Path;
+
 use interplay_scenarios::{Better, MetricDeclaration, MetricKind, MetricSubject, RegisteredMetrics, Scenario};
 use interplay_simulation::measure::{Passage, metrics_of};
 use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
-use interplay_tables::{Cell, ColumnKind, TableSchema};
+use interplay_tables::{Cell, ColumnKind, TableSchema, TableWriter};
 use serde_json::{Value as Json, json};
 
+use crate::error::SweepError;
 use crate::row::SweepRow;
 
 /// A column that identifies a row or describes the run as a whole.
@@ -256,4 +259,23 @@ fn cell_of(kind: ColumnKind, value: Json) -> Cell {
         (Text, Json::String(text)) => Cell::Text(Some(text)),
         (Text, other) => Cell::Text(Some(other.to_string())),
     }
+}
+
+/// Writes rows as a table; `inputs` are the columns of the varied inputs, and `registered` metrics add columns.
+pub(crate) fn write_rows(
+    target: &Path,
+    inputs: &TableSchema,
+    registered: &RegisteredMetrics,
+    about: &[(&str, String)],
+    rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
+) -> Result<usize, SweepError> {
+    let columns = schema(inputs, registered);
+    let mut writer = TableWriter::new(target, columns.clone(), about)?;
+    let mut count = 0;
+    for row in rows {
+        writer.push(cells(&row?, &columns, inputs))?;
+        count += 1;
+    }
+    writer.finish()?;
+    Ok(count)
 }

@@ -45,6 +45,7 @@ mod key;
 mod measure;
 mod merge;
 mod people;
+mod people_rows;
 mod row;
 mod shard;
 mod statistics;

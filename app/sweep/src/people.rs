@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use interplay_scenarios::{Scenario, SweepPlan, SweepPoint};
 use serde_json::{Value as Json, json};
 
+use super::people_rows::{PARTICIPANT, RESTARTS, path_in, rows};
 use crate::error::SweepError;
-use crate::journal::{Journal, read_rows};
+use crate::journal::Journal;
 use crate::key::{RunKey, program_version};
 use crate::measure::measured_run;
 use crate::row::SweepRow;
@@ -87,19 +88,4 @@ fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepErro
     }
     let row = measured_run(key, &point, run.played, None)?;
     Ok(if is_ego { SweepRow { plan_median_ms: None, plan_p99_ms: None, ..row } } else { row })
-}
-
-/// The columns of a run with a person.
-pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];
-pub(crate) const PARTICIPANT: &str = "participant";
-pub(crate) const RESTARTS: &str = "restarts";
-
-pub(crate) fn path_in(folder: &Path) -> PathBuf {
-    folder.join("people.jsonl")
-}
-
-/// The rows of people in a folder, in the order in which they drove.
-pub(crate) fn rows(folder: &Path) -> Result<Vec<SweepRow>, SweepError> {
-    let path = path_in(folder);
-    if path.is_file() { read_rows(&path) } else { Ok(Vec::new()) }
 }

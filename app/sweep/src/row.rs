@@ -1,15 +1,11 @@
 //! One run of a sweep as a row of plain values.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use interplay_scenarios::{RegisteredMetrics, SweepPoint};
-use interplay_tables::{TableSchema, TableWriter};
+use interplay_scenarios::SweepPoint;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::column::{cells, schema};
-use crate::error::SweepError;
 use crate::key::RunKey;
 
 /// One run. Only the last three values differ when the run is repeated.
@@ -77,23 +73,4 @@ impl SweepRow {
             None => !result.passed,
         })
     }
-}
-
-/// Writes rows as a table; `inputs` are the columns of the varied inputs, and `registered` metrics add columns.
-pub(crate) fn write_rows(
-    target: &Path,
-    inputs: &TableSchema,
-    registered: &RegisteredMetrics,
-    about: &[(&str, String)],
-    rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
-) -> Result<usize, SweepError> {
-    let columns = schema(inputs, registered);
-    let mut writer = TableWriter::new(target, columns.clone(), about)?;
-    let mut count = 0;
-    for row in rows {
-        writer.push(cells(&row?, &columns, inputs))?;
-        count += 1;
-    }
-    writer.finish()?;
-    Ok(count)
 }

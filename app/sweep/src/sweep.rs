@@ -9,13 +9,13 @@ use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
 use interplay_tables::{ColumnKind, TableFile, TableSchema};
 use rayon::prelude::*;
 
-use crate::column::schema;
+use crate::column::{schema, write_rows};
 use crate::error::SweepError;
 use crate::journal::{Journal, JournalIndex, path_of};
 use crate::key::RunKey;
 use crate::measure::measured_run;
-use crate::people::{COLUMNS, rows};
-use crate::row::{SweepRow, write_rows};
+use crate::people_rows::{COLUMNS, rows};
+use crate::row::SweepRow;
 use crate::shard::Shard;
 
 /// The file with the rows of a whole plan.

@@ -61,7 +61,7 @@ controllers! {
     /// Economic model predictive control: the plan that costs the least money within the comfort band, made anew at every step.
     EconomicMpc(super::economic::EconomicSettings),
     /// The day's optimum, computed from the actual disturbances: for comparison.
-    Clairvoyant(super::optimum::ClairvoyantSettings),
+    Clairvoyant(super::clairvoyant::ClairvoyantSettings),
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
     Iterative(super::iterative::IterativeSettings),
     /// Feedforward and a Youla-parametrised feedback (chapter 4).

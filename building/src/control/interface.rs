@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use super::design::Design;
 use super::error::ControlError;
-use super::planning::Design;
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;

@@ -18,9 +18,11 @@
 //! undetermined. Here the expected cost under an uncertain disturbance determines the feedback, it is causal, and a bias
 //! of the disturbance is learned from day to day.
 
+mod clairvoyant;
 pub mod concurrent;
 mod controller;
 pub mod cooperative;
+mod design;
 pub mod distributed;
 pub mod disturbance_estimate;
 pub mod economic;
@@ -38,8 +40,9 @@ pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
 
+pub use clairvoyant::{Clairvoyant, ClairvoyantSettings};
 pub use controller::{Controller, ForeignController};
+pub use design::{Design, Exchange};
 pub use error::ControlError;
 pub use interface::{Control, ControllerKind, DayAhead, DayRecord, Disturbance, Observation};
-pub use optimum::{BandPenalty, Clairvoyant, ClairvoyantSettings, DayOptimum, optimum};
-pub use planning::{Design, Exchange};
+pub use optimum::{BandPenalty, DayOptimum, optimum};

@@ -23,5 +23,4 @@ mod program;
 mod recursion;
 
 pub use interior_point::solve;
-pub use program::{Peak, PlanStage, SoftBound, StagedError, StagedProgram, StagedSolution};
-pub use recursion::{HeatInput, StageMap};
+pub use program::{HeatInput, Peak, PlanStage, SoftBound, StageMap, StagedError, StagedProgram, StagedSolution};

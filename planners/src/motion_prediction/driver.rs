@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use super::car_following::CarFollowing;
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 use crate::drivers::human::{self, Human};
 use crate::prediction::constant_velocity;
@@ -207,6 +208,40 @@ pub(super) fn predict(moment: &TrafficMoment, decay: Option<[f64; 2]>, lateral: 
         along_m.push(farthest_m);
     }
     PredictedMotion { along_m, across_m: lateral.places_m(moment) }
+}
+
+/// A model of how a vehicle goes on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionModel {
+    /// Speed and lateral place are kept.
+    ConstantVelocity,
+    /// The acceleration decays within about `time_s`.
+    DecayingAcceleration {
+        /// The time within which the acceleration falls to 37 % \[s\].
+        time_s: f64,
+        /// Noise of the record with which half of the acceleration is trusted \[m/s\].
+        half_noise_mps: f64,
+        /// How the lateral place goes on.
+        lateral: LateralMotion,
+    },
+    /// The intelligent driver model.
+    CarFollowing(CarFollowing),
+    /// Our human driver.
+    Driver(PredictedDriver),
+}
+
+impl MotionModel {
+    /// Where the model expects the vehicle.
+    pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
+        match self {
+            MotionModel::ConstantVelocity => predict(moment, None, LateralMotion::Kept),
+            MotionModel::DecayingAcceleration { time_s, half_noise_mps, lateral } => {
+                predict(moment, Some([*time_s, *half_noise_mps]), *lateral)
+            }
+            MotionModel::CarFollowing(model) => model.predict(moment),
+            MotionModel::Driver(model) => model.predict(moment),
+        }
+    }
 }
 
 #[cfg(test)]

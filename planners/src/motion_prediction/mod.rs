@@ -17,7 +17,7 @@ mod car_following;
 mod driver;
 
 pub use car_following::CarFollowing;
-pub use driver::PredictedDriver;
+pub use driver::{MotionModel, PredictedDriver};
 
 /// Time between two places of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
@@ -124,40 +124,6 @@ impl LateralMotion {
             }
         };
         (0..=STEPS).map(at).collect()
-    }
-}
-
-/// A model of how a vehicle goes on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MotionModel {
-    /// Speed and lateral place are kept.
-    ConstantVelocity,
-    /// The acceleration decays within about `time_s`.
-    DecayingAcceleration {
-        /// The time within which the acceleration falls to 37 % \[s\].
-        time_s: f64,
-        /// Noise of the record with which half of the acceleration is trusted \[m/s\].
-        half_noise_mps: f64,
-        /// How the lateral place goes on.
-        lateral: LateralMotion,
-    },
-    /// The intelligent driver model.
-    CarFollowing(CarFollowing),
-    /// Our human driver.
-    Driver(PredictedDriver),
-}
-
-impl MotionModel {
-    /// Where the model expects the vehicle.
-    pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
-        match self {
-            MotionModel::ConstantVelocity => driver::predict(moment, None, LateralMotion::Kept),
-            MotionModel::DecayingAcceleration { time_s, half_noise_mps, lateral } => {
-                driver::predict(moment, Some([*time_s, *half_noise_mps]), *lateral)
-            }
-            MotionModel::CarFollowing(model) => model.predict(moment),
-            MotionModel::Driver(model) => model.predict(moment),
-        }
     }
 }
 

@@ -8,8 +8,8 @@ use interplay_presentation::report;
 use interplay_scenarios::Registry;
 use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 
-use crate::output::error::{CommandError, ExitStatus, gave_up, write_file};
-use crate::output::{ending, json, print, print_error};
+use crate::output::error::{CommandError, ExitStatus, write_file};
+use crate::output::{ending, gave_up, json, print, print_error};
 
 /// Say what the rows of a sweep tell of the planners, or what two sweeps of one plan do differently.
 #[derive(Debug, Args)]

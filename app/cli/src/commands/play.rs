@@ -14,8 +14,8 @@ use serde_json::json;
 
 use crate::commands::sweep::{folder_of_plan, make_missing_rows};
 use crate::flag_values::files::{destroyed, is_same_file};
-use crate::output::error::{ExitStatus, gave_up};
-use crate::output::{ending, json, print, print_error, print_load_error};
+use crate::output::error::ExitStatus;
+use crate::output::{ending, gave_up, json, print, print_error, print_load_error};
 
 /// Drive a vehicle of a scenario yourself, in the browser; what you played is kept as a scenario that repeats it.
 #[derive(Debug, Args)]

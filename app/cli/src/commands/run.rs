@@ -14,8 +14,8 @@ use interplay_simulation::watch::Watcher;
 
 use crate::flag_values::files::short_name;
 use crate::flag_values::values;
-use crate::output::error::{CommandError, ExitStatus, unwritten};
-use crate::output::{json, print, print_error, print_load_error, this_program, without_input};
+use crate::output::error::{CommandError, ExitStatus};
+use crate::output::{json, print, print_error, print_load_error, this_program, unwritten, without_input};
 use crate::process::watch::WatchedFiles;
 use crate::run_outputs::RunOutputs;
 

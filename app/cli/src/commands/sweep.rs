@@ -13,9 +13,9 @@ use rayon::ThreadPool;
 use crate::commands::compare::after_sweep;
 use crate::flag_values::plan_flags::PlanFlags;
 use crate::flag_values::values;
-use crate::output::error::{ExitStatus, gave_up};
+use crate::output::error::ExitStatus;
 use crate::output::progress::{CheckProgress, Progress};
-use crate::output::{print_error, print_load_error, printed};
+use crate::output::{gave_up, print_error, print_load_error, printed};
 use crate::process::limits::pool;
 
 /// Run a plan of many runs, a row each: scenarios, times drivers, times values that vary, times planners.

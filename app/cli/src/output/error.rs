@@ -8,10 +8,8 @@ use interplay_presentation::figures::FigureError;
 use interplay_presentation::plot::PlotError;
 use interplay_presentation::record::RecordError;
 use interplay_simulation::run::RunError;
-use interplay_sweep::SweepError;
 use thiserror::Error;
 
-use crate::output::{print_error, print_load_error};
 use crate::run_outputs::OutputError;
 
 /// Why a command has no result, or why the result is not where it should be.
@@ -59,29 +57,4 @@ pub(crate) enum ExitStatus {
     BadInput = 2,
     /// A run could not be finished.
     Unfinished = 3,
-}
-
-/// Prints why a command has no result.
-pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
-    let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
-    match error {
-        SweepError::Refused(refusal) => print_load_error(*refusal),
-        other => print_error(&other.to_string()),
-    }
-    ending
-}
-
-/// Says why an output of a run cannot be written.
-pub(crate) fn unwritten(error: OutputError) -> ExitStatus {
-    match error {
-        OutputError::Refused(refusal) => {
-            print_load_error(*refusal);
-            ExitStatus::BadInput
-        }
-        OutputError::Table(error) => gave_up(error.into()),
-        other => {
-            print_error(&other.to_string());
-            ExitStatus::Unfinished
-        }
-    }
 }

@@ -9,10 +9,12 @@ use std::io::{self, ErrorKind, Write};
 
 use interplay_presentation::shell::is_on_path;
 use interplay_scenarios::{Scenario, is_plain};
+use interplay_sweep::SweepError;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
 use crate::output::error::{CommandError, ExitStatus};
+use crate::run_outputs::OutputError;
 
 /// Prints a result. A closed pipe is not an error.
 ///
@@ -116,6 +118,31 @@ pub(crate) fn without_input(scenario: &Scenario) -> Option<String> {
 pub(crate) fn this_program() -> String {
     const NAME: &str = "interplay";
     env::args().next().filter(|_| !is_on_path(NAME)).unwrap_or_else(|| NAME.to_owned())
+}
+
+/// Prints why a command has no result.
+pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
+    let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
+    match error {
+        SweepError::Refused(refusal) => print_load_error(*refusal),
+        other => print_error(&other.to_string()),
+    }
+    ending
+}
+
+/// Says why an output of a run cannot be written.
+pub(crate) fn unwritten(error: OutputError) -> ExitStatus {
+    match error {
+        OutputError::Refused(refusal) => {
+            print_load_error(*refusal);
+            ExitStatus::BadInput
+        }
+        OutputError::Table(error) => gave_up(error.into()),
+        other => {
+            print_error(&other.to_string());
+            ExitStatus::Unfinished
+        }
+    }
 }
 
 #[cfg(test)]

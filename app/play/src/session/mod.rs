@@ -6,8 +6,8 @@ mod seat;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use live::seats_of;
+pub(crate) use live::{PlayGoal, seats_of};
 pub use live::{Session, check_seats};
-pub(crate) use score::{PlayGoal, planner_rows, planners_beside_person};
 pub use score::{Score, ScoreRow};
+pub(crate) use score::{planner_rows, planners_beside_person};
 pub use seat::{Controls, SessionError};

@@ -6,7 +6,7 @@ use super::camera::WIDTH_PX;
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{BAR, TITLE_PX, WORDS, draw_title};
 use super::chart::Chart;
-use super::file::{Pictures, Rgb};
+use super::pictures::{Pictures, Rgb};
 use super::rooms::Rooms;
 use crate::figures::RecordedRun;
 use crate::palette::{

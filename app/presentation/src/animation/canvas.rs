@@ -5,8 +5,8 @@
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 use super::letters::{self, Word};
-use crate::camera::rounded_corners;
 use crate::palette::Colour;
+use crate::rectangle::rounded_corners;
 
 /// Largest magnitude of a coordinate \[px\]: the numbers of the rasteriser have 16 bits before the point.
 const MAX_PLACE_PX: f64 = 30_000.0;

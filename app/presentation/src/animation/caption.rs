@@ -9,10 +9,10 @@ use super::camera::{CameraView, WIDTH_PX};
 use super::canvas::{Align, Canvas, Ink};
 use super::letters::{cut, width_of};
 use super::scene::DrivingRun;
-use crate::camera::{Rectangle, overlap};
 use crate::edge_mark::EdgeMark;
 use crate::palette::Colour;
 use crate::passing_words::{event_text, has_passed_oncoming, passing_sentence, vehicle_indices};
+use crate::rectangle::{Rectangle, overlap};
 
 /// Times that a collision and any other event stay in the caption \[s\], at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;

@@ -7,16 +7,16 @@ use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{
     BAR, Caption, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, caption, contacts, draw_edge_mark, draw_title,
 };
-use super::file::{Pictures, Rgb};
 use super::letters::{cut, width_of};
+use super::pictures::{Pictures, Rgb};
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{PICTURE_S, PictureTime, moments};
 use super::{ribbon, road, vehicle};
-use crate::camera::{Rectangle, overlap, rectangle_around};
 use crate::edge_mark::edge_marks;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, OTHERS, VERMILLION};
 use crate::passing_words::{contact_place, star};
+use crate::rectangle::{Rectangle, overlap, rectangle_around};
 use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];

@@ -17,6 +17,7 @@ mod driving;
 mod encode;
 mod file;
 mod letters;
+mod pictures;
 mod ribbon;
 mod road;
 mod rooms;
@@ -33,7 +34,7 @@ use std::io;
 use building::BuildingPictures;
 use driving::DrivingPictures;
 use encode::Film;
-use file::{PictureSequence, Pictures};
+use pictures::{PictureSequence, Pictures};
 
 use crate::figures::RecordedRun;
 

@@ -6,7 +6,7 @@ use interplay_scenarios::load;
 
 use super::building::BuildingPictures;
 use super::driving::DrivingPictures;
-use super::file::Pictures;
+use super::pictures::Pictures;
 use super::{AnimationFormat, encoded};
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BLUE, Colour, ORANGE};

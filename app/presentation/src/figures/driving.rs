@@ -6,10 +6,10 @@ use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
 use crate::body::BodyStyle;
-use crate::camera::extent;
 use crate::palette::OBSTACLE;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels};
+use crate::rectangle::extent;
 use crate::road_shapes::RoadShapes;
 
 /// Number of snapshots in a picture of footprints: in strips, and the most on one map.

@@ -4,7 +4,7 @@
 
 use super::backend::width_of;
 use super::style::{BLACK, Colour, LineStyle, PAPER};
-use crate::camera::overlap;
+use crate::rectangle::overlap;
 
 /// Size of text on ticks and bodies.
 pub const SMALL_TEXT_PX: f64 = 22.0;

@@ -4,10 +4,9 @@ use interplay_planners::Body;
 use interplay_scenarios::{Outline, Vehicle};
 
 use super::mesh::Mesh;
-use crate::body::BodyStyle;
-use crate::body::{BodyArea, RIDER, Wheels, light_depth, place_on, rectangle};
-use crate::camera::rounded_corners;
+use crate::body::{BodyArea, BodyStyle, RIDER, Wheels, light_depth, place_on, rectangle};
 use crate::palette::{Colour, GLASS, HEADLIGHT, TAIL_LIGHT, TYRE, darker};
+use crate::rectangle::rounded_corners;
 
 /// Space below the body, and the upper edges of bonnet, roof, van, cab and box, in widths of the body.
 const CLEARANCE_WIDTHS: f64 = 0.1;

@@ -1,6 +1,6 @@
 //! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Places are pixels, y downwards.
 
-use crate::camera::{Rectangle, overlap};
+use crate::rectangle::{Rectangle, overlap};
 
 /// Width of a letter and of the edges of a label, and its height \[px\].
 const LETTER_PX: f64 = 7.3;

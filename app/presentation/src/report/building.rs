@@ -8,7 +8,7 @@ use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
 use interplay_simulation::report::{BuildingReport, ZoneOutcome};
 
-use super::summary::{Align, lines, write_table};
+use super::columns::{Align, lines, write_table};
 
 /// The most days that a summary lists.
 const MAX_LISTED_DAYS: usize = 14;

@@ -8,7 +8,7 @@ use interplay_building::identify::{
 
 use interplay_common::spelling::counted;
 
-use super::summary::{Align, write_table, written};
+use super::columns::{Align, write_table, written};
 
 /// The findings as text: parameters with uncertainty and verdict, residuals, errors, and warnings.
 pub fn identification(file: &str, found: &Identification) -> String {

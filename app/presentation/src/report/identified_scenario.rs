@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use interplay_building::identify::{IdentificationReport, IdentifiedNetwork, RecordedDays};
 
-use super::summary::written;
+use super::columns::written;
 
 /// The smallest and largest factor of `[building.believed]`.
 const BELIEVED: (f64, f64) = (0.1, 10.0);

@@ -1,6 +1,7 @@
 //! Reports as texts: for a person, for a build server.
 
 mod building;
+mod columns;
 mod comparison;
 mod identification;
 mod identified_scenario;

@@ -6,7 +6,7 @@ use interplay_recordings::{
     ComparedModel, DrivingStatistics, GroupComparison, MeasureInterval, PredictionComparison, Spread,
 };
 
-use super::summary::{Align, write_table, written};
+use super::columns::{Align, write_table, written};
 
 /// A comparison as a text: for each group of recordings a table of errors, then what was fitted.
 pub fn prediction(comparison: &PredictionComparison) -> String {

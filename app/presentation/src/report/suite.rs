@@ -5,7 +5,7 @@ use std::fmt::Write;
 use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_simulation::run::RunError;
 
-use super::summary::{Align, lines, written};
+use super::columns::{Align, lines, written};
 
 /// One run of a suite: its report, or why it could not be finished.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use interplay_simulation::why::{WhyReport, WhyRun};
 
-use super::summary::{Align, write_table, written};
+use super::columns::{Align, write_table, written};
 use crate::shell;
 
 /// A line for every run, and below them in words what the order, the times and the expectations depend on; `command` are the

@@ -1,10 +1,13 @@
 //! Bootstrap intervals over cars: predictions of one car are correlated, those of different cars are not.
 
 use interplay_common::random::Random;
+use interplay_planners::motion_prediction::{MotionModel, PredictedMotion, STEP_S, STEPS};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Outcome;
+use crate::geometry::Box2;
+use crate::start::{HORIZONS_S, Later, Start};
+use crate::traffic::Recordings;
 
 const RESAMPLES: u64 = 1000;
 /// Seed of all intervals: the same recordings give the same intervals.
@@ -87,6 +90,114 @@ impl Resamples {
 /// The nearest-rank quantile of ascending numbers, which must not be empty.
 pub(crate) fn nearest_rank(ascending: &[f64], share: f64) -> f64 {
     ascending[(share * (ascending.len() - 1) as f64).round() as usize]
+}
+
+const COUNT: usize = HORIZONS_S.len();
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Outcome {
+    /// Predicted minus recorded position along the road at each horizon \[m\].
+    pub along_m: [f64; COUNT],
+    /// The same across the road \[m\].
+    pub across_m: [f64; COUNT],
+    /// Negative log-likelihood of the recorded position at each horizon.
+    pub negative_log_likelihood: [f64; COUNT],
+    pub touches_within_3s: bool,
+    pub touches_within_5s: bool,
+    /// Whether the centre is outside all lanes after 3 s; none without a map.
+    pub is_off_road: Option<bool>,
+}
+
+/// The mean absolute errors along and across the road at each horizon, on the starts on which models are fitted \[m\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Scales {
+    along_m: [f64; COUNT],
+    across_m: [f64; COUNT],
+}
+
+/// Minimum scale: records are not more exact than this \[m\].
+const LEAST_SCALE_M: f64 = 0.01;
+
+/// Contacts of a predicted body are checked at every this many steps.
+const STEPS_BETWEEN: usize = 2;
+
+/// Contact shares are counted up to this time and up to the last horizon \[s\].
+const FIRST_S: f64 = 3.0;
+
+impl Scales {
+    /// The scales of a model on some starts.
+    pub(crate) fn of(model: &MotionModel, starts: &[&Start]) -> Scales {
+        use rayon::prelude::*;
+        let errors: Vec<_> = starts.par_iter().map(|start| errors_m(&model.predict(&start.known), start)).collect();
+        let mean = |index: usize, part: usize| {
+            let sum: f64 = errors.iter().map(|errors| errors[part][index].abs()).sum();
+            (sum / errors.len().max(1) as f64).max(LEAST_SCALE_M)
+        };
+        Scales {
+            along_m: std::array::from_fn(|index| mean(index, 0)),
+            across_m: std::array::from_fn(|index| mean(index, 1)),
+        }
+    }
+}
+
+/// The errors along and across the road at each horizon \[m\].
+fn errors_m(motion: &PredictedMotion, start: &Start) -> [[f64; COUNT]; 2] {
+    let at = |horizon_s: f64| (horizon_s / STEP_S).round() as usize;
+    let along = |index: usize| motion.along_m[at(HORIZONS_S[index])] - start.truth[index].along_m;
+    let across = |index: usize| motion.across_m[at(HORIZONS_S[index])] - start.truth[index].across_m;
+    [std::array::from_fn(along), std::array::from_fn(across)]
+}
+
+impl Outcome {
+    /// The outcome of a model's prediction at a start.
+    pub(crate) fn of(model: &MotionModel, scales: &Scales, start: &Start, recordings: &Recordings) -> Outcome {
+        let motion = model.predict(&start.known);
+        let [along_m, across_m] = errors_m(&motion, start);
+        let negative_log_likelihood = std::array::from_fn(|index| {
+            let term = |error_m: f64, scale_m: f64| libm::log(2.0 * scale_m) + error_m.abs() / scale_m;
+            term(along_m[index], scales.along_m[index]) + term(across_m[index], scales.across_m[index])
+        });
+        let timeline = &recordings.timelines[start.timeline];
+        let car = &timeline.tracks[start.track];
+        let place = |step: usize| start.way.position(start.along_m + motion.along_m[step], motion.across_m[step]);
+        let body = |step: usize| {
+            let (middle, heading_rad) = place(step);
+            Box2 { middle, heading_rad, half_m: [0.5 * car.length_m, 0.5 * car.width_m] }
+        };
+        let contact_s = first_contact_s(start, recordings, |step| Some(body(step)));
+        let first = (FIRST_S / STEP_S).round() as usize;
+        Outcome {
+            along_m,
+            across_m,
+            negative_log_likelihood,
+            touches_within_3s: contact_s.is_some_and(|contact_s| contact_s <= FIRST_S + 1e-9),
+            touches_within_5s: contact_s.is_some(),
+            is_off_road: (!timeline.map.is_empty()).then(|| !timeline.map.covers(place(first).0)),
+        }
+    }
+
+    /// The outcome of the record itself: contacts of its boxes, and positions outside the lanes of its map.
+    pub(crate) fn of_record(start: &Start, recordings: &Recordings) -> Outcome {
+        let timeline = &recordings.timelines[start.timeline];
+        let later = Later { timeline, track: start.track, step: start.step };
+        let contact_s = first_contact_s(start, recordings, |step| later.own_box(STEP_S * step as f64));
+        let at_first = later.own_box(FIRST_S).map(|own| own.middle);
+        Outcome {
+            touches_within_3s: contact_s.is_some_and(|contact_s| contact_s <= FIRST_S + 1e-9),
+            touches_within_5s: contact_s.is_some(),
+            is_off_road: at_first.filter(|_| !timeline.map.is_empty()).map(|at| !timeline.map.covers(at)),
+            ..Outcome::default()
+        }
+    }
+}
+
+/// Time at which a body first overlaps another recorded one \[s\].
+fn first_contact_s(start: &Start, recordings: &Recordings, body: impl Fn(usize) -> Option<Box2>) -> Option<f64> {
+    let later = Later { timeline: &recordings.timelines[start.timeline], track: start.track, step: start.step };
+    let others = later.others();
+    let times = (STEPS_BETWEEN..=STEPS).step_by(STEPS_BETWEEN);
+    let touches = |step: &usize| body(*step).is_some_and(|own| later.touches(&own, &others, STEP_S * *step as f64));
+    times.into_iter().find(touches).map(|step| STEP_S * step as f64)
 }
 
 #[cfg(test)]

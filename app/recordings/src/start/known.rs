@@ -3,7 +3,6 @@
 use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
 use interplay_scenarios::RecordedMoment;
 
-use super::{HORIZONS_S, PAST_S};
 use crate::geometry::{Box2, LaneLine};
 use crate::traffic::{Timeline, Track};
 
@@ -150,6 +149,12 @@ impl<'a> Later<'a> {
 pub(crate) fn body(track: &Track, at: &RecordedMoment) -> Box2 {
     Box2 { middle: at.position, heading_rad: at.heading_rad, half_m: [0.5 * track.length_m, 0.5 * track.width_m] }
 }
+
+/// Time before a start over which slopes are computed \[s\].
+pub(crate) const PAST_S: f64 = 1.2;
+
+/// The horizons at which predictions are evaluated \[s\].
+pub(crate) const HORIZONS_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@
 
 mod known;
 
-pub(crate) use known::{Later, Truth, known_at};
+pub(crate) use known::{HORIZONS_S, Later, PAST_S, Truth, known_at};
 
 use interplay_planners::motion_prediction::TrafficMoment;
 use rayon::prelude::*;
@@ -69,8 +69,3 @@ fn of_timeline(index: usize, timeline: &Timeline) -> Vec<Start> {
 
 #[cfg(test)]
 mod tests;
-
-/// Time before a start over which slopes are computed \[s\].
-pub(crate) const PAST_S: f64 = 1.2;
-/// The horizons at which predictions are evaluated \[s\].
-pub(crate) const HORIZONS_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];

@@ -10,8 +10,8 @@ use interplay_scenarios::Dynamic;
 use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
 use super::contacts::{Contact, Contacts, Moving, Touch, impulse_ns};
-use super::footprint::{Path, next_look, pose};
-use super::gap::FootprintGaps;
+use super::footprint::pose;
+use super::gap::{FootprintGaps, Path, next_look};
 
 /// A body whose pose the model sets.
 pub(super) fn body(state: &State) -> RigidBodyBuilder {

@@ -5,7 +5,7 @@ use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Body, State};
 use interplay_scenarios::from_text;
 
-use super::footprint::MIN_STEP_TICKS;
+use super::gap::MIN_STEP_TICKS;
 use super::step;
 use crate::simulation::world_state::WorldState;
 use crate::state::components::{CurrentFrame, CurrentTraffic};

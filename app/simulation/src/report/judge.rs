@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use interplay_scenarios::{Completes, Expect, ExpectedYield, MetricBound, MetricLimit};
 use serde_json::{Map, Value, json};
 
-use super::counterfactual::Expectation;
 use super::judge_building::{judge_building, judge_zone};
-use super::outcome::{Report, VehicleReport};
+use super::outcome::{Expectation, Report, VehicleReport};
 use crate::measure::{Measured, MetricValue, Passage};
 
 /// Judges every expectation that the scenario states.

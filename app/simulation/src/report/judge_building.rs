@@ -5,7 +5,7 @@ use interplay_scenarios::{BuildingExpect, ExpectedZone};
 use serde_json::{Value, json};
 
 use super::building::BuildingReport;
-use super::counterfactual::Expectation;
+use super::outcome::Expectation;
 use crate::state::day::DayFigures;
 use crate::state::worst_zones::WorstZones;
 

@@ -11,8 +11,7 @@ use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::{BuildingReport, ZoneOutcome};
-pub use counterfactual::Expectation;
-pub use outcome::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
+pub use outcome::{BeliefReport, CounterfactualReport, Expectation, PlansReport, Report, VehicleReport};
 
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
 use crate::state::components::to_nanosecond;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::pairs::{Estimate, Split};
+use super::estimate::{Estimate, Split};
 use super::records::RunRecord;
 
 /// First random stream of the intervals of buildings, which have streams of their own.

@@ -10,7 +10,8 @@ use serde::{Serialize, Serializer};
 
 use super::building::BuildingFigures;
 use super::compared::{ComparedColumns, FigureColumn, FigureKind};
-use super::pairs::{Estimate, PairedDifference, Quantiles, Share, correct};
+use super::estimate::{Estimate, Quantiles, Share};
+use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
 

@@ -2,11 +2,14 @@
 
 mod building;
 mod compared;
+mod estimate;
 mod figures;
 mod pairs;
 mod records;
+mod versions;
 
 pub use building::{BuildingDifference, BuildingFigures};
+pub use estimate::{Estimate, Quantiles, Share, Split};
 pub use figures::{Comparison, Figure, Figures, GroupBy, GroupFigures, NamedFigure, PlannerFigures, compare};
-pub use pairs::{Estimate, MetricSplit, MetricSplits, PairedDifference, Quantiles, Share, Split};
-pub use records::{VersionComparison, VersionGroup, compare_versions};
+pub use pairs::{MetricSplit, MetricSplits, PairedDifference};
+pub use versions::{VersionComparison, VersionGroup, compare_versions};

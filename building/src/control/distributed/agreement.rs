@@ -39,11 +39,9 @@ use rayon::prelude::*;
 
 use super::messages::Messages;
 use super::settings::Scheme;
-use super::step_space::{Direction, StepSpace};
-use super::zone::{Bound, Zone, ZoneModels, ZoneProblem};
-use crate::comfort::Targets;
-use crate::control::{BandPenalty, ControlError};
-use crate::lifted::Lifted;
+use super::step_space::{Direction, JointDay, StepSpace};
+use super::zone::{Bound, Zone, ZoneProblem};
+use crate::control::ControlError;
 
 /// How many earlier steps are combined with the proposals. Chosen: with one, a third of the random networks of the tests with
 /// binding bounds end more than 0.1 % above the optimum after 200 rounds; more than six save few rounds.
@@ -230,43 +228,4 @@ impl JointDay<'_> {
 fn stacked(series: &[Vec<f64>], zones: usize) -> Vec<f64> {
     let steps = series.first().map_or(0, |series| series.len() - 1);
     (0..steps * zones).map(|k| series[k % zones][k / zones + 1]).collect()
-}
-
-/// A day to be planned together.
-pub(super) struct JointDay<'a> {
-    pub lifted: &'a Lifted,
-    pub targets: &'a Targets,
-    pub penalty: BandPenalty,
-    pub zone_models: &'a ZoneModels,
-    /// Nodes' temperatures at midnight.
-    pub initial_c: &'a [f64],
-    /// All heat but that of the equipment, nodes of a step together \[kW\].
-    pub driving_kw: &'a [f64],
-    /// Temperatures of the zones without equipment, stacked.
-    pub free_c: &'a [f64],
-    pub silent: Option<usize>,
-}
-
-impl JointDay<'_> {
-    /// J of the inputs, with penalties, by simulation.
-    pub fn cost(&self, heat_kw: &[f64]) -> f64 {
-        let temperatures_c: Vec<f64> =
-            self.free_c.iter().zip(self.lifted.product(heat_kw)).map(|(free, risen)| free + risen).collect();
-        self.cost_of(&temperatures_c, heat_kw)
-    }
-
-    pub(super) fn cost_of(&self, temperatures_c: &[f64], heat_kw: &[f64]) -> f64 {
-        self.targets.cost(temperatures_c, heat_kw) + self.penalty.evaluate(self.targets, temperatures_c)
-    }
-
-    /// ∂J/∂T and, without the parts of bounds that are kept now, ∂²J/∂T² of an entry.
-    pub(super) fn slope(&self, i: usize, temperature_c: f64) -> (f64, f64) {
-        let targets = self.targets;
-        let error_k = targets.reference_c[i] - temperature_c;
-        let weight = targets.error_weight[i];
-        let beyond_k = targets.beyond_k(i, temperature_c);
-        let c = self.penalty.quadratic;
-        let bent = if beyond_k > 0.0 { 2.0 * c } else { 0.0 };
-        (-2.0 * weight * error_k - 2.0 * c * beyond_k * error_k.signum(), 2.0 * weight + bent)
-    }
 }

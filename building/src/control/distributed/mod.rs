@@ -26,9 +26,10 @@ use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::network::PowerLimits;
-use agreement::{JointDay, Rules};
+use agreement::Rules;
 use messages::Messages;
 use settings::penalty;
+use step_space::JointDay;
 use zone::ZoneModels;
 
 /// The controller of the distributed design (chapter 5) with its state.

@@ -9,8 +9,8 @@ use std::cell::RefCell;
 use super::likelihood::Observations;
 use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
-use super::scoring::{Ascent, Constraint, Sandwich};
-use super::selection::Fit;
+use super::scoring::{Ascent, Constraint};
+use super::selection::{Fit, Sandwich};
 use crate::identify::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
 use crate::identify::telemetry::Telemetry;
 

@@ -32,8 +32,7 @@ use toml::de::DeTable;
 use super::error::{Problem, TelemetryError, listed};
 use super::form;
 use super::measurements::Hold;
-use super::table::TableForm;
-use super::units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, WaterFlowUnit};
+use super::units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, TableForm, WaterFlowUnit};
 use crate::identify::IdentifySettings;
 use crate::series::clock::NamedZone;
 

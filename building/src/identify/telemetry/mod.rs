@@ -20,8 +20,9 @@ pub use mapping::{
 };
 pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use recorded_days::RecordedDays;
-pub use table::{DecimalSign, TableForm};
-pub use units::{AirFlowUnit, EnergyUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
+pub use units::{
+    AirFlowUnit, DecimalSign, EnergyUnit, IrradianceUnit, PowerUnit, TableForm, TemperatureUnit, WaterFlowUnit,
+};
 
 impl Telemetry {
     /// Reads a table as `mapping` says; `file` is its name for messages.

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use super::mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TimeAxis, ZoneColumns};
 use super::measurements::{Boundary, MeasuredZone, Telemetry};
-use super::table::TableForm;
-use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
+use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TableForm};
 use crate::identify::IdentifySettings;
 
 /// Heat that air carries is written as a flow of this unit.

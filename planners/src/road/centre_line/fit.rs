@@ -2,8 +2,8 @@
 
 use super::error::CentreLineError;
 use super::line::CentreLine;
-use super::polynomials::distance;
 use super::reparametrisation::segments;
+use super::segment::distance;
 use super::spline;
 
 /// A point that is nearer to the one before than this share of the mean distance is left out: so short an interval would

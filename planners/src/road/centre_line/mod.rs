@@ -35,5 +35,5 @@ pub use frenet::{FrenetExpansion, FrenetPoint};
 pub use joining::{JoinedLine, LineSection};
 pub use line::{CentreLine, LinePoint};
 pub use pieces::{Piece, smooth};
-pub use polynomials::LinePolynomial;
+pub use segment::LinePolynomial;
 pub use smoothing::smooth_points;

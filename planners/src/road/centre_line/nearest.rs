@@ -2,8 +2,7 @@
 
 use super::chord::{Chord, ChordGroup};
 use super::line::{Curve, CurvePoint};
-use super::polynomials::{distance, dot};
-use super::segment::Segment;
+use super::segment::{Segment, distance, dot};
 
 /// Most steps of a search. Halley's method needs 1 to 4; the rest is for bisection.
 const MAX_STEPS: usize = 64;

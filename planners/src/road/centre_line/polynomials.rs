@@ -4,7 +4,7 @@ use super::error::CentreLineError;
 use super::joining::continues;
 use super::line::{CentreLine, Curve, Shape};
 use super::reparametrisation::by_arc_length;
-use super::segment::{MAX_HALF_TURN_RAD, Segment};
+use super::segment::{LinePolynomial, MAX_HALF_TURN_RAD, Segment};
 
 impl CentreLine {
     /// The polynomials of the line in the order of arc length; none for [`CentreLine::straight`].
@@ -47,28 +47,4 @@ impl CentreLine {
         let curve = Curve::new(segments).ok_or(CentreLineError::NoPieces)?;
         Ok(CentreLine(Shape::Curve(std::sync::Arc::new(curve))))
     }
-}
-
-/// The part of a centre line between two neighbouring knots.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinePolynomial {
-    /// Arc length between the knots \[m\].
-    pub length_m: f64,
-    /// Coefficients of x over the distance `u` from the first knot, from the constant to `u⁵`.
-    pub x: [f64; 6],
-    /// Coefficients of y over the distance `u`, from the constant to `u⁵`.
-    pub y: [f64; 6],
-}
-
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let apart = [a[0] - b[0], a[1] - b[1]];
-    (apart[0] * apart[0] + apart[1] * apart[1]).sqrt()
 }

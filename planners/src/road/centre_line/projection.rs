@@ -3,7 +3,7 @@
 use super::frenet::{AcrossExpansion, FrenetExpansion, FrenetPoint};
 use super::line::{CentreLine, Curve, CurvePoint, Shape};
 use super::nearest::SearchStep;
-use super::polynomials::{cross, dot};
+use super::segment::{cross, dot};
 
 impl Curve {
     /// Frenet coordinates of a position, searched from `near_m` on or on the whole curve.

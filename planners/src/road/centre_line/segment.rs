@@ -1,7 +1,5 @@
 //! The part of a centre line between two neighbouring knots.
 
-use super::polynomials::LinePolynomial;
-
 /// Position, first and second derivative at a knot, over some parameter.
 pub(super) type Knot = [[f64; 2]; 3];
 
@@ -134,6 +132,30 @@ fn small_arctangent(z: f64) -> f64 {
     let low = (1.0 - second * (1.0 / 3.0)) + (1.0 / 5.0 - second * (1.0 / 7.0)) * fourth;
     let high = (1.0 / 9.0 - second * (1.0 / 11.0)) + (1.0 / 13.0 - second * (1.0 / 15.0)) * fourth;
     z * (low + high * eighth)
+}
+
+/// The part of a centre line between two neighbouring knots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePolynomial {
+    /// Arc length between the knots \[m\].
+    pub length_m: f64,
+    /// Coefficients of x over the distance `u` from the first knot, from the constant to `u⁵`.
+    pub x: [f64; 6],
+    /// Coefficients of y over the distance `u`, from the constant to `u⁵`.
+    pub y: [f64; 6],
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let apart = [a[0] - b[0], a[1] - b[1]];
+    (apart[0] * apart[0] + apart[1] * apart[1]).sqrt()
 }
 
 #[cfg(test)]

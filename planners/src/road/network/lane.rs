@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use super::super::centre_line::CentreLine;
 use super::super::profile::Profile;
 use super::light::LightCycle;
-use super::road_network::RoadNetwork;
 
 /// A lane of a road, driven in the direction of its centre line.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,28 +133,4 @@ pub enum LaneUser {
     Bicycle,
     /// People on foot.
     Pedestrian,
-}
-
-impl RoadNetwork {
-    /// Whether a lane is kept for some users.
-    pub fn has_restricted_lanes(&self) -> bool {
-        self.lanes().iter().any(|lane| !lane.users.is_empty())
-    }
-
-    /// The network as far as it is open to some user: without lanes that are kept for others.
-    pub fn open_to(&self, user: LaneUser) -> RoadNetwork {
-        self.with_lanes(|lane| lane.is_open_to(user))
-    }
-
-    /// The network with some of its lanes only.
-    pub fn with_lanes(&self, is_kept: impl Fn(&Lane) -> bool) -> RoadNetwork {
-        let mut lanes: Vec<Lane> = self.lanes().iter().filter(|lane| is_kept(lane)).cloned().collect();
-        let names: Vec<String> = lanes.iter().map(|lane| lane.name.clone()).collect();
-        for lane in &mut lanes {
-            lane.successors.retain(|name| names.contains(name));
-            lane.left = lane.left.take().filter(|neighbour| names.contains(&neighbour.lane));
-            lane.right = lane.right.take().filter(|neighbour| names.contains(&neighbour.lane));
-        }
-        RoadNetwork::unchecked(lanes)
-    }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::centre_line::FrenetPoint;
 use super::error::{LaneFault, RoadNetworkError};
-use super::lane::Lane;
+use super::lane::{Lane, LaneUser};
 use super::neighbours::is_beside;
 
 /// RoadLanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
@@ -259,4 +259,28 @@ fn overlap(one: &LanePart, other: &LanePart, step_m: f64) -> bool {
     libm::cos(other.heading_rad - one.heading_rad).abs() >= MIN_COS
         && along_m.abs() <= step_m
         && across_m.abs() < OVERLAP_RATIO * (one.half_m + other.half_m)
+}
+
+impl RoadNetwork {
+    /// Whether a lane is kept for some users.
+    pub fn has_restricted_lanes(&self) -> bool {
+        self.lanes().iter().any(|lane| !lane.users.is_empty())
+    }
+
+    /// The network as far as it is open to some user: without lanes that are kept for others.
+    pub fn open_to(&self, user: LaneUser) -> RoadNetwork {
+        self.with_lanes(|lane| lane.is_open_to(user))
+    }
+
+    /// The network with some of its lanes only.
+    pub fn with_lanes(&self, is_kept: impl Fn(&Lane) -> bool) -> RoadNetwork {
+        let mut lanes: Vec<Lane> = self.lanes().iter().filter(|lane| is_kept(lane)).cloned().collect();
+        let names: Vec<String> = lanes.iter().map(|lane| lane.name.clone()).collect();
+        for lane in &mut lanes {
+            lane.successors.retain(|name| names.contains(name));
+            lane.left = lane.left.take().filter(|neighbour| names.contains(&neighbour.lane));
+            lane.right = lane.right.take().filter(|neighbour| names.contains(&neighbour.lane));
+        }
+        RoadNetwork::unchecked(lanes)
+    }
 }

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use interplay_planners::State;
+use interplay_planners::{Body, State};
 
 use super::super::model::ROOT;
-use super::DrivenVehicle;
 use super::goal::GoalPlaces;
 use super::xml_text::{Ids, escaped, number, number_in, state};
 use crate::model::classes::VehicleClass;
@@ -122,4 +121,34 @@ fn kind(class: Option<VehicleClass>) -> &'static str {
         Some(VehicleClass::Pedestrian) => "pedestrian",
         Some(VehicleClass::Car | VehicleClass::ScaleCar) | None => "car",
     }
+}
+
+/// The version of the format that is written.
+pub(super) const VERSION: &str = "2020a";
+
+/// The motion of a vehicle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrivenVehicle {
+    pub name: String,
+    /// Its class of vehicle, if known.
+    pub class: Option<VehicleClass>,
+    /// Its size and axles.
+    pub body: Body,
+    /// The tick at which it entered the road.
+    pub first_step: usize,
+    /// Its states at the start of each tick from then on, and at the end of its last tick; empty if it never entered.
+    pub states: Vec<State>,
+    /// Its steering angle during each tick \[rad\].
+    pub steering_rad: Vec<f64>,
+}
+
+/// The exported texts of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// The scenario as it was driven: all vehicles but the ego are obstacles.
+    pub scenario: String,
+    /// The motion of the ego as a solution.
+    pub solution: String,
+    /// Whether that motion reaches the goal of the planning problem; the solution ends there.
+    pub reaches_goal: bool,
 }

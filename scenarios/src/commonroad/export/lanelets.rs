@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RoadNetwork};
 
-use super::base::Base;
+use super::DrivenVehicle;
+use super::base::{Base, VERSION};
 use super::xml_text::{bound, number_in};
-use super::{DrivenVehicle, VERSION};
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::roads::{Branch, Road};
 

@@ -14,10 +14,10 @@ use std::fmt::Write;
 
 use interplay_planners::State;
 
-use super::base::Base;
+use super::DrivenVehicle;
+use super::base::{Base, VERSION};
 use super::goal::Arrival;
 use super::xml_text::{escaped, number};
-use super::{DrivenVehicle, VERSION};
 
 /// Vehicle model and type, and cost function, by their names in benchmarks.
 const MODEL_AND_COST: &str = "KS2:WX1";

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use super::super::model::{CommonRoad, Obstacle};
 use super::super::xml::{Element, Unread, Xml};
-use super::VERSION;
-use super::base::Base;
+use super::base::{Base, VERSION};
 use super::goal::GoalPlaces;
 use super::xml_text::Ids;
 use crate::format::read::source::imported_text;

@@ -70,7 +70,7 @@ pub(super) fn mapped(
     let ego = if has_no_driver { ego::on_longest_lane(&lanes, notes) } else { ego };
     let further = scenario.problems.len().saturating_sub(1);
     notes.several(further, ["further planning problem", "further planning problems"], NOT_YET);
-    let lights = rights::lights(scenario, &lanes, begin, notes);
+    let lights = lanes::lights(scenario, &lanes, begin, notes);
     for (element, count) in unread.into_counts() {
         notes.several(count, [&format!("element `{element}`"), &format!("elements `{element}`")], NOT_YET);
     }

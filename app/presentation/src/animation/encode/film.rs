@@ -8,7 +8,7 @@ use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use rayon::prelude::*;
 
 use super::quantise::ColourTable;
-use crate::animation::file::Pictures;
+use crate::animation::pictures::Pictures;
 use crate::animation::timing::{LAST_PICTURE_S, PICTURE_S};
 use crate::palette::Colour;
 use crate::plot::png_of;

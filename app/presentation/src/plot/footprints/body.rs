@@ -5,7 +5,7 @@ use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::data::distance;
 use crate::body::{BodyPaint, BodyPart, BodyStyle, body_parts};
-use crate::camera::rounded_corners;
+use crate::rectangle::rounded_corners;
 
 const CORNER_POINTS: usize = 5;
 /// Opacity of the windows of a pale footprint, so that its number can be read on them.

@@ -23,10 +23,10 @@ impl FootprintPlot {
 mod tests {
     use super::*;
     use crate::body::BodyStyle;
-    use crate::camera::extent;
     use crate::palette::{ASPHALT, PAINT};
     use crate::plot::drawing::Mark;
     use crate::plot::style::{BLUE, Colour, ORANGE};
+    use crate::rectangle::extent;
     use crate::road_shapes::RoadShapes;
 
     fn car(label: &str, colour: Colour) -> FootprintVehicle {

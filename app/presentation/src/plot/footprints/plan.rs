@@ -8,8 +8,8 @@ use super::super::drawing::{
 use super::super::style::{Colour, Dash, GREY, LineStyle};
 use super::body;
 use super::data::{FootprintPlot, PATH, distance};
-use crate::camera::extent;
 use crate::palette::ASPHALT;
+use crate::rectangle::extent;
 
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.

@@ -16,20 +16,16 @@ use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::Logged;
-use super::car;
-use super::labels;
 use super::mesh::Mesh;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{Clear, Pinhole, Points2D, Transform3D};
 use super::re_sdk_types::components::{Radius, ViewCoordinates};
-use super::{SIM_TIME, TICK};
-use crate::camera::extent;
+use super::{Logged, SIM_TIME, TICK, car, labels};
 use crate::camera::{self, CameraFrame, CameraView, ViewFormat};
-use crate::camera::{Rectangle, rectangle_around};
 use crate::edge_mark::edge_marks;
 use crate::palette::{FLASH, VERMILLION};
 use crate::passing_words::{contact_place, star, vehicle_indices};
+use crate::rectangle::{Rectangle, extent, rectangle_around};
 use crate::shown_extent::labelled;
 
 /// Path of the camera from above.

@@ -7,7 +7,7 @@ use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, Plann
 
 use crate::page::{Page, Section};
 use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
-use crate::report::summary::{Align, lines_within};
+use crate::report::columns::{Align, lines_within};
 use rows::{TextRows, differences, figures, heading, version_name, versus};
 
 /// Characters of a line after its indentation: a terminal of 100 shows it whole.
