@@ -28,7 +28,7 @@ use std::error::Error;
 use std::io::Write;
 
 use common::SplitMix64;
-use common::wilson::wilson_interval;
+use common::wilson_interval;
 use common::world::{STEP_S, Vehicle, begin, intersection, lane_change, lane_keeping};
 use interplay_planners::drivers::human::{self, Style};
 use interplay_planners::drivers::{conservative, negotiation};

@@ -26,7 +26,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use common::SplitMix64;
-use common::wilson::wilson_interval;
+use common::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::plan::diagnostic::COST;
 use interplay_planners::trajectory::{HomotopySearch, Optimiser, Problem, Robust};

@@ -25,7 +25,7 @@ use std::time::Instant;
 
 use common::SplitMix64;
 use common::games::joint_problem;
-use common::wilson::wilson_interval;
+use common::wilson_interval;
 use interplay_planners::drivers::nash::{Equilibrium, equilibrium, joint_optimiser};
 use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Robust, Tolerances, Violation, WarmStart};
