@@ -2,7 +2,7 @@
 
 use interplay_scenarios::{Branch, Scenario};
 
-use super::rectangle::extent;
+use crate::rectangle::extent;
 pub use crate::shown_extent::{CameraFrame, car_m, partners};
 use crate::shown_extent::{Extent, LEAST_MARGIN_CARS, Largest, keeping_partners, shown_extent};
 
@@ -255,7 +255,6 @@ fn smooth(values: &[f64], deviation: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rectangle::extent;
     use super::*;
 
     #[test]

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use interplay_scenarios::{Scenario, SweepPlan, SweepPoint};
 use serde_json::{Value as Json, json};
 
-use super::people_rows::{PARTICIPANT, RESTARTS, path_in, rows};
 use crate::error::SweepError;
 use crate::journal::Journal;
 use crate::key::{RunKey, program_version};
 use crate::measure::measured_run;
+use crate::people_rows::{PARTICIPANT, RESTARTS, path_in, rows};
 use crate::row::SweepRow;
 use crate::sweep::write_again;
 

@@ -1,9 +1,10 @@
 //! The rows of people in a folder.
 
+use std::path::{Path, PathBuf};
+
 use crate::error::SweepError;
 use crate::journal::read_rows;
 use crate::row::SweepRow;
-use std::path::{Path, PathBuf};
 
 /// The columns of a run with a person.
 pub(crate) const COLUMNS: [&str; 2] = [PARTICIPANT, RESTARTS];

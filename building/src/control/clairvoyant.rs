@@ -1,12 +1,13 @@
 //! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::interface::ControllerKind;
 use super::optimum::{check_size, operations_of_optimum, optimum};
 use super::{Control, ControlError, DayAhead, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The clairvoyant controller has no settings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

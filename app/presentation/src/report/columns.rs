@@ -1,7 +1,8 @@
 //! Texts with aligned columns.
 
-use comfy_table::{CellAlignment, Table, presets};
 use std::fmt::{self, Write};
+
+use comfy_table::{CellAlignment, Table, presets};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Align {

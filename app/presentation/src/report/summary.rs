@@ -1,13 +1,13 @@
 //! A run in a few lines.
 
-use std::fmt;
+use std::fmt::Write;
 
 use interplay_common::spelling::counted;
 use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
-use super::columns::{write_table, written};
+use super::columns::{Align, write_table, written};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {

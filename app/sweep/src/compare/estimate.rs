@@ -1,7 +1,8 @@
 //! Shares, means and quantiles over runs.
 
-use crate::statistics::{mean_interval, quantile, sign_test, wilson_interval};
 use serde::Serialize;
+
+use crate::statistics::{mean_interval, quantile, sign_test, wilson_interval};
 
 /// A share with its 95 % Wilson interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use interplay_tables::{RowTable, TableColumn};
-use rayon::prelude::*;
 
 use crate::error::SweepError;
 use crate::sweep::RUNS_FILE;

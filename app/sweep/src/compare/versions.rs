@@ -1,14 +1,16 @@
 //! Differences between two sweeps of one plan: of two versions of the program, or of a planner.
 
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use interplay_scenarios::RegisteredMetrics;
+use rayon::prelude::*;
+use serde::Serialize;
+
 use super::compared::ComparedColumns;
 use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
-use interplay_scenarios::RegisteredMetrics;
-use rayon::prelude::*;
-use serde::Serialize;
-use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
 
 /// Differences of the second folder from the first.
 #[derive(Clone, Debug, PartialEq, Serialize)]

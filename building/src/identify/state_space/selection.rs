@@ -84,7 +84,7 @@ pub(super) fn choose(
     let smallest = Structure::new(telemetry, &[]);
     let starts = guess.of_smallest(telemetry, &smallest);
     let mut chosen = fit(&guess, smallest, (&starts, &[]), observations)?;
-    let count: usize = observations.segments.iter().map(std::ops::Range::len).sum();
+    let count: usize = observations.segments.iter().map(Range::len).sum();
     let penalty = 0.5 * libm::log(count as f64);
     let mut table = vec![row(telemetry, &chosen, None)];
     let mut chosen_row = 0;
@@ -132,7 +132,7 @@ fn criterion(fit: &Fit, penalty: f64) -> f64 {
 
 /// Whether a model predicts the last rows better than a smaller one, both fitted to the first ones.
 fn predicts_better(larger: &Fit, smaller: &Fit, observations: &Observations) -> bool {
-    let count: usize = observations.segments.iter().map(std::ops::Range::len).sum();
+    let count: usize = observations.segments.iter().map(Range::len).sum();
     let beginning = observations.beginning(count * FITTED_SHARE.0 / FITTED_SHARE.1);
     let of_last_rows = |fit: &Fit| -> Option<f64> {
         let theta = fit.refit(&beginning, STEPS_OF_FEWER_ROWS)?.maximum.theta;
