@@ -4,7 +4,7 @@ use interplay_planners::road::network::{Lane, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::arms::{Arm, Arms, Compass};
 
 /// Two roads with a lane in each direction that cross at the origin. All vehicles stop, and go in the order of arrival. Lanes

@@ -4,7 +4,7 @@ use interplay_planners::road::network::{Lane, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::arms::{Arm, Arms, Compass, Median};
 use super::t_junction::MinorRoadRule;
 

@@ -8,7 +8,7 @@ use interplay_planners::road::network::{Lane, NeighbourRelation, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::{beside, changing_width, lane, straight};
 
 /// A straight road along x. In its middle, around the origin, both directions share the width of one lane. Lanes are called

@@ -6,7 +6,7 @@ use interplay_planners::road::network::{Lane, NeighbourRelation, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::connector::turn;
 use super::{beside, lane, limit_in_turn_mps, straight};
 

@@ -8,7 +8,7 @@ use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::{RoadFault, to_centimetres};
+use super::super::form::{RoadFault, to_centimetres};
 use super::ring::{Ring, RingJoint};
 use super::{beside, lane, limit_in_turn_mps, numbered};
 

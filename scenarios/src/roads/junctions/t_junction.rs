@@ -4,7 +4,7 @@ use interplay_planners::road::network::{Lane, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::arms::{Arm, Arms, Compass, Median};
 
 /// A main road from west to east, with a lane in each direction, and a minor one that joins it from the south at the origin.

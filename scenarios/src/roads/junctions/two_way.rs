@@ -6,7 +6,7 @@ use interplay_planners::road::network::{Lane, NeighbourRelation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::fault::RoadFault;
+use super::super::form::RoadFault;
 use super::{beside, lane, straight};
 
 /// A straight road along x with its middle at the origin. Lane `east` leads to the east and lane `west` to the west.
