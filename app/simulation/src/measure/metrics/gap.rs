@@ -4,7 +4,7 @@ use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
 
 use crate::measure::metric::Metric;
-use crate::measure::run_metric::LeastOfRun;
+use crate::measure::vehicle_metric::LeastOfRun;
 use crate::measure::values::Measured;
 
 const EGO_GAP_DOC: &str = "Smallest distance of the ego's footprint to another; none without others";

@@ -4,7 +4,7 @@ use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
 
 use crate::measure::metric::{Metric, ObservedTick};
-use crate::measure::run_metric::LeastOfRun;
+use crate::measure::vehicle_metric::LeastOfRun;
 use crate::measure::values::Measured;
 use crate::physics::{MovingFootprint, near_pairs, radius_m, time_to_collision_s};
 
