@@ -234,8 +234,8 @@ fn the_default_bound_grows_with_the_building() {
     }
 }
 
-const STEP_S: f64 = 900.0;
-const STEPS: usize = 96;
+const QUARTER_HOUR_S: f64 = 900.0;
+const QUARTER_HOURS_A_DAY: usize = 96;
 const DAYS: usize = 6;
 
 /// Light air and a heavy wall, whose capacities are believed to be `factor` times what they are.
@@ -250,7 +250,7 @@ fn models(factor: f64) -> [Model; 2] {
     let network = Network::new(&[zone], &[wall]).expect("valid");
     let mismatch = ModelMismatch { capacity_factor: factor, ..ModelMismatch::default() };
     let believed = network.believed(&mismatch).expect("valid");
-    [network, believed].map(|network| Model::exact(&network, STEP_S).expect("valid"))
+    [network, believed].map(|network| Model::exact(&network, QUARTER_HOUR_S).expect("valid"))
 }
 
 /// How many steps after the first day reverse the one before by more than a kilowatt, and remarks on days.
@@ -258,20 +258,23 @@ fn reversals(settings: IterativeSettings, factor: f64) -> (usize, Vec<ControlErr
     let [model, believed] = models(factor);
     let setpoints =
         Setpoints { occupied_c: vec![21.0], from_h: 0.0, to_h: 24.0, input_weight: 0.05, ..Setpoints::default() };
-    let targets = setpoints.targets(1, STEP_S, STEPS).expect("valid");
+    let targets = setpoints.targets(1, QUARTER_HOUR_S, QUARTER_HOURS_A_DAY).expect("valid");
     let climate = Climate { mean_c: 3.0, storm_probability: 0.0, ..Climate::default() };
     let people = Occupancy::default().people(1, 1);
     let surroundings = Surroundings::new(climate.weather(1, DAYS), (Forecast::Exact, 1), people, model.network());
-    let mut controller = Controller::Iterative(settings).controller(&believed, STEPS).expect("valid");
+    let mut controller = Controller::Iterative(settings).controller(&believed, QUARTER_HOURS_A_DAY).expect("valid");
     let mut nodes_c = vec![20.0; 2];
     let (mut heat_kw, mut remarks) = (Vec::new(), Vec::new());
     for day in 0..DAYS {
-        let (forecast, actual) = (surroundings.forecast(&model, STEPS, day), surroundings.actual(&model, STEPS, day));
+        let (forecast, actual) = (
+            surroundings.forecast(&model, QUARTER_HOURS_A_DAY, day),
+            surroundings.actual(&model, QUARTER_HOURS_A_DAY, day),
+        );
         let record = run_day(&model, &mut nodes_c, &mut *controller, &targets, &forecast, &actual).expect("runs");
         remarks.extend(record.design.fallback.into_iter().chain(record.design.weaker_feedback));
         heat_kw.extend(record.heat_kw);
     }
-    let changes: Vec<f64> = heat_kw[STEPS..].windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let changes: Vec<f64> = heat_kw[QUARTER_HOURS_A_DAY..].windows(2).map(|pair| pair[1] - pair[0]).collect();
     let reverses = |pair: &&[f64]| pair[0] * pair[1] < 0.0 && pair[0].abs().min(pair[1].abs()) > 1.0;
     (changes.windows(2).filter(reverses).count(), remarks)
 }
@@ -281,7 +284,11 @@ fn alternating_inputs_weaken_the_feedback_and_are_reported() {
     for stability in [Stability::Lmi, Stability::Linear] {
         for factor in [1.6, 2.5] {
             let (count, remarks) = reversals(IterativeSettings { stability, ..IterativeSettings::default() }, factor);
-            assert!(count < 40, "{stability:?} {factor}: {count} of {} steps reverse", (DAYS - 1) * STEPS);
+            assert!(
+                count < 40,
+                "{stability:?} {factor}: {count} of {} steps reverse",
+                (DAYS - 1) * QUARTER_HOURS_A_DAY
+            );
             let is_remarked = remarks.iter().any(|why| matches!(why, ControlError::AlternatingInputs { .. }));
             assert_eq!(is_remarked, count > 3, "{stability:?} {factor}: {count} {remarks:?}");
         }

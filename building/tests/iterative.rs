@@ -10,7 +10,7 @@ use interplay_building::control::iterative::{
 };
 use interplay_building::control::stability::{closed_loop, positive_decay, spectral_radius};
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings, factor, normal_quantile};
-use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
+use interplay_building::control::{Control, ControlError, Controller, DayAhead, DayRecord, Observation};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -349,5 +349,30 @@ fn the_uncertainty_is_reestimated_from_prediction_errors() {
     }
     for (got, want) in learned.deviations_kw().iter().zip([0.05, 0.2, 0.03]) {
         assert!((got / want - 1.0).abs() < 0.12, "{:?}", learned.deviations_kw());
+    }
+}
+
+/// The first day has no plan yet: designs only feed back, and only where temperatures have a weight.
+#[test]
+fn the_first_day_uses_no_heat_where_temperatures_are_free() {
+    let (model, days) = (testbed(), [day(0)]);
+    for controller in [
+        Controller::Iterative(Default::default()),
+        Controller::Concurrent(Default::default()),
+        Controller::Distributed(Default::default()),
+        Controller::Centralised(Default::default()),
+    ] {
+        let mut at_work = controller.controller(&model, STEPS).expect("valid");
+        let targets = chapter_5(vec![22.5, 22.0, 23.0, 23.5], 4);
+        let heat_kw = &run(&model, 28.5, &mut *at_work, &targets, &days)[0].heat_kw;
+        for (step, heat_kw) in heat_kw.chunks_exact(4).enumerate() {
+            // Occupied from 8:00 to 19:00, both ends included.
+            let free = !(16..=38).contains(&step);
+            assert!(heat_kw.iter().all(|kw| (*kw == 0.0) == free), "{} step {step}: {heat_kw:?}", controller.kind());
+        }
+        // With a weight at night there is heat at night.
+        let mut at_work = controller.controller(&model, STEPS).expect("valid");
+        let heat_kw = &run(&model, 28.5, &mut *at_work, &chapter_3(1.0), &days)[0].heat_kw;
+        assert!(heat_kw[4..16 * 4].iter().all(|kw| *kw != 0.0), "{}", controller.kind());
     }
 }

@@ -5,7 +5,6 @@ mod common;
 
 use common::distance;
 use common::ordinary::OrdinaryBuilding;
-use common::reference::*;
 use interplay_building::comfort::{Setpoints, Targets};
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::predictive::PredictiveSettings;
@@ -145,30 +144,6 @@ fn buildings_that_are_too_large_and_settings_out_of_range_are_refused() {
     assert_eq!((error.key().as_str(), error.to_string().contains("1200 unknowns")), ("horizon_h", true), "{error}");
     let error = refused(PredictiveSettings { horizon_h: 0.0, ..PredictiveSettings::default() });
     assert_eq!(error.key().as_str(), "horizon_h", "{error}");
-}
-
-#[test]
-fn the_first_day_uses_no_heat_where_temperatures_are_free() {
-    let (model, days) = (testbed(), [day(0)]);
-    for controller in [
-        Controller::Iterative(Default::default()),
-        Controller::Concurrent(Default::default()),
-        Controller::Distributed(Default::default()),
-        Controller::Centralised(Default::default()),
-    ] {
-        let mut at_work = controller.controller(&model, STEPS).expect("valid");
-        let targets = chapter_5(vec![22.5, 22.0, 23.0, 23.5], 4);
-        let heat_kw = &run(&model, 28.5, &mut *at_work, &targets, &days)[0].heat_kw;
-        for (step, heat_kw) in heat_kw.chunks_exact(4).enumerate() {
-            // Occupied from 8:00 to 19:00, both ends included.
-            let free = !(16..=38).contains(&step);
-            assert!(heat_kw.iter().all(|kw| (*kw == 0.0) == free), "{} step {step}: {heat_kw:?}", controller.kind());
-        }
-        // With a weight at night there is heat at night.
-        let mut at_work = controller.controller(&model, STEPS).expect("valid");
-        let heat_kw = &run(&model, 28.5, &mut *at_work, &chapter_3(1.0), &days)[0].heat_kw;
-        assert!(heat_kw[4..16 * 4].iter().all(|kw| *kw != 0.0), "{}", controller.kind());
-    }
 }
 
 /// The largest rise of the cost from one day to the next: as the bias settles, costs of later days differ by less than a tenth
