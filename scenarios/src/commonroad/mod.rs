@@ -35,6 +35,7 @@ use xml::{Unread, Xml};
 /// The number of leading bytes that decide whether a file is a scenario \[bytes\].
 const HEAD_BYTES: u64 = 4096;
 
+/// Options of an import.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// The kind of driver of the ego; a nice human without one.

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use interplay_common::units::{quantity_of, unit_of};
 
+/// The declaration of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MetricDeclaration {
     /// Its name, which ends with its unit as the keys of settings do: the column in rows of sweeps, and its key in reports.
@@ -40,13 +41,16 @@ pub enum MetricKind {
     Flag,
     /// A whole number.
     Count,
+    /// A number.
     Number,
 }
 
+/// The declaration of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MetricSubject {
     /// Each vehicle; rows of sweeps have that of the ego.
     Vehicle,
+    /// The run.
     Run,
 }
 
@@ -66,11 +70,14 @@ pub enum MetricComparison {
 /// Which of two values is better; of flags, `false` is the lower one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
+    /// The lower one.
     Lower,
+    /// The higher one.
     Higher,
 }
 
 impl MetricDeclaration {
+    /// A metric of each vehicle.
     pub const fn of_vehicle(name: &'static str, kind: MetricKind, doc: &'static str) -> Self {
         MetricDeclaration {
             name,
@@ -85,6 +92,7 @@ impl MetricDeclaration {
         }
     }
 
+    /// A metric of the run.
     pub const fn of_run(name: &'static str, kind: MetricKind, doc: &'static str) -> Self {
         MetricDeclaration { of: MetricSubject::Run, ..Self::of_vehicle(name, kind, doc) }
     }
@@ -141,6 +149,7 @@ impl MetricDeclaration {
 
 /// A metric as this crate knows it: its declaration. The simulation downcasts the value to compute it.
 pub trait DeclaredMetric: Any + Debug + Send + Sync {
+    /// Its declaration.
     fn declaration(&self) -> MetricDeclaration;
 
     /// Its version, which distinguishes its values from those of earlier ones: rows of sweeps with another version are computed again.

@@ -71,6 +71,7 @@ pub struct Scenario {
     pub real_time: Option<RealTime>,
     /// The plant that moves the vehicles.
     pub plant: Plant,
+    /// The road.
     pub road: Road,
     /// The lanes of the road, if they have names.
     pub network: Option<Arc<RoadNetwork>>,
@@ -173,6 +174,7 @@ impl Scenario {
         self.vehicles.get(self.ego_index())
     }
 
+    /// The vehicle of that name.
     pub fn vehicle(&self, name: &str) -> Option<&Vehicle> {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
@@ -261,6 +263,7 @@ pub struct Vehicle {
     pub limits: Limits,
     /// The ellipse around each other vehicle that it keeps out of.
     pub safety: SafetyEllipse,
+    /// Its driver.
     pub driver: Driver,
     /// Whether it keeps the rules of the road, if stated; otherwise its kind of driver decides.
     pub rules: Option<RuleKeeping>,

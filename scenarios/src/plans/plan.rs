@@ -99,6 +99,7 @@ impl SweepPlan {
         self.registry.metrics()
     }
 
+    /// The title of the plan.
     pub fn title(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.name)
     }
@@ -108,6 +109,7 @@ impl SweepPlan {
         &self.text
     }
 
+    /// The number of its runs.
     pub fn run_count(&self) -> u64 {
         self.count().unwrap_or(u64::MAX)
     }

@@ -98,6 +98,7 @@ impl Street {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
 
+    /// Its name.
     pub fn name(&self) -> String {
         format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)
     }

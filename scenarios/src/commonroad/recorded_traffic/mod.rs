@@ -9,6 +9,7 @@ use crate::format::read::text_line::line_of;
 use crate::resolve::records;
 use crate::text::error::{Fault, LoadError, quoted};
 
+/// A vehicle, with where it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedTraffic {
     /// Its name among benchmarks, or that of its file.
@@ -54,6 +55,7 @@ pub(crate) fn is_inside(corners: impl Iterator<Item = [f64; 2]> + Clone, [x, y]:
     corners.zip(next).filter(|(from, to)| crosses([*from, *to])).count() % 2 == 1
 }
 
+/// A vehicle, with where it was.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedVehicle {
     /// Its name in the record.

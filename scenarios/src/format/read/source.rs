@@ -24,6 +24,7 @@ pub enum Source {
     Embedded(&'static Embedded),
     /// A street that is drawn from its name.
     Street(Street),
+    /// A file.
     File(PathBuf),
 }
 

@@ -101,7 +101,9 @@ impl Grid {
 pub struct FloorPlan {
     /// Rooms in a row.
     pub columns: usize,
+    /// Rows of a floor.
     pub rows: usize,
+    /// Floors.
     pub floors: usize,
 }
 

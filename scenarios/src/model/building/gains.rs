@@ -43,6 +43,7 @@ pub struct RecordedGainsFile {
     pub stated: GainsConfig,
     /// Where the table was found: an absolute path.
     pub found: String,
+    /// Its zones.
     pub zones: Vec<ZoneRecord>,
 }
 

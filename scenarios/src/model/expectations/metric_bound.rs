@@ -6,6 +6,7 @@ use serde_json::{Value as Json, json};
 
 use crate::model::expectations::expect::{Expect, ExpectedComfort, ExpectedMetric, ExpectedSpeed};
 
+/// A bound on a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetricBound<'a> {
     /// Its name in reports.
@@ -21,9 +22,13 @@ pub struct MetricBound<'a> {
 /// The allowed values of a metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MetricLimit {
+    /// At most this.
     AtMost(f64),
+    /// At least this.
     AtLeast(f64),
+    /// Below this.
     Below(f64),
+    /// Above this.
     Above(f64),
     /// Exactly this, for a flag.
     Is(bool),

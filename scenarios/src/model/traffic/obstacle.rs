@@ -67,6 +67,7 @@ impl ObstacleKind {
 /// An obstacle: its kind and its shape. It belongs to a vehicle without a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObstacleForm {
+    /// Its kind.
     pub kind: ObstacleKind,
     /// Its outline around its middle.
     pub outline: Outline,
