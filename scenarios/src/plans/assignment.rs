@@ -220,11 +220,6 @@ impl Arm {
         &self.changes
     }
 
-    /// The kind of driver of the ego, if it is changed.
-    pub fn kind(&self) -> Option<&TomlNode> {
-        self.kind.as_ref()
-    }
-
     /// Its changes: the driver of the ego, then its settings.
     pub fn assignments(&self) -> impl Iterator<Item = Assignment<'_>> {
         let kind = self.kind.iter().map(Assignment::driver);

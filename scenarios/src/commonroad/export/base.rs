@@ -129,6 +129,7 @@ pub(super) const VERSION: &str = "2020a";
 /// The motion of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenVehicle {
+    /// Its name.
     pub name: String,
     /// Its class of vehicle, if known.
     pub class: Option<VehicleClass>,
