@@ -23,6 +23,7 @@ pub enum SweepError {
         path: PathBuf,
         /// The line, from 1.
         line: usize,
+        /// The reason.
         reason: serde_json::Error,
     },
     /// A line of a journal does not match its checksum.

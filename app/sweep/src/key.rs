@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 pub struct RunKey([u8; 16]);
 
 impl RunKey {
+    /// The key of a run.
     pub fn of(plan: &SweepPlan, point: &SweepPoint) -> RunKey {
         let parts = [&program_version(), plan.canonical_scenario(point), &plan.canonical_changes(point)];
         RunKey::of_parts(&parts)

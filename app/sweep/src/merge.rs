@@ -13,6 +13,7 @@ use crate::sweep::{PLAN_NOTE, RUNS_FILE, SHARD_NOTE, table_path};
 /// The outcome of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MergedSweep {
+    /// Path of the merged table.
     pub table: PathBuf,
     /// Number of rows.
     pub rows: usize,

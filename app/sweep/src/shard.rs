@@ -13,6 +13,7 @@ use crate::key::RunKey;
 pub struct Shard {
     /// Its number, from 1.
     pub index: u32,
+    /// Number of shards.
     pub count: u32,
 }
 
@@ -27,6 +28,7 @@ pub enum ShardError {
     Beyond {
         /// The number.
         index: u64,
+        /// Number of shards.
         count: u32,
     },
     /// A variable of the scheduler does not contain a number.
@@ -34,6 +36,7 @@ pub enum ShardError {
     Variable {
         /// Its name.
         variable: &'static str,
+        /// Its value.
         value: String,
     },
     /// No variable states which shard this is.

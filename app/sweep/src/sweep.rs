@@ -47,8 +47,10 @@ pub struct SweepOptions<'a> {
     pub advance: &'a (dyn Fn() + Sync),
 }
 
+/// The outcome of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepOutcome {
+    /// Path of the table.
     pub table: PathBuf,
     /// Number of rows.
     pub rows: usize,

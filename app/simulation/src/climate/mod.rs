@@ -61,6 +61,7 @@ struct SunOfStep {
 pub struct NodeState {
     /// Index of the temperature in the network.
     pub node: Node,
+    /// The temperature.
     pub temperature: Temperature,
     /// Equipment and heat gains; none for a wall.
     pub zone: Option<(Equipment, Gains)>,

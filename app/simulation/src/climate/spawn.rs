@@ -42,6 +42,7 @@ pub enum BuildingError {
 /// A building and its temperatures at the first midnight.
 #[derive(Debug)]
 pub struct ClimateState {
+    /// The building.
     pub building: Building,
     /// Every node of its network, in order.
     pub nodes: Vec<NodeState>,

@@ -56,6 +56,7 @@ impl AgentInterface {
         self.views.iter().map(|(_, length)| length).sum()
     }
 
+    /// The space of actions.
     pub fn action_space(&self) -> ActionSpace {
         self.action.space(self.horizon)
     }

@@ -34,6 +34,7 @@ pub struct BatchSteps {
     pub observations: Vec<f32>,
     /// The last observations of episodes that ended in this step and were followed by a new one; 0 elsewhere.
     pub last_observations: Vec<f32>,
+    /// The rewards.
     pub rewards: Vec<f64>,
     /// Whether the episode ended by an event,
     pub terminated: Vec<bool>,
@@ -102,6 +103,7 @@ impl EnvironmentBatch {
         Ok(EnvironmentBatch { environments, autoreset, over })
     }
 
+    /// The environments.
     pub fn environments(&self) -> &[Environment] {
         &self.environments
     }

@@ -23,6 +23,7 @@ pub enum Ending {
 }
 
 impl Ending {
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Goal => "goal",

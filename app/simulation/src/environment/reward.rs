@@ -115,6 +115,7 @@ pub enum EnvironmentError {
     /// A setting is invalid.
     #[error("`{setting}`: {reason}")]
     Setting {
+        /// The setting.
         setting: &'static str,
         /// What is wrong with it, and what would work.
         reason: String,
@@ -125,6 +126,7 @@ pub enum EnvironmentError {
     /// An action is invalid.
     #[error("the action of `{agent}` {reason}")]
     Action {
+        /// The agent.
         agent: String,
         /// What is wrong with it, and what would work.
         reason: String,

@@ -230,6 +230,7 @@ impl Environment {
         self.world.is_some() && self.seats.iter().any(|seat| !seat.episode.is_over())
     }
 
+    /// The episode of an agent.
     pub fn episode(&self, agent: usize) -> &Episode {
         &self.seats[agent].episode
     }

@@ -38,8 +38,10 @@ pub struct BuildingDigests {
     pub balance: String,
 }
 
+/// All measures of a building.
 #[derive(Resource, Clone)]
 pub struct BuildingMeasures {
+    /// Every day.
     pub days: Vec<DayFigures>,
     /// The zones on every day, in the order of the network.
     pub zone_days: Vec<Vec<ZoneFigures>>,
@@ -51,6 +53,7 @@ pub struct BuildingMeasures {
     pub weaker_feedbacks: Vec<Fallback>,
     /// Number of zones.
     pub zones: usize,
+    /// Their names.
     pub zone_names: Vec<String>,
     /// The indicators of a benchmark as the plant, after its last step.
     pub benchmark: Option<Benchmark>,

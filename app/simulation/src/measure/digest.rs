@@ -27,6 +27,7 @@ pub struct PhaseDigests {
     pub sense: String,
     /// Digest of all predictions, except those that are plans of the same tick.
     pub predict: String,
+    /// Digest of all plans.
     pub plan: String,
     /// Digest of all applied inputs.
     pub act: String,

@@ -15,6 +15,7 @@ use crate::state::frame::{Frame, VehicleFrame};
 /// A metric that is folded over the ticks of a vehicle, such as a peak or a mean, need not implement this trait:
 /// [`VehicleMetric`](super::VehicleMetric) does.
 pub trait Metric: Debug + Send + Sync {
+    /// Its declaration.
     fn declaration(&self) -> MetricDeclaration;
 
     /// Begins to measure one run, with all vehicles at their starts. `vehicle` is the index of the measured vehicle; for a metric
@@ -46,6 +47,7 @@ pub struct ObservedMoment<'a> {
     pub time_s: f64,
     /// The vehicles as the scenario states them.
     pub vehicles: &'a [Vehicle],
+    /// Their states.
     pub states: &'a [State],
     /// Arc lengths of their mass centres on their routes \[m\].
     pub along_m: &'a [f64],
@@ -58,6 +60,7 @@ pub struct SharedStates(RefCell<Vec<(usize, Arc<[MomentStates]>)>>);
 /// The states of all vehicles at one time, in the scenario's order; none for a vehicle that is not on the road.
 pub type MomentStates = Arc<[Option<State>]>;
 
+/// One tick.
 #[derive(Clone, Copy, Debug)]
 pub struct ObservedTick<'a> {
     /// The start of the tick, the decisions, and the contacts.
@@ -68,6 +71,7 @@ pub struct ObservedTick<'a> {
     pub shared: &'a SharedStates,
     /// The inputs of the tick before, in the scenario's order; zero in the first.
     pub previous_inputs: &'a [Input],
+    /// The end of the tick.
     pub end: ObservedMoment<'a>,
 }
 
@@ -78,6 +82,7 @@ pub struct VehicleMoment<'a> {
     pub time_s: f64,
     /// The vehicle as the scenario states it.
     pub vehicle: &'a Vehicle,
+    /// Its state.
     pub state: &'a State,
     /// Arc length of its mass centre on its route \[m\].
     pub along_m: f64,
@@ -92,6 +97,7 @@ pub struct VehicleTick<'a> {
     pub previous_input: Input,
     /// Length of the tick \[s\].
     pub step_s: f64,
+    /// The end of the tick.
     pub end: VehicleMoment<'a>,
 }
 
@@ -108,6 +114,7 @@ impl<'a> ObservedMoment<'a> {
 }
 
 impl<'a> ObservedTick<'a> {
+    /// One vehicle in this tick.
     pub fn of(&self, vehicle: usize) -> VehicleTick<'a> {
         VehicleTick {
             frame: &self.frame.vehicles[vehicle],

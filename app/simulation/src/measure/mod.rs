@@ -66,14 +66,18 @@ pub struct Measures {
     previous_inputs: Vec<Input>,
 }
 
+/// All measures of one vehicle.
 #[derive(Clone, Debug)]
 pub struct VehicleMeasures {
     /// When it reached its goal.
     pub completion: Completion,
+    /// Measures of its planner.
     pub planning: Planning,
     /// Its beliefs about the others.
     pub beliefs: Beliefs,
+    /// Its metrics.
     pub metrics: Measurements,
+    /// Its last state.
     pub last: State,
 }
 

@@ -13,6 +13,7 @@ pub enum MetricValue {
     Flag(bool),
     /// A whole number.
     Count(u64),
+    /// A number.
     Number(f64),
 }
 

@@ -9,6 +9,7 @@ use super::values::{Measured, MetricValue};
 /// A metric of each vehicle: a value at each tick, and the fold over all ticks.
 #[derive(Clone, Copy, Debug)]
 pub struct VehicleMetric {
+    /// Its declaration.
     pub declaration: MetricDeclaration,
     /// The value at each tick.
     pub quantity: VehicleQuantity,
@@ -43,6 +44,7 @@ pub enum Fold {
 }
 
 impl VehicleMetric {
+    /// A metric that every vehicle has.
     pub const fn new(declaration: MetricDeclaration, fold: Fold, quantity: VehicleQuantity) -> Self {
         VehicleMetric { declaration, quantity, fold, applies: |_| true }
     }
@@ -123,6 +125,7 @@ impl Measurement for FoldedMetric {
 /// The minimum over ticks of a value of the run.
 #[derive(Clone, Copy, Debug)]
 pub struct LeastOfRun {
+    /// Its declaration.
     pub declaration: MetricDeclaration,
     /// The value of a tick; none if it has none. Only a value below the second argument is needed.
     pub quantity: fn(&ObservedTick<'_>, f64) -> Option<Measured>,

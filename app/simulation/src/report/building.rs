@@ -36,11 +36,13 @@ pub struct BuildingReport {
     /// The indicators of the benchmark as the plant, its own and ours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub benchmark: Option<Benchmark>,
+    /// Every day.
     pub iterations: Vec<DayFigures>,
     /// Every zone, in the order of the scenario.
     pub zone_figures: Vec<ZoneOutcome>,
 }
 
+/// The outcome for a zone.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ZoneOutcome {
     /// Its name.

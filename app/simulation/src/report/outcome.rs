@@ -53,6 +53,7 @@ pub struct Report {
     /// The building.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub building: Option<BuildingReport>,
+    /// Its expectations.
     pub expectations: Vec<Expectation>,
     /// The counterfactual runs; none before they are judged.
     pub counterfactuals: Vec<CounterfactualReport>,
@@ -67,6 +68,7 @@ pub struct CounterfactualReport {
     pub passed: bool,
     /// Names from first to last, as in [`Report::order`].
     pub order: Vec<String>,
+    /// Its expectations.
     pub expectations: Vec<Expectation>,
     /// Digest of all states, bit for bit.
     pub digest: String,
@@ -93,6 +95,7 @@ impl Serialize for Report {
 /// The outcome for one vehicle.
 #[derive(Clone, Debug, Serialize)]
 pub struct VehicleReport {
+    /// Its name.
     pub name: String,
     /// The kind of its driver.
     pub driver: String,
@@ -252,6 +255,7 @@ impl BeliefReport {
 pub struct Expectation {
     /// The key in the scenario file, with the vehicle where there is one.
     pub what: String,
+    /// What was expected.
     pub want: Value,
     /// The actual value.
     pub got: Value,

@@ -20,6 +20,7 @@ pub enum RunError {
     Climate {
         /// Number of the day, from 1.
         day: usize,
+        /// The reason.
         reason: BuildingFailure,
     },
     /// A counterfactual run failed.
@@ -27,6 +28,7 @@ pub enum RunError {
     Counterfactual {
         /// Claim of the counterfactual.
         name: String,
+        /// The reason.
         reason: Box<RunError>,
     },
     /// No vehicle has this name.
@@ -40,19 +42,27 @@ pub enum RunError {
     /// A vehicle with an external driver has no input.
     #[error("`{vehicle}` is driven from outside, and was given no input for the tick at {time_s} s")]
     NoInput {
+        /// The vehicle.
         vehicle: String,
         /// Time at which the tick begins \[s\].
         time_s: f64,
     },
     /// The caller gave an input for a vehicle that decides for itself.
     #[error("`{vehicle}` has a driver of its own; `driver = {{ kind = \"external\" }}` lets it be driven from outside")]
-    NotExternal { vehicle: String },
+    NotExternal {
+        /// Name of the vehicle.
+        vehicle: String,
+    },
     /// An input is not a finite number.
     #[error("the input for `{vehicle}` is not finite")]
-    NotFinite { vehicle: String },
+    NotFinite {
+        /// Name of the vehicle.
+        vehicle: String,
+    },
     /// A plan has the wrong length.
     #[error("the plan for `{vehicle}` has {found} inputs, and the horizon is {steps} steps")]
     WrongPlan {
+        /// The vehicle.
         vehicle: String,
         /// Number of inputs of the plan.
         found: usize,

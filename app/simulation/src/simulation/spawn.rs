@@ -17,6 +17,7 @@ use crate::state::detail::LevelOfDetail;
 pub struct VehicleState {
     /// Name of the vehicle.
     pub identity: Identity,
+    /// Its row in the traffic.
     pub row: TrafficRow,
     /// The driver with its memory, and the sensor.
     pub driving: Driving,

@@ -8,6 +8,7 @@ use crate::simulation::run_error::RunError;
 /// A zone of a building before its next step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZoneNow {
+    /// Its name.
     pub name: String,
     /// Its temperature \[°C\].
     pub temperature_c: f64,

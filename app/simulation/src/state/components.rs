@@ -29,6 +29,7 @@ impl TrafficRow {
 /// The driver of a vehicle, with the planner's memory.
 #[derive(Component, Debug)]
 pub struct Driving {
+    /// The planner.
     pub planner: Planner,
     /// Wall time of the plan of this tick, 0 without one \[ms\].
     pub plan_ms: f64,
@@ -64,6 +65,7 @@ pub enum HandedIn {
     NotExternal,
     /// The vehicle is driven from outside, and nothing was handed in yet.
     Awaited,
+    /// An input.
     Input(Input),
     /// The inputs of a whole plan, one for each step of the horizon.
     Plan(Vec<Input>),

@@ -88,6 +88,7 @@ pub struct ZoneFrame {
 /// One vehicle at one tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VehicleFrame {
+    /// Name of the vehicle.
     pub name: String,
     /// Whether it is not on the road: it has not entered yet, or has left. Then the other fields have no meaning.
     pub is_absent: bool,

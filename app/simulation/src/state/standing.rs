@@ -34,6 +34,7 @@ pub enum StandingReason {
     Passing {
         /// The vehicle for which it waits.
         waits_for: String,
+        /// The obstacle.
         obstacle: String,
     },
     /// There is not enough room to pass an obstacle.
@@ -74,6 +75,7 @@ pub struct Standing<'a> {
 }
 
 impl<'a> Standing<'a> {
+    /// The vehicles of a frame.
     pub fn of(vehicles: &'a [Vehicle], frame: &'a Frame) -> Self {
         Standing { vehicles, frame }
     }

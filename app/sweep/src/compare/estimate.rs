@@ -18,6 +18,7 @@ pub struct Share {
 /// A mean with its 95 % bootstrap interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
+    /// The mean.
     pub mean: f64,
     /// Lower and upper bound.
     pub interval: [f64; 2],
@@ -28,9 +29,11 @@ pub struct Estimate {
 /// Quantiles of a measure over runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
+    /// The smallest.
     pub least: f64,
     /// At 5 %.
     pub p05: f64,
+    /// The median.
     pub median: f64,
 }
 

@@ -39,6 +39,7 @@ pub struct GroupFigures {
     pub style: Option<String>,
     /// Whether there are vehicles in any run.
     pub has_vehicles: bool,
+    /// Each planner.
     pub planners: Vec<PlannerFigures>,
 }
 
@@ -67,9 +68,11 @@ pub struct Figures(pub Vec<NamedFigure>);
 /// A figure with its title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedFigure {
+    /// Its key.
     pub key: String,
     /// Its name, in words with the unit.
     pub title: String,
+    /// The figure.
     pub figure: Figure,
 }
 
@@ -81,12 +84,16 @@ pub enum Figure {
     Share(Share),
     /// A number of runs, or a sum of counts.
     Count(u64),
+    /// A mean.
     Mean(Option<Estimate>),
+    /// Quantiles.
     Quantiles(Option<Quantiles>),
+    /// A median.
     Median(Option<f64>),
 }
 
 impl Figures {
+    /// The figure of a key.
     pub fn get(&self, key: &str) -> Option<&Figure> {
         self.0.iter().find(|named| named.key == key).map(|named| &named.figure)
     }

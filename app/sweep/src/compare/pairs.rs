@@ -46,9 +46,11 @@ pub struct MetricSplits(pub Vec<MetricSplit>);
 /// A split by the better value of a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetricSplit {
+    /// The key of the metric.
     pub key: &'static str,
     /// Its name, in words.
     pub title: String,
+    /// The split.
     pub split: Split,
 }
 

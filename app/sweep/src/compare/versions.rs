@@ -32,9 +32,11 @@ pub struct VersionComparison {
 /// A planner under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionGroup {
+    /// The family.
     pub family: String,
     /// The drivers of the other vehicles.
     pub style: String,
+    /// The planner.
     pub planner: String,
     /// Number of pairs that differ in any bit of any state.
     pub changed: usize,

@@ -120,6 +120,7 @@ pub trait ObservationKind: fmt::Debug + Send + Sync {
 pub struct ForeignView(Arc<dyn ObservationKind>);
 
 impl ForeignView {
+    /// The view.
     pub fn new(view: impl ObservationKind + 'static) -> ForeignView {
         ForeignView(Arc::new(view))
     }

@@ -30,6 +30,7 @@ pub enum BoptestError {
     /// The server did not answer in time.
     #[error("BOPTEST gave no answer to `{request}` within {timeout_s} s; `building.plant.timeout_s` is that limit")]
     Timeout {
+        /// The request.
         request: String,
         /// Longest time of an answer \[s\].
         timeout_s: f64,
@@ -37,6 +38,7 @@ pub enum BoptestError {
     /// The connection broke.
     #[error("the connection to BOPTEST broke at `{request}`: {reason}")]
     Broken {
+        /// The request.
         request: String,
         /// The system's reason.
         reason: io::Error,
@@ -44,6 +46,7 @@ pub enum BoptestError {
     /// The answer is too long.
     #[error("BOPTEST's answer to `{request}` is longer than {limit} bytes")]
     TooLong {
+        /// The request.
         request: String,
         /// The longest answer \[bytes\].
         limit: usize,
@@ -51,6 +54,7 @@ pub enum BoptestError {
     /// The answer does not follow the interface.
     #[error("BOPTEST's answer to `{request}` is not valid: {reason}")]
     Invalid {
+        /// The request.
         request: String,
         /// What is wrong, and what would be right.
         reason: String,
@@ -58,6 +62,7 @@ pub enum BoptestError {
     /// The server refused the request.
     #[error("BOPTEST refused `{request}` with status {status}: {message}")]
     Refused {
+        /// The request.
         request: String,
         /// The status of HTTP, or the one in the answer.
         status: u16,
@@ -69,6 +74,7 @@ pub enum BoptestError {
     UnknownName {
         /// What kind of name.
         what: &'static str,
+        /// The name.
         name: String,
         /// The key of the scenario.
         key: String,
