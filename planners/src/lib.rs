@@ -29,6 +29,7 @@
 //! use interplay_planners::drivers::conservative;
 //! use interplay_planners::prediction::constant_velocity;
 //! use interplay_planners::rules::RoadRules;
+//! use interplay_planners::scene::Knowledge;
 //! use interplay_planners::scene::inferred_futures::InferredFutures;
 //! use interplay_planners::{
 //!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State,
@@ -48,6 +49,7 @@
 //!         shared_goal: None,
 //!         can_be_asked: true,
 //!         is_obstacle: false,
+//!         indicator: None,
 //!         rules: RoadRules::default(),
 //!         urgency: 1.0,
 //!     }
@@ -59,7 +61,7 @@
 //!     comfort: [0.1, 0.1],
 //!     safety: SafetyEllipse::default(),
 //! };
-//! let scene = Scene { tick: 0, step_s, horizon, ego, goal, others: vec![leader] };
+//! let scene = Scene { tick: 0, step_s, horizon, knowledge: Knowledge::Plans, ego, goal, others: vec![leader] };
 //!
 //! let plan = conservative::Settings::default().driver().plan(&scene, &InferredFutures::default())?;
 //! assert_eq!(plan.trajectory.inputs.len(), horizon);

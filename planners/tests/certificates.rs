@@ -2,6 +2,7 @@
 
 use interplay_planners::plan::certificate::{Harm, last_resorts, refused, violations};
 use interplay_planners::prediction::steadily_along;
+use interplay_planners::scene::Knowledge;
 use interplay_planners::traffic::{Origin, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Goal, Input, Limits, Plan, PlanCondition, PlanError, Route, SafetyEllipse, Scene, State,
@@ -33,6 +34,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,
+        indicator: None,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
     }
@@ -44,7 +46,7 @@ fn goal() -> Goal {
 }
 
 fn scene(ego: Agent, others: Vec<Agent>) -> Scene {
-    Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego, goal: goal(), others }
+    Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal: goal(), others }
 }
 
 /// A constant acceleration; the speed stays within its limits.

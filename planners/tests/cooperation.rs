@@ -8,6 +8,7 @@ use interplay_planners::drivers::cooperative::{self, cooperators};
 use interplay_planners::drivers::human::Style;
 use interplay_planners::plan::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::problem::{JointVehicle, joint_problem};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
@@ -37,6 +38,7 @@ fn scene(vehicles: &[Vehicle], index: usize) -> Scene {
         tick: 0,
         step_s: STEP_S,
         horizon: HORIZON,
+        knowledge: Knowledge::Plans,
         ego: told(&vehicles[index]),
         goal: vehicles[index].goal,
         others: others.map(|(_, other)| told(other)).collect(),

@@ -60,7 +60,7 @@ fn off_the_road(random: &mut SplitMix64) -> Problem {
             vehicle: 0,
             front_m: 0.2,
             route,
-            line_m: along_m - 0.1,
+            lines_m: vec![along_m - 0.1; HORIZON],
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),
     ];

@@ -5,6 +5,7 @@ mod common;
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, vehicle};
 use interplay_planners::drivers::{conservative, human};
 use interplay_planners::prediction::{Prediction, constant_velocity};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::{Driver, Plan, Scene, State};
 use serde_json::json;
 
@@ -52,7 +53,7 @@ fn words_choose_values_solutions_and_predictions() {
 fn beside(driver: Driver, other: &Vehicle) -> Plan {
     let own = vehicle("own", [-0.5, LANES[1], 1.2], [LANES[1], 1.2], [0.0, 4.0, 1.0, 1.0], driver);
     let others = vec![other.agent.clone()];
-    let scene = Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego: own.agent, goal: own.goal, others };
+    let scene = Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego: own.agent, goal: own.goal, others };
     own.driver.planner().plan(&scene).expect("a plan")
 }
 

@@ -8,6 +8,7 @@ use interplay_planners::drivers::human::{Human, Settings, Style};
 use interplay_planners::drivers::scripted::{self, Order};
 use interplay_planners::prediction::{Prediction, constant_velocity};
 use interplay_planners::scene::inferred_futures::InferredFutures;
+use interplay_planners::scene::Knowledge;
 use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State};
 use proptest::prelude::*;
@@ -181,6 +182,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             shared_goal: None,
             can_be_asked: true,
             is_obstacle: false,
+            indicator: None,
             rules: interplay_planners::rules::RoadRules::default(),
             urgency: 1.0,
         }
@@ -202,7 +204,7 @@ proptest! {
         for (later, others) in seen {
             tick += later;
             let (ego, goal) = (own.agent.clone(), own.goal);
-            let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego, goal, others };
+            let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal, others };
             if let Ok(plan) = driver.plan(&scene, &InferredFutures::default()) {
                 prop_assert!(plan.trajectory.states.iter().all(State::is_finite));
                 prop_assert_eq!(plan.trajectory.inputs.len(), HORIZON);

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use interplay_planners::perception::sensing::Sensor;
 use interplay_planners::prediction::{steadily_along, without_plans};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -31,6 +32,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
         is_obstacle: vehicle.obstacle.is_some(),
+        indicator: None,
         rules: now.rules.clone(),
         urgency: now.urgency,
     })
@@ -61,7 +63,8 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let mut others = agents.to_vec();
     let ego = others.remove(index);
     let goal = goal(scenario, vehicle);
-    let scene = Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others };
+    let (step_s, horizon) = (scenario.step_s, scenario.horizon_steps);
+    let scene = Scene { tick, step_s, horizon, knowledge: Knowledge::Plans, ego, goal, others };
     if vehicle.driver.knows_plans() { scene } else { without_plans(scene) }
 }
 

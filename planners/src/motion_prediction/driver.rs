@@ -10,6 +10,7 @@ use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, Traffi
 use crate::drivers::human::{self, Human};
 use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
+use crate::scene::Knowledge;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
 
@@ -116,7 +117,7 @@ impl PredictedDriver {
             comfort: [self.acceleration_change, STEERING_CHANGE],
             safety: SafetyEllipse { along_m: SAFETY_M[0], across_m: SAFETY_M[1] },
         };
-        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego, goal, others }
+        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal, others }
     }
 
     /// Whom the driver looks at: the nearest ahead in its lane, and those beside it.
@@ -173,6 +174,7 @@ impl PredictedDriver {
             shared_goal: None,
             can_be_asked: true,
             is_obstacle: false,
+            indicator: None,
             rules: RoadRules::default(),
             urgency: 1.0,
         }

@@ -10,11 +10,11 @@ use crate::drivers::Driver;
 use crate::drivers::drive::{Drive, DriverKind};
 use crate::perception::belief::{self, DriverBeliefs};
 use crate::perception::sensing::SensedScene;
-use crate::plan::certificate::{refused, violations, within_touch};
+use crate::plan::certificate::{refused, refused_by_motion, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
 use crate::scene::inferred_futures::InferredFutures;
-use crate::{Plan, PlanError, Scene};
+use crate::{Plan, PlanError, PlanViolation, Scene};
 
 /// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
 ///
@@ -29,8 +29,11 @@ pub struct Planner {
     homotopy_log: HomotopyLog,
     /// What its certificates take for where the others will be.
     prediction: Prediction,
-    /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
+    /// Whether a plan may be refused of a driver who knows plans. Those who go first are what the others have to live with, and drive as they
+    /// do.
     may_be_refused: bool,
+    /// Whether a plan may be refused of a driver who sees the motion of the others only.
+    is_vetoed: bool,
     /// When a plan is too late; never by default.
     deadline: Option<PlanDeadline>,
 }
@@ -57,6 +60,7 @@ impl Planner {
             homotopy_log: HomotopyLog::default(),
             prediction: kind.prediction().unwrap_or_default(),
             may_be_refused: kind.may_be_refused(),
+            is_vetoed: kind.is_vetoed(),
             deadline: None,
         }
     }
@@ -81,6 +85,7 @@ impl Planner {
         self.branches = kind.branches();
         self.prediction = kind.prediction().unwrap_or_default();
         self.may_be_refused = kind.may_be_refused();
+        self.is_vetoed = kind.is_vetoed();
     }
 
     /// A copy that remembers the same; `None` if its driver cannot be copied.
@@ -129,7 +134,7 @@ impl Planner {
 
     /// The scene as the driver expects it, with those at least whom the plan touches in it.
     fn expected_to_touch<'a>(&self, scene: &'a Scene, plan: &Plan) -> Cow<'a, Scene> {
-        if self.prediction != Prediction::ConstantVelocity {
+        if self.prediction != Prediction::ConstantVelocity || scene.knowledge.is_of_motion() {
             return Cow::Borrowed(scene);
         }
         let others = within_touch(scene, &plan.trajectory);
@@ -141,16 +146,25 @@ impl Planner {
         let mut plan = self.driver.plan(scene, inferred_futures)?;
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
-        let may_be_refused = self.may_be_refused && !plan.violations.is_empty();
-        let refused = may_be_refused
-            .then(|| refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations))
-            .flatten();
-        if let Some(violation) = refused {
+        if let Some(violation) = self.refused(scene, &plan) {
             return Err(PlanError::Refused(violation.clone()));
         }
         if plan.problem.is_some() {
             self.homotopy_log.note(scene, &mut plan);
         }
         Ok(plan)
+    }
+
+    /// The violation for which a plan is refused.
+    fn refused<'a>(&self, scene: &Scene, plan: &'a Plan) -> Option<&'a PlanViolation> {
+        if plan.violations.is_empty() {
+            None
+        } else if scene.knowledge.is_of_motion() {
+            if self.is_vetoed { refused_by_motion(scene, &plan.trajectory, &plan.violations) } else { None }
+        } else if self.may_be_refused {
+            refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations)
+        } else {
+            None
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! Predictions of other vehicles, and simple motions that serve as starting guesses.
 
+mod seen_motion;
 pub(crate) mod steering;
+
+pub use seen_motion::SeenMotion;
 
 use std::sync::Arc;
 

@@ -12,28 +12,28 @@ use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Route, SafetyEllipse, Scene, Trajectory};
 
 /// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
-const STANDSTILL_GAP_M: f64 = 0.35;
+pub(super) const STANDSTILL_GAP_M: f64 = 0.35;
 /// A driver of safety weight 0 keeps this share of the usual time gap, and a nice one this one.
 const GAP_SHARES: [f64; 2] = [0.6, 1.4];
 /// The weight of a nice driver, up to which shares grow with the logarithm.
 const NICE_WEIGHT: f64 = 50.0;
 /// Smallest share of the usual time gap to which a driver approaches by choice.
-const FIRM_SHARE: f64 = 0.45;
+pub(super) const FIRM_SHARE: f64 = 0.45;
 /// The least gap ahead or behind for a change of lane, as a share of the usual time gap: 1 s.
 const ACCEPTED_SHARE: f64 = 0.85;
 /// A planner keeps this share of the usual time gap besides its safety ellipse.
-const PLANNER_SHARE: f64 = 0.7;
+pub(super) const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
-const OPENING: f64 = 0.1;
+pub(super) const OPENING: f64 = 0.1;
 /// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
-const ASIDE_M: f64 = 0.04;
+pub(super) const ASIDE_M: f64 = 0.04;
 /// A vehicle beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
 const BEYOND_LINE_M: f64 = 0.03;
 
 /// The share of the usual time gap that a driver keeps, by its safety weight.
-fn share_of(weight: f64) -> f64 {
+pub(crate) fn share_of(weight: f64) -> f64 {
     let [tough, nice] = GAP_SHARES;
     let politeness = (libm::log1p(weight) / libm::log1p(NICE_WEIGHT)).min(1.0);
     tough + (nice - tough) * politeness

@@ -91,7 +91,7 @@ impl Curve {
             vehicle,
             front_m: body.front_m,
             route: Arc::clone(route),
-            line_m: line.line_m,
+            lines_m: vec![line.line_m; self.horizon],
             penalty: line.penalty.into(),
         }
     }

@@ -268,6 +268,10 @@ pub struct Vehicle {
     pub driver: Driver,
     /// Whether it keeps the rules of the road, if stated; otherwise its kind of driver decides.
     pub rules: Option<RuleKeeping>,
+    /// Whether it tells its plan to those that know plans; `None` if it does.
+    pub tells_plan: Option<bool>,
+    /// Whether it knows the plans of those that tell them, if its driver does; `None` if so.
+    pub knows_plans: Option<bool>,
     /// When it is on the road.
     pub stay: Stay,
     /// The obstacle that it is, if it has no driver.
@@ -279,6 +283,16 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
+    /// Whether its driver receives the plans of others: the vehicle is told of them, and the driver's kind makes use of them.
+    pub fn knows_plans(&self) -> bool {
+        self.knows_plans.unwrap_or(true) && self.driver.knows_plans()
+    }
+
+    /// Whether its plan, its goal and its wishes are told to drivers that know plans.
+    pub fn tells_plan(&self) -> bool {
+        self.tells_plan.unwrap_or(true)
+    }
+
     /// A vehicle without a name, with the defaults of 1/10 scale cars.
     pub(crate) fn new(start: State, route: Arc<Route>, driver: Driver) -> Vehicle {
         Vehicle {
@@ -295,6 +309,8 @@ impl Vehicle {
             safety: SafetyEllipse::default(),
             driver,
             rules: None,
+            tells_plan: None,
+            knows_plans: None,
             stay: Stay::default(),
             obstacle: None,
             sensing: None,

@@ -272,7 +272,9 @@ impl Simulation {
             user.agent.can_be_asked = new.driver.can_be_asked();
             user.agent.shared_goal = new.driver.shared_goal(&user.goal);
             user.goes_first = new.driver.goes_first();
-            user.knows_plans = new.driver.knows_plans();
+            user.knows_plans = new.knows_plans();
+            user.reaction_s = new.driver.reaction_s();
+            user.decides = new.driver.is_vetoed();
         }
         self.scenario = Arc::new(changed.clone());
     }

@@ -105,16 +105,32 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
 /// Where no harmless motion is left now, the plan is driven: of two motions with a contact, the one that was planned counts on
 /// what the others will do next, and the other one on nothing.
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
-    let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
-    let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
-    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
-    if contact.is_none_or(|stage| stage > could_stand) {
+    let contact = early_contact(scene, plan);
+    if contact.is_none() {
         return false;
     }
     let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
     // After a contact in the first step no way out remains.
     let is_over = contact <= Some(1);
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
+}
+
+/// Whether a plan touches a vehicle before the own one could stand, no last resort is harmless, and one does less harm than the plan.
+pub(super) fn is_worse_than_a_last_resort(scene: &Scene, plan: &Trajectory) -> bool {
+    if early_contact(scene, plan).is_none() {
+        return false;
+    }
+    let planned = Harm::measure(scene, plan);
+    let harms: Vec<Harm> = last_resorts(scene).map(|motion| Harm::measure(scene, &motion)).collect();
+    !harms.iter().any(Harm::is_none) && harms.iter().any(|harm| harm.is_less_than(&planned))
+}
+
+/// The first stage at which a plan touches a vehicle, if the own one could not stand before.
+fn early_contact(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
+    let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
+    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
+    contact.filter(|stage| *stage <= could_stand)
 }
 
 /// The scene after the first step of a plan, if all vehicles move as expected.

@@ -15,12 +15,13 @@ mod rectangles;
 mod violation;
 
 pub(crate) use last_resort::rolled_out;
+use last_resort::is_worse_than_a_last_resort;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
 pub use rectangles::overlap_m;
 pub use violation::violations;
 pub(crate) use violation::{touches_ahead, within_touch};
 
-use crate::{PlanCondition, PlanViolation, Scene, Trajectory};
+use crate::{Agent, PlanCondition, PlanViolation, Scene, Trajectory};
 
 /// The violation for which a plan must not be driven, if there is one: a fault of the plan itself, or a contact with
 /// which it gives
@@ -29,4 +30,26 @@ pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolat
     let contact = violations.iter().find(|violation| matches!(violation.condition, PlanCondition::Clear(_)));
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.or_else(|| contact.filter(|_| gives_away_the_last_way_out(scene, plan)))
+}
+
+/// The same for a driver who sees the motion of the others only. It is not refused for a vehicle behind it in its lane, which follows; and
+/// where no motion without a contact is left, it is refused if one with a weaker impact is.
+pub fn refused_by_motion<'a>(
+    scene: &Scene,
+    plan: &Trajectory,
+    violations: &'a [PlanViolation],
+) -> Option<&'a PlanViolation> {
+    let ego = &scene.ego;
+    let follows = |other: &Agent| ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
+    let others: Vec<Agent> = scene.others.iter().filter(|other| !follows(other)).cloned().collect();
+    let touched = violations.iter().find(
+        |violation| matches!(&violation.condition, PlanCondition::Clear(name) if others.iter().any(|other| other.name == *name)),
+    );
+    let fault = violations.iter().find(|violation| violation.is_fault());
+    fault.or_else(|| {
+        let scene = Scene { others, ego: ego.clone(), ..*scene };
+        touched.filter(|_| {
+            gives_away_the_last_way_out(&scene, plan) || is_worse_than_a_last_resort(&scene, plan)
+        })
+    })
 }
