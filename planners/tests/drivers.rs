@@ -53,7 +53,15 @@ fn words_choose_values_solutions_and_predictions() {
 fn beside(driver: Driver, other: &Vehicle) -> Plan {
     let own = vehicle("own", [-0.5, LANES[1], 1.2], [LANES[1], 1.2], [0.0, 4.0, 1.0, 1.0], driver);
     let others = vec![other.agent.clone()];
-    let scene = Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego: own.agent, goal: own.goal, others };
+    let scene = Scene {
+        tick: 0,
+        step_s: STEP_S,
+        horizon: HORIZON,
+        knowledge: Knowledge::Plans,
+        ego: own.agent,
+        goal: own.goal,
+        others,
+    };
     own.driver.planner().plan(&scene).expect("a plan")
 }
 

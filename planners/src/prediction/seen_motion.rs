@@ -1,12 +1,12 @@
 //! The motion that every driver expects of a vehicle whose plan it does not know, from what can be seen of it.
 //!
 //! ```text
-//! acceleration  a(t) = min(a₀ e^(−t/τ), behind its leader, before its line, within its speed limit)
+//! acceleration  a(t) = min(a₀ e^(−t/τ), τ = τ₀ max(1, −a₀/a_τ), behind its leader, before its line, within its speed limit)
 //! lateral       towards n₀ + v_n τ_n, or into the lane to which it indicates
 //! spread        σ(t) = σ₀ + σ_a t²/2
 //! ```
 //!
-//! `a₀` is its present acceleration and `v_n` its lateral speed. Behind its leader, whose own seen motion is known, and before the line at
+//! `a₀` is its present acceleration and `v_n` its lateral speed. Who brakes hard brakes for long: for a stop. Behind its leader, whose own seen motion is known, and before the line at
 //! which the rules hold it, it brakes as the intelligent driver model of the literature does, with the time gap that it keeps now. The
 //! motion is rolled out through the bicycle, so that its inputs reproduce it, on bends too.
 
@@ -18,6 +18,8 @@ use crate::{Agent, Bicycle, Input, State, Trajectory};
 
 /// Time within which an acceleration falls to 37 %, of real vehicles \[s\].
 const DECAY_S: f64 = 1.0;
+/// Braking that is harder than this lasts longer by its ratio to it \[m/s²\].
+const LONGER_MPS2: f64 = 1.0;
 /// The same of a lateral speed \[s\].
 const LATERAL_DECAY_S: f64 = 1.0;
 /// Who drives at a larger angle to its route is expected to go on as it goes \[rad\].
@@ -48,7 +50,8 @@ impl SeenMotion<'_> {
     pub fn expected(&self, steps: usize, step_s: f64) -> Trajectory {
         let Agent { route, body, state, limits, .. } = self.vehicle;
         let here = route.locate(state.position(), None);
-        let to_road_rad = state.heading_rad + slip_on_curve_rad(body.rear_axle_m, here.curvature_1pm) - here.heading_rad;
+        let to_road_rad =
+            state.heading_rad + slip_on_curve_rad(body.rear_axle_m, here.curvature_1pm) - here.heading_rad;
         let (sin, cos) = libm::sincos(to_road_rad);
         if self.vehicle.is_obstacle || limits.comfort.is_none() || cos < libm::cos(ALONG_RAD) {
             return steadily_along(route, body, state, steps, step_s);
@@ -56,6 +59,8 @@ impl SeenMotion<'_> {
         let time_ratio = body.real_ratio().sqrt();
         let drift_m = state.speed_mps * sin * LATERAL_DECAY_S * time_ratio;
         let aim_m = self.vehicle.indicated_across_m(&here).unwrap_or(here.across_m + drift_m);
+        let now_mps2 = self.vehicle.previous_input.acceleration_mps2;
+        let decay_s = DECAY_S * time_ratio * (-now_mps2 / LONGER_MPS2).max(1.0);
         let follower = Follower::new(self, steps);
         let (model, mut state, mut near_m) = (Bicycle::new(body, step_s), *state, here.along_m);
         let mut motion = Trajectory { states: vec![state], inputs: Vec::with_capacity(steps) };
@@ -63,8 +68,7 @@ impl SeenMotion<'_> {
             let at = route.locate(state.position(), Some(near_m));
             near_m = at.along_m;
             let time_s = step_s * (step as f64 + 0.5);
-            let kept_mps2 =
-                self.vehicle.previous_input.acceleration_mps2 * libm::exp(-time_s / (DECAY_S * time_ratio));
+            let kept_mps2 = now_mps2 * libm::exp(-time_s / decay_s);
             let bound_mps2 = follower.highest_mps2(step, at.along_m, state.speed_mps);
             let permitted_mps2 = self.vehicle.permitted_acceleration_mps2(at.along_m, state.speed_mps, step_s);
             let wanted_mps2 = kept_mps2.min(bound_mps2).min(permitted_mps2.unwrap_or(f64::INFINITY));
@@ -153,8 +157,9 @@ mod tests {
 
     #[test]
     fn an_acceleration_decays() {
-        let braking = end(&expected(&car(0.0, 20.0, -4.0), None));
-        assert!((braking.speed_mps - 16.0).abs() < 0.1, "{braking:?}");
+        let ends_with = |mps2: f64| end(&expected(&car(0.0, 20.0, mps2), None)).speed_mps;
+        assert!((ends_with(-1.0) - 19.0).abs() < 0.1 && (ends_with(-3.0) - 11.6).abs() < 0.2, "{}", ends_with(-3.0));
+        assert_eq!(ends_with(-6.0), 0.0, "who brakes as hard as this stops");
         assert_eq!(end(&expected(&car(0.0, 20.0, 0.0), None)).speed_mps, 20.0);
     }
 

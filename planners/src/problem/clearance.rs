@@ -12,7 +12,7 @@ use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Route, SafetyEllipse, Scene, Trajectory};
 
 /// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
-pub(super) const STANDSTILL_GAP_M: f64 = 0.35;
+pub(crate) const STANDSTILL_GAP_M: f64 = 0.35;
 /// A driver of safety weight 0 keeps this share of the usual time gap, and a nice one this one.
 const GAP_SHARES: [f64; 2] = [0.6, 1.4];
 /// The weight of a nice driver, up to which shares grow with the logarithm.

@@ -9,6 +9,8 @@
 //! speed  v(t) ≤ v_l(t) + √(2 b r(t)),  r(t) = s_l(t) − g(t) − s(t)     while r ≥ 0
 //!        v(t) ≤ v_l(t) + r(t)/τ                                        in a gap that is too short
 //! ```
+//!
+//! `b` is the comfortable braking, or what is needed to come to the end of the leader's expected motion behind it.
 
 use super::clearance::{ASIDE_M, FIRM_SHARE, OPENING, PLANNER_SHARE, STANDSTILL_GAP_M};
 use crate::scene::road_rules::Followed;
@@ -50,7 +52,10 @@ impl Scene {
         let beside_m = beside_m + ASIDE_M * ego.body.scale;
         let is_free = |across_m: &f64| {
             (right_m + half_m..=left_m - half_m).contains(across_m)
-                && !self.others.iter().any(|other| other.name != leader.name && self.is_beside(other, leader, *across_m))
+                && !self
+                    .others
+                    .iter()
+                    .any(|other| other.name != leader.name && self.is_beside(other, leader, *across_m))
         };
         [at.across_m + beside_m, at.across_m - beside_m].iter().any(is_free)
     }
@@ -103,9 +108,13 @@ impl Scene {
     /// The speeds of an approach in comfort from a front at `front_m`, to a gap that depends on the speed of the vehicle ahead.
     fn approach_mps(&self, mut front_m: f64, rears: &[[f64; 2]], gap_m: impl Fn(f64) -> f64) -> Vec<f64> {
         let (ego, step_s) = (&self.ego, self.step_s);
-        let braking_mps2 = ego.comfortable_braking_mps2();
+        let needed_mps2 = rears.last().map_or(0.0, |[rear_m, ahead_mps]| {
+            let room_m = (rear_m - gap_m(*ahead_mps) - front_m).max(LEAST_SHARE * ego.body.scale);
+            0.5 * (ego.state.speed_mps * ego.state.speed_mps - ahead_mps * ahead_mps) / room_m
+        });
+        let braking_mps2 = ego.comfortable_braking_mps2().max(needed_mps2).min(-ego.limits.acceleration_min_mps2);
         let opening_s = OPENING_S * ego.body.real_ratio().sqrt();
-        let [low, high] = [ego.limits.acceleration_min_mps2, ego.limits.acceleration_max_mps2].map(|mps2| mps2 * step_s);
+        let [low, high] = [-braking_mps2, ego.limits.acceleration_max_mps2].map(|mps2| mps2 * step_s);
         let wanted_mps = self.goal.target.speed_mps;
         let mut speed_mps = ego.state.speed_mps;
         let speeds = rears.iter().map(|[rear_m, ahead_mps]| {

@@ -133,12 +133,7 @@ impl Order {
 
 /// All vehicles that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop. What is known of
 /// its own arrival and of those of the others may be of different times.
-fn held(
-    [own, their]: [&Arrivals; 2],
-    users: &[Obliged<'_>],
-    vehicle: usize,
-    lights_m: &[Option<f64>],
-) -> Vec<Hold> {
+fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lights_m: &[Option<f64>]) -> Vec<Hold> {
     let ego = &users[vehicle].agent;
     if !ego.route.is_in_network() {
         return Vec::new();

@@ -3,8 +3,8 @@
 pub mod driver_estimate;
 pub mod indicator;
 pub mod inferred_futures;
-pub mod knowledge;
 pub(crate) mod input_record;
+pub mod knowledge;
 pub(crate) mod record;
 pub(crate) mod relation;
 pub(crate) mod road_rules;

@@ -38,6 +38,7 @@ use std::sync::Arc;
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 pub use neighbours::Neighbours;
+pub use observation::Observations;
 pub use planning_order::planning_order;
 pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
@@ -47,7 +48,7 @@ use crate::rules::{Obliged, RoadRules, RuleBook};
 use crate::scene::Knowledge;
 use crate::trajectory::Statistics;
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
-use observation::{MadeOf, Observations, View};
+use observation::{MadeOf, View};
 
 /// All road users at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,7 +66,7 @@ pub struct Traffic {
     /// Who is near whom; before they are found, all count as near.
     pub near: Neighbours,
     /// What drivers see who do not know plans.
-    observations: Observations,
+    pub observations: Observations,
 }
 
 /// What one vehicle decided in a tick.
@@ -160,9 +161,10 @@ impl Traffic {
         };
         let seen = present().map(|user| Obliged::as_seen(&user.agent, user.keeps_rules)).collect::<Vec<_>>();
         let mut asked = self.rule_book.judge(self.tick, self.step_s, &seen).into_iter();
-        let rules = self.road_users.iter().map(|user| {
-            if user.is_absent() { RoadRules::default() } else { asked.next().unwrap_or_default() }
-        });
+        let rules = self
+            .road_users
+            .iter()
+            .map(|user| if user.is_absent() { RoadRules::default() } else { asked.next().unwrap_or_default() });
         let made_of = self.made_of();
         let observation = made_of.observation(rules.collect(), latest, self.rule_book.arrivals().clone());
         let mut observations = std::mem::take(&mut self.observations);
@@ -211,7 +213,9 @@ impl Traffic {
     /// What a vehicle on the road sees that observes the motion of the others only; none of another one.
     fn view(&self, row: usize) -> Option<&View> {
         let user = &self.road_users[row];
-        (user.observes() && !user.is_absent()).then(|| self.observations.view_of(user.late_steps(self.step_s))).flatten()
+        (user.observes() && !user.is_absent())
+            .then(|| self.observations.view_of(user.late_steps(self.step_s)))
+            .flatten()
     }
 
     /// The moment as one vehicle sees it: with the plans of those that tell them if it knows plans.

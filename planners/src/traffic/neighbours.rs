@@ -29,10 +29,7 @@ impl Neighbours {
     }
 
     /// Sorts vehicles into cells; absent ones are none.
-    pub(super) fn of_agents<'a>(
-        agents: impl Iterator<Item = Option<&'a Agent>> + Clone,
-        horizon_s: f64,
-    ) -> Neighbours {
+    pub(super) fn of_agents<'a>(agents: impl Iterator<Item = Option<&'a Agent>> + Clone, horizon_s: f64) -> Neighbours {
         let present = || agents.clone().enumerate().filter_map(|(index, agent)| Some((index, agent?)));
         let reaches_m: Vec<f64> = agents.clone().map(|agent| agent.map_or(0.0, |it| reach_m(it, horizon_s))).collect();
         // Those who come towards each other meet within both reaches.

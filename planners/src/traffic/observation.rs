@@ -41,7 +41,7 @@ pub(super) struct View {
 
 /// The observations that some driver has yet to receive, and the views of the present plan.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Observations {
+pub struct Observations {
     /// From the earliest to the present one.
     made: VecDeque<Observation>,
     views: Vec<View>,
@@ -113,8 +113,12 @@ impl<'a> MadeOf<'a> {
             urgency: 1.0,
             ..user.agent.clone()
         };
-        let mut agents: Vec<Option<Agent>> =
-            self.road_users.iter().zip(rules).map(|(user, rules)| (!user.is_absent()).then(|| seen(user, rules))).collect();
+        let mut agents: Vec<Option<Agent>> = self
+            .road_users
+            .iter()
+            .zip(rules)
+            .map(|(user, rules)| (!user.is_absent()).then(|| seen(user, rules)))
+            .collect();
         let leaders: Vec<Option<usize>> = (0..agents.len()).map(|row| self.leader(row, &agents)).collect();
         let mut is_done = vec![false; agents.len()];
         for row in 0..agents.len() {

@@ -260,7 +260,8 @@ fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, setti
     let beside = met.map(|(obstacle, _)| obstacle.keep_out(scene));
     terms.extend(followed.into_iter().chain(yielded_to).chain(beside).map(Term::KeepOut));
     let rules = &scene.ego.rules;
-    let line = rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, vec![line_m; scene.horizon]));
+    let line =
+        rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, vec![line_m; scene.horizon]));
     terms.extend(line.map(Term::StopLine));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], shared_steps: 0, terms }
 }
@@ -307,6 +308,11 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
 /// Those who might cut in or cross, where the driver expects them; `others` are pairs of a vehicle and what is expected of it.
 fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
+    // Whom a leader parts from the driver who stays behind it comes in no one's way.
+    let is_beyond = |other: &Agent| {
+        let follows = leader.filter(|_| ego.rules.follows.is_some());
+        follows.is_some_and(|leader| ego.shares_lane_with(other) && ego.lead_of(other) > ego.lead_of(leader))
+    };
     let leader = leader.map(|leader| &leader.name);
     let beside = others.iter().filter(|(other, _)| Some(&other.name) != leader);
     let mut keep_outs: Vec<KeepOut> =
@@ -316,7 +322,11 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
     }
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let concerns = |other: &Agent| {
-        !ego.is_waited_for_by(other) && ego.may_meet(other) && Some(&other.name) != leader && !behind(&other)
+        !ego.is_waited_for_by(other)
+            && ego.may_meet(other)
+            && Some(&other.name) != leader
+            && !behind(&other)
+            && !is_beyond(other)
     };
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);

@@ -14,8 +14,8 @@ mod last_resort;
 mod rectangles;
 mod violation;
 
-pub(crate) use last_resort::rolled_out;
 use last_resort::is_worse_than_a_last_resort;
+pub(crate) use last_resort::rolled_out;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
 pub use rectangles::overlap_m;
 pub use violation::violations;
@@ -48,8 +48,6 @@ pub fn refused_by_motion<'a>(
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.or_else(|| {
         let scene = Scene { others, ego: ego.clone(), ..*scene };
-        touched.filter(|_| {
-            gives_away_the_last_way_out(&scene, plan) || is_worse_than_a_last_resort(&scene, plan)
-        })
+        touched.filter(|_| gives_away_the_last_way_out(&scene, plan) || is_worse_than_a_last_resort(&scene, plan))
     })
 }
