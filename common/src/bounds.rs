@@ -27,7 +27,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Whether a number respects the bound.
+    /// Whether a number satisfies the bound.
     pub fn admits(self, value: f64) -> bool {
         match self {
             Self::Finite => value.is_finite(),

@@ -32,7 +32,7 @@ impl Random {
         self.unit() < probability
     }
 
-    /// True with this probability, from half as much of the stream.
+    /// True with this probability; uses half as much of the stream as [`Random::chance`].
     pub fn chance_of_32_bits(&mut self, probability: f64) -> bool {
         f64::from(self.0.next_u32()) < probability * 4_294_967_296.0
     }

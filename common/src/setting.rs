@@ -74,7 +74,7 @@ pub struct SettingError {
     pub bound: Bound,
 }
 
-/// Holds settings to the bounds on their fields. Every number must also be finite, and not huge.
+/// Checks settings against the bounds of their fields. Every number must also be finite, and not huge.
 ///
 /// # Errors
 /// [`SettingError`] for the first number that breaks a bound, in the order of the fields.
@@ -100,7 +100,7 @@ pub fn check_each<T: Serialize + JsonSchema>(tables: &[T]) -> Result<(), (usize,
     })
 }
 
-/// Refuses a setting that breaks a bound which is known only together with other settings.
+/// Checks a setting against a bound that depends on other settings.
 pub fn check_bound(key: &str, value: f64, bound: Bound) -> Result<(), SettingError> {
     if bound.admits(value) { Ok(()) } else { Err(SettingError { key: key.into(), value, bound }) }
 }

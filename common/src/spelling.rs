@@ -1,6 +1,6 @@
 //! The known word that an unknown one was probably meant to be, for errors about keys, names and words.
 
-/// The candidate with the fewest edits from `word`, if those are few enough to be a slip.
+/// The candidate with the fewest edits from `word`, if they are few enough for a typing error.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Longer than any word we know: not a slip, and the distance would take long.
     if word.len() > 100 {
@@ -15,7 +15,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     (edits <= tolerated && edits < best.len()).then_some(best)
 }
 
-/// `did you mean …?` if a word is near, otherwise the list of all.
+/// `did you mean …?` if a candidate is similar, otherwise the list of all candidates.
 pub fn suggestion(word: &str, what: &str, candidates: &[impl AsRef<str>]) -> String {
     match nearest(word, candidates.iter().map(AsRef::as_ref)) {
         Some(best) => format!("did you mean `{best}`?"),

@@ -33,7 +33,7 @@ const ENDINGS: [(&str, &str); 23] = [
 /// Endings of expectations, after the unit.
 const COMPARISONS: [&str; 2] = ["_at_most", "_at_least"];
 
-/// The unit that a key ends with, if it ends with one; of several the longest.
+/// The unit that a key ends with, the longest if several match.
 pub fn unit_of(key: &str) -> Option<&'static str> {
     split(key).map(|(_, unit)| unit)
 }

@@ -31,7 +31,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("RunError", py.get_type::<RunError>())
 }
 
-/// A refusal with the places of its faults: the text is that of the command.
+/// The exception for a refused scenario, with the place of each fault; its text is that of the command.
 pub fn refused(error: LoadError) -> PyErr {
     let faults: Vec<(Option<String>, Option<(usize, usize)>, String, Option<String>)> = error
         .faults()
@@ -58,7 +58,7 @@ pub fn refused(error: LoadError) -> PyErr {
     })
 }
 
-/// A refusal of which only the text is known; it begins with file and line where these are known.
+/// The exception for a refusal that is known only as a text, which begins with file and line if they are known.
 pub fn refused_text(text: &str) -> PyErr {
     Python::attach(|py| {
         let raised = ScenarioError::new_err(text.to_owned());
@@ -108,7 +108,7 @@ pub fn of_environment(error: EnvironmentError) -> PyErr {
     }
 }
 
-/// Text that should be JSON of Interplay and is not.
+/// The exception for a text that should be JSON but is not.
 pub fn bad_json(what: &str, error: &serde_json::Error) -> PyErr {
     // The text was made by the package: its lines and columns mean nothing to the caller.
     let message = error.to_string();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// A file that is being written. It vanishes if it is dropped before it has its path.
+/// A file that is being written. It is deleted if it is dropped before it is moved to its path.
 #[derive(Debug)]
 pub struct WholeFile {
     target: PathBuf,

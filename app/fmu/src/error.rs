@@ -5,7 +5,7 @@ use interplay_building::network::NetworkError;
 use interplay_simulation::climate::BuildingError;
 use thiserror::Error;
 
-/// A scenario cannot be exported.
+/// Why a scenario cannot be exported.
 #[derive(Debug, Error)]
 pub enum FmuError {
     /// The scenario has no building.

@@ -44,7 +44,7 @@ pub struct CameraView {
 }
 
 impl CameraView {
-    /// The place of a position \[px\].
+    /// The pixel at which a position of the world is drawn \[px\].
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let right = (self.px_per_m * (x - self.centre_m[0])) + 0.5 * self.size_px[0];
         [right, 0.5 * self.size_px[1] - self.px_per_m * (y - self.centre_m[1])]

@@ -235,7 +235,8 @@ impl<'a> NetworkLines<'a> {
     }
 }
 
-/// Least and greatest coordinates of the parts of their routes that vehicles cover at their wanted speeds \[m\].
+/// Least and greatest coordinates of the part of the road that the vehicles cover if each drives at its wanted speed
+/// \[m\].
 pub fn expected_bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
     let places = scenario.vehicles.iter().flat_map(|vehicle| {
         let (route, speed_mps) =

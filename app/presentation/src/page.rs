@@ -40,7 +40,7 @@ pub struct Section {
     pub files: Vec<(String, String)>,
 }
 
-/// Whether what was expected of a part came true.
+/// Whether the expectations of a section held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SectionStatus {
     /// The section has no expectations.

@@ -29,7 +29,7 @@ pub fn rounded_corners(ring: &[[f64; 2]], radius: f64) -> impl Iterator<Item = [
     })
 }
 
-/// Least and greatest coordinates of some points; of none from +∞ to −∞.
+/// Least and greatest coordinates of some points; without points, from +∞ to −∞.
 pub fn extent(points: impl IntoIterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
     points.into_iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
         [[0, 1].map(|axis| low[axis].min(point[axis])), [0, 1].map(|axis| high[axis].max(point[axis]))]

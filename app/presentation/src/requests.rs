@@ -24,8 +24,8 @@ const MIN_REQUEST_WIDTHS: f64 = 0.5;
 
 /// The open requests of all vehicles.
 ///
-/// A vehicle that follows a proposal is then expected to move as proposed, so a request stays open once it was made, until one
-/// of both vehicles has reached its goal.
+/// A vehicle that follows a proposal is then expected to move as proposed, so a request stays open once it was made,
+/// until one of the two vehicles has reached its goal.
 #[derive(Clone, Debug, Default)]
 pub struct Requests {
     /// For each vehicle: the vehicles that it addresses without interruption, each with whether it requests a change of motion.

@@ -18,7 +18,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Whether a program of that name is in a folder of the path.
+/// Whether a program with this name is in a folder of `PATH`.
 pub fn is_on_path(program: &str) -> bool {
     let is_program = |file: PathBuf| file.is_file() || file.with_extension("exe").is_file();
     let folders = env::var_os("PATH").unwrap_or_default();

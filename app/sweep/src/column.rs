@@ -159,7 +159,7 @@ impl EgoRun<'_> {
         !self.ego.keeps_rules || (is_on_road && number("rules_broken") == 0.0 && number("deadlocks") == 0.0)
     }
 
-    /// The values of all columns about vehicles, by their names.
+    /// The values of all columns about vehicles, each with its name.
     pub fn values(&self) -> impl Iterator<Item = (String, Json)> {
         let fixed = TASK.iter().chain(&PLANS).map(|(name, _, value)| ((*name).to_owned(), value(self)));
         let of_run_and_ego = self.report.metrics.0.iter().chain(&self.ego.metrics.0);

@@ -173,7 +173,7 @@ impl LineRun {
 }
 
 impl JournalIndex {
-    /// No journal.
+    /// An index of no journals.
     pub fn empty() -> JournalIndex {
         JournalIndex { journals: Vec::new(), places: HashMap::new(), damaged: Vec::new() }
     }

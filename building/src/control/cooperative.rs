@@ -36,7 +36,8 @@ pub enum LearnedErrors {
 }
 
 impl LearnedErrors {
-    /// What is learned from stacked errors \[K\]. An error without a weight does not count, and 0 is learned in its place.
+    /// The errors from which each zone learns, given all errors, stacked \[K\]. An error without a weight is left out,
+    /// and its zone learns 0.
     pub fn combine(self, lifted: &Lifted, errors_k: &[Option<f64>]) -> Vec<f64> {
         let n = lifted.zones();
         let mut out: Vec<f64> = errors_k.iter().map(|error_k| error_k.unwrap_or(0.0)).collect();
@@ -105,8 +106,8 @@ impl LearningLaw {
         Self(vec![law; zones])
     }
 
-    /// The smallest law that turns yesterday's cooperative errors into the change of the feedforward: row by row,
-    /// L(t, ·) = v(t) e(·)ᵀ / ‖e‖² over the errors up to e(t + 1) (eq. 5.3).
+    /// The smallest law that maps yesterday's cooperative errors to the change of the feedforward: row by row, L(t, ·)
+    /// = v(t) e(·)ᵀ / ‖e‖² over the errors up to e(t + 1) (eq. 5.3).
     pub fn recovered(zones: usize, change_kw: &[f64], cooperative_k: &[f64]) -> Self {
         let steps = change_kw.len() / zones;
         let law = |i: usize| {

@@ -32,8 +32,8 @@ use crate::comfort::Targets;
 use crate::control::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::discretise::Model;
 
-/// The largest number of inputs of a day (zones times steps) for which its regret is computed: its optimum takes time in the
-/// cube of it where the model is dense.
+/// The largest number of inputs of a day (zones times steps) for which its regret is computed: where the model is
+/// dense, the optimum takes time proportional to the cube of that number.
 pub const MAX_REGRET_INPUTS: usize = 500;
 
 /// A day in progress.
@@ -117,7 +117,8 @@ impl Day {
         Heat { requested_kw, applied_kw }
     }
 
-    /// Heat from people, sun and machines in step `step`, one number for each node that gets any, zones first \[kW\].
+    /// Heat from people, sun and machines in step `step` \[kW\], zones first: one number for each node that can receive
+    /// any.
     pub fn gains_kw(&self, plant: &Model, step: usize) -> &[f64] {
         let count = plant.network().gain_count();
         &self.actual.gains_kw[step * count..(step + 1) * count]

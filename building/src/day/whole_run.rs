@@ -28,7 +28,7 @@ const DISCOMFORT_PRICES: f64 = 100.0;
 /// Cost of a kelvin by which the end differs, as a multiple of what it could save.
 const END_FACTOR: f64 = 20.0;
 
-/// What happened on the days of a run, as far as its optimum depends on it.
+/// The history of a run, as far as its optimum depends on it.
 #[derive(Clone, Debug, Default)]
 pub struct RunHistory {
     initial_c: Vec<f64>,
@@ -62,7 +62,7 @@ impl RunHistory {
         self.end_c = end_c.to_vec();
     }
 
-    /// Whether the optimum takes at most some seconds.
+    /// Whether the optimum takes only a few seconds.
     pub fn is_small(&self) -> bool {
         let steps: usize = self.days.iter().map(|(targets, _)| targets.steps()).sum();
         OPERATIONS_PER_CUBE * (self.initial_c.len() as f64).powi(3).max(100.0) * steps as f64 <= MAX_OPERATIONS
@@ -108,7 +108,7 @@ impl RunHistory {
         Ok(self.outcome(model, &targets, &inputs, &solution))
     }
 
-    /// The least money that the run costs without discomfort, or with the least that is possible.
+    /// The least money that the run costs without discomfort, or with the least discomfort that is possible.
     ///
     /// # Errors
     /// [`ControlError`] if the problem is malformed or not solved.

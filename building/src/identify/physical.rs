@@ -70,7 +70,7 @@ impl Physical<'_> {
         self.estimate.covariance[(index, index)].sqrt()
     }
 
-    /// What the coefficients mean.
+    /// The physical quantities that follow from the coefficients.
     pub fn quantities(&self) -> Vec<Quantity> {
         let mut quantities = vec![self.capacity()];
         for (index, coefficient) in self.coefficients.iter().enumerate() {

@@ -127,8 +127,8 @@ impl Lifted {
         stacked
     }
 
-    /// G⁻¹ y, for a stacked y: the inputs that lead from rest to these temperatures. G is always invertible, because a
-    /// zone answers to its own input within a step.
+    /// The solution G⁻¹ y, for a stacked y: the inputs that lead from rest to these temperatures. G is always
+    /// invertible, because a zone responds to its own input within a step.
     ///
     /// # Panics
     /// When `y` has not n·N numbers.

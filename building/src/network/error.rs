@@ -109,7 +109,7 @@ impl NetworkError {
     }
 }
 
-/// A property of a network that is allowed, and may not be what its author meant.
+/// A property of a network that is allowed, but may be a mistake of its author.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remark {
     /// Heat put into these zones never leaves the building.

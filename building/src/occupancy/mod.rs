@@ -144,7 +144,7 @@ struct Meeting {
 }
 
 impl Occupancy {
-    /// Whether people of different seeds may differ.
+    /// Whether people depend on the seed.
     pub fn depends_on_seed(&self) -> bool {
         self.least_peak_kw != self.greatest_peak_kw || self.deviation != Deviation::NONE
     }
@@ -180,8 +180,8 @@ impl People {
         Self { timetable, ..self }
     }
 
-    /// Scheduled heat of a day's steps from midnight \[kW\], stacked time-major (entry t·n + i is zone i in step t); the
-    /// middle of each step counts. It is the same every day but in zones with schedules.
+    /// Scheduled heat of a day's steps from midnight \[kW\], stacked time-major (entry t·n + i is zone i in step t),
+    /// taken at the middle of each step. Only zones with schedules differ from day to day.
     pub fn scheduled_kw(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let Occupancy { from_h, to_h, base_kw, .. } = self.occupancy;
         let mut stacked = Vec::with_capacity(steps * self.peaks_kw.len());
@@ -198,8 +198,8 @@ impl People {
         stacked
     }
 
-    /// Real heat of a day's steps from midnight \[kW\], stacked likewise. Days are independent of one another and of the
-    /// step.
+    /// Real heat of a day's steps from midnight \[kW\], stacked in the same way. Days are independent of one another
+    /// and of the length of a step.
     pub fn actual_kw(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let days: Vec<Day> = (0..self.peaks_kw.len()).map(|zone| self.day(zone, day)).collect();
         let mut stacked = Vec::with_capacity(steps * days.len());

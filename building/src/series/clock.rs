@@ -12,7 +12,7 @@ pub(crate) struct ClockTime {
 }
 
 impl ClockTime {
-    /// The time that a text states, with its offset from UTC if it has one.
+    /// The time that a text states, with its offset from UTC, if stated.
     pub fn stated(parsed: &BrokenDownTime) -> Option<Self> {
         let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
         Some(Self { elapsed_s: seconds_since_1970(parsed.to_datetime().ok()?) - offset_s, offset_s })
@@ -55,8 +55,9 @@ impl NamedZone {
         TimeZoneDatabase::bundled().available().map(|name| name.to_string()).collect()
     }
 
-    /// By how much clocks of the place were ahead of Greenwich when they showed this \[s\]; `None` where they never did, since they were
-    /// put forward. Of an hour that came twice it is the first, unless that was over `after_s` seconds (of UTC, since 1970).
+    /// The offset of the zone's clocks from UTC when they showed this time \[s\]; `None` if they skipped it when they
+    /// were put forward. For an hour that occurs twice, the first occurrence is taken, unless it is before `after_s`
+    /// (seconds of UTC since 1970).
     pub fn offset_s(&self, shown: DateTime, after_s: Option<f64>) -> Option<f64> {
         let seconds = |offset: Offset| f64::from(offset.seconds());
         match self.0.to_ambiguous_timestamp(shown).offset() {

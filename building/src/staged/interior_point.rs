@@ -28,7 +28,7 @@ struct Iterate<'a> {
     groups: Groups,
 }
 
-/// Solves a problem until the cost is certain to `tolerance` of itself.
+/// Solves a problem until the relative error of its cost is certainly below `tolerance`.
 ///
 /// # Errors
 /// [`StagedError`].

@@ -40,7 +40,7 @@ pub struct PlanStage {
     pub power: Vec<f64>,
 }
 
-/// The highest power of all stages, which has a price.
+/// The highest power over all stages, which has a price.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Cost of a kilowatt.
@@ -64,7 +64,7 @@ pub struct StagedProgram {
     pub peak: Option<Peak>,
 }
 
-/// An optimal point.
+/// An optimal solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagedSolution {
     /// Inputs, stage by stage \[kW\].

@@ -14,7 +14,7 @@ pub struct HeatInput {
     pub sign: f64,
 }
 
-/// How temperatures move over a stage: `x⁺ = x + B (M v − L x) + d`, where M brings inputs into their zones.
+/// The change of temperatures over a stage: `x⁺ = x + B (M v − L x) + d`, where M assigns inputs to their zones.
 #[derive(Clone, Debug)]
 pub struct StageMap {
     /// Steps of the model over which inputs are held.

@@ -36,7 +36,7 @@ pub struct SunPosition {
     pub distance_au: f64,
 }
 
-/// The midnight (UTC) at the start of a day of the Gregorian calendar, in days since noon (UTC) of the 1st of January 2000.
+/// The midnight (UTC) at the start of a day of the Gregorian calendar, in days since noon (UTC) of 1 January 2000.
 pub fn days_since_2000(year: i32, month: i8, day: i8) -> f64 {
     // Fliegel and Van Flandern, Communications of the ACM 11 (10), 1968.
     let (year, month, day) = (i64::from(year), i64::from(month), i64::from(day));
@@ -57,7 +57,7 @@ struct Equatorial {
 }
 
 impl Site {
-    /// Where the sun stands at a moment of universal time, in days since noon of the 1st of January 2000.
+    /// The position of the sun at a universal time, in days since noon of 1 January 2000.
     pub fn sun(&self, utc_days: f64) -> SunPosition {
         let Equatorial { right_ascension_rad, declination_rad, sidereal_rad, distance_au } = equatorial(utc_days);
         let hour_rad = sidereal_rad + self.longitude_deg.to_radians() - right_ascension_rad;

@@ -30,7 +30,7 @@ pub struct Weather {
 }
 
 impl Weather {
-    /// Whether the weather is known until a time: a series that is not cyclic ends.
+    /// Whether the weather is known up to this time: a series that is not cyclic ends.
     pub fn covers(&self, time_s: f64) -> bool {
         [&self.ambient_c, &self.sun_w_per_m2].iter().all(|series| series.cyclic || time_s <= series.end_s())
     }

@@ -92,7 +92,7 @@ pub fn default_bridge_gaps_h() -> f64 {
     6.0
 }
 
-/// The span of a table that a run takes.
+/// The time span of a run within a table of weather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSpan {
     /// Midnight at the start of the first day, after that of the table's first \[s\].

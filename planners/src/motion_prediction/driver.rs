@@ -32,7 +32,7 @@ const TRACKING: [f64; 4] = [0.0, 0.01, 0.5, 0.1];
 /// Weight of changes of the steering angle.
 const STEERING_CHANGE: f64 = 0.1;
 
-/// Our human driver, as a prediction of a vehicle in traffic.
+/// The human driver model of Interplay, as a prediction of a vehicle in traffic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedDriver {
     /// The driver.
@@ -56,7 +56,7 @@ pub struct PredictedDriver {
 }
 
 impl PredictedDriver {
-    /// A real car's driver as scenarios have it.
+    /// The driver of a real car with the usual settings of scenarios.
     pub fn usual() -> PredictedDriver {
         PredictedDriver {
             settings: human::Settings { style: Some(human::Style::Normal), ..human::Settings::default() },

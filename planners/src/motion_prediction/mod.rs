@@ -22,12 +22,12 @@ pub use car_following::CarFollowing;
 pub use driver::PredictedDriver;
 pub use model::MotionModel;
 
-/// Time between two places of a prediction \[s\].
+/// Time between two positions of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
 /// Number of steps of a prediction, which reaches 5 s.
 pub const STEPS: usize = 25;
 
-/// What is known of a vehicle and those around it at a moment.
+/// The observed state of a vehicle and of the vehicles around it at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrafficMoment {
     /// Its speed along the lane \[m/s\].
@@ -55,7 +55,7 @@ pub struct TrafficMoment {
     pub others: Vec<NearbyVehicle>,
 }
 
-/// Another vehicle at that moment.
+/// Another vehicle at that time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NearbyVehicle {
     /// How far its middle is ahead along the lane \[m\].
@@ -71,7 +71,7 @@ pub struct NearbyVehicle {
 }
 
 impl TrafficMoment {
-    /// The others in the lane ahead, the nearest first.
+    /// The vehicles ahead in the same lane, the nearest first.
     pub fn leaders(&self) -> Vec<NearbyVehicle> {
         let mut ahead: Vec<NearbyVehicle> =
             self.others.iter().copied().filter(|it| it.ahead_m > 0.0 && self.is_in_way(it)).collect();
@@ -90,13 +90,13 @@ impl TrafficMoment {
         self.acceleration_mps2 / (1.0 + ratio * ratio)
     }
 
-    /// The gap between bumpers to a vehicle ahead \[m\].
+    /// The gap to a vehicle ahead, from bumper to bumper \[m\].
     pub fn gap_m(&self, leader: &NearbyVehicle) -> f64 {
         leader.ahead_m - 0.5 * (leader.length_m + self.length_m)
     }
 }
 
-/// Where a vehicle is expected: a place at each of [`STEPS`]` + 1` times, the first of them the present.
+/// The predicted motion of a vehicle: its position at each of [`STEPS`]` + 1` times, of which the first is the present.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PredictedMotion {
     /// How far along the lane it has come \[m\].
@@ -105,7 +105,7 @@ pub struct PredictedMotion {
     pub across_m: Vec<f64>,
 }
 
-/// How the place across the lane goes on.
+/// The prediction of the lateral position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum LateralMotion {
     /// The place is kept.

@@ -21,7 +21,7 @@ enum Form {
     Stretches(Arc<[Stretch]>),
 }
 
-/// A polynomial of degree 5 between two knots; monotone.
+/// A monotone polynomial of degree 5 between two knots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Arc length at the first knot \[m\].
@@ -32,7 +32,7 @@ pub struct Stretch {
     pub coefficients: [f64; 6],
 }
 
-/// Why knots are no [`Profile`]. Knots are counted from 0.
+/// Why knots do not define a [`Profile`]. Knots are counted from 0.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum ProfileError {
     /// There are no knots.
@@ -69,8 +69,8 @@ impl Profile {
         Profile(Form::Constant(value))
     }
 
-    /// A right edge at `edge_m` that moves to the left where the rightmost lane ends, as
-    /// [`Corridor::right_edge_m`](crate::Corridor::right_edge_m) says, bit for bit \[m\].
+    /// A right edge at `edge_m` that moves to the left where the rightmost lane ends, equal to
+    /// [`Corridor::right_edge_m`](crate::Corridor::right_edge_m) bit for bit \[m\].
     pub fn lane_end(edge_m: f64, end: LaneEnd) -> Profile {
         Profile(Form::LaneEnd { edge_m, end })
     }
@@ -196,7 +196,7 @@ impl Profile {
         }
     }
 
-    /// The end of a lane, for an edge that moves there.
+    /// The lane end at which this edge moves, if any.
     pub fn end(&self) -> Option<LaneEnd> {
         match &self.0 {
             Form::LaneEnd { end, .. } => Some(*end),
@@ -204,7 +204,7 @@ impl Profile {
         }
     }
 
-    /// The value at an arc length \[m\], as if no lane ended.
+    /// The value at an arc length \[m\], ignoring any lane end.
     pub fn value_before_end(&self, along_m: f64) -> f64 {
         match &self.0 {
             Form::LaneEnd { edge_m, .. } => *edge_m,

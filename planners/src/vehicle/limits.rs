@@ -41,7 +41,8 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The strongest acceleration in the direction of another one, or of a share of it: the strongest braking of a negative one \[m/s²\].
+    /// The strongest acceleration with the same sign as `direction` \[m/s²\]: the strongest braking for a negative
+    /// value.
     pub fn strongest_mps2(&self, direction: f64) -> f64 {
         if direction < 0.0 { -self.acceleration_min_mps2 } else { self.acceleration_max_mps2 }
     }
@@ -55,7 +56,7 @@ impl Limits {
             .map_or(self.steering_max_rad, |most| self.steering_at_rad(body, speed_mps, most))
     }
 
-    /// The steering angle nearest to a wanted one that is reached within a time \[rad\].
+    /// The steering angle nearest to the wanted one that can be reached from the last one within a time \[rad\].
     pub fn steering_towards_rad(&self, last_rad: f64, wanted_rad: f64, elapsed_s: f64) -> f64 {
         let most_rad = self.steering_rate_max_radps.map_or(f64::INFINITY, |most| most * elapsed_s);
         wanted_rad.clamp(last_rad - most_rad, last_rad + most_rad)

@@ -44,14 +44,14 @@ impl State {
         self.to_array().iter().all(|value| value.is_finite())
     }
 
-    /// The state at a share of the way from this one to another, each component by itself.
+    /// The state at a share of the way from this state to another one, interpolated component by component.
     pub fn towards(&self, other: &State, share: f64) -> State {
         let (from, to) = (self.to_array(), other.to_array());
         State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
     }
 
-    /// Of two vehicles that touch, whether this one causes it: it moves towards the other, and at least as fast as the other
-    /// moves towards it.
+    /// Whether, of two vehicles that touch, this one causes the contact: it moves towards the other at least as fast as
+    /// the other moves towards it.
     pub fn drives_into(&self, other: &State) -> bool {
         let [ahead_x_m, ahead_y_m] = [other.x_m - self.x_m, other.y_m - self.y_m];
         // Speeds along the line from here to the other, times its length; the other moves against it.

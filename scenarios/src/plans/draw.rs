@@ -17,7 +17,7 @@ pub(super) struct UnitDraws {
 const PERMUTATION_STREAM: u64 = u64::MAX;
 
 impl UnitDraws {
-    /// The numbers of a path under a plan's seed.
+    /// The random numbers of a path under the seed of a plan.
     pub fn new(seed: u64, path: &str, sampling: Sampling, samples: u64) -> UnitDraws {
         let seed = seed.wrapping_add(hash(path));
         let count = if sampling == Sampling::LatinHypercube { u32::try_from(samples).unwrap_or(u32::MAX) } else { 0 };

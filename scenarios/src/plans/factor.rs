@@ -227,7 +227,7 @@ impl Factor {
         }
     }
 
-    /// Where the last word of its path is written.
+    /// The place at which the last word of its path is written.
     pub fn key(&self) -> &Place {
         self.path.places().last().unwrap_or(&self.place)
     }
@@ -262,7 +262,7 @@ impl Factor {
         }
     }
 
-    /// The value of a sample.
+    /// The value that is drawn for a sample.
     pub fn drawn(&self, sample: u64) -> TomlNode {
         let unit = self.draws.at(sample);
         if let Some(count) = self.count() {
@@ -277,7 +277,7 @@ impl Factor {
         self.node(TomlValue::Float(number))
     }
 
-    /// The extreme values; of a list all values, up to `limit`.
+    /// The extreme values; of a list, all values up to `limit`.
     pub fn extremes(&self, limit: usize) -> Vec<TomlNode> {
         let ends = |ends: [f64; 2]| ends.map(|end| self.node(TomlValue::Float(end))).to_vec();
         match &self.values {

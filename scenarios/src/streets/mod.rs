@@ -72,7 +72,7 @@ impl Street {
         KINDS.iter().map(|kind| kind.word)
     }
 
-    /// The street of a name such as `streets/ring/17`; `None` if the name is not that of a street.
+    /// The street with a name such as `streets/ring/17`; `None` if the name is not that of a street.
     pub fn named(name: &str) -> Option<Street> {
         let (word, number) = name.strip_prefix(FOLDER)?.split_once('/')?;
         let kind = KINDS.iter().position(|kind| kind.word == word)?;
@@ -98,12 +98,12 @@ impl Street {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
 
-    /// Its name.
+    /// The name of the street.
     pub fn name(&self) -> String {
         format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)
     }
 
-    /// The scenario file.
+    /// The text of the scenario file.
     pub fn text(&self) -> String {
         let kind = &KINDS[self.kind];
         let mut draft = Draft::new(u64::from(self.number), self.kind as u64);

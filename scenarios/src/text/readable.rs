@@ -3,8 +3,8 @@
 /// Numbers that are written with at most this many characters are shown as they are.
 const MAX_CHARACTERS: usize = 7;
 
-/// The number with four significant digits, unless it is short as it is: what follows from a scale, or was measured, has
-/// fifteen digits of which a message needs few.
+/// The number rounded to four significant digits, unless it is already short: scaled or measured numbers have fifteen
+/// digits, of which a message needs few.
 pub fn readable(value: f64) -> f64 {
     if !value.is_finite() || value.abs().to_string().len() <= MAX_CHARACTERS {
         return value;

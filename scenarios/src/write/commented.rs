@@ -20,8 +20,9 @@ use crate::text::toml_value::toml;
 const WIDTH: usize = 110;
 
 impl Registry {
-    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a file that
-    /// would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
+    /// The scenario with this name or path as a commented file that means the same, for a file in `folder`. A path to a
+    /// file that would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows
+    /// another picture.
     ///
     /// # Errors
     ///

@@ -19,10 +19,9 @@ use crate::model::traffic::obstacle::{ObstacleForm, Outline};
 use crate::write::commented::plain;
 
 impl Scenario {
-    /// The file that states everything of this scenario, whatever the file left out that it came from. It reads back to the same
-    /// scenario, and so to the same runs.
+    /// A file that states every key of this scenario. It reads back to the same scenario, and so to the same runs.
     ///
-    /// Files that the scenario names are named by absolute paths, and the prices of a tariff are written out.
+    /// The file names other files by absolute paths, and contains the prices of a tariff.
     pub fn to_file(&self) -> ScenarioFile {
         let drives = !self.vehicles.is_empty();
         let weather = self.building.as_ref().map(|_| self.weather.config().into());

@@ -29,7 +29,7 @@ const HEAD: &str = "# Every key\n\n\
     `emissions_kg_per_kwh`, `interval_s`, `budget.processor_s`, and the kinds `walker`, `recorded`, `inputs`, `economic-mpc`, `csv`\n  \
     and `boptest` with all that is in them. Later keys say it themselves.\n";
 
-/// The page.
+/// The reference page of all keys as Markdown.
 pub fn key_reference() -> String {
     let mut pages = Sections::default();
     let schema = Registry::standard().complete();

@@ -119,7 +119,7 @@ impl Playing {
         page.send(&self.frame(page));
     }
 
-    /// Brakes the seat of a page that is gone.
+    /// Brakes the vehicle of a page that has disconnected.
     pub fn dismiss(&mut self, page: &PageAtGame) {
         let seat = self.seat_of(page).to_owned();
         let _ = self.session.set_controls(&seat, BRAKING);

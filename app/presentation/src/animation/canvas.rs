@@ -11,7 +11,7 @@ use crate::rectangle::rounded_corners;
 /// Largest magnitude of a coordinate \[px\]: the numbers of the rasteriser have 16 bits before the point.
 const MAX_PLACE_PX: f64 = 30_000.0;
 
-/// Horizontal alignment: the part of a text that lies at its place. Vertically this is always the middle.
+/// Horizontal alignment: the part of a text that is drawn at the given position. Vertically, texts are always centred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// The place is the left end.

@@ -7,12 +7,12 @@ use tiny_skia::{Path, PathBuilder};
 
 use crate::plot::FONT_BYTES;
 
-/// How far the base line lies below the middle of a line of text, by its height.
+/// Distance of the base line below the middle of a line of text, as a share of the line's height.
 pub const BASELINE_RATIO: f64 = 0.31;
 
 static FONT: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::try_from_slice(FONT_BYTES).ok());
 
-/// Words of one size.
+/// A text in one font size.
 pub struct Word<'a> {
     words: &'a str,
     size: f64,

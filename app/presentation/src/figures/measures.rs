@@ -140,7 +140,7 @@ fn expectations(report: &Report, changed: bool) -> String {
     }
 }
 
-/// Every expectation of a run: what was wanted and what came of it.
+/// Every expectation of a run, with the expected and the measured value.
 pub fn expected(report: &Report) -> TextTable {
     let row = |expectation: &interplay_simulation::report::Expectation| {
         let ([wanted, measured], at) = (expectation.shown(), expectation.at.iter());

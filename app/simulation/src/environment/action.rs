@@ -38,7 +38,7 @@ impl ActionSpace {
         }
     }
 
-    /// Whether it has none.
+    /// Whether an action has no numbers.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }

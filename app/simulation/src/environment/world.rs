@@ -262,13 +262,14 @@ impl Environment {
         seat.interface.action_mask(&seat.sensed.as_ref()?.scene)
     }
 
-    /// A planner of one of our kinds for an agent; it senses and infers as in a run with that driver.
+    /// A planner of one of Interplay's kinds for an agent; it senses and infers as in a run with that driver.
     pub fn planner(&self, agent: usize, kind: &dyn DriverKind) -> Planner {
         let stated = &self.scenario.vehicles[self.seats[agent].vehicle];
         Planner::new(kind, &stated.inference.unwrap_or_default())
     }
 
-    /// The present action of one of our planners for an agent. It plans in the agent's sensed scene, and brakes if it finds no plan.
+    /// The present action of one of Interplay's planners for an agent. It plans in the agent's sensed scene, and brakes
+    /// if it finds no plan.
     ///
     /// # Errors
     /// [`EnvironmentError::Over`] before the first episode.

@@ -33,7 +33,7 @@ enum Task {
 }
 
 impl Completion {
-    /// The goal of a vehicle.
+    /// A measure of whether a vehicle completes its task on this road.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
         let route = Arc::clone(&vehicle.route);
         let last = route.legs.last().filter(|_| road.parallel_lanes().is_none() && route.legs.len() > 1);
@@ -65,7 +65,7 @@ impl Completion {
         self.route.along(position)
     }
 
-    /// Whether it started elsewhere and therefore has a task.
+    /// Whether the vehicle started away from its goal and therefore has a task.
     pub fn has_task(&self) -> bool {
         self.has_task
     }
@@ -75,7 +75,7 @@ impl Completion {
         matches!(self.task, Task::Cross { .. })
     }
 
-    /// Takes a state; returns whether the goal is reached for the first time.
+    /// Updates the measure with a state; returns whether the goal is reached for the first time.
     pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
         let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
         if reached {

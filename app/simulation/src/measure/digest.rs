@@ -57,7 +57,7 @@ impl Digest {
         digest.phases()
     }
 
-    /// Takes one tick and the states at its end.
+    /// Adds one tick, and the states at its end, to the digests.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());

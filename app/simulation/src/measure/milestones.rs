@@ -32,7 +32,7 @@ pub struct Milestones {
 }
 
 impl Milestones {
-    /// Nothing logged yet.
+    /// Begins with nothing logged.
     pub fn new(scenario: &Scenario) -> Milestones {
         let limits: Vec<Limits> = scenario.vehicles.iter().map(|vehicle| vehicle.limits).collect();
         Milestones { brakes: vec![false; limits.len()], accepted: vec![BTreeMap::new(); limits.len()], limits }

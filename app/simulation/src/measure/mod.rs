@@ -124,7 +124,7 @@ impl Measures {
         &self.along_m
     }
 
-    /// Nothing measured yet.
+    /// Begins with nothing measured.
     pub fn new(scenario: &Scenario) -> Self {
         let starts = scenario.starts();
         let located = |vehicle: &Vehicle, start: &State| {

@@ -109,8 +109,8 @@ impl Passages {
         }
     }
 
-    /// Takes a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these arc lengths \[m\] and the vehicles
-    /// have these speeds \[m/s\].
+    /// Updates the passages with a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these
+    /// arc lengths \[m\] and the vehicles have these speeds \[m/s\].
     pub fn observe(&mut self, along_m: &[f64], speeds_mps: &[f64], times_s: [f64; 2]) {
         for zone in &mut self.zones {
             let [a, b] = &mut zone.approaches;

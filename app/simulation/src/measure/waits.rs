@@ -124,7 +124,7 @@ impl Waits {
         }
     }
 
-    /// Takes a tick; returns the events that begin in it.
+    /// Updates the measures with a tick; returns the events that begin in it.
     pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
         let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
         let known = self.deadlocks.len();

@@ -49,7 +49,7 @@ impl FootprintGaps {
         self.smallest_m
     }
 
-    /// Updates the distances at a time within the tick, given as the share that has passed.
+    /// Updates the distances at a time within the tick, given as the elapsed share of the tick.
     pub fn observe(&mut self, states: &[State], share: f64) {
         let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
         let present = || {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::error::PlantError;
 
-/// A connection that carries lines.
+/// A TCP connection that carries lines of text.
 #[derive(Debug)]
 pub struct Lines {
     stream: TcpStream,
@@ -59,7 +59,7 @@ impl Lines {
     /// Sends a line without waiting for an answer.
     ///
     /// # Errors
-    /// The error of the system.
+    /// The error of the operating system.
     pub fn send(&mut self, line: &str) -> io::Result<()> {
         self.stream.write_all(format!("{line}\n").as_bytes())
     }

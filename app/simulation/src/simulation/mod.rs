@@ -124,8 +124,8 @@ impl Simulation {
         &self.scenario
     }
 
-    /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the frame of
-    /// that tick; none once the scenario is over, and then nothing moves.
+    /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the
+    /// frame of that tick, or `None` once the scenario is over; then nothing moves.
     ///
     /// # Errors
     /// [`RunError::NoInput`] if a vehicle that is driven from outside has no input for this tick; nothing has moved then.
@@ -227,7 +227,8 @@ impl Simulation {
         self.hand_in(vehicle, HandedIn::Input(input))
     }
 
-    /// The same with a plan, whose first input is applied. The others know it like the plan of any other driver.
+    /// As [`Simulation::apply`], with a plan whose first input is applied. The others know it like the plan of any
+    /// other driver.
     ///
     /// # Errors
     /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if its length is not the scenario's horizon.

@@ -7,8 +7,9 @@ use crate::simulation::run_error::RunError;
 use crate::state::components::{Clock, Driving, HandedIn};
 
 impl Simulation {
-    /// From the next plan on, a planner controls a vehicle that is driven from outside; without one, the caller's inputs
-    /// control it again. Which plans the vehicle and the others know of each other does not change.
+    /// Lets a planner control a vehicle that is driven from outside, from the next plan on; without a planner, the
+    /// caller's inputs control it again. The call does not change which plans the vehicle and the others know of each
+    /// other.
     ///
     /// # Errors
     /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives the vehicle another driver.

@@ -43,10 +43,10 @@ pub struct Driving {
 }
 
 impl Driving {
-    /// A copy with the same memory, of the driver of a vehicle called `name`.
+    /// A copy with the same memory, for the driver of the vehicle called `name`.
     ///
     /// # Errors
-    /// [`NotCopied`] if the driver does not fork.
+    /// [`NotCopied`] if the driver cannot be copied.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
         Ok(Driving {
             planner: self.planner.fork().ok_or_else(|| NotCopied::driver_of(name))?,
@@ -58,7 +58,7 @@ impl Driving {
     }
 }
 
-/// Input or plan from outside for the next tick.
+/// An input or a plan that the caller sets for the next tick.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub enum HandedIn {
     /// The vehicle has its own driver.

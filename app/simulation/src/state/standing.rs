@@ -99,7 +99,8 @@ impl<'a> Standing<'a> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
-    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty without a cycle.
+    /// The cycle of vehicles that wait for one another and to which a vehicle belongs, itself included, in ascending
+    /// order; empty without a cycle.
     pub fn circle(&self, index: usize) -> Vec<usize> {
         let together = |other: &usize| self.reaches(*other).contains(&index);
         let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();

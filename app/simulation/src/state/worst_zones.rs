@@ -23,7 +23,7 @@ pub struct WorstZones {
 }
 
 impl WorstZones {
-    /// The zones of a day's record.
+    /// Finds these zones in a day's record.
     pub fn find(record: &DayRecord, targets: &Targets, limits: &PowerLimits) -> Self {
         let zones = targets.zones;
         let largest = |share: &dyn Fn(usize) -> f64| {

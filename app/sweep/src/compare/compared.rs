@@ -134,14 +134,14 @@ impl ComparedColumns {
 }
 
 impl FigureColumn {
-    /// The values of the runs that have one.
+    /// The values of these runs in the compared column; runs without a value are left out.
     pub fn values(&self, records: &[&RunRecord]) -> Vec<f64> {
         records.iter().filter_map(|record| (self.of)(record, &self.column)).collect()
     }
 }
 
 impl SplitColumn {
-    /// Whether the first run is better than the second.
+    /// Whether the value of the first run is better than that of the second.
     pub fn is_better(&self, one: &RunRecord, other: &RunRecord) -> bool {
         let pair = one.number(self.column).zip(other.number(self.column));
         pair.is_some_and(|(one, other)| match self.better {

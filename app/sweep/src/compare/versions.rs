@@ -29,7 +29,7 @@ pub struct VersionComparison {
     pub groups: Vec<VersionGroup>,
 }
 
-/// A planner under the same conditions.
+/// Runs of one planner under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionGroup {
     /// The family.

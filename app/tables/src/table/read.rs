@@ -184,7 +184,7 @@ impl RowTable {
         Ok(whole)
     }
 
-    /// The column of a name.
+    /// The column with this name.
     pub fn column(&self, name: &str) -> Option<&TableColumn> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
     }

@@ -137,7 +137,7 @@ pub(super) fn check(settings: &ConcurrentSettings, lifted: &Lifted) -> Result<()
     if value < floor { Err(ControlError::BelowFloor { bound: "gamma_2", value, floor }) } else { Ok(()) }
 }
 
-/// Designs Q for the weights while occupied, and the mean of those of the inputs.
+/// Designs Q for the weights of the occupied steps and the mean weights of the inputs.
 ///
 /// # Errors
 /// [`ControlError::BelowFloor`] if no Q satisfies the bounds; [`ControlError::TooManyUnknowns`]; [`ControlError`] if the

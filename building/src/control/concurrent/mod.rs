@@ -44,7 +44,7 @@ pub struct Concurrent {
     targets: Option<Targets>,
 }
 
-/// A designed feedback, and the deviations that remain under it.
+/// A designed feedback, and the standard deviations that remain under it.
 #[derive(Clone, Debug)]
 pub struct FilterFeedback {
     /// The filter Q and its cost.

@@ -72,7 +72,7 @@ pub(super) struct Agreement {
 }
 
 impl JointDay<'_> {
-    /// Plans from a first guess, within the limits.
+    /// Agrees on a plan within the limits, starting from a first guess.
     ///
     /// # Errors
     /// [`ControlError::NoZonePlans`] if no zone can solve its problem.

@@ -138,7 +138,7 @@ impl Messages {
         self.undelivered = 0;
     }
 
-    /// The neighbours of a zone.
+    /// The zones with which a zone exchanges messages.
     pub fn neighbours(&self, zone: usize) -> impl Iterator<Item = usize> + '_ {
         self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
     }
@@ -199,8 +199,9 @@ impl Messages {
         }
     }
 
-    /// Temperatures of the nodes at the starts of the steps and the end, N + 1 each, as their owners know them. `driving`
-    /// is all other heat into each node, nodes of a step together; at most zones of it come from `heat_kw`, stacked.
+    /// Temperatures of the nodes at the start of each step and at the end, N + 1 each, as the zones that own them know
+    /// them. `heat_kw` is the heat of the zones' equipment, stacked, and `driving` all other heat into the nodes, with
+    /// the nodes of a step together.
     pub fn temperatures(&mut self, initial_c: &[f64], heat_kw: &[f64], driving: &[f64]) -> Vec<Vec<f64>> {
         self.draw(Subject::Temperature);
         let series = self.forwards(initial_c, heat_kw, Some(driving));

@@ -52,7 +52,7 @@ pub(super) struct ZoneProblem<'a> {
 }
 
 impl ZoneProblem<'_> {
-    /// The minimising d, up to rounding. `None` if it is not unique: a number is not finite, or the cost is not strictly
+    /// The minimising d, up to rounding. `None` if d is not unique: a number is not finite, or the cost is not strictly
     /// convex in the inputs that are not at a limit.
     pub fn solve(&self) -> Option<Vec<f64>> {
         let n = self.gradient.len();

@@ -27,7 +27,7 @@ pub(super) struct Zone {
 }
 
 impl ZoneModels {
-    /// For the weights of `targets` and `penalty`.
+    /// Builds the model of each zone for the weights of `targets` and `penalty`.
     pub fn new(lifted: &Lifted, targets: &Targets, penalty: BandPenalty, messages: &Messages) -> Self {
         let (n, steps) = (lifted.zones(), lifted.steps());
         let zone = |i: usize| {

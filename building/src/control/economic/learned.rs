@@ -22,13 +22,13 @@ pub(super) struct LearnedForecast {
 }
 
 impl LearnedForecast {
-    /// Nothing is learned yet of `size` steps times zones. `rate` is λ.
+    /// Begins without any learned heat; `size` is the number of steps times the number of zones, and `rate` is λ.
     pub fn new(size: usize, rate: f64) -> Self {
         let zeros = vec![0.0; size];
         Self { rate, mean_kw: zeros.clone(), variance_kw2: zeros, today_kw: vec![None; size], days: 0 }
     }
 
-    /// Notes the heat of a step that the forecast missed \[kW\], one number per zone.
+    /// Records the heat of a step that the forecast missed \[kW\], one number per zone.
     pub fn note(&mut self, step: usize, missed_kw: &[f64]) {
         let zones = missed_kw.len();
         for (today, missed_kw) in self.today_kw.iter_mut().skip(step * zones).zip(missed_kw) {
@@ -36,7 +36,7 @@ impl LearnedForecast {
         }
     }
 
-    /// Learns from the day that is over.
+    /// Updates the means and variances with the day that is over.
     pub fn end_day(&mut self) {
         if self.today_kw.iter().all(Option::is_none) {
             return;

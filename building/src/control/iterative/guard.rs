@@ -46,7 +46,7 @@ impl AlternationGuard {
         Self { large_kw, before_kw: zeros.clone(), change_kw: zeros, turns, share }
     }
 
-    /// The share of the gain of a zone that is left.
+    /// The remaining share of a zone's gain.
     pub fn share(&self, zone: usize) -> f64 {
         self.share[zone]
     }
@@ -56,7 +56,7 @@ impl AlternationGuard {
         self.share.iter().copied().filter(|share| *share < 1.0).min_by(f64::total_cmp)
     }
 
-    /// Looks at the feedback's part of the heat in a step \[kW\]. Returns a zone whose gain was halved because of it.
+    /// Observes the feedback's part of the heat in a step \[kW\]. If it halves the gain of a zone, returns that zone.
     pub fn observe(&mut self, feedback_kw: &[f64]) -> Option<usize> {
         let mut halved = None;
         for (zone, feedback_kw) in feedback_kw.iter().enumerate() {
@@ -75,8 +75,8 @@ impl AlternationGuard {
     }
 }
 
-/// The largest spectral radius of A − BK where capacities and resistances are wrong by up to the share `error`: at its nine corners,
-/// edges and the middle.
+/// The largest spectral radius of A − BK over capacities and resistances that are wrong by up to the share `error`,
+/// evaluated at the corners, the edge midpoints and the centre of this square.
 ///
 /// # Errors
 /// [`ControlError::Model`] if one of the networks cannot be simulated at this step.

@@ -52,8 +52,8 @@ pub struct Joint {
     pub rounds: usize,
 }
 
-/// Designs both on top of the expected temperatures without equipment `free_c`, stacked. `factor` is L with Σ = LLᵀ, and
-/// `quantile` q.
+/// Designs feedback and plan for the expected temperatures without equipment `free_c`, stacked. `factor` is L with Σ =
+/// LLᵀ, and `quantile` is q.
 ///
 /// # Errors
 /// [`ControlError`] if W_u is zero or the solver fails.

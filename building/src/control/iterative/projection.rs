@@ -47,7 +47,8 @@ struct Fit {
 }
 
 impl<'a> Projection<'a> {
-    /// `response` is that of the optimal causal feedback under a lower triangular factor L; `busy` says which steps count.
+    /// Prepares the projection. `response` is that of the optimal causal feedback under a lower triangular factor L;
+    /// `busy` says which steps count.
     pub fn new(lifted: &'a Lifted, response: &'a Response, busy: &[bool]) -> Self {
         let busy = (1..lifted.steps()).filter(|&t| busy[t]).collect();
         Self { lifted, response, busy }

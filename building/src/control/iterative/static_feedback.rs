@@ -32,7 +32,7 @@ pub struct StaticFeedback {
 }
 
 impl StaticFeedback {
-    /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
+    /// Performs steps 1 and 2 for a covariance of the disturbance; `price` is as in [`feedback::optimal_causal`].
     ///
     /// If no gain with the wanted decay rate is found, other certificates and rates nearer to 1 are tried; the initial gain is
     /// the last resort. [`StaticFeedback::weaker`] then says so.

@@ -35,12 +35,12 @@ pub struct Arma {
 }
 
 impl Arma {
-    /// e_t of a series; zero for the first r of each segment, on which the others are conditioned.
+    /// The innovations e_t of a series; zero for the first r of each segment, on which the others are conditioned.
     pub fn innovations(&self, series: &[f64], segments: &[Range<usize>]) -> Vec<f64> {
         whitened(series, &self.autoregressive, self.moving_average, segments)
     }
 
-    /// What is expected of v_t, v_{t+1}, … given the segment's past values (`past[last]` is v_{t−1}) and e_{t−1}.
+    /// The expected values of v_t, v_{t+1}, … given the segment's past values (`past[last]` is v_{t−1}) and e_{t−1}.
     pub fn forecast(&self, past: &[f64], last_innovation: f64, horizon: usize) -> Vec<f64> {
         let mut values: Vec<f64> = past[past.len().saturating_sub(self.autoregressive.len())..].to_vec();
         let start = values.len();

@@ -50,7 +50,7 @@ struct Errors {
 }
 
 impl StateSpaceFindings<'_> {
-    /// The report, and what to draw.
+    /// The report, the series to draw, and the network.
     ///
     /// # Errors
     /// [`IdentifyError::NotFinite`].

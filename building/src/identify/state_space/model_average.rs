@@ -27,17 +27,18 @@ pub(super) struct Rival {
 }
 
 impl Rival {
-    /// From how much the larger model's −AIC/2 is above that of the chosen model.
+    /// Weights the larger model by how much its −AIC/2 exceeds that of the chosen model.
     pub fn new(criterion_gain: f64, offset: f64, error: f64) -> Self {
         Self { weight: 1.0 / (1.0 + libm::exp(-criterion_gain)), offset, error }
     }
 
-    /// The same, seen in the direction of a sign.
+    /// The same with the offset reflected by a sign, to compute the other end of the interval.
     pub fn towards(self, sign: f64) -> Self {
         Self { offset: sign * self.offset, ..self }
     }
 
-    /// The upper end, from that of the chosen model's own interval; both as distances from its estimate.
+    /// The upper end of the averaged interval, given that of the chosen model's own interval; both as distances from
+    /// its estimate.
     pub fn averaged_end(&self, own: f64) -> f64 {
         let own_error = own / STANDARD_ERRORS_OF_95_PERCENT;
         let beyond = |end: f64| {

@@ -28,7 +28,7 @@ pub(super) struct FreeRunErrors {
 }
 
 impl<'a> NetworkRun<'a> {
-    /// `None` if the model has no form in steps.
+    /// Prepares runs of the fitted network; `None` if the model has no discrete form.
     pub fn new(
         telemetry: &'a Telemetry,
         observations: &'a Observations,

@@ -35,8 +35,8 @@ impl Telemetry {
         read::read(file, text, mapping)
     }
 
-    /// The telemetry as a table, which [`Telemetry::mapping`] reads back to the last bit. Names may hold any character; spaces at
-    /// their ends do not count in a table.
+    /// The telemetry as a table, which [`Telemetry::mapping`] reads back bit for bit. Names may contain any character;
+    /// a table ignores spaces at their ends.
     pub fn to_csv(&self) -> String {
         write::to_csv(self)
     }

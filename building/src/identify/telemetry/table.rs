@@ -76,7 +76,8 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Finds a column; `role` says in messages what it is wanted for. Spaces around titles and names do not count.
+    /// Finds a column; `role` says in error messages what the column is for. Spaces around titles and names are
+    /// ignored.
     pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
         match self.computed.iter().position(|computed| computed.name == name.trim()) {
             Some(index) => Ok(Column(self.header.len() + index)),
@@ -104,7 +105,7 @@ impl<'a> Table<'a> {
         TelemetryError::new(self.file, Some((self.form.skip_rows + 1, 1)), problem)
     }
 
-    /// The text of a field; of the first one where the column is computed.
+    /// The text of a field; of a computed column, that of its first source.
     pub fn text<'r>(&self, row: &'r Row, column: Column) -> &'r str {
         let column = self.first_of(column);
         row.fields.get(column.0).unwrap_or_default()
@@ -116,7 +117,7 @@ impl<'a> Table<'a> {
         computed.and_then(|computed| computed.members.first()).copied().unwrap_or(column)
     }
 
-    /// A field as a number; `None` where it stands for no value.
+    /// A field as a number; `None` if it marks a missing value.
     pub fn number(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
         let computed = column.0.checked_sub(self.header.len()).and_then(|index| self.computed.get(index));
         let Some(computed) = computed else { return self.number_of_table(row, column) };
@@ -194,7 +195,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The error that `problem` is with the field at `row` and `column`.
+    /// The error for `problem` in the field at `row` and `column`.
     pub fn at(&self, row: &Row, column: Column, problem: Problem) -> TelemetryError {
         let column = self.first_of(column);
         let line = self.lines.text(row.line);

@@ -109,7 +109,7 @@ impl Epw {
         })
     }
 
-    /// The values of a field, a row each, with gaps bridged; none if all are missing.
+    /// The values of a field, one per row, with gaps bridged; `None` if all are missing.
     pub fn column(&self, field: Field) -> Option<&[f64]> {
         self.columns[field as usize].as_deref()
     }
@@ -119,12 +119,12 @@ impl Epw {
         self.columns[Field::DryBulb as usize].as_ref().map_or(0, Vec::len)
     }
 
-    /// Whether the rows have a 29th of February.
+    /// Whether the rows include 29 February.
     pub fn is_leap(&self) -> bool {
         self.leap
     }
 
-    /// Whether the rows cover a year, so that the weather goes on after the last with the first.
+    /// Whether the rows cover a year, so that the first row follows the last.
     pub fn is_whole_year(&self) -> bool {
         self.whole_year
     }

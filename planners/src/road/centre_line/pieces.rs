@@ -43,7 +43,7 @@ impl Piece {
         }
     }
 
-    /// Curvature at the begin and at the end of the piece \[1/m\].
+    /// Curvature at the start and at the end of the piece \[1/m\].
     pub fn curvatures_1pm(&self) -> [f64; 2] {
         match *self {
             Piece::Straight { .. } => [0.0; 2],

@@ -16,8 +16,8 @@ impl CentreLine {
         }
     }
 
-    /// The line of [`CentreLine::polynomials`], equal to the first one in every bit. `heading_rad` is its heading at its begin: it
-    /// says in which turn headings are counted \[rad\].
+    /// The line of [`CentreLine::polynomials`], bit for bit. `heading_rad` is the heading at its start, which
+    /// determines the full turn from which headings are counted \[rad\].
     ///
     /// # Errors
     /// - [`CentreLineError::NoPieces`] without polynomials,

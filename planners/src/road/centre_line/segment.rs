@@ -55,7 +55,7 @@ impl Segment {
         Segment { from_m: 0.0, length_m, coefficients, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }
 
-    /// Its polynomial.
+    /// The polynomial of the segment.
     pub fn polynomial(&self) -> LinePolynomial {
         let [x, y] = [0, 1].map(|axis| self.coefficients.map(|pair| pair[axis]));
         LinePolynomial { length_m: self.length_m, x, y }
@@ -80,8 +80,8 @@ impl Segment {
         self.from_m + self.length_m
     }
 
-    /// Position and derivatives at the distance `u` from the first knot; in pairs of terms (Estrin), which a processor evaluates
-    /// side by side.
+    /// Position and derivatives at the distance `u` from the first knot, evaluated in pairs of terms (Estrin's scheme),
+    /// which a processor computes in parallel.
     #[inline(always)]
     pub fn jet(&self, u: f64) -> Jet {
         let c = &self.coefficients;
@@ -103,7 +103,7 @@ impl Segment {
         [position, first, second]
     }
 
-    /// Where the first knot is.
+    /// The position of the first knot.
     pub fn start(&self) -> [f64; 2] {
         self.coefficients[0]
     }

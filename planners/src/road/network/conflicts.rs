@@ -14,7 +14,7 @@ pub struct Conflict {
     pub kind: ConflictKind,
 }
 
-/// Ends of conflicts are found to this share of the narrowest lane.
+/// The ends of conflicts are accurate to this share of the width of the narrowest lane.
 pub const CONFLICT_TOLERANCE_RATIO: f64 = 0.01;
 
 /// RoadLanes that overlap by less than this share of their width lie side by side, and do not conflict.

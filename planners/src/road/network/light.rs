@@ -46,7 +46,7 @@ pub struct LightCycle {
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 impl LightCycle {
-    /// What the light shows at a time \[s\].
+    /// The colour of the light at a time \[s\].
     pub fn colour_at(&self, time_s: f64) -> LightColour {
         let cycle_s: f64 = self.phases.iter().map(|phase| phase.duration_s).sum();
         if cycle_s <= 0.0 {

@@ -28,7 +28,7 @@ const MAX_KINK_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const CHECKS_PER_KNOT: usize = 4;
 
 impl RoadNetwork {
-    /// Checks lanes and makes a network of them.
+    /// Checks lanes and joins them to a network.
     ///
     /// # Errors
     /// The first fault that is found, in the order of the lanes, with the lane and the field:

@@ -126,7 +126,7 @@ impl Route {
         }
     }
 
-    /// The same line with no more room than the lane that it is on; none for a route that stands alone.
+    /// The same line, bounded to the lane that it is on; `None` for a route outside a network.
     pub fn own_lane(&self) -> Option<&Arc<Route>> {
         self.own_lane.as_ref()
     }
@@ -141,7 +141,7 @@ impl Route {
         self.centre.length_m()
     }
 
-    /// The leg at an arc length; beyond the ends, the first or the last. None if there are no legs.
+    /// The leg at an arc length; beyond the ends, the first or the last leg. `None` without legs.
     pub fn leg(&self, along_m: f64) -> Option<&RouteLeg> {
         self.legs.iter().find(|leg| along_m < leg.to_m).or_else(|| self.legs.last())
     }
@@ -154,8 +154,8 @@ impl Route {
         self.legs.iter().find(|leg| leg.lane == lane).map(|leg| along_lane_m + leg.offset_m)
     }
 
-    /// The speed at an arc length from which no lane ahead is entered faster than permitted, braking at `braking_mps2`; none
-    /// without speed limits \[m/s\].
+    /// The highest speed at an arc length from which, braking at `braking_mps2`, the vehicle keeps the speed limits of
+    /// all lanes ahead; `None` without speed limits \[m/s\].
     pub fn permitted_speed_mps(&self, along_m: f64, braking_mps2: f64) -> Option<f64> {
         let ahead = self.legs.iter().filter(|leg| leg.to_m > along_m || self.legs.last() == Some(leg));
         let limits = ahead.filter_map(|leg| {
@@ -165,8 +165,8 @@ impl Route {
         limits.min_by(f64::total_cmp)
     }
 
-    /// The speed at an arc length from which every curve ahead is taken with at most a lateral acceleration, braking at
-    /// `braking_mps2`; none without curves ahead \[m/s\].
+    /// The highest speed at an arc length from which, braking at `braking_mps2`, the vehicle takes every curve ahead
+    /// with at most this lateral acceleration; `None` without curves ahead \[m/s\].
     pub fn curve_speed_mps(&self, along_m: f64, lateral_mps2: f64, braking_mps2: f64) -> Option<f64> {
         highest_speed_mps(&self.bends, along_m, lateral_mps2, braking_mps2)
     }

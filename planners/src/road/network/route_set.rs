@@ -18,8 +18,8 @@ const SAME_SIDE_RAD: f64 = 45.0 * PI / 180.0;
 const LEFT_TURN_RAD: f64 = 30.0 * PI / 180.0;
 
 impl RoadNetwork {
-    /// The routes along lists of lanes, each as by [`RoadNetwork::route`], that know where they meet each other and who goes
-    /// first there. Equal lists share a route.
+    /// The routes along lists of lanes, each as by [`RoadNetwork::route`], with the places where they meet each other
+    /// and the right of way there. Equal lists share a route.
     ///
     /// Who goes first follows from the signs at the ends of the lanes before the conflict ([`RightOfWay`]). Where both signs
     /// say the same, a vehicle that turns left yields to those from the opposite side; otherwise the one from the
@@ -35,8 +35,8 @@ impl RoadNetwork {
 }
 
 impl Route {
-    /// Routes of one network that know where they meet each other and who goes first there, as by [`RoadNetwork::routes`].
-    /// Routes along the same lanes become one.
+    /// Joins routes of one network to a set with the places where they meet and the right of way there, as by
+    /// [`RoadNetwork::routes`]. Routes along the same lanes become one.
     pub fn set_of(routes: Vec<Route>) -> Vec<Arc<Route>> {
         let mut distinct: Vec<Route> = Vec::new();
         let mut numbers = Vec::with_capacity(routes.len());
@@ -64,12 +64,12 @@ impl Route {
 }
 
 impl Route {
-    /// Whether the route belongs to a set of routes, which know where they meet.
+    /// Whether the route belongs to a set of routes, whose conflicts are known.
     pub fn is_in_network(&self) -> bool {
         self.number.is_some()
     }
 
-    /// Where the route meets another one of the same set, in the order of this one.
+    /// The places where the route meets another one of the same set, in the order along this route.
     pub fn conflicts_with<'a>(&'a self, other: &Route) -> impl Iterator<Item = &'a RouteConflict> {
         let number = other.number;
         self.conflicts.iter().filter(move |conflict| Some(conflict.with) == number)

@@ -13,7 +13,7 @@ const CHANGE_COST_RATIO: f64 = 10.0;
 const CHANGES_IN_A_ROW: usize = 6;
 
 impl RoadNetwork {
-    /// The shortest route from the begin of a lane to the end of another one.
+    /// The shortest route from the start of a lane to the end of another one.
     ///
     /// Searches by Dijkstra's method over successors and open neighbours; a change costs as much as ten lane widths of
     /// driving, and needs room. Of routes of equal length, the one whose lanes come first in the network is taken.

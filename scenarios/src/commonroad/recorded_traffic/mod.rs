@@ -37,7 +37,7 @@ pub struct RecordedLane {
 }
 
 impl RecordedLane {
-    /// Whether a place is between its bounds \[m\].
+    /// Whether a position is between the bounds of the lane \[m\].
     pub fn contains(&self, place: [f64; 2]) -> bool {
         is_inside(self.left.iter().chain(self.right.iter().rev()).copied(), place)
     }
@@ -52,7 +52,7 @@ pub(crate) fn is_inside(corners: impl Iterator<Item = [f64; 2]> + Clone, [x, y]:
     corners.zip(next).filter(|(from, to)| crosses([*from, *to])).count() % 2 == 1
 }
 
-/// A vehicle, with where it was.
+/// A recorded vehicle with its states.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedVehicle {
     /// Its name in the record.
@@ -67,7 +67,7 @@ pub struct RecordedVehicle {
     pub moments: Vec<RecordedMoment>,
 }
 
-/// Where a vehicle was at a step of time.
+/// The state of a vehicle at one time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedMoment {
     /// Number of the step of time.

@@ -6,8 +6,8 @@ use std::path::Path;
 
 /// Opens a file for reading.
 ///
-/// Refuses a pipe or a device, because reading it may block for ever or never end. If a file that claims to be regular would block a
-/// reader, as some below `/proc` do, reading it fails instead.
+/// Refuses a pipe or a device, because reading it may block forever or never end. If a file that claims to be regular
+/// would block a reader, as some files below `/proc` do, reading it fails instead.
 ///
 /// # Errors
 /// The system's error, or the type of the file if it is not regular.

@@ -16,7 +16,7 @@ const MIN_EXACT_SHARE: f64 = 2e-4;
 /// Leading bits of red, green and blue that select the nearest colour of the palette.
 const BITS: u32 = 5;
 
-/// A palette, and the index of its nearest colour for each colour by its leading bits.
+/// A palette, with a lookup table from the leading bits of a colour to the index of the nearest colour in the palette.
 pub struct ColourTable {
     /// At most 127 colours.
     pub colours: Vec<Colour>,

@@ -21,7 +21,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Requests them at the beginning of a test, for its whole duration: first time and length \[s\].
+    /// Requests these series at the beginning of a test, for its whole duration: first time and length \[s\].
     ///
     /// # Errors
     /// [`BoptestError`].
