@@ -1,4 +1,4 @@
-//! Bounds of settings. A bound stands on the field, as a `schemars` attribute, and nowhere else.
+//! Bounds of settings. A bound is stated on the field, as a `schemars` attribute, and nowhere else.
 
 use std::fmt;
 

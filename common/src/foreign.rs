@@ -1,4 +1,5 @@
-//! Kinds that another crate provides, as tables of a scenario file.
+//! Settings of kinds of drivers, controllers and roads that another crate provides, read from and written to tables of
+//! a scenario file.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Reading a JSON Schema that `schemars` has generated: what the checks of settings, mappings and scenarios share.
+//! Reads a JSON Schema that `schemars` has generated, for the checks of settings, mappings and scenarios.
 
 use serde_json::Value as Json;
 

@@ -1,8 +1,8 @@
 //! All random numbers of runs, the same on every machine.
 //!
-//! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change of
-//! starts and mixes the numbers of a sensor's errors. Both stay, because the seeds of recorded runs and of the tables in the
-//! documents stand for their numbers.
+//! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change
+//! of starts and mixes the numbers of a sensor's errors. Both generators must stay: the seeds of recorded runs and of
+//! the tables in the documents depend on their numbers.
 
 use std::f64::consts::TAU;
 

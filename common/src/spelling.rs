@@ -1,12 +1,12 @@
-//! The known word that an unknown one was probably meant to be, for errors about keys, names and words.
+//! Suggests the known word that an unknown one was probably meant to be, for errors about keys, names and words.
 
 /// The candidate with the fewest edits from `word`, if they are few enough for a typing error.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Longer than any word we know: not a slip, and the distance would take long.
+    // A word of this length is not a misspelling, and computing the distance would take long.
     if word.len() > 100 {
         return None;
     }
-    // A word in other letters, `IDM` for `idm`, is the same word.
+    // A word in different case, such as `IDM` for `idm`, is the same word.
     let lower = word.to_lowercase();
     let scored =
         candidates.into_iter().map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate));

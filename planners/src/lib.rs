@@ -1,7 +1,7 @@
 //! Interplay: planners for vehicles that interact.
 //!
-//! Pure functions of plain values: a planner is given a [`Scene`] (what one vehicle knows at a moment) and answers with a
-//! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
+//! The crate contains only pure functions of plain values: a planner receives a [`Scene`] (the knowledge of one vehicle
+//! at one time) and returns a [`Plan`] or a [`PlanError`]. It uses no clock, files, physics or pictures.
 //!
 //! - [`vehicle`]: state, input, body, limits, and the bicycle with its derivatives
 //! - [`road`]: lanes, routes and the Frenet frame: where a vehicle may drive

@@ -1,4 +1,4 @@
-//! Environments for learning, and our planners in them.
+//! Environments for learning, and the planners of Interplay in them.
 
 use std::collections::HashMap;
 

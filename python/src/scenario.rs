@@ -1,4 +1,4 @@
-//! Scenarios: loaded, changed, checked.
+//! Loads, changes and checks scenarios.
 
 use std::sync::{Arc, OnceLock};
 

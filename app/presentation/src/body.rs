@@ -181,7 +181,7 @@ pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
     let body = |radius| part(&rectangle([-1.0, 1.0, -1.0, 1.0]), radius, BodyPaint::Own);
     match style {
         BodyStyle::Car => {
-            // Windows all around a roof.
+            // The windows surround the roof.
             let (rear, front) = (-0.62, 0.42);
             let windows =
                 [[rear, -0.6], [rear, 0.6], [front - 0.06, 0.84], [front, 0.7], [front, -0.7], [front - 0.06, -0.84]];

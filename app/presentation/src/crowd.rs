@@ -1,4 +1,5 @@
-//! Which vehicles of a crowd are drawn in detail: names, colours and plans of distant vehicles would hide the interaction.
+//! Selects the vehicles of a crowd that are drawn in detail: names, colours and plans of distant vehicles would hide
+//! the interaction.
 
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};

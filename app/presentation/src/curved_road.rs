@@ -1,4 +1,4 @@
-//! The lines of a road that turns, as points of the world.
+//! The lines of a curved road, in world coordinates.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ const POINT_DISTANCE_LANES: f64 = 0.2;
 /// Most points of a line.
 const MAX_POINTS: f64 = 4000.0;
 
-/// A line of points of the world \[m\].
+/// A line as points in world coordinates \[m\].
 pub type WorldLine = Vec<[f64; 2]>;
 
 /// The lines of a curved road.

@@ -1,4 +1,4 @@
-//! The lines of a network of lanes, as points of the world.
+//! The lines of a network of lanes, in world coordinates.
 
 use std::collections::BTreeMap;
 
@@ -177,10 +177,12 @@ impl<'a> NetworkLines<'a> {
                 };
             }
         }
-        // The asphalt reaches a shoulder beyond every lane. No line is drawn where the shoulder of another lane is beside the edge.
+        // The asphalt extends beyond every lane by a shoulder. No line is drawn where the edge lies beside the shoulder
+        // of another lane.
         let shoulder_m = SHOULDER_LANES * lane.width.value(along_m);
         let beyond = edge_position(lane, side, along_m, shared_m - shoulder_m);
-        // Where one lane joins another, an edge may be inside the other lane while a place beyond it is outside both.
+        // Where one lane joins another, an edge may lie inside the other lane although the point beyond the edge lies
+        // outside both.
         let inside_m = INSIDE_RATIO * lane.width.value(along_m);
         let is_inside = (0..self.lanes.len()).any(|other| {
             other != number && (self.holds(other, beyond, -shoulder_m) || self.holds(other, at, inside_m))

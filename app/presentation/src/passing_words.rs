@@ -1,4 +1,4 @@
-//! How vehicles pass each other, in words. Left and right are only meaningful on one road.
+//! Words for how vehicles pass each other. Left and right are only meaningful on one road.
 
 use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route};
 use interplay_scenarios::Scenario;

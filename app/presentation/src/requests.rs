@@ -1,4 +1,4 @@
-//! What vehicles request of each other by their proposals, and the answers, in words.
+//! The requests that vehicles make of each other by their proposals, and the answers, in words.
 
 use interplay_planners::{Plan, PlanEvent, PlanEventKind, Proposal};
 use interplay_scenarios::Scenario;

@@ -84,7 +84,7 @@ fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepErro
         point.planner = PERSON.to_owned();
     } else {
         point.style = PERSON.to_owned();
-        // Pairs of two planners belong to one person.
+        // The sample number identifies the person, so that comparisons pair the runs of one person.
         point.sample += number * plan.run_count();
     }
     let row = measured_run(key, &point, run.played, None)?;

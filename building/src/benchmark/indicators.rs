@@ -1,4 +1,4 @@
-//! The indicators, each a function of the measurements.
+//! Computes each indicator as a function of the measurements.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Which day of a run is a working day, part of a weekend, or a holiday.
+//! Determines whether a day of a run is a working day, a weekend day or a holiday.
 
 use jiff::civil::{Date, Weekday as CivilWeekday};
 use schemars::JsonSchema;

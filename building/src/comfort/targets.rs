@@ -211,7 +211,7 @@ impl Targets {
         let mut targets = self.clone();
         targets.supply.outdoor_c = outdoor_c.to_vec();
         for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
-            // Without weights of prices the COP does not count either.
+            // Without price weights, the COP has no effect either.
             let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones))
             else {
                 break;

@@ -1,6 +1,6 @@
-//! Learning from neighbours, and when it converges (section 5.2, corrected).
+//! Learning from neighbours, and the conditions under which it converges (section 5.2, corrected).
 //!
-//! A zone's cooperative error adds how much worse it fares than its neighbours (5.1):
+//! A zone's cooperative error is its own error plus the differences from the errors of its neighbours (5.1):
 //!
 //! ```text
 //! e_i = E_i + Σ_j∈N(i) (E_i − E_j)           e = Ω E,   Ω = I + the Laplacian of the graph of zones

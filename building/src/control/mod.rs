@@ -1,8 +1,8 @@
 //! Controllers.
 //!
 //! At midnight a controller gets the targets and the forecast of the day ([`DayAhead`]). At each step it gets the
-//! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets what happened
-//! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the dissertation.
+//! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets the record of the
+//! day ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the dissertation.
 //!
 //! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], model [`predictive`] control, and the [`optimum()`] of
 //! a day that is known beforehand. [`economic`] model predictive control minimises money. The designs of the dissertation are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]

@@ -1,4 +1,5 @@
-//! The optimum of a whole run: perfect foresight of all its days, the true model, and the end that the run had.
+//! The optimum of a whole run, with perfect foresight of all its days, the true model, and the final temperatures of
+//! the run.
 //!
 //! ```text
 //! cost     minimise Σ W_e (r − T)² + W_u u²                       (3.2), over all days
@@ -6,9 +7,10 @@
 //! both     x(t+1) = A x(t) + B u(t) + d(t),   x(N) = the temperatures at which the run ended
 //! ```
 //!
-//! No controller that ends at these temperatures is cheaper, whatever it knows; that of a single day
-//! ([`crate::control::optimum()`]) leaves the building as it likes, so that a controller which looks further can be cheaper than a
-//! row of such days. Both are problems of stages ([`crate::staged`]): their time is linear in the length of the run.
+//! No controller that ends at these temperatures is cheaper, whatever it knows. The optimum of a single day
+//! ([`crate::control::optimum()`]) leaves the building in any final state, so a controller that looks further ahead can
+//! be cheaper than a sequence of such days. Both are problems of stages ([`crate::staged`]): their time is linear in
+//! the length of the run.
 
 use crate::comfort::Targets;
 use crate::control::{ControlError, Disturbance, money_stages};

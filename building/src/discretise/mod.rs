@@ -1,4 +1,4 @@
-//! From the network to steps of time (eq. 2.16).
+//! The network in discrete time (eq. 2.16).
 //!
 //! Heat and outdoor temperature are held constant for a step h, so the temperatures move by a linear function of the net
 //! heat into each node at the start of the step,

@@ -1,4 +1,4 @@
-//! What the heat of a day takes and costs.
+//! The electricity that the heat of a day takes, and its cost.
 
 use super::HeatPump;
 

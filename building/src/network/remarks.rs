@@ -1,4 +1,4 @@
-//! Remarks on a network that is allowed and may not be what was meant.
+//! Remarks on allowed properties of a network that may be mistakes.
 
 use super::Network;
 use super::error::Remark;

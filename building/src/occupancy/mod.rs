@@ -1,4 +1,4 @@
-//! Heat from people and what they switch on: as scheduled, and as it turns out.
+//! Heat from people and their appliances, as scheduled and as it actually occurs.
 //!
 //! A zone follows a schedule that rises around the start of work, dips at lunch and falls around its end, times the zone's
 //! peak. Reality deviates from it. One deviation can be learned: the schedule is wrong by the same share every day (bias).

@@ -1,4 +1,4 @@
-//! Recorded heat of people and machines, in the place of that of schedules or beside it.
+//! Recorded heat of people and machines, which replaces the heat of schedules or adds to it.
 
 use crate::series::HeldSeries;
 

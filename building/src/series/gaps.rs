@@ -1,4 +1,4 @@
-//! Gaps in a series, and how they are bridged.
+//! Finds gaps in a series and bridges them.
 
 use std::ops::Range;
 

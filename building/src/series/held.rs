@@ -1,4 +1,4 @@
-//! A series of which each value holds until the next.
+//! A series whose values each hold until the next one.
 
 /// Values that hold from `first_s`, `first_s + interval_s`, … on, each for an interval.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +20,7 @@ impl HeldSeries {
     /// When there are no values.
     pub fn mean(&self, from_s: f64, to_s: f64) -> f64 {
         assert!(!self.values.is_empty(), "a series needs a value");
-        // Rounding must not make a step that ends where a value does reach into the next.
+        // Because of rounding, a step that ends with a value must not reach into the next value.
         const TOLERANCE: f64 = 1e-9;
         let (from, to) = ((from_s - self.first_s) / self.interval_s, (to_s - self.first_s) / self.interval_s);
         let (first, last) = ((from + TOLERANCE).floor(), (to - TOLERANCE).ceil() - 1.0);

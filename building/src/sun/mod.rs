@@ -1,4 +1,4 @@
-//! Where the sun stands, and how much of its radiation falls on a tilted plane.
+//! The position of the sun, and its radiation on a tilted plane.
 //!
 //! ```text
 //! I(plane) = I_beam max(0, cos θ) + D(plane) + ρ G (1 − cos β)/2

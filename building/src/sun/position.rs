@@ -1,4 +1,4 @@
-//! Where the sun stands.
+//! The position of the sun.
 //!
 //! J. Meeus, *Astronomical Algorithms*, 2nd edition, 1998, chapters 12, 22 and 25 (the solar coordinates of low accuracy), with the
 //! largest perturbations by planets and the moon of his *Astronomical Formulae for Calculators*, 1979, chapter 18, and the

@@ -1,5 +1,4 @@
-//! Weather: what it is ([`Weather`]), where it comes from ([`epw`] files, or the synthetic [`Climate`]), and how well it is
-//! known beforehand ([`Forecast`]).
+//! Weather ([`Weather`]), its sources ([`epw`] files, or the synthetic [`Climate`]), and its forecasts ([`Forecast`]).
 //!
 //! Time is in seconds from midnight at the start of the first day. A file states values at the end of each interval; here
 //! all quantities are functions of time.

@@ -1,4 +1,4 @@
-//! Weather of a table: recorded somewhere, or made by another program.
+//! Weather from a table, recorded or made by another program.
 
 use interplay_common::spelling::suggestion;
 use schemars::JsonSchema;

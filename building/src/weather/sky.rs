@@ -1,4 +1,4 @@
-//! Radiation by its direction: what windows of any orientation need.
+//! Radiation by direction, which windows of any orientation need.
 
 use super::{TimeSeries, Weather};
 use crate::sun::{Plane, Site, SkyRadiation, SplitRadiation, split_global};

@@ -1,4 +1,4 @@
-//! A quantity known at equal intervals of time, linear in between.
+//! A quantity at equal intervals of time, interpolated linearly.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,9 @@
-//! Our human driver as a prediction: one plan of it, made on the straightened lane.
+//! The human driver model as a prediction: one of its plans, made on the straightened lane.
 //!
-//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those
-//! beside it are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A
-//! driver in traffic wants about the speed that it has: what it would want on a free road cannot be seen.
+//! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The
+//! lane and its neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to
+//! keep their speed. A driver in traffic is assumed to want about its present speed, because the speed that it would
+//! choose on a free road cannot be observed.
 
 use std::sync::Arc;
 
@@ -89,7 +90,7 @@ impl PredictedDriver {
 
     /// The moment as the driver sees it.
     fn scene(&self, moment: &TrafficMoment) -> Scene {
-        // A vehicle beside the road at the start is on a road that reaches there.
+        // If the vehicle starts beside the road, the road is widened to include it.
         let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
         let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
         let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };

@@ -1,8 +1,8 @@
-//! Predictions of one vehicle of real traffic from what is known of it and of the vehicles around it at a moment.
+//! Predictions of one vehicle in real traffic, from its state and those of the vehicles around it at one time.
 //!
-//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
-//! middle, positive to the left. It holds no plan, and nothing that was seen later: each other vehicle is expected to keep its speed
-//! along its lane. A [`MotionModel`] answers with places at steps of [`STEP_S`].
+//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across
+//! it from the lane's middle, positive to the left. It contains no plans and no later observations: each other vehicle
+//! is expected to keep its speed along its lane. A [`MotionModel`] returns positions at steps of [`STEP_S`].
 //!
 //! | model | along the lane | across it |
 //! |---|---|---|
@@ -11,7 +11,7 @@
 //! | IDM | Treiber, Hennecke and Helbing (2000), with or without a lag | as stated |
 //! | human | one plan of our human driver | as planned, or as stated |
 //!
-//! "As stated" is [`LateralMotion`]: the lane's place is kept, or the present lateral speed decays.
+//! "As stated" refers to [`LateralMotion`]: the lateral position is kept, or the present lateral speed decays.
 
 mod acceleration;
 mod car_following;

@@ -1,4 +1,4 @@
-//! The models, as one type.
+//! The motion models as one type.
 
 use super::{CarFollowing, LateralMotion, PredictedDriver, PredictedMotion, TrafficMoment, acceleration};
 

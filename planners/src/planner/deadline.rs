@@ -1,4 +1,4 @@
-//! When a plan is too late, told by the work that it took: so the answer is the same on every machine.
+//! Deadlines of plans, measured by the work that a plan took, so that the result is the same on every machine.
 
 use crate::PlanError;
 use crate::trajectory::Statistics;

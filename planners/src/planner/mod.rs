@@ -1,4 +1,4 @@
-//! A driver at work: what every kind of driver has around it.
+//! A driver with its surroundings, which are the same for every kind of driver: inference, certificate and deadline.
 
 pub(crate) mod deadline;
 

@@ -1,4 +1,4 @@
-//! Axes turned against those of the world: along a road and across it.
+//! Axes along and across a road, rotated against those of the world.
 
 /// Orthogonal axes: the first along a direction, the second to its left.
 #[derive(Clone, Copy, Debug, PartialEq)]

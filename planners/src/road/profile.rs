@@ -118,7 +118,7 @@ impl Profile {
         if knots.iter().all(|[_, value]| value == first) {
             return Ok(Profile::constant(*first));
         }
-        // Knots inside of a constant part are left out: with fewer knots a search is faster.
+        // Knots inside a constant part are removed: with fewer knots a search is faster.
         let is_needed = |i: &usize| {
             *i == 0 || *i + 1 == knots.len() || knots[i - 1][1] != knots[*i][1] || knots[i + 1][1] != knots[*i][1]
         };

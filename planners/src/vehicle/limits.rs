@@ -1,4 +1,4 @@
-//! What a vehicle can do: bounds on its input and speed.
+//! Physical limits of a vehicle: bounds on its input and speed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

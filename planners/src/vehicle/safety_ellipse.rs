@@ -1,4 +1,4 @@
-//! The ellipse around a vehicle that others keep out of.
+//! The ellipse around a vehicle that other vehicles must not enter.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! The nouns of motion: a vehicle's state, its input, and a trajectory of both.
+//! The basic types of motion: a vehicle's state, its input, and a trajectory of both.
 //!
 //! All lengths are in metres, angles in radians counter-clockwise from the x axis, times in seconds.
 
@@ -54,7 +54,8 @@ impl State {
     /// the other moves towards it.
     pub fn drives_into(&self, other: &State) -> bool {
         let [ahead_x_m, ahead_y_m] = [other.x_m - self.x_m, other.y_m - self.y_m];
-        // Speeds along the line from here to the other, times its length; the other moves against it.
+        // Speeds along the line from this vehicle to the other, multiplied by its length; the other moves in the
+        // opposite direction.
         let along = |state: &State| {
             let (sin, cos) = libm::sincos(state.heading_rad);
             state.speed_mps * (cos * ahead_x_m + sin * ahead_y_m)

@@ -1,4 +1,4 @@
-//! XML as elements that know where they are written. This is the one file that names the parser.
+//! XML as elements with their places in the text. Only this file names the parser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Numbers of the unit interval for each path and sample.
+//! Random numbers in the unit interval for each path and sample.
 
 use interplay_common::random::Random;
 
@@ -22,7 +22,7 @@ impl UnitDraws {
         let seed = seed.wrapping_add(hash(path));
         let count = if sampling == Sampling::LatinHypercube { u32::try_from(samples).unwrap_or(u32::MAX) } else { 0 };
         let mut strata: Vec<u32> = (0..count).collect();
-        // Fisher and Yates.
+        // The Fisher-Yates shuffle.
         let mut random = Random::new(seed, PERMUTATION_STREAM);
         for last in (1..strata.len()).rev() {
             let other = random.uniform(0.0, (last + 1) as f64) as usize;
@@ -33,7 +33,7 @@ impl UnitDraws {
 
     /// The number of a sample, in the open interval (0, 1).
     pub fn at(&self, sample: u64) -> f64 {
-        // Half a step away from zero: a normal distribution has infinite quantiles at both ends.
+        // Adding half a step avoids zero: a normal distribution has infinite quantiles at both ends.
         let unit = Random::new(self.seed, sample).uniform(0.0, 1.0) + 0.5_f64.powi(54);
         let stratum = usize::try_from(sample).ok().and_then(|sample| self.strata.get(sample));
         let drawn = stratum.map_or(unit, |stratum| (f64::from(*stratum) + unit) / self.strata.len() as f64);

@@ -193,7 +193,7 @@ fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> 
         }
         (None, Some(step), _) => match number(&step.node) {
             Some(width) if width > 0.0 && (to - from) / width < MAX_VALUES as f64 => {
-                // A step that divides the range, up to rounding, reaches its end.
+                // If the step divides the range, up to rounding, the last value is the end of the range.
                 let steps = ((to - from) / width + 1e-9).floor();
                 Ok(Values::Numbers(from, from + steps * width, steps as usize + 1))
             }
@@ -284,7 +284,7 @@ impl Factor {
             Values::List(items) => items.iter().take(limit).cloned().collect(),
             Values::Integers(_, _, count) | Values::Numbers(_, _, count) => vec![self.value(0), self.value(count - 1)],
             Values::Uniform(from, to) | Values::LogUniform(from, to) => ends([*from, *to]),
-            // Its tails are unbounded: every drawn value is checked.
+            // A normal distribution has no extremes; instead, every drawn value is checked.
             Values::Normal(mean, _) => vec![self.node(TomlValue::Float(*mean))],
         }
     }

@@ -1,4 +1,4 @@
-//! The faults of the runs of a plan, each once.
+//! Collects the faults of the runs of a plan, each fault once.
 
 use std::collections::BTreeMap;
 

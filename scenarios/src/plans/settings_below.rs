@@ -1,4 +1,4 @@
-//! Settings below a path.
+//! Finds settings below a path, and how later settings remove them.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The reasons why a table is not a valid road.
+//! Reasons why a table is not a valid road.
 
 /// A fault of a road, and its place.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
-//! Located errors.
+//! Errors with a place in a text.
 //!
-//! A [`Fault`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
+//! A [`Fault`] is one fault at one [`Place`] of one [`Document`]; a [`LoadError`] holds all faults that were found.
 //! Both are `miette` diagnostics, so the caller decides how to show them.
 
 use std::{fmt, ops::Range, sync::Arc};

@@ -1,4 +1,4 @@
-//! What a text may hold that is shown on a terminal.
+//! The characters that a text shown on a terminal may contain.
 
 /// Whether a character is only displayed: it is neither a control character, except for the line end and the tab, nor
 /// one that changes the direction of the text.

@@ -1,4 +1,4 @@
-//! Numbers in messages: as many digits as matter to a reader.
+//! Numbers in messages, with as many digits as a reader needs.
 
 /// Numbers that are written with at most this many characters are shown as they are.
 const MAX_CHARACTERS: usize = 7;

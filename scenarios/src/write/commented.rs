@@ -70,7 +70,7 @@ impl Writer {
         let mut sections = Vec::new();
         let kind = value.get("kind").and_then(Json::as_str).filter(|_| !schema.kinds().is_empty());
         if kind.is_some_and(|kind| schema.of_kind(kind).is_none()) {
-            // A kind of another crate: the schema of Interplay does not describe its keys.
+            // The schema of Interplay does not describe the keys of a kind from another crate.
             for (key, value) in value {
                 self.line(&format!("{key} = {}", inline(schema, value)), live);
             }
@@ -145,7 +145,7 @@ impl Writer {
     /// What the schema says of a key, as a comment.
     fn explain(&mut self, property: SchemaNode) {
         let mut words = property.description().to_owned();
-        // That a count is at least 0 needs no words.
+        // It goes without saying that a count is at least 0.
         let is_news = |bound: &Bound| *bound != Bound::AtLeast(0.0) || property.type_name() == Some("number");
         let bounds: Vec<String> = property.bounds().filter(is_news).map(|bound| bound.to_string()).collect();
         let mut bounds = bounds.join(", ");

@@ -15,7 +15,7 @@ impl Progress {
     /// Shows a progress line with none of `total` steps done.
     pub fn start(total: usize) -> Progress {
         let bar = ProgressBar::new(total as u64);
-        // The template is a constant, and sound: a test draws with it.
+        // The template is a valid constant: a test draws with it.
         if let Ok(style) = style() {
             bar.set_style(style);
         }

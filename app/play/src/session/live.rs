@@ -72,7 +72,7 @@ impl Session {
     /// # Errors
     /// [`SessionError`] if a seat does not exist, or the simulation cannot be built.
     pub fn new(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Session, SessionError> {
-        // A session simulates the vehicles only: the days of a building come after the drive.
+        // A session simulates only the vehicles: the days of a building would come after the drive.
         let written = scenario.clone().without_counterfactuals().without_building();
         let indices = check_seats(name, &written, seats)?;
         let mut played = written.clone();

@@ -166,7 +166,7 @@ fn in_words(value: &Value) -> String {
         Value::Array(items) => items.iter().map(in_words).collect::<Vec<_>>().join(", "),
         Value::Object(table) => {
             let entry = |(key, value): (&String, &Value)| {
-                // The key of a length may be its unit alone.
+                // The key of a length may consist of its unit alone.
                 let key = format!("_{key}");
                 let (quantity, unit) = (quantity_of(&key).replace('_', " "), unit_of(&key).unwrap_or_default());
                 format!("{} {} {unit}", quantity.trim(), in_words(value)).trim().to_owned()

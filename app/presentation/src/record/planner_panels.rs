@@ -1,5 +1,5 @@
 //! Panels for the diagnostics of planners. The planners declare their diagnostics and how to group them
-//! ([`interplay_planners::plan::diagnostic`]); this module makes paths, panels and a text of them.
+//! ([`interplay_planners::plan::diagnostic`]); this module derives paths, panels and an explanatory text.
 
 use interplay_planners::perception::belief::diagnostics::PANELS as BELIEF_PANELS;
 use interplay_planners::plan::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};

@@ -1,4 +1,4 @@
-//! An identified network as a scenario file.
+//! Writes an identified network as a scenario file.
 
 use std::fmt::{self, Write};
 

@@ -1,4 +1,4 @@
-//! What is known of a car at a time. Nothing here reads later records.
+//! The state of a car and its surroundings at a time, from records up to that time only.
 
 use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
 use interplay_scenarios::RecordedMoment;

@@ -81,7 +81,7 @@ impl LaneMap {
             if cos < MIN_COS || !is_in && (at.across_m.abs() > BESIDE_M + 0.5 * at.width_m || is_beyond) {
                 continue;
             }
-            // Where lanes overlap, as in junctions, the lane in whose direction the vehicle drives.
+            // Where lanes overlap, as in junctions, the lane with the direction of the vehicle is chosen.
             let misfit = (1.0 - cos) * 20.0 + at.across_m.abs();
             let is_better = best.is_none_or(|(best_in, best_misfit, _)| (is_in, -misfit) > (best_in, -best_misfit));
             if is_better {

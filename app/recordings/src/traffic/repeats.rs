@@ -1,4 +1,5 @@
-//! Rows that repeat others: published files contain the same cars several times, each time with another one removed as the ego.
+//! Finds rows that repeat others: published files contain the same cars several times, each time with a different one
+//! removed as the ego.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Which of two vehicles goes first where their routes cross or merge, and whether the other one yields.
+//! Determines which of two vehicles goes first where their routes cross or merge, and whether the other one yields.
 
 use interplay_planners::Body;
 use interplay_scenarios::{ConflictZone, Scenario};

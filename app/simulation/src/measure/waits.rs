@@ -1,4 +1,5 @@
-//! How long and for whom vehicles that want to move are stationary, and which are deadlocked ([`Standing`]).
+//! Measures how long vehicles that want to move are stationary, for which vehicles they wait, and which are deadlocked
+//! ([`Standing`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -86,7 +86,7 @@ impl Lines {
     fn broken(&self, question: &str, reason: io::Error) -> PlantError {
         let question = question.to_owned();
         match reason.kind() {
-            // A socket that times out returns either, depending on the system.
+            // A socket that times out returns one of these errors, depending on the system.
             ErrorKind::TimedOut | ErrorKind::WouldBlock => {
                 PlantError::Timeout { question, timeout_s: self.timeout.as_secs_f64() }
             }

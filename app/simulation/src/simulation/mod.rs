@@ -1,4 +1,4 @@
-//! A world that the caller steps.
+//! A simulation as a world that the caller steps.
 
 mod builder;
 mod extensions;

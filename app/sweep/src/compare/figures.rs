@@ -241,7 +241,7 @@ fn planner_figures(
     let base: HashMap<Conditions, &RunRecord> =
         by_planner.get(baseline).into_iter().flatten().map(|record| (record.conditions(), *record)).collect();
     let figures = by_planner.iter().enumerate().map(|(index, (planner, records))| {
-        // Two intervals a planner.
+        // Each planner has two intervals.
         let stream = stream + 2 * index as u64;
         let pairs = || -> Vec<(&RunRecord, &RunRecord)> {
             records.iter().filter_map(|record| Some((*record, *base.get(&record.conditions())?))).collect()

@@ -1,4 +1,4 @@
-//! The rows of a folder, as far as a comparison needs them.
+//! The rows of a folder, with the columns that a comparison needs.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -74,7 +74,7 @@ impl RunRecord {
 /// Scenario, style, sample and seed.
 pub(super) type Conditions = (Arc<str>, Arc<str>, u64, u64);
 
-/// The rows of a folder and the versions of the program that made them.
+/// The rows of a folder, and the versions of the program that made them.
 pub(super) struct Records {
     pub all: Vec<RunRecord>,
     pub versions: Vec<String>,

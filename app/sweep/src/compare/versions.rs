@@ -1,4 +1,4 @@
-//! Differences between two sweeps of one plan: of two versions of the program, or of a planner.
+//! Differences between two sweeps of one plan, made by two versions of the program or of a planner.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;

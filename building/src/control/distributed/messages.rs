@@ -83,7 +83,7 @@ impl Messages {
         for link in network.links() {
             leaving_kw_per_k[link.from] += link.conductance_kw_per_k;
             leaving_kw_per_k[link.to] += link.conductance_kw_per_k;
-            // A wall belongs to the first zone beside it.
+            // A wall belongs to the adjacent zone with the lowest number.
             let (wall, zone) = (link.from.max(link.to), link.from.min(link.to));
             if wall >= zones && (owner[wall] == wall || zone < owner[wall]) {
                 owner[wall] = zone;
@@ -158,7 +158,7 @@ impl Messages {
         for edge in &mut self.edges {
             let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
             let silent = self.silent == Some(from) || self.silent == Some(to);
-            // A zone asks again for a message that does not come, unless its neighbour is silent.
+            // A zone repeats its request for a missing message, unless its neighbour is silent.
             let tries = if silent { 1 } else { 1 + MAX_REPEATS };
             let lost_tries =
                 (0..tries).take_while(|_| self.loss > 0.0 && self.random.chance_of_32_bits(self.loss)).count();

@@ -1,4 +1,4 @@
-//! The best combination of a few directions of all zones.
+//! Finds the combination of a few directions of all zones that has the least cost.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! What is learned of the forecast from day to day: heat that it misses at the same hour of every day.
+//! Learns the heat that the forecast misses at the same hour of every day.
 //!
 //! ```text
 //! m ← (1 − λ) m + λ d_k          mean of the missed heat of a step and zone
@@ -6,7 +6,8 @@
 //! bias = m · m² / (m² + v λ/(2 − λ))
 //! ```
 //!
-//! A mean that is small beside its own uncertainty `v λ/(2 − λ)` is not trusted: what does not repeat is not expected.
+//! A mean that is small compared with its own uncertainty `v λ/(2 − λ)` is not trusted: an error that does not repeat
+//! is not expected again.
 
 /// Learned means of the missed heat of each step and zone.
 #[derive(Clone, Debug)]
@@ -42,7 +43,7 @@ impl LearnedForecast {
             return;
         }
         self.days += 1;
-        // The first days count alike, as in an average.
+        // The first days have equal weights, as in an average.
         let rate = self.rate.max(1.0 / self.days as f64).min(if self.rate > 0.0 { 1.0 } else { 0.0 });
         for (i, today_kw) in self.today_kw.iter_mut().enumerate() {
             let Some(missed_kw) = today_kw.take() else { continue };
@@ -56,7 +57,7 @@ impl LearnedForecast {
     pub fn bias_kw(&self, step: usize, zones: usize) -> impl Iterator<Item = f64> + '_ {
         (step * zones..(step + 1) * zones).map(|i| {
             let square = self.mean_kw[i] * self.mean_kw[i];
-            // After a single day nothing is known of how days vary.
+            // A single day does not show how days vary.
             if self.days < 2 || square == 0.0 {
                 return 0.0;
             }

@@ -80,7 +80,7 @@ impl Iterative {
         let powers_kw = limits.heating_kw.iter().zip(&limits.cooling_kw).map(|(heating, cooling)| heating + cooling);
         Ok(Self {
             settings,
-            // A gain that nothing certifies is driven as it is.
+            // A gain without a certificate is applied as it is.
             guard: match settings.stability {
                 Stability::Lmi | Stability::Linear => AlternationGuard::new(powers_kw),
                 Stability::LeastSquares | Stability::Fixed => AlternationGuard::new(powers_kw.map(|_| f64::INFINITY)),
@@ -233,7 +233,7 @@ impl PlanningDesign for Iterative {
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
-            // The first day: only the initial feedback, on the error itself.
+            // On the first day, only the initial feedback acts, on the error itself.
             None => (vec![0.0; n], Some(observation.weighted_errors_k())),
         };
         let planned_kw = heat_kw.clone();

@@ -173,7 +173,7 @@ impl<'a> Projection<'a> {
         let p = self.main_errors();
         let q = p.nrows();
         let wanted = self.optimal_feedback()?;
-        // What each free entry adds to the rows (t, a) that count, with q numbers a row.
+        // The contribution of each free entry to the rows (t, a) that count, with q numbers per row.
         let rows = self.busy.len() * n * q;
         let mut columns: Vec<Vec<f64>> = Vec::with_capacity(gain.len() + scale.len());
         for &(a, c) in &gain {

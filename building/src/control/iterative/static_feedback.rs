@@ -127,7 +127,7 @@ impl Loops {
             let by_inequality = (stability != Stability::Linear).then(|| self.stable(projection.lmi(decay)));
             let found = match by_inequality {
                 Some(Ok(gain)) => Ok(gain),
-                // The first reason counts: that of the certificate which was asked for.
+                // Keep the first reason: that of the requested certificate.
                 Some(Err(error)) => {
                     reason.get_or_insert(error);
                     self.stable(projection.linear(decay))

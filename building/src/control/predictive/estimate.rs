@@ -1,4 +1,4 @@
-//! What the controller believes of the building's state, and of heat that its model does not explain.
+//! The controller's estimate of the building's state, and of heat that its model does not explain.
 //!
 //! ```text
 //! T⁻(t+1) = A T(t) + B (k T₀ + u + w + d)        the step that the model expects

@@ -4,8 +4,8 @@
 //! q_t = z_tᵀβ + v_t,    v_t = Σ_{k=1..r} α_k v_{t−k} + e_t + μ e_{t−1},    e_t white
 //! ```
 //!
-//! z holds what is known beforehand (a constant, daily harmonics, the zone model's regressors). The printed form, with a
-//! constant ψ instead of zᵀβ, is this one with ψ = β (1 − Σα).
+//! z contains the quantities that are known beforehand (a constant, daily harmonics, the zone model's regressors). The
+//! printed form, with a constant ψ instead of zᵀβ, is this one with ψ = β (1 − Σα).
 //!
 //! The printed M-step (2.14) divides by Σq where Σq² belongs, and even then estimates an autoregression, which is biased
 //! when there is a moving average. [`fit()`] minimises the conditional sum of squares Σ e_t² instead.

@@ -1,4 +1,4 @@
-//! Whether the data determine a coefficient.
+//! Verdicts on whether the data determine a coefficient.
 
 use schemars::JsonSchema;
 use serde::Serialize;

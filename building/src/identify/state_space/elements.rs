@@ -1,4 +1,4 @@
-//! What a thermal network is made of: hidden nodes, extensions of a smaller network, and parameters.
+//! The elements of a thermal network: hidden nodes, extensions of a smaller network, and parameters.
 
 use crate::identify::settings::HiddenTemperature;
 use crate::identify::telemetry::Neighbour;

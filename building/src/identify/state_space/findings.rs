@@ -1,4 +1,4 @@
-//! From a fitted network to a report.
+//! Makes a report from a fitted network.
 
 use std::cell::RefCell;
 use std::ops::Range;

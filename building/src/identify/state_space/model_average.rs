@@ -1,4 +1,4 @@
-//! Intervals that allow for the next larger model, which the test did not call for and which may be the right one.
+//! Intervals that allow for the next larger model, which the selection rejected but which may be the right one.
 //!
 //! ```text
 //! Σ_i w_i P(Z > (f − f_i)/s_i) = 2.5 %,      w ∝ exp(−AIC/2)

@@ -101,7 +101,7 @@ impl Tangents {
         for (parameter, model) in models.iter().enumerate() {
             let sampled = model.sampled(step_s)?;
             let put = |array: &mut [f64], numbers: &mut dyn Iterator<Item = &Number>| {
-                // Skipped and not sliced: a record of single rows has no arrows at all.
+                // `skip` instead of a slice: a record of single rows has no arrows at all.
                 array
                     .iter_mut()
                     .skip(parameter)

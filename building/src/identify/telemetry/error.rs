@@ -1,4 +1,4 @@
-//! What is wrong with a mapping or a table: where it stands, and what would work.
+//! Errors of mappings and tables: their place, and what would work.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
+//! A table of text with a header: finds columns, converts fields to numbers and times, and locates invalid fields.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -41,7 +41,7 @@ impl<'a> Table<'a> {
         // Some programs write a byte-order mark first.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = Lines::new(text);
-        // The schema of the mapping asks for an ASCII character.
+        // The schema of the mapping requires an ASCII character.
         let separator = u8::try_from(form.separator).unwrap_or(b',');
         let skipped = lines.start_of(form.skip_rows + 1);
         let rest = text.get(skipped..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Units that a table may use, and what they are in the units of this crate.
+//! The units that a table may use, converted to the units of this crate.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

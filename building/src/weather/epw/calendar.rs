@@ -1,7 +1,7 @@
-//! The calendar of a file: which row comes next.
+//! The calendar of a file, which determines the next row.
 //!
-//! Years are ignored, because typical years are put together from months of different ones. Whether the 29th of February
-//! exists is read off the rows: it does when they have it.
+//! Years are ignored, because typical years combine months of different years. 29 February exists if the rows contain
+//! it.
 
 use std::fmt;
 
@@ -69,7 +69,7 @@ impl Date {
 
     /// Days from another day to this one, going forwards.
     pub(super) fn days_after(self, other: Self, leap: bool) -> u32 {
-        // In a year without a 29th of February, the 1st of March takes its place.
+        // In a year without 29 February, 1 March takes its place.
         let place = |Self(date): Self| match leap {
             true => date.day_of_year(),
             false => date.day_of_year_no_leap().unwrap_or(date.day_of_year()),

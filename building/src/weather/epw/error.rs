@@ -1,4 +1,4 @@
-//! What is wrong with an EPW file, and where.
+//! Errors of EPW files, with their lines.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What a run takes from a file, and what is wrong with that. What it does not take may be wrong.
+//! Checks the part of a file that a run uses. Faults in other parts are allowed.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Why a centre line cannot be built.
+//! Errors of centre lines that cannot be built.
 
 use thiserror::Error;
 

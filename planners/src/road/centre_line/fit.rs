@@ -80,7 +80,7 @@ fn distinct(points: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, CentreLineError> {
             kept.push(*point);
         }
     }
-    // The end of the line stays where it is: the point before it gives way.
+    // The end of the line is kept, and the point before it is removed.
     if kept.last() != Some(last) {
         if kept.len() > 1 {
             kept.pop();

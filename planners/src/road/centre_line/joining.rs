@@ -1,4 +1,4 @@
-//! Centre lines from other centre lines: parts, parallels, the reverse, and several joined to one.
+//! Makes centre lines from others: sections, parallels, the reverse, and several joined to one.
 
 use super::error::CentreLineError;
 use super::line::{CentreLine, Curve, Shape};

@@ -127,7 +127,7 @@ pub fn smooth(pieces: &[Piece], transition_m: f64) -> Result<Vec<Piece>, CentreL
         }
         smoothed.push(rest);
     }
-    // The curvature at the end of a piece that vanishes is that of the clothoids beside it.
+    // A vanished piece has the same end curvature as the clothoids beside it.
     smoothed.retain(|piece| piece.length_m() > CURVATURE_TOLERANCE * transition_m);
     Ok(smoothed)
 }

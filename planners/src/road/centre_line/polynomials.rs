@@ -1,4 +1,4 @@
-//! Centre lines as the polynomials that represent them: to store a line, and to give it to another program.
+//! Centre lines as polynomials, for storing a line or exporting it to another program.
 
 use super::error::CentreLineError;
 use super::joining::continues;

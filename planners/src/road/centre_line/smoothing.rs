@@ -1,4 +1,4 @@
-//! Points moved within a tolerance, so that the curve through them bends less.
+//! Moves points within a tolerance, so that the curve through them bends less.
 
 use super::error::CentreLineError;
 
@@ -59,7 +59,7 @@ pub fn smooth_points(points: &[[f64; 2]], tolerance_m: f64) -> Result<Vec<[f64; 
 /// identity but zero at both ends.
 fn smoothed(points: &[[f64; 2]], chords_m: &[f64], smoothing: f64) -> Vec<[f64; 2]> {
     let inner = points.len() - 2;
-    // Column j of Q belongs to point j + 1 and has three entries, from point j on.
+    // Column j of Q belongs to point j + 1 and has three entries, beginning with point j.
     let column = |j: usize| {
         let (before, after) = (1.0 / chords_m[j], 1.0 / chords_m[j + 1]);
         [before, -before - after, after]

@@ -13,7 +13,7 @@ pub(super) fn bends(knots: &[f64], values: &[f64], end_slopes: [Option<f64>; 2])
     for i in 0..count {
         let before = i.checked_sub(1).map(|before| knots[i] - knots[before]);
         let after = knots.get(i + 1).map(|after| after - knots[i]);
-        // Beyond an end with a given slope the spline is as if it had an interval without length there.
+        // A given slope at an end has the effect of an additional interval of zero length there.
         let (slope_before, slope_after) = match (before, after) {
             (Some(_), Some(_)) => (secant(i - 1), secant(i)),
             (None, Some(_)) => match end_slopes[0] {

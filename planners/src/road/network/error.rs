@@ -1,4 +1,4 @@
-//! Why lanes are no network, and why lanes of a network are no route.
+//! Errors of lanes that do not form a valid network, and of lists of lanes that are not a route.
 
 use thiserror::Error;
 

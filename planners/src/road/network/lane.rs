@@ -1,4 +1,4 @@
-//! A lane and what it says of other lanes.
+//! A lane and its references to other lanes.
 
 use std::sync::Arc;
 

@@ -52,7 +52,7 @@ impl RoadNetwork {
             }
         }
         let network = RoadNetwork { lanes, numbers };
-        // RoadLanes are checked alone before they are compared: a comparison needs lanes with ends.
+        // Each lane is checked alone before lanes are compared, because a comparison needs lanes with valid ends.
         for check in [RoadNetwork::check_alone, RoadNetwork::check_beside_others] {
             for (index, lane) in network.lanes.iter().enumerate() {
                 check(&network, lane).map_err(|(field, fault)| RoadNetworkError {

@@ -1,4 +1,4 @@
-//! The way of a vehicle through a network.
+//! The route of a vehicle through a network.
 
 use std::sync::Arc;
 

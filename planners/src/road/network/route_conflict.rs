@@ -1,4 +1,4 @@
-//! What a route knows of the places where it meets another one.
+//! The conflicts of a route with another one, as the route stores them.
 
 /// A place where a route meets another one of the same network, described from the first route.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! The routes of several vehicles through one network: where they meet, and who goes first there.
+//! The routes of several vehicles through one network, with their conflicts and the right of way in each.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -139,7 +139,8 @@ impl Approach {
         let leg = route.legs.get(number);
         let before = number.checked_sub(1).and_then(|before| route.legs.get(before));
         let sign_of = |leg: Option<&RouteLeg>| leg.map(|leg| leg.right_of_way).unwrap_or_default();
-        // A lane with a sign of its own that the conflict begins on is left for another lane, or reaches into the conflict.
+        // If the conflict begins on a lane with its own sign, the route leaves this lane there or the lane reaches into
+        // the conflict.
         let (line_m, sign) = if sign_of(leg) != RightOfWay::Priority {
             (from_m, sign_of(leg))
         } else {
@@ -187,6 +188,6 @@ fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedenc
             _ => Precedence::ByArrival,
         };
     }
-    // A vehicle that drives to the left comes from the right.
+    // A vehicle that crosses to the left comes from the right.
     own_first(from_right_rad < 0.0)
 }

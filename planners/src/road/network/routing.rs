@@ -1,4 +1,4 @@
-//! Routes from lists of lanes.
+//! Makes routes from lists of lanes.
 
 use super::super::centre_line::{CentreLine, CentreLineError, JoinedLine, LineSection};
 use super::edges;

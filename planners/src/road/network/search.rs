@@ -39,7 +39,7 @@ impl RoadNetwork {
         let mut ends: Vec<bool> = self.lanes().iter().map(|lane| lane.successors.is_empty()).collect();
         let leads_to =
             |lane: &Lane, other: &Lane| lane.successors.contains(&other.name) || lane.may_change_to(&other.name);
-        // Each round but the last adds a lane.
+        // Each round except the last adds a lane.
         loop {
             let reaches = |(number, lane): (usize, &Lane), ends: &[bool]| {
                 !ends[number] && self.lanes().iter().zip(ends).any(|(other, is_end)| *is_end && leads_to(lane, other))
@@ -60,7 +60,7 @@ impl RoadNetwork {
         let mut is_done = vec![false; count];
         costs[start * CHANGES_IN_A_ROW] = 0.0;
         let mut found = None;
-        // Each round finishes a node, so the search ends also where lanes form a loop.
+        // Each round finishes a node, so the search also ends where lanes form a loop.
         while found.is_none() {
             let open = (0..count).filter(|node| !is_done[*node] && costs[*node].is_finite());
             let next = open.min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;

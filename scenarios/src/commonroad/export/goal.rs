@@ -1,4 +1,4 @@
-//! Whether a state lies in one of the goals of a planning problem.
+//! Checks whether a state lies in one of the goals of a planning problem.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};

@@ -11,7 +11,7 @@ const DIGITS: i32 = 6;
 pub(super) fn number(value: f64) -> f64 {
     let factor = 10_f64.powi(DIGITS);
     let rounded = (factor * value).round() / factor;
-    // Not `-0`.
+    // Write `0` instead of `-0`.
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 

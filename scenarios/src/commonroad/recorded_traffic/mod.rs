@@ -1,6 +1,7 @@
 //! Recorded traffic as plain values: lanes with their bounds, and vehicles with their positions at each time step.
 //!
-//! It is not a scenario: it has no drivers. Comparisons of driver models with people, and fits to people, read it.
+//! It is not a scenario, because it has no drivers. It is the input for comparing driver models with people, and for
+//! fitting models to people.
 
 mod table;
 

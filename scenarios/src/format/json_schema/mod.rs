@@ -1,4 +1,4 @@
-//! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
+//! The JSON Schema of a scenario file, which editors use for completion and the loader for checks.
 //!
 //! It is generated from [`ScenarioFile`](crate::ScenarioFile). The field of a setting states its description, type and default, and as
 //! `schemars` attributes its bounds, its example, and

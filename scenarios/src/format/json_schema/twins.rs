@@ -1,4 +1,4 @@
-//! Twins in degrees of the keys that are in radians.
+//! Adds to each key in radians a second key (its twin) for the same angle in degrees.
 
 use serde_json::{Map, Value as Json, json};
 

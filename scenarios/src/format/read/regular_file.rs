@@ -1,4 +1,4 @@
-//! Reads files that users name: regular files only, up to a size, and without waiting.
+//! Reads files that users name: only regular files, up to a size, and without blocking.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};

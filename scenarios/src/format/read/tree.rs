@@ -136,7 +136,7 @@ fn entry_of_value(table: &str, key: &str, value: &Json) -> TomlEntry {
     let shown: String = format!("{key}{before}{}", toml(value)).chars().take(MAX_SHOWN).collect();
     let document = Document::of_key(name, &shown, 1);
     let span = (key.len() + before.len()).min(shown.len())..shown.len();
-    // For a table, an error then points at the whole and not at the first key.
+    // An error in a table then points at the whole table and not at its first key.
     let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
     let value = match value {
         Json::Object(stated) => {

@@ -1,4 +1,5 @@
-//! Kinds of drivers, controllers or roads from other crates: how their settings are described and read.
+//! Kinds of drivers, controllers or roads from other crates: the schema of their settings, and how the settings are
+//! read.
 
 use std::fmt;
 use std::sync::Arc;

@@ -109,7 +109,7 @@ impl Outline {
                 (most(|at| at[0]), most(|at| -at[0]), 2.0 * most(|at| at[1].abs()))
             }
         };
-        // It never moves by itself: any axles within it make a valid body.
+        // An obstacle never moves by itself, so any axles within its body are valid.
         let (front_axle_m, rear_axle_m) = (0.6 * front_m.max(1e-3), 0.6 * rear_m.max(1e-3));
         Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale }
     }

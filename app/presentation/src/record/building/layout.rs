@@ -52,7 +52,7 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let cost = plot("Cost of each day", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
-        // The legend of the temperatures above names the rooms.
+        // The legend of the temperatures above already names the rooms.
         (1.0, heat.without_legend()),
         (1.0, cost.with_legend(letters(&["cheapest possible"]), QUARTER_WIDTH)),
     ];

@@ -1,4 +1,4 @@
-//! Views of other crates.
+//! Views that other crates provide.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! How often a vehicle brakes harder than drivers do without an emergency.
+//! Counts how often a vehicle brakes harder than drivers do without an emergency.
 
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};

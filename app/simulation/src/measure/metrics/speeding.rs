@@ -1,4 +1,4 @@
-//! How far a vehicle exceeds the speed limits of its lanes.
+//! The amount by which a vehicle exceeds the speed limits of its lanes.
 
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricDeclaration, Vehicle};
