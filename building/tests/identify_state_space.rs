@@ -79,7 +79,7 @@ fn data_without_information_identify_nothing() {
 }
 
 #[test]
-fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
+fn without_a_unit_of_heat_only_scale_free_quantities_are_identified() {
     let house = WALL_HOUSE;
     let mut telemetry = house.simulate(900.0, 14, 4);
     let with_unit = identify(&telemetry, &IdentifySettings::default()).expect("rich data");
@@ -148,7 +148,7 @@ time,north,south,out,heat
 
 /// Means of columns, factors, and times with offsets; the clock was put forward between the last two rows.
 #[test]
-fn columns_are_averaged_and_scaled_and_offsets_are_understood() {
+fn columns_are_averaged_and_scaled_and_utc_offsets_are_read() {
     let text = "walls = [['house', 'outdoor']]\n\
         [time]\ncolumn = 'time'\nformat = '%Y-%m-%d %H:%M%z'\nstep_s = 3600.0\ngaps = 'bridge'\n\
         [[column]]\nname = 'inside'\nmean_of = ['north', 'south']\n\

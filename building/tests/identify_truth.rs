@@ -122,7 +122,7 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
 }
 
 #[test]
-fn series_belong_to_the_telemetry_and_agree_with_the_report() {
+fn series_for_drawing_match_the_telemetry_and_the_report() {
     let found = identified(&Classroom::default(), Estimator::PredictionError);
     let (series, zone) = (&found.series[0], &found.report.zones[0]);
     let rows = series.measured_c.len();

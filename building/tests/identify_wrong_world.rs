@@ -22,7 +22,7 @@ fn causes(report: &IdentificationReport) -> Vec<SuspectedCause> {
 
 /// The house with its weather, and a sunny one with the weather of an hour before.
 #[test]
-fn a_clock_error_of_an_hour_is_suspected_and_nothing_is_identified() {
+fn a_clock_error_of_an_hour_prevents_identification() {
     let telemetry = WALL_HOUSE.simulate(900.0, 14, 21);
     let right = report(&telemetry);
     assert!(right.suspicions.is_empty(), "{:?}", right.suspicions);

@@ -93,7 +93,7 @@ fn with_the_printed_adjacency_matrix_every_gain_diverges() {
 
 /// A zone without a weight learns nothing, and its neighbours learn nothing from it.
 #[test]
-fn nothing_is_learned_where_the_temperature_is_free() {
+fn a_zone_with_a_free_temperature_learns_nothing() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(1, 3), STEP_S).expect("stable"), 1);
     let errors = [Some(1.0), Some(3.0), None];
     assert_eq!(LearnedErrors::Own.combine(&lifted, &errors), [1.0, 3.0, 0.0]);

@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn streams_differ_and_repeat() {
+    fn random_streams_repeat_and_differ_by_label() {
         let draw = |seed, label| Random::new(seed, label).uniform(0.0, 1.0);
         assert_eq!(draw(1, 1), draw(1, 1));
         assert!(draw(1, 1) != draw(1, 2) && draw(1, 1) != draw(2, 1));

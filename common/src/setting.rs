@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_hold_in_nested_tables_and_lists() {
+    fn bounds_are_checked_in_nested_tables_and_lists() {
         assert_eq!(check(&Outer { count: 1, inner: None }), Ok(()));
         assert_eq!(check(&Outer { count: 1, inner: Some(Inner::Plain(Shares { share: 1.0 })) }), Ok(()));
         assert_eq!(refused(0, Inner::Plain(Shares { share: 1.0 })), "`count` is 0; it must be at least 1");

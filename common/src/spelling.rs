@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn misspelt_words_are_matched_and_unrelated_ones_are_not() {
+    fn misspelt_words_are_corrected_and_unrelated_words_are_not() {
         assert_eq!(nearest("sped_mps", ["speed_mps", "x_m"]), Some("speed_mps"));
         assert_eq!(nearest("fornt", ["front", "rear"]), Some("front"));
         assert_eq!(nearest("IDM", ["human", "idm", "game"]), Some("idm"), "capitals are no edits");

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_unit_is_the_longest_matching_ending() {
+    fn the_unit_of_a_key_is_its_longest_matching_ending() {
         assert_eq!(unit_of("speed_mps"), Some("m/s"));
         assert_eq!(unit_of("integral_kw_per_k_h"), Some("kW/(K·h)"));
         assert_eq!(unit_of("front_stiffness_per_rad"), Some("1/rad"));

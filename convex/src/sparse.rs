@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn repeated_entries_share_a_slot_and_zeros_stay() {
+    fn repeated_matrix_entries_add_up_and_zeros_are_kept() {
         let matrix = sample();
         assert_eq!(matrix.start, [0, 1, 3, 4]);
         assert_eq!(matrix.row, [0, 0, 1, 1]);
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn empty_columns_are_allowed() {
+    fn matrices_may_have_empty_columns() {
         let matrix = SparseColumns::with_pattern(2, 4, [(1, 2)].into_iter());
         assert_eq!(matrix.start, [0, 0, 0, 1, 1]);
     }

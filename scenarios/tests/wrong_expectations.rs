@@ -13,7 +13,7 @@ fn with(expectations: &str) -> String {
 }
 
 #[test]
-fn an_order_that_can_never_fail() {
+fn expectations_that_can_never_fail_are_refused() {
     let mut errors = Catalogue::default();
     let order = |text: &'static str| [("order = [\"front\", \"ego\"]", text)];
     let remedy = "order = [\"ego\", \"front\"]";
@@ -25,7 +25,7 @@ fn an_order_that_can_never_fail() {
 }
 
 #[test]
-fn comfort_and_limits() {
+fn wrong_comfort_and_limit_expectations_are_refused() {
     let mut errors = Catalogue::default();
     let mut refuse = |name: &str, text: &str, fragments: &[&str]| {
         errors.error(name, from_text("bad.toml", &with(text), &[]), fragments);

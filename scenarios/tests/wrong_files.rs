@@ -8,7 +8,7 @@ use common::Catalogue;
 use interplay_scenarios::{SweepPlan, load};
 
 #[test]
-fn missing_files() {
+fn missing_files_are_reported_with_help() {
     let mut errors = Catalogue::default();
     errors.error("no_such_name", load("lane-change/front-nicer", &[]), &["did you mean", "lane-change/front-nice"]);
     errors.error("no_such_name_near", load("something-else-entirely", &[]), &["interplay list"]);
@@ -18,7 +18,7 @@ fn missing_files() {
 }
 
 #[test]
-fn unreadable_files() {
+fn unreadable_files_are_reported_with_the_reason() {
     let mut errors = Catalogue::default();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("a writable folder");

@@ -105,7 +105,7 @@ fn with_deadline(overrides: &[&str]) -> (String, usize, Option<usize>) {
 }
 
 #[test]
-fn a_late_plan_fails_by_its_work_where_the_deadline_is_enforced() {
+fn with_an_enforced_deadline_a_plan_with_too_much_work_fails() {
     let without = with_deadline(&[]);
     assert_eq!((without.1, without.2), (0, None));
     let reported = with_deadline(&["real_time.plan_budget_ms=0.1"]);

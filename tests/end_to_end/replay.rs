@@ -139,7 +139,7 @@ fn the_prediction_of_a_planner_is_its_last_plan() {
 
 /// Among vehicles that do not plan first, the order in which they are listed gives no advantage.
 #[test]
-fn two_planners_meet_on_equal_terms() {
+fn the_listed_order_of_two_planners_gives_no_advantage() {
     let changes = ["duration_s=3", "vehicle.front.driver.kind=\"conservative\"", "expect.completes=[]"];
     let mut scenario = authored("lane-change/front-nice", &changes);
     scenario.vehicles.retain(|vehicle| vehicle.name != "rear");

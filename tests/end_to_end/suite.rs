@@ -26,7 +26,7 @@ fn names(reports: &Value) -> Vec<&str> {
 }
 
 #[test]
-fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
+fn a_suite_without_arguments_runs_every_embedded_scenario_unchanged() {
     let folder = scratch("suite-all");
     let outcome = interplay(&folder, &["suite", "--json"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""), "{outcome:?}");
@@ -47,7 +47,7 @@ fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
 }
 
 #[test]
-fn the_number_of_jobs_changes_nothing() {
+fn the_number_of_jobs_does_not_change_the_results_of_a_suite() {
     let folder = scratch("suite-jobs");
     for name in ["c.toml", "a.toml", "b.toml"] {
         short(&folder, name, "");
@@ -98,7 +98,7 @@ fn all_bad_files_are_reported_and_nothing_runs() {
 }
 
 #[test]
-fn results_that_cannot_be_written_are_exit_code_3() {
+fn unwritable_suite_results_exit_with_code_3() {
     let folder = scratch("suite-unwritable");
     short(&folder, "good.toml", "");
     let outcome = interplay(&folder, &["suite", "good.toml", "--junit", "good.toml/results.xml"]);

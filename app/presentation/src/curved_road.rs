@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_are_beside_each_other_and_the_ending_lane_closes() {
+    fn edge_points_of_a_curve_pair_up_and_narrow_where_a_lane_ends() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
         let [right, left] = curved.edges([0.0, 125.0]);
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_divides_a_single_lane_and_straight_roads_have_no_curve() {
+    fn a_single_lane_has_no_dividing_line_and_a_straight_road_no_curve() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
         let route = road.route(Branch::Main).expect("not a network");

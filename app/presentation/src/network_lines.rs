@@ -299,7 +299,7 @@ mod tests {
 
     /// Beside the acceleration lane the line is dashed, and before and after it the edge is solid.
     #[test]
-    fn a_lane_that_begins_and_ends_beside_another_divides_it_there() {
+    fn a_dividing_line_is_drawn_along_a_shorter_adjacent_lane() {
         let scenario = scenario("kind = 'on-ramp'\nlane_count = 1", "ramp");
         let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
         let dashes_m = length_m(&lines.dashes(0.5));
@@ -315,7 +315,7 @@ mod tests {
 
     /// No line is inside a junction, and each lane that must wait has a stop or yield line.
     #[test]
-    fn junctions_are_free_of_lines() {
+    fn no_lane_lines_are_drawn_inside_junctions() {
         let scenario = scenario("kind = 'all-way-stop'", "west-in");
         let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
         assert_eq!(lines.stop_lines().len(), 4);

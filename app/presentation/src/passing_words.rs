@@ -106,7 +106,7 @@ mod tests {
 
     /// Ahead of and behind an oncoming vehicle mean to go before it and to give way to it.
     #[test]
-    fn the_words_for_oncoming_vehicles_are_of_right_of_way() {
+    fn passing_an_oncoming_vehicle_is_described_as_right_of_way() {
         let scenario = load("overtaking/oncoming", &[]).expect("embedded");
         let said = |of: &str, side| {
             passing_sentence(&scenario, scenario.ego_index(), &PlannedPassing { of: of.to_owned(), side })
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_have_words_on_one_road_and_not_where_routes_turn() {
+    fn passing_sides_are_described_unless_routes_turn() {
         let said = |name: &str, position| {
             let scenario = load(name, &[]).expect("embedded");
             let other = usize::from(scenario.ego_index() == 0);

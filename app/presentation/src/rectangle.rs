@@ -41,7 +41,7 @@ mod tests {
     use super::extent;
 
     #[test]
-    fn an_extent_holds_every_point() {
+    fn an_extent_contains_every_point() {
         assert_eq!(extent([[1.0, -2.0], [0.5, 3.0], [0.7, 0.0]]), [[0.5, -2.0], [1.0, 3.0]]);
         assert_eq!(extent([]), [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]);
     }

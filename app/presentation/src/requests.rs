@@ -120,7 +120,7 @@ mod tests {
 
     /// The request stays open, and has an answer, as long as the crossing vehicle is asked to wait.
     #[test]
-    fn a_vehicle_that_yields_was_requested_to() {
+    fn a_request_stays_open_while_the_other_vehicle_is_asked_to_wait() {
         let said = sentences("intersection/nice");
         assert!(said.iter().all(|words| words.starts_with("asks crossing to take the dotted way")), "{said:?}");
         assert!(said.last().is_some_and(|words| words.contains("accepts")), "{said:?}");

@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_date_the_weather_file_says_the_weekday() {
+    fn without_a_date_the_weather_file_determines_the_weekday() {
         let days = calendar(None, &[]).days(Weekday::named(" SUNDAY ")).expect("no dates");
         assert_eq!([days.kind(0), days.kind(1)], [Weekday::Sunday, Weekday::Monday].map(DayKind::Plain));
         assert_eq!(calendar(None, &[]).days(None), Ok(RunDays::default()));

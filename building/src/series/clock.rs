@@ -84,7 +84,7 @@ mod tests {
     const FORMAT: &str = "%Y-%m-%dT%H:%M:%S%z";
 
     #[test]
-    fn an_offset_is_written_in_three_ways() {
+    fn utc_offsets_are_read_in_three_notations() {
         for (offset, seconds) in [("Z", 0), ("+0200", 7200), ("+02:00", 7200), ("-05:30", -19_800)] {
             let time = parsed(FORMAT, &format!("2026-07-06T00:15:00{offset}")).expect("a time");
             assert_eq!(time.offset().map(|offset| offset.seconds()), Some(seconds), "{offset}");
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn clocks_are_put_forward_and_back() {
+    fn offsets_of_a_time_zone_are_correct_around_clock_changes() {
         let zurich = NamedZone::find("Europe/Zurich").expect("a zone");
         let at = |month: i8, day: i8, hour: i8| DateTime::constant(2026, month, day, hour, 30, 0, 0);
         assert_eq!(zurich.offset_s(at(1, 1, 12), None), Some(3600.0));

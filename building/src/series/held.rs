@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_gets_the_mean_of_the_values_that_hold_in_it() {
+    fn a_step_gets_the_mean_of_the_held_values_during_it() {
         let series = series(false);
         assert_eq!(series.mean(0.0, 900.0), 1.0);
         assert_eq!(series.mean(900.0, 1200.0), 2.0);
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cyclic_series_goes_on() {
+    fn a_cyclic_series_repeats_beyond_its_ends() {
         assert_eq!(series(true).mean(3600.0, 4500.0), 1.0);
         assert_eq!(series(true).mean(-900.0, 0.0), 4.0);
         assert_eq!(series(true).mean(2700.0, 4500.0), 2.5);

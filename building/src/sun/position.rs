@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn days_are_counted_from_noon_of_2000() {
+    fn days_are_counted_from_noon_of_1_january_2000() {
         assert_eq!(days_since_2000(2000, 1, 1), -0.5);
         assert_eq!(days_since_2000(2000, 3, 1) - days_since_2000(2000, 2, 28), 2.0);
         assert_eq!(days_since_2000(2026, 1, 1) - days_since_2000(2025, 1, 1), 365.0);
@@ -133,7 +133,7 @@ mod tests {
 
     /// The example of Reda and Andreas (2004): Golden, 17 October 2003, 12:30:30 local time, seven hours behind Greenwich.
     #[test]
-    fn the_published_example_is_met() {
+    fn the_sun_position_matches_the_published_example() {
         let site = Site { latitude_deg: 39.742476, longitude_deg: -105.1786, elevation_m: 1830.14 };
         let moment = days_since_2000(2003, 10, 17) + (19.0 + 30.5 / 60.0) / 24.0;
         let sun = site.sun(moment);

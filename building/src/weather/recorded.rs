@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_read_as_instants_or_means_as_stated() {
+    fn weather_rows_are_read_as_instants_or_means_as_stated() {
         let table = SeriesTable::parse(&text()).expect("a table");
         let at = |rows: RowMeaning, hours: f64| {
             let read = RecordedWeather { rows, ..settings() }.read(&table, &span(DAY_S, 1.0)).expect("weather");

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lag_keeps_the_present_acceleration_for_a_while() {
+    fn an_idm_prediction_with_lag_keeps_the_present_acceleration_at_first() {
         let moment = TrafficMoment { acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
         let at_1_s = |lag_s| {
             CarFollowing { lag_s, wanted_above_mps: Some(0.0), ..CarFollowing::literature() }.predict(&moment).along_m

@@ -197,7 +197,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn on_a_free_road_the_speed_is_kept() {
+    fn a_predicted_driver_keeps_its_speed_on_a_free_road() {
         let moment = TrafficMoment { others: Vec::new(), ..behind(1.0, 1.0) };
         let motion = PredictedDriver::usual().predict(&moment);
         assert!((motion.along_m[STEPS] - 100.0).abs() < 0.01, "{}", motion.along_m[STEPS]);
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vehicle_that_keeps_its_line_is_not_predicted_to_the_middle_of_the_lane() {
+    fn a_vehicle_off_the_lane_centre_is_predicted_to_keep_its_lateral_position() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
         let across_m =
             |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];

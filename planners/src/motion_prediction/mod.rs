@@ -155,7 +155,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn constant_velocity_keeps_speed_and_place() {
+    fn constant_velocity_keeps_speed_and_lateral_position() {
         let moment =
             TrafficMoment { across_m: 0.4, lateral_speed_mps: 1.0, acceleration_mps2: -2.0, ..behind(5.0, 3.0) };
         let motion = MotionModel::ConstantVelocity.predict(&moment);
@@ -164,7 +164,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn an_acceleration_and_a_lateral_speed_decay() {
+    fn predicted_accelerations_and_lateral_speeds_decay() {
         let moment = TrafficMoment { lateral_speed_mps: 1.0, acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
         let model = MotionModel::DecayingAcceleration {
             time_s: 1.0,
@@ -178,7 +178,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_vehicle_that_brakes_to_a_stop_stands() {
+    fn a_predicted_vehicle_that_brakes_to_a_stop_does_not_reverse() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
         let model =
             MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };
@@ -193,7 +193,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_nearest_ahead_in_the_lane_leads() {
+    fn the_nearest_vehicle_ahead_in_the_lane_is_the_leader() {
         let mut moment = behind(30.0, 10.0);
         moment.others.push(NearbyVehicle { ahead_m: 10.0, across_m: 3.5, width_m: 1.8, ..NearbyVehicle::default() });
         moment.others.push(NearbyVehicle { ahead_m: -10.0, width_m: 1.8, ..NearbyVehicle::default() });

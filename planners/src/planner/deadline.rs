@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plan_is_late_above_the_work_that_its_time_stands_for() {
+    fn a_plan_is_late_if_it_takes_more_work_than_its_deadline() {
         let done = |work| Statistics { inner_iterations: work, ..Statistics::default() };
         let deadline = PlanDeadline::after_ms(2.0);
         assert_eq!(deadline.check(&done(100)), Ok(()));

@@ -60,7 +60,7 @@ mod tests {
 
     /// A quadratic form has the same value in either coordinates, and both ways lead back.
     #[test]
-    fn turning_changes_coordinates_and_nothing_else() {
+    fn rotating_axes_changes_only_coordinates() {
         for heading_rad in [0.0, 0.7, -2.1, std::f64::consts::FRAC_PI_2, std::f64::consts::PI] {
             let (axes, own, vector) = (Axes::along(heading_rad), [0.3, -0.2, 4.0], [1.3, -0.4]);
             let form = |[xx, xy, yy]: [f64; 3], [x, y]: [f64; 2]| xx * x * x + 2.0 * xy * x * y + yy * y * y;
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn right_angles_are_exact() {
+    fn axes_at_right_angles_are_exact() {
         let quarter = Axes::along(std::f64::consts::FRAC_PI_2);
         assert_eq!(quarter.matrix([0.1, 0.0, 4.0]), [4.0, 0.0, 0.1]);
         assert_eq!(quarter.components([2.0, 3.0]), [3.0, -2.0]);

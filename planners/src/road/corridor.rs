@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_that_ends_leaves_no_room_past_its_end() {
+    fn a_lane_has_no_room_past_its_end() {
         let corridor = Corridor { heading_rad: 0.0, ..ramp() };
         let (body, lane) = (Body::default(), State { x_m: 1.0, y_m: 0.085, heading_rad: 0.0, speed_mps: 1.0 });
         assert!(corridor.contains(&body, &lane, 0.0));

@@ -278,7 +278,7 @@ mod tests {
     use crate::{Body, Corridor, State};
 
     #[test]
-    fn a_lane_end_equals_the_corridor_bit_for_bit() {
+    fn the_profile_of_a_lane_end_equals_the_corridor_bit_for_bit() {
         let end = LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 };
         let corridor = Corridor { heading_rad: 0.0, right_m: -0.1, left_m: 0.9, end: Some(end) };
         let (profile, body) = (Profile::lane_end(-0.1, end), Body::default());
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn between_knots_a_profile_is_monotone_and_a_straight_one_stays_straight() {
+    fn profiles_are_monotone_between_knots_and_keep_straight_lines() {
         let knots = [[0.0, 0.0], [1.0, 0.1], [2.0, 4.0], [3.0, 4.1], [4.0, 1.0], [5.0, 1.0]];
         for profile in [Profile::steps(&knots), Profile::through(&knots)].map(|profile| profile.expect("sound knots")) {
             for pair in knots.windows(2) {
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_profile_is_refused() {
+    fn invalid_profiles_are_refused() {
         assert_eq!(Profile::steps(&[]), Err(ProfileError::NoKnots));
         assert_eq!(Profile::through(&[[0.0, f64::NAN]]), Err(ProfileError::NotFinite { knot: 0 }));
         let back = [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]];
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn stretches_make_the_same_profile() {
+    fn a_profile_rebuilt_from_its_polynomials_is_the_same_profile() {
         let knots = [[1.0, 3.0], [4.0, 3.0], [6.0, 5.0], [7.0, 2.0], [9.0, 1.0], [12.0, 0.5]];
         for profile in [Profile::steps(&knots), Profile::through(&knots)].map(|profile| profile.expect("sound knots")) {
             assert_eq!(Profile::from_stretches(profile.stretches()), Ok(profile));

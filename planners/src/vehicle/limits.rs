@@ -102,7 +102,7 @@ mod tests {
     use crate::{Bicycle, Input, State};
 
     #[test]
-    fn wheels_turn_no_faster_than_they_can() {
+    fn the_steering_rate_is_limited() {
         let limits = Limits { steering_rate_max_radps: Some(0.4), ..Limits::default() };
         let after = |limits: Limits, wanted_rad: f64| limits.steering_towards_rad(0.1, wanted_rad, 0.1);
         assert!((after(limits, 0.5) - 0.14).abs() < 1e-12 && (after(limits, -0.5) - 0.06).abs() < 1e-12);
@@ -111,7 +111,7 @@ mod tests {
 
     /// At the largest steering angle of a speed, `|v θ′|` of the bicycle is the limit; where the limit says nothing, so does it.
     #[test]
-    fn the_largest_steering_angle_makes_the_largest_lateral_acceleration() {
+    fn the_largest_steering_angle_gives_the_largest_lateral_acceleration() {
         let (body, step_s) = (Body::default(), 1e-3);
         let limits = Limits { lateral_acceleration_max_mps2: Some(2.0), ..Limits::default() };
         for speed_mps in [1.0, 1.5, 3.0, 30.0] {

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ends_of_the_axes_lie_on_the_ellipse() {
+    fn the_end_points_of_its_axes_lie_on_the_safety_ellipse() {
         let heading = 0.7;
         let ellipse = SafetyEllipse::default().oriented(heading);
         let (sin, cos) = libm::sincos(heading);

@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_plan_shifted_is_the_same_line_one_step_on() {
+    fn shifting_a_straight_plan_continues_it_by_one_step() {
         let plan = straight(1.0, 5);
         let shifted = plan.shifted();
         assert_eq!(shifted.horizon(), 5);
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn squared_distance_leaves_out_the_last_state_and_is_symmetric() {
+    fn the_squared_distance_of_trajectories_is_symmetric_and_omits_the_last_state() {
         let (slow, fast) = (straight(1.0, 2), straight(2.0, 2));
         assert!((slow.squared_distance(&fast) - 0.01).abs() < 1e-12);
         assert_eq!(slow.squared_distance(&fast), fast.squared_distance(&slow));

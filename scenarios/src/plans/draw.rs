@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_part_of_a_latin_hypercube_has_one_sample() {
+    fn every_stratum_of_a_latin_hypercube_has_one_sample() {
         let draws = UnitDraws::new(1, "a.b", Sampling::LatinHypercube, 50);
         let mut parts: Vec<usize> = (0..50).map(|sample| (draws.at(sample) * 50.0) as usize).collect();
         assert!(parts.windows(2).any(|pair| pair[1] < pair[0]), "not in order");
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn more_samples_and_other_paths_change_nothing() {
+    fn drawn_numbers_do_not_depend_on_sample_count_or_other_paths() {
         let [few, many] = [10, 1000].map(|samples| UnitDraws::new(7, "a.b", Sampling::Random, samples));
         assert!((0..10).all(|sample| few.at(sample) == many.at(sample)));
         let other = UnitDraws::new(7, "a.c", Sampling::Random, 10);

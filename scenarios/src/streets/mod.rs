@@ -118,7 +118,7 @@ mod tests {
     use crate::load;
 
     #[test]
-    fn names_lead_to_streets_and_back() {
+    fn street_names_convert_to_streets_and_back() {
         for kind in Street::kinds() {
             let name = format!("streets/{kind}/12");
             assert_eq!(Street::named(&name).map(|street| street.name()), Some(name));
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pattern_stands_for_kinds_and_numbers() {
+    fn a_street_pattern_covers_kinds_and_numbers() {
         let names = |pattern: &str| Street::matching(pattern).iter().map(Street::name).collect::<Vec<_>>();
         assert_eq!(names("streets/ring/3-5"), ["streets/ring/3", "streets/ring/4", "streets/ring/5"]);
         assert_eq!(names("streets/ring*/7"), ["streets/ring/7", "streets/ring2/7"]);
@@ -142,7 +142,7 @@ mod tests {
 
     /// Every street loads without a fault, with an ego that moves.
     #[test]
-    fn every_street_is_a_sound_scenario() {
+    fn every_street_is_a_valid_scenario() {
         for kind in Street::kinds() {
             for number in 0..40 {
                 let name = format!("streets/{kind}/{number}");
@@ -155,7 +155,7 @@ mod tests {
 
     /// Draws differ from number to number, and are repeatable.
     #[test]
-    fn numbers_give_different_streets() {
+    fn different_numbers_give_different_streets() {
         let text = |name: &str| Street::named(name).expect("a street").text();
         assert_eq!(text("streets/tee/3"), text("streets/tee/3"));
         assert_ne!(text("streets/tee/3"), text("streets/tee/4"));

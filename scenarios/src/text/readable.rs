@@ -17,7 +17,7 @@ mod tests {
     use super::readable;
 
     #[test]
-    fn numbers_keep_the_digits_that_matter() {
+    fn numbers_in_messages_keep_their_significant_digits() {
         let cases = [
             (2.881_197_929_382_324, 2.881),
             (0.316_227_766_016_837_94, 0.3162),

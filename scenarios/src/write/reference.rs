@@ -209,7 +209,7 @@ mod tests {
 
     /// Each new version states which keys came with it.
     #[test]
-    fn the_page_says_which_keys_are_new() {
+    fn the_reference_marks_new_keys() {
         assert!(HEAD.contains(concat!("those of version ", env!("CARGO_PKG_VERSION"))), "{HEAD}");
     }
 }

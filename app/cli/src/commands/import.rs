@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn replacements_name_a_vehicle_and_a_driver() {
+    fn the_replace_flag_names_a_vehicle_and_a_driver() {
         let of = |vehicle: Option<&str>, kind: &str, style: Option<&str>| {
             let [vehicle, style] = [vehicle, style].map(|word| word.map(str::to_owned));
             Ok(Replacement { vehicle, kind: kind.to_owned(), style })

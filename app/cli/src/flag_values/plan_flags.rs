@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn flags_make_a_plan() {
+    fn sweep_flags_are_written_as_a_plan() {
         let words = ["x", "--scenario", "intersection/nice", "--planner", "idm", "--planner", "conservative"];
         let more =
             ["--style", "tough", "--vary", "vehicle.ego.start.speed_mps={ uniform = [0.6, 0.8] }", "--starts", "5"];

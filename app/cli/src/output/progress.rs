@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_step_is_counted_and_the_line_can_be_drawn() {
+    fn progress_counts_steps_and_its_template_is_valid() {
         style().and_then(|_| style_with_time_left()).expect("sound templates");
         let progress = Progress::start(4);
         (0..3).for_each(|_| progress.advance());
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_check_is_told_of_when_it_takes_longer_than_a_second() {
+    fn progress_of_a_check_appears_after_a_second() {
         let quick = CheckProgress::start(3);
         quick.advance();
         assert!(quick.bar.get().is_none());

@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn words_begin_at_their_place() {
+    fn a_left_aligned_text_begins_at_its_position() {
         let mut canvas = Canvas::new([200, 40], [255; 3]).expect("a size");
         canvas.text([100.0, 20.0], Align::Left, 20.0, "asks", [0; 3]);
         let pixels = canvas.into_rgb();

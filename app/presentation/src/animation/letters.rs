@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_words_are_cut_off_to_fit() {
+    fn long_labels_are_cut_off_to_fit() {
         assert_eq!(cut("short", 14.0, 200.0), "short");
         let text = cut("no plan (infeasible: the road is closed)", 14.0, 100.0);
         assert!(text.ends_with('…') && width_of(&text, 14.0) <= 100.0, "{text}");

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rooms_lie_inside_and_never_overlap() {
+    fn rooms_of_a_floor_plan_lie_inside_it_and_never_overlap() {
         for (columns, rows, floors) in [(2, 2, 1), (5, 5, 4), (3, 1, 7), (10, 10, 1)] {
             let plan = FloorPlan { columns, rows, floors };
             let count = columns * rows * floors;

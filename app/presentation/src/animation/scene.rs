@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn brake_lights_shine_exactly_while_braking() {
+    fn brake_lights_are_lit_exactly_while_braking() {
         let recorded = recorded("roundabout/nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let (mut lit, mut dark) = (0, 0);

@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_of_expectations_are_written_in_words() {
+    fn expectation_values_are_shown_in_words() {
         let gap = json!({ "m": 4.529, "between": ["ego", "ring"], "time_s": 5.06 });
         let said = in_words(&gap);
         assert!(["4.529 m", "between ego, ring", "time 5.06 s"].iter().all(|part| said.contains(part)), "{said}");

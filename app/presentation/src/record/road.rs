@@ -135,7 +135,7 @@ mod tests {
     use super::in_pieces;
 
     #[test]
-    fn a_split_line_has_short_segments_and_the_same_ends() {
+    fn splitting_a_line_keeps_its_ends_and_bounds_segment_length() {
         let line = in_pieces(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]], 3.0);
         assert_eq!(line, [[0.0, 0.0], [2.5, 0.0], [5.0, 0.0], [7.5, 0.0], [10.0, 0.0], [10.0, 1.0]]);
     }

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn factors_are_listed_vehicle_by_vehicle() {
+    fn the_why_table_lists_factors_vehicle_by_vehicle() {
         let grouped =
             |factors: &[&str], last| grouped(&factors.iter().map(|&one| one.to_owned()).collect::<Vec<_>>(), last);
         assert_eq!(grouped(&["front's style"], "and"), "front's style");

@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_slope_of_a_straight_line_is_exact() {
+    fn the_estimated_slope_of_a_straight_line_is_exact() {
         let line = (0..7).map(|t| (0.2 * f64::from(t), 3.0 - 0.5 * 0.2 * f64::from(t)));
         let (found, noise) = slope(line);
         assert!((found + 0.5).abs() < 1e-12 && noise < 1e-12);

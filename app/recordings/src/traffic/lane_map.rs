@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_leads_straight_on_and_begins_before_the_lane() {
+    fn the_path_follows_the_lane_straight_ahead_and_behind() {
         let lanes = vec![
             lane([0.0, 0.0], [50.0, 0.0], &[1, 2], &[]),
             lane([50.0, 0.0], [60.0, 40.0], &[], &[0]),
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_of_a_vehicle_outside_all_lanes_is_straight() {
+    fn the_path_of_a_vehicle_outside_all_lanes_is_straight() {
         let map = LaneMap::new(vec![lane([0.0, 0.0], [50.0, 0.0], &[], &[])]);
         let (way, _) = map.way([20.0, 30.0], 1.0);
         assert!((way.project([20.0, 30.0]).heading_rad - 1.0).abs() < 1e-12);

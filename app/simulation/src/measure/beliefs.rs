@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn a_belief_is_held_since_the_last_change_of_its_kind() {
+    fn a_belief_is_dated_from_the_last_change_of_the_driver_kind() {
         let mut beliefs = Beliefs::default();
         let kinds = [DriverModel::Nice, DriverModel::Nice, DriverModel::Tough, DriverModel::Tough];
         for (tick, kind) in kinds.into_iter().enumerate() {

@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_is_reached_within_a_tolerance_of_its_width() {
+    fn a_target_lane_is_reached_within_fifteen_percent_of_its_width() {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let (ego, road) = (ego(&scenario), &scenario.road);
         let wanted_m = ego.route.across(ego.target(road).position());

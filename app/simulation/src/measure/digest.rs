@@ -146,7 +146,7 @@ mod tests {
 
     /// The prediction of a vehicle that plans first is its plan, so another plan does not change the digest of Predict.
     #[test]
-    fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
+    fn a_prediction_equal_to_the_plan_belongs_to_the_plan_digest() {
         let told = |x_m: f64| {
             let mut recorded = tick(1.0);
             let vehicle = &mut recorded.frame.vehicles[0];

@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_first_zones_are_named_and_the_others_counted() {
+    fn an_event_names_three_zones_and_counts_the_others() {
         assert_eq!(listed(&["a"]), "a");
         assert_eq!(listed(&["a", "b", "c", "d", "e"]), "a, b, c and 2 more");
     }

@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn starts_in_the_zone_count_as_entries_and_starts_beyond_it_do_not() {
+    fn a_start_inside_the_conflict_zone_counts_as_entry_and_one_beyond_does_not() {
         assert_eq!(crossing(&[[0.1, -0.5], [0.9, 0.3]]), passage("ego", "crossing", 0.0, Some(0.3625)));
         assert_eq!(crossing(&[[0.5, -0.5], [0.9, 0.3]]), passage("crossing", "ego", 0.3625, None));
     }

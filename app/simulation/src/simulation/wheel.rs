@@ -74,7 +74,7 @@ mod tests {
 
     /// The caller changes inputs at every plan and lets a planner drive in between; the record of these inputs gives the same run.
     #[test]
-    fn a_record_of_inputs_repeats_the_run() {
+    fn a_run_repeats_from_its_recorded_inputs() {
         let outside = Override::Set("vehicle.ego.driver={ kind = 'external' }".to_owned());
         let scenario = load("lane-change/front-nice", &[outside]).expect("authored");
         let mut played = Simulation::new(&scenario).expect("a world");

@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_have_no_rounding_errors() {
+    fn simulated_times_have_no_rounding_errors() {
         let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30, ticks_per_plan: 1 };
         for tick in 0..100_000_u32 {
             let written = format!("{}.{}", tick / 10, tick % 10);

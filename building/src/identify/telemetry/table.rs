@@ -273,7 +273,7 @@ mod tests {
     use super::field_start;
 
     #[test]
-    fn a_field_starts_after_as_many_separators_as_its_number_outside_quotes() {
+    fn the_start_of_a_field_is_found_by_counting_unquoted_separators() {
         assert_eq!(field_start("a;bc;d", ';', 0), 1);
         assert_eq!(field_start("a;bc;d", ';', 1), 3);
         assert_eq!(field_start("ä;\"b;c\";d", ';', 2), 9);

@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_year_is_walked_through_day_by_day() {
+    fn the_next_day_visits_every_day_of_a_year() {
         for (leap, days) in [(false, 365), (true, 366)] {
             let first = Date::new(7, 15).expect("a day");
             let walk: Vec<Date> = std::iter::successors(Some(first), |date| Some(date.next(leap))).take(days).collect();
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_day_is_read_as_headers_write_it() {
+    fn dates_are_read_in_every_notation_of_epw_headers() {
         let day = |text: &str| Date::written(text).map(|date| date.to_string());
         for text in
             ["12/31", " 12/ 31", "12/31/2015", "2015/12/31", "2015-12-31", "31-Dec", "Dec 31", "31 december 2015"]
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_day_that_exists_in_no_year_is_none() {
+    fn a_date_that_exists_in_no_year_is_refused() {
         for (month, day) in [(2, 30), (4, 31), (0, 1), (13, 1), (1, 0), (1, 32), (300, 1), (1, 300)] {
             assert_eq!(Date::new(month, day), None, "{month}/{day}");
         }

@@ -99,7 +99,7 @@ mod tests {
 
     /// A chord of 5 m: beside it, beyond its end, and what is certainly farther than a distance.
     #[test]
-    fn the_nearest_point_of_a_chord_lies_between_its_ends() {
+    fn the_nearest_point_on_a_chord_lies_between_its_ends() {
         let chord = Chord::new([1.0, 2.0], [4.0, 6.0]);
         let close = |[distance_m, share]: [f64; 2], expected: [f64; 2]| {
             (distance_m - expected[0]).abs() < 1e-12 && (share - expected[1]).abs() < 1e-12

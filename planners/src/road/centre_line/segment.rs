@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ends_have_the_values_and_derivatives_asked_for() {
+    fn a_segment_has_the_given_values_and_derivatives_at_both_ends() {
         let (from, to) = ([[1.0, 2.0], [1.0, 0.1], [0.01, 0.2]], [[3.9, 2.9], [0.9, 0.4], [-0.1, 0.3]]);
         let segment = Segment::new(3.0, from, to);
         for (knot, expected) in [(segment.knot(0.0), from), (segment.knot(3.0), to)] {

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_removed_and_the_tolerance_kept() {
+    fn smoothing_removes_noise_and_keeps_the_tolerance() {
         let points = noisy_circle();
         let moved = smooth_points(&points, 0.03).expect("sound points");
         assert!(largest_curvature_error(&points) > 0.1, "the noise is curvature");
@@ -152,7 +152,7 @@ mod tests {
 
     /// The straight line through the ends bends least, and with a large tolerance it comes out.
     #[test]
-    fn with_a_large_tolerance_points_move_onto_the_straight_line() {
+    fn smoothing_with_a_large_tolerance_gives_a_straight_line() {
         let moved = smooth_points(&[[0.0, 0.0], [1.0, 0.2], [2.5, -0.1], [4.0, 0.0]], 1.0).expect("sound points");
         assert!(moved.iter().all(|[_, y]| y.abs() < 1e-6), "{moved:?}");
         let points = [[0.0, 0.0], [1.0, 0.2], [2.0, 0.0]];

@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phases_follow_each_other_for_ever() {
+    fn the_phases_of_a_traffic_light_repeat() {
         let phase = |colour, duration_s| LightPhase { colour, duration_s };
         use LightColour::{Amber, Green, Red};
         let phases = vec![phase(Green, 10.0), phase(Amber, 3.0), phase(Red, 12.0)];

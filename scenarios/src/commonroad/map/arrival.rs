@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_speed_covers_the_distance_in_time() {
+    fn the_arrival_speed_covers_the_distance_in_time() {
         assert!((speed_mps(100.0, 10.0, 10.0) - 10.0).abs() < 1e-3, "as it drives");
         // 10 m/s to 13 m/s takes 2 s and 23 m, and 8 s more are 104 m.
         assert!((speed_mps(127.0, 10.0, 10.0) - 13.0).abs() < 1e-3);

@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lane_contains_what_is_between_its_bounds() {
+    fn a_lane_contains_the_points_between_its_bounds() {
         let (left, right) = (vec![[0.0, 4.0], [20.0, 4.0]], vec![[0.0, 0.0], [7.0, 0.0], [20.0, 0.0]]);
         let lane = RecordedLane { left, right, ..RecordedLane::default() };
         assert!(lane.contains([5.0, 1.0]) && !lane.contains([5.0, 4.5]));

@@ -114,7 +114,7 @@ mod tests {
     use crate::Registry;
 
     #[test]
-    fn degrees_replace_radians() {
+    fn keys_in_degrees_replace_keys_in_radians() {
         let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
         to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];

@@ -52,7 +52,7 @@ mod tests {
     /// An endless device, one that blocks its reader, and a folder.
     #[cfg(unix)]
     #[test]
-    fn pipes_devices_and_folders_are_refused_at_once() {
+    fn pipes_devices_and_folders_are_refused_without_blocking() {
         for path in ["/dev/zero", "/dev/tty", "/dev", "/nowhere"] {
             assert!(read_regular(Path::new(path), 10).is_err(), "{path}");
         }

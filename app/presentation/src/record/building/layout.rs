@@ -170,7 +170,7 @@ mod tests {
     use super::spread;
 
     #[test]
-    fn the_zones_of_the_first_tab_are_spread_over_all() {
+    fn the_first_tab_shows_zones_spread_over_the_building() {
         assert_eq!(spread(1, 4), [0]);
         assert_eq!(spread(4, 4), [0, 1, 2, 3]);
         assert_eq!(spread(5, 4), [0, 1, 2, 4]);

@@ -303,13 +303,13 @@ mod tests {
     }
 
     #[test]
-    fn heat_is_scaled_and_bounded() {
+    fn heat_is_scaled_and_bounded_as_an_input_of_the_case() {
         let values = [-5.0, 0.0, 4.0, 10.0, 25.0].map(|heat_kw| input_value(&input(None), heat_kw));
         assert_eq!(values, [0.0, 0.0, 0.4, 1.0, 1.0]);
     }
 
     #[test]
-    fn pulses_have_the_wanted_mean_without_part_load() {
+    fn equipment_without_part_load_pulses_with_the_wanted_mean() {
         for wanted in [0.05, 0.3, 0.55, 0.79] {
             let (mut held_back, mut sum) = (0.0, 0.0);
             for _ in 0..1000 {
