@@ -1,7 +1,6 @@
 //! Interplay: zones that interact.
 //!
-//! The crate contains only pure functions of plain values, like the planners: it uses no wall clock, files, entities or
-//! pictures.
+//! The crate contains only pure functions of plain values, like the planners: it uses no wall clock, files, entities or pictures.
 //!
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)

@@ -79,8 +79,7 @@ pub fn main() -> ExitCode {
     main_with(Registry::standard())
 }
 
-/// Runs the command with the kinds of drivers and the metrics of a registry: the whole command for a crate that adds
-/// its own.
+/// Runs the command with the kinds of drivers and the metrics of a registry: the whole command for a crate that adds its own.
 pub fn main_with(registry: &Registry) -> ExitCode {
     process::limits::writing_too_much_is_an_error();
     let ending = process::limits::on_a_thread_of_its_own(|| exit_code(registry, std::env::args_os()));

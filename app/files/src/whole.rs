@@ -65,8 +65,7 @@ impl WholeFile {
             #[cfg(target_os = "linux")]
             Unplaced::Unnamed(file) => match link(&file, &self.target) {
                 Err(error) if replaces && error.kind() == io::ErrorKind::AlreadyExists => {
-                    // No system call replaces an existing file by an unnamed one, so the file briefly gets a temporary
-                    // name.
+                    // No system call replaces an existing file by an unnamed one, so the file briefly gets a temporary name.
                     let named = parts().make_in(folder, |name| link(&file, name))?;
                     named.into_temp_path().persist(&self.target).map_err(|error| error.error)?;
                 }

@@ -76,8 +76,7 @@ impl Instance {
     /// # Errors
     /// The error of the loader or the unit.
     pub fn new(path: &Path, guid: &str, resources: &str) -> Result<Self, String> {
-        // SAFETY: loading runs the initialisers of the library, as a user who names an FMU intends; this process does
-        // nothing else.
+        // SAFETY: loading runs the initialisers of the library, as a user who names an FMU intends; this process does nothing else.
         let library = unsafe { Loaded::new(path) }.map_err(|error| format!("its library cannot be loaded: {error}"))?;
         let callbacks = Box::new(Callbacks {
             logger: log,

@@ -115,8 +115,7 @@ pub fn rectangle([rear, front, right, left]: BodyArea) -> [[f64; 2]; 4] {
     [[rear, right], [front, right], [front, left], [rear, left]]
 }
 
-/// The position of a point of a body, given as shares of its length and width: ahead and to the left of the mass centre
-/// \[m\].
+/// The position of a point of a body, given as shares of its length and width: ahead and to the left of the mass centre \[m\].
 pub fn place_on(body: &Body, [along, across]: [f64; 2]) -> [f64; 2] {
     let Body { front_m, rear_m, width_m, .. } = *body;
     [0.5 * (front_m - rear_m) + 0.5 * along * (front_m + rear_m), 0.5 * across * width_m]

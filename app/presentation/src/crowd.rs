@@ -1,5 +1,4 @@
-//! Selects the vehicles of a crowd that are drawn in detail: names, colours and plans of distant vehicles would hide
-//! the interaction.
+//! Selects the vehicles of a crowd that are drawn in detail: names, colours and plans of distant vehicles would hide the interaction.
 
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};

@@ -177,12 +177,10 @@ impl<'a> NetworkLines<'a> {
                 };
             }
         }
-        // The asphalt extends beyond every lane by a shoulder. No line is drawn where the edge lies beside the shoulder
-        // of another lane.
+        // The asphalt extends beyond every lane by a shoulder. No line is drawn where the edge lies beside the shoulder of another lane.
         let shoulder_m = SHOULDER_LANES * lane.width.value(along_m);
         let beyond = edge_position(lane, side, along_m, shared_m - shoulder_m);
-        // Where one lane joins another, an edge may lie inside the other lane although the point beyond the edge lies
-        // outside both.
+        // Where one lane joins another, an edge may lie inside the other lane although the point beyond the edge lies outside both.
         let inside_m = INSIDE_RATIO * lane.width.value(along_m);
         let is_inside = (0..self.lanes.len()).any(|other| {
             other != number && (self.holds(other, beyond, -shoulder_m) || self.holds(other, at, inside_m))
@@ -237,8 +235,7 @@ impl<'a> NetworkLines<'a> {
     }
 }
 
-/// Least and greatest coordinates of the part of the road that the vehicles cover if each drives at its wanted speed
-/// \[m\].
+/// Least and greatest coordinates of the part of the road that the vehicles cover if each drives at its wanted speed \[m\].
 pub fn expected_bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
     let places = scenario.vehicles.iter().flat_map(|vehicle| {
         let (route, speed_mps) =

@@ -15,8 +15,7 @@ const DIRECTION_SAMPLES: usize = 64;
 /// Vehicles whose initial directions differ by more than this are oncoming \[rad\].
 const ONCOMING_RAD: f64 = 2.5;
 
-/// The sentence, without its subject, for how a vehicle (its index) passes another one; `None` if [`has_words`] is
-/// false.
+/// The sentence, without its subject, for how a vehicle (its index) passes another one; `None` if [`has_words`] is false.
 ///
 // An oncoming vehicle or a crossing pedestrian is not followed or led: one of the two goes first.
 pub fn passing_sentence(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> Option<String> {

@@ -84,8 +84,7 @@ const TASK: [TrafficColumn; 17] = [
         json!(run.report.collisions.iter().map(|contact| contact.impulse_ns).max_by(f64::total_cmp))
     }),
     ("order", Text, |run| json!(run.report.order.join(" "))),
-    // The position in the passing order; on a network, one more than the number of conflict zones in which another
-    // vehicle went first.
+    // The position in the passing order; on a network, one more than the number of conflict zones in which another vehicle went first.
     ("ego_place", Count, |run| match run.scenario.network {
         Some(_) => json!(1 + run.goes_second().count()),
         None => json!(run.report.order.iter().position(|name| *name == run.ego.name).map_or(0, |index| index + 1)),

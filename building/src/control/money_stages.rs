@@ -1,5 +1,4 @@
-//! The price of heat and the comfort band, stage by stage: the problem of the economic controller and of the optimum of
-//! a whole run.
+//! The price of heat and the comfort band, stage by stage: the problem of the economic controller and of the optimum of a whole run.
 //!
 //! ```text
 //! minimise    Σ h (price + emission price · emissions) (u⁺/COP_heating + u⁻/COP_cooling) + c h Σ s + ϖ p + terminal value

@@ -60,8 +60,7 @@ impl PlanHistory {
         &self.design
     }
 
-    /// Adopts the plan of a design; if the design failed, adopts the inputs and temperatures of yesterday (Remark 1 of
-    /// chapter 3).
+    /// Adopts the plan of a design; if the design failed, adopts the inputs and temperatures of yesterday (Remark 1 of chapter 3).
     pub fn start_day(&mut self, outcome: Result<(Option<DayPlan>, Design), ControlError>) {
         let fallbacks = self.design.fallbacks;
         match outcome {

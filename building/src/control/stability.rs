@@ -119,8 +119,7 @@ impl Certificate {
         self.s.at(high * (high + 1) / 2 + low)
     }
 
-    /// Adds the inequality with decay rate r = `decay` and a margin of `margin` I; `moved` gives AF − BM entry by
-    /// entry.
+    /// Adds the inequality with decay rate r = `decay` and a margin of `margin` I; `moved` gives AF − BM entry by entry.
     pub fn inequality(
         &self,
         program: &mut Program,

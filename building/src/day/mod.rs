@@ -117,8 +117,7 @@ impl Day {
         Heat { requested_kw, applied_kw }
     }
 
-    /// Heat from people, sun and machines in step `step` \[kW\], zones first: one number for each node that can receive
-    /// any.
+    /// Heat from people, sun and machines in step `step` \[kW\], zones first: one number for each node that can receive any.
     pub fn gains_kw(&self, plant: &Model, step: usize) -> &[f64] {
         let count = plant.network().gain_count();
         &self.actual.gains_kw[step * count..(step + 1) * count]

@@ -42,9 +42,8 @@ impl Surroundings {
         Self { weather, forecast, forecast_seed, people, planes_w_per_m2, recorded: RecordedGains::default() }
     }
 
-    /// The disturbance that is forecast at the midnight before day `day`, counted from zero. The forecast of people is
-    /// their schedule. The forecast of the sun has no error, except under [`Forecast::Persistence`], which repeats the
-    /// day before.
+    /// The disturbance that is forecast at the midnight before day `day`, counted from zero. The forecast of people is their
+    /// schedule. The forecast of the sun has no error, except under [`Forecast::Persistence`], which repeats the day before.
     pub fn forecast(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
         let Self { weather, forecast, forecast_seed, people, .. } = self;
         let step_s = model.step_s();

@@ -1,5 +1,4 @@
-//! The optimum of a whole run, with perfect foresight of all its days, the true model, and the final temperatures of
-//! the run.
+//! The optimum of a whole run, with perfect foresight of all its days, the true model, and the final temperatures of the run.
 //!
 //! ```text
 //! cost     minimise Σ W_e (r − T)² + W_u u²                       (3.2), over all days
@@ -8,9 +7,8 @@
 //! ```
 //!
 //! No controller that ends at these temperatures is cheaper, whatever it knows. The optimum of a single day
-//! ([`crate::control::optimum()`]) leaves the building in any final state, so a controller that looks further ahead can
-//! be cheaper than a sequence of such days. Both are problems of stages ([`crate::staged`]): their time is linear in
-//! the length of the run.
+//! ([`crate::control::optimum()`]) leaves the building in any final state, so a controller that looks further ahead can be cheaper
+//! than a sequence of such days. Both are problems of stages ([`crate::staged`]): their time is linear in the length of the run.
 
 use crate::comfort::Targets;
 use crate::control::{ControlError, Disturbance, money_stages};

@@ -55,9 +55,8 @@ impl NamedZone {
         TimeZoneDatabase::bundled().available().map(|name| name.to_string()).collect()
     }
 
-    /// The offset of the zone's clocks from UTC when they showed this time \[s\]; `None` if they skipped it when they
-    /// were put forward. For an hour that occurs twice, the first occurrence is taken, unless it is before `after_s`
-    /// (seconds of UTC since 1970).
+    /// The offset of the zone's clocks from UTC when they showed this time \[s\]; `None` if they skipped it when they were put forward.
+    /// For an hour that occurs twice, the first occurrence is taken, unless it is before `after_s` (seconds of UTC since 1970).
     pub fn offset_s(&self, shown: DateTime, after_s: Option<f64>) -> Option<f64> {
         let seconds = |offset: Offset| f64::from(offset.seconds());
         match self.0.to_ambiguous_timestamp(shown).offset() {

@@ -80,8 +80,7 @@ impl Groups {
         [direction.v.clone(), upper, soft, direction.s.clone(), power, peak]
     }
 
-    /// The changes of the multipliers with which, to first order, the products w z reach their target for these changes
-    /// of the slacks.
+    /// The changes of the multipliers with which, to first order, the products w z reach their target for these changes of the slacks.
     pub fn multiplier_steps(&self, slack_steps: &PerRow, zeta: &PerRow) -> PerRow {
         let groups = self.all();
         std::array::from_fn(|g| {

@@ -17,8 +17,7 @@ pub struct TimeSeries {
 }
 
 impl TimeSeries {
-    /// The value at a time, interpolated linearly. Beyond the ends of a series that is not cyclic, the value at the
-    /// nearer end holds.
+    /// The value at a time, interpolated linearly. Beyond the ends of a series that is not cyclic, the value at the nearer end holds.
     ///
     /// # Panics
     /// When there are no values.

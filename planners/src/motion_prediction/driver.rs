@@ -1,9 +1,8 @@
 //! The human driver model as a prediction: one of its plans, made on the straightened lane.
 //!
-//! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The
-//! lane and its neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to
-//! keep their speed. A driver in traffic is assumed to want about its present speed, because the speed that it would
-//! choose on a free road cannot be observed.
+//! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and its
+//! neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to keep their speed. A driver in
+//! traffic is assumed to want about its present speed, because the speed that it would choose on a free road cannot be observed.
 
 use std::sync::Arc;
 

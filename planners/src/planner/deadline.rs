@@ -14,8 +14,7 @@ impl PlanDeadline {
     /// `docs/evidence/benchmarks.md`.
     const WORK_PER_MS: f64 = 50.0;
 
-    /// The deadline after this time \[ms\], converted to the work that the reference machine does in it; at least one
-    /// unit of work.
+    /// The deadline after this time \[ms\], converted to the work that the reference machine does in it; at least one unit of work.
     pub fn after_ms(budget_ms: f64) -> Self {
         PlanDeadline { most_work: (budget_ms * PlanDeadline::WORK_PER_MS).round().max(1.0) as usize }
     }

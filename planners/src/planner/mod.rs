@@ -49,8 +49,7 @@ impl Driver {
 }
 
 impl Planner {
-    /// A planner with a driver of this kind that has not planned yet. `inference` sets how it infers plans that it does
-    /// not know.
+    /// A planner with a driver of this kind that has not planned yet. `inference` sets how it infers plans that it does not know.
     pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
         Planner {
             driver: kind.driver(),
@@ -68,8 +67,7 @@ impl Planner {
         Planner { deadline, ..self }
     }
 
-    /// Replaces the driver. Properties of the former driver's kind remain: what the driver knows, and whether its plans
-    /// may be refused.
+    /// Replaces the driver. Properties of the former driver's kind remain: what the driver knows, and whether its plans may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
         self.driver = driver;
     }

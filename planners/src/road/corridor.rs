@@ -67,9 +67,8 @@ impl Corridor {
         self.end.map_or([self.right_m, 0.0, 0.0], |end| end.edge(self.right_m, front_m))
     }
 
-    /// The distance of each of the four corners to its edge \[m\], negative outside (eq. 6.7 in the frame of the road):
-    /// of the two right corners to the right edge, and of the two left ones to the left edge, in the order of
-    /// [`Body::local_corners`].
+    /// The distance of each of the four corners to its edge \[m\], negative outside (eq. 6.7 in the frame of the road): of the two
+    /// right corners to the right edge, and of the two left ones to the left edge, in the order of [`Body::local_corners`].
     pub fn clearances(&self, body: &Body, state: &State) -> [PoseExpansion; 4] {
         let mut clearances = [PoseExpansion::default(); 4];
         self.write_clearances(body, state, &mut clearances);

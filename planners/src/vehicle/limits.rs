@@ -41,8 +41,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The strongest acceleration with the same sign as `direction` \[m/s²\]: the strongest braking for a negative
-    /// value.
+    /// The strongest acceleration with the same sign as `direction` \[m/s²\]: the strongest braking for a negative value.
     pub fn strongest_mps2(&self, direction: f64) -> f64 {
         if direction < 0.0 { -self.acceleration_min_mps2 } else { self.acceleration_max_mps2 }
     }

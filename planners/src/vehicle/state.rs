@@ -54,8 +54,7 @@ impl State {
     /// the other moves towards it.
     pub fn drives_into(&self, other: &State) -> bool {
         let [ahead_x_m, ahead_y_m] = [other.x_m - self.x_m, other.y_m - self.y_m];
-        // Speeds along the line from this vehicle to the other, multiplied by its length; the other moves in the
-        // opposite direction.
+        // Speeds along the line from this vehicle to the other, multiplied by its length; the other moves in the opposite direction.
         let along = |state: &State| {
             let (sin, cos) = libm::sincos(state.heading_rad);
             state.speed_mps * (cos * ahead_x_m + sin * ahead_y_m)

@@ -106,8 +106,7 @@ fn imported(name: &str, text: &str, options: &ImportOptions) -> Result<Imported,
 }
 
 impl Imported {
-    /// The scenario with the records of its vehicles in a separate table called `table`, and that table, if there are
-    /// records.
+    /// The scenario with the records of its vehicles in a separate table called `table`, and that table, if there are records.
     pub fn with_records_in(&self, table: &str) -> (ScenarioFile, Option<String>) {
         let mut file = self.file.clone();
         let mut rows = format!("{},{}\n", records::ID_COLUMN, records::COLUMNS.join(","));

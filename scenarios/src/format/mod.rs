@@ -1,6 +1,5 @@
-//! The format of a scenario file: the keys of each table (the files here), the tree into which a text is read (`read`),
-//! the schema of the tree (`json_schema`), and the kinds of drivers, controllers and metrics that a file may name
-//! (`registry`).
+//! The format of a scenario file: the keys of each table (the files here), the tree into which a text is read (`read`), the schema
+//! of the tree (`json_schema`), and the kinds of drivers, controllers and metrics that a file may name (`registry`).
 
 pub(crate) mod flow;
 pub(crate) mod json_schema;

@@ -118,8 +118,7 @@ impl<Settings: JsonSchema> JsonSchema for Stated<Settings> {
 pub(crate) fn stated_by(value: &impl Serialize) -> Json {
     match toml::Value::try_from(value) {
         Ok(value) => from_toml(value),
-        // The table contains a whole number that TOML cannot represent. Such a table has no values that JSON cannot
-        // represent.
+        // The table contains a whole number that TOML cannot represent. Such a table has no values that JSON cannot represent.
         Err(_) => serde_json::to_value(value).unwrap_or_default(),
     }
 }

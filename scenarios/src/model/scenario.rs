@@ -213,8 +213,7 @@ impl Scenario {
         self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
-    /// The route along which positions on the whole road are measured: that of the main road, or on a network that of
-    /// the ego.
+    /// The route along which positions on the whole road are measured: that of the main road, or on a network that of the ego.
     pub fn main_route(&self) -> Arc<Route> {
         let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
         let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
@@ -303,9 +302,8 @@ impl Vehicle {
         }
     }
 
-    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (or of
-    /// its start if it has no goal; on a network, in the middle of its route). The coordinate along the road is that of
-    /// the start; no controller tracks it.
+    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (or of its start if it has
+    /// no goal; on a network, in the middle of its route). The coordinate along the road is that of the start; no controller tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);

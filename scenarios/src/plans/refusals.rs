@@ -9,8 +9,7 @@ use crate::text::error::{Fault, LoadError};
 /// The most values of a list that are checked as extremes; every value that is run is also checked.
 const MAX_LISTED: usize = 100;
 
-/// The faults of some runs of a plan. Each fault is stored once, with its first run and the number of runs that have
-/// it.
+/// The faults of some runs of a plan. Each fault is stored once, with its first run and the number of runs that have it.
 ///
 /// Faults of several runs count as the same if their texts are equal except for numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -20,9 +20,8 @@ use crate::text::toml_value::toml;
 const WIDTH: usize = 110;
 
 impl Registry {
-    /// The scenario with this name or path as a commented file that means the same, for a file in `folder`. A path to a
-    /// file that would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows
-    /// another picture.
+    /// The scenario with this name or path as a commented file that means the same, for a file in `folder`. A path to a file that
+    /// would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows another picture.
     ///
     /// # Errors
     ///

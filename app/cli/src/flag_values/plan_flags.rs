@@ -50,8 +50,7 @@ pub(crate) struct PlanFlags {
 }
 
 impl PlanFlags {
-    /// The text of the plan that these flags state; each line names the flag that it comes from. `None` if no scenario
-    /// is given.
+    /// The text of the plan that these flags state; each line names the flag that it comes from. `None` if no scenario is given.
     pub fn text(&self) -> Option<String> {
         if self.scenario.is_empty() {
             return None;

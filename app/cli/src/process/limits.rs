@@ -1,5 +1,4 @@
-//! Limits of the operating system: a command that reaches one ends with exit code 3 and a reason, instead of being
-//! killed by a signal.
+//! Limits of the operating system: a command that reaches one ends with exit code 3 and a reason, instead of being killed by a signal.
 
 use std::io;
 use std::thread;
@@ -14,8 +13,7 @@ const STACK_BYTES: usize = 16 << 20;
 /// # Errors
 /// The system's reason, if it has no such threads.
 pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> io::Result<T> {
-    // The threads are started beforehand, because rayon panics if it cannot start them later. A pool that already
-    // exists is not an error.
+    // The threads are started beforehand, because rayon panics if it cannot start them later. A pool that already exists is not an error.
     if let Err(reason) = ThreadPoolBuilder::new().build_global()
         && !is_there_already(&reason)
     {

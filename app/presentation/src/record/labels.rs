@@ -1,5 +1,4 @@
-//! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Positions are in pixels, y
-//! downwards.
+//! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Positions are in pixels, y downwards.
 
 use crate::rectangle::{Rectangle, overlap};
 

@@ -24,8 +24,7 @@ pub struct Spread {
     pub high: f64,
 }
 
-/// Statistics of the vehicles of a group of recordings, without rows that repeat others. `None` is a statistic without
-/// a sample.
+/// Statistics of the vehicles of a group of recordings, without rows that repeat others. `None` is a statistic without a sample.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrivingStatistics {
     /// Name of the group.

@@ -1,5 +1,4 @@
-//! Finds rows that repeat others: published files contain the same cars several times, each time with a different one
-//! removed as the ego.
+//! Finds rows that repeat others: published files contain the same cars several times, each time with a different one removed as the ego.
 
 use std::collections::BTreeMap;
 

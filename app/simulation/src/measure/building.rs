@@ -157,8 +157,7 @@ impl BuildingMeasures {
 
 /// Heat supplied and removed before the first occupied time; 0 on a day without one \[kWh\].
 fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
-    // Occupation is defined at the ends of steps: the step that ends with the first occupied time is the last early
-    // step.
+    // Occupation is defined at the ends of steps: the step that ends with the first occupied time is the last early step.
     let steps = targets.any_occupied().iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
     let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
     early_kw * step_s / 3600.0

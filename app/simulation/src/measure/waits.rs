@@ -1,5 +1,4 @@
-//! Measures how long vehicles that want to move are stationary, for which vehicles they wait, and which are deadlocked
-//! ([`Standing`]).
+//! Measures how long vehicles that want to move are stationary, for which vehicles they wait, and which are deadlocked ([`Standing`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 

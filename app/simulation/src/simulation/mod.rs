@@ -227,8 +227,7 @@ impl Simulation {
         self.hand_in(vehicle, HandedIn::Input(input))
     }
 
-    /// As [`Simulation::apply`], with a plan whose first input is applied. The others know it like the plan of any
-    /// other driver.
+    /// As [`Simulation::apply`], with a plan whose first input is applied. The others know it like the plan of any other driver.
     ///
     /// # Errors
     /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if its length is not the scenario's horizon.

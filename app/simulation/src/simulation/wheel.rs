@@ -7,9 +7,8 @@ use crate::simulation::run_error::RunError;
 use crate::state::components::{Clock, Driving, HandedIn};
 
 impl Simulation {
-    /// Lets a planner control a vehicle that is driven from outside, from the next plan on; without a planner, the
-    /// caller's inputs control it again. The call does not change which plans the vehicle and the others know of each
-    /// other.
+    /// Lets a planner control a vehicle that is driven from outside, from the next plan on; without a planner, the caller's inputs
+    /// control it again. The call does not change which plans the vehicle and the others know of each other.
     ///
     /// # Errors
     /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives the vehicle another driver.

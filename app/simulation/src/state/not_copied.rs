@@ -13,8 +13,7 @@ pub struct NotCopied {
 }
 
 impl NotCopied {
-    /// The error that the entity of the vehicle called `name` was removed from the world, or lacks one of its initial
-    /// components.
+    /// The error that the entity of the vehicle called `name` was removed from the world, or lacks one of its initial components.
     pub fn incomplete(name: &str) -> Self {
         NotCopied { who: format!("the vehicle `{name}`"), why: "an added system removed it or a part of it".to_owned() }
     }

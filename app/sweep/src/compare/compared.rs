@@ -63,15 +63,13 @@ const FIGURES: [FixedFigure; 13] = [
     ("yields", FigureKind::Share, "ego_yields", |record, name| Some(f64::from(record.flag(name) == Some(true)))),
     // Runs in which the ego went before another in a conflict zone.
     ("others_yield", FigureKind::Share, "others_yield", RunRecord::number),
-    // Runs without contact that have the passing order of their scenario's file; only scenarios whose file states an
-    // order.
+    // Runs without contact that have the passing order of their scenario's file; only scenarios whose file states an order.
     ("order_kept", FigureKind::Share, "order_kept", RunRecord::number),
     // Runs in which the ego never completed its task although no vehicle touched another.
     ("deadlocks", FigureKind::Runs, "deadlock", RunRecord::number),
     // Runs in which the ego touched another vehicle.
     ("contacts", FigureKind::Runs, "ego_contact", RunRecord::number),
-    // Runs with such a contact in which the ego approached the other vehicle at least as fast as the other approached
-    // it.
+    // Runs with such a contact in which the ego approached the other vehicle at least as fast as the other approached it.
     ("contacts_by_ego", FigureKind::Runs, "contact_by_ego", RunRecord::number),
     // Runs in which any two vehicles touched.
     ("touched", FigureKind::Runs, "contacts", RunRecord::number),

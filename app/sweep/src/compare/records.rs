@@ -64,8 +64,7 @@ impl RunRecord {
         }
     }
 
-    /// The conditions of the run apart from the planner: scenario, style, sample and seed. Runs with the same
-    /// conditions form a pair.
+    /// The conditions of the run apart from the planner: scenario, style, sample and seed. Runs with the same conditions form a pair.
     pub fn conditions(&self) -> Conditions {
         (Arc::clone(&self.scenario), Arc::clone(&self.style), self.sample, self.seed)
     }

@@ -50,8 +50,7 @@ impl Checksums {
         Checksums(notes.and_then(|notes| notes.iter().find(|note| note.key == NOTE)?.value.clone()))
     }
 
-    /// Whether a column matches its checksum; `index` counts all columns of all row groups. True if the file has no
-    /// checksums.
+    /// Whether a column matches its checksum; `index` counts all columns of all row groups. True if the file has no checksums.
     pub fn agree(&self, index: usize, column: &TableColumn) -> bool {
         let Some(all) = &self.0 else { return true };
         let start = (index + 1) * DIGITS;

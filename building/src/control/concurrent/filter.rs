@@ -13,8 +13,7 @@
 //! Σ over a row of |Q_l|  ≤ γ_q,        ‖G (I − QG) α‖_F ≤ γ₂
 //! ```
 //!
-//! γ₂ has a floor: a disturbance acts for one step before the feedback can respond, and this response alone has the
-//! norm ‖h₁‖_F.
+//! γ₂ has a floor: a disturbance acts for one step before the feedback can respond, and this response alone has the norm ‖h₁‖_F.
 
 use interplay_convex::{ConicSolution, Program, SolveError, Solver, SolverSettings, Variable, Variables};
 use nalgebra::{Cholesky, DMatrix, DVector};

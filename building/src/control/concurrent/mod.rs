@@ -134,8 +134,7 @@ impl PlanningDesign for Concurrent {
 
     fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
         self.targets = Some(day_ahead.targets.clone());
-        // After a failed design, the controller follows yesterday's plan with the last feedback, which starts from
-        // rest.
+        // After a failed design, the controller follows yesterday's plan with the last feedback, which starts from rest.
         let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.filter.clone());
         self.state = last.map(|filter| StateSpace::new(filter, self.estimator.lifted().model()));
         let free_c = self.estimator.expect(day_ahead)?;

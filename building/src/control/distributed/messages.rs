@@ -199,9 +199,8 @@ impl Messages {
         }
     }
 
-    /// Temperatures of the nodes at the start of each step and at the end, N + 1 each, as the zones that own them know
-    /// them. `heat_kw` is the heat of the zones' equipment, stacked, and `driving` all other heat into the nodes, with
-    /// the nodes of a step together.
+    /// Temperatures of the nodes at the start of each step and at the end, N + 1 each, as the zones that own them know them. `heat_kw` is
+    /// the heat of the zones' equipment, stacked, and `driving` all other heat into the nodes, with the nodes of a step together.
     pub fn temperatures(&mut self, initial_c: &[f64], heat_kw: &[f64], driving: &[f64]) -> Vec<Vec<f64>> {
         self.draw(Subject::Temperature);
         let series = self.forwards(initial_c, heat_kw, Some(driving));

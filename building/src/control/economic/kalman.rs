@@ -124,8 +124,7 @@ fn steady_gain(model: &Model, settings: &EconomicSettings, persistence: f64) -> 
         seen[(zone, zone)] += sensor;
     }
     let rows = p.view((0, 0), (zones, order)).into_owned();
-    // The sum has an inverse, because P is a covariance and R is positive; without one, the measurement would be taken
-    // as it is.
+    // The sum has an inverse, because P is a covariance and R is positive; without one, the measurement would be taken as it is.
     seen.lu()
         .solve(&rows)
         .map_or_else(|| DMatrix::from_fn(order, zones, |i, j| if i == j { 1.0 } else { 0.0 }), |gain| gain.transpose())

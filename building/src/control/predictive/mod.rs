@@ -5,9 +5,8 @@
 //! from        T(t) as estimated, under the forecast and the heat d that it missed so far
 //! ```
 //!
-//! It is the usual controller in the literature, and the baseline of the designs that plan once a day. It needs the
-//! same model and forecast, but solves a programme at every step. It corrects errors within a step, but learns only `d`
-//! from one day to the next.
+//! It is the usual controller in the literature, and the baseline of the designs that plan once a day. It needs the same model and
+//! forecast, but solves a programme at every step. It corrects errors within a step, but learns only `d` from one day to the next.
 //!
 //! In a step without a plan (because a number is not finite, or the solver has no result), the controller follows its
 //! last plan and reports this.
@@ -102,8 +101,7 @@ impl ControllerKind for PredictiveSettings {
     }
 
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
-        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond; every step needs a
-        // plan.
+        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond; every step needs a plan.
         let horizon = self.horizon(86_400.0 / steps) as f64;
         steps * (0.15 * (zones * horizon).powi(3) + 1.5e6)
     }

@@ -52,8 +52,7 @@ fn tapered(series: &[f64]) -> Vec<f64> {
 /// |Σ_t x_t exp(−2πi jt/n)|² for the frequencies j/n below one half, the zeroth set to zero.
 fn periodogram(series: &[f64]) -> Vec<f64> {
     let mut transform: Vec<Complex<f64>> = series.iter().map(|&value| Complex::new(value, 0.0)).collect();
-    // This FFT planner does not use SIMD: the others choose their instructions, and thereby the order of sums, by the
-    // processor.
+    // This FFT planner does not use SIMD: the others choose their instructions, and thereby the order of sums, by the processor.
     FftPlannerScalar::new().plan_fft_forward(series.len()).process(&mut transform);
     transform[0] = Complex::ZERO;
     transform[..series.len().div_ceil(2)].iter().map(Complex::norm_sqr).collect()

@@ -37,8 +37,7 @@ impl Rival {
         Self { offset: sign * self.offset, ..self }
     }
 
-    /// The upper end of the averaged interval, given that of the chosen model's own interval; both as distances from
-    /// its estimate.
+    /// The upper end of the averaged interval, given that of the chosen model's own interval; both as distances from its estimate.
     pub fn averaged_end(&self, own: f64) -> f64 {
         let own_error = own / STANDARD_ERRORS_OF_95_PERCENT;
         let beyond = |end: f64| {

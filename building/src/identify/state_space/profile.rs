@@ -92,8 +92,7 @@ impl Profiler<'_> {
         let inflation = self.inflation(&gradient, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let distance = |sign: f64| -> Option<f64> {
-            // A profile that stopped early would be too short, so an end is at least as far away as the standard error
-            // says.
+            // A profile that stopped early would be too short, so an end is at least as far away as the standard error says.
             let own = match WORTH_A_PROFILE.contains(&log_error) {
                 true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?.abs().max(reach),
                 false => reach,

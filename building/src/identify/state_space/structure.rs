@@ -325,8 +325,7 @@ impl Structure {
         self.sunlit.iter().filter_map(aperture).collect()
     }
 
-    /// Total aperture of a zone \[m²\]: that of its air, and of each mass the part whose heat reaches the air in a
-    /// steady state.
+    /// Total aperture of a zone \[m²\]: that of its air, and of each mass the part whose heat reaches the air in a steady state.
     pub fn total_aperture(&self, theta: &[Number], zone: usize) -> Option<Number> {
         let of_air = exponential(theta[self.index(ParameterKind::Aperture(zone))?]);
         let of_masses = self.hidden_apertures(theta, zone).into_iter();

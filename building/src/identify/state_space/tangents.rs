@@ -150,8 +150,7 @@ impl Tangents {
         std::mem::swap(&mut self.states, &mut self.next);
     }
 
-    /// Updates ∂x with the innovation of a measured state, and its gain. `which` is the index of the innovation in ∂S.
-    /// Returns ∂v and ∂S.
+    /// Updates ∂x with the innovation of a measured state, and its gain. `which` is the index of the innovation in ∂S. Returns ∂v and ∂S.
     pub fn update(&mut self, which: usize, state: usize, gain: &[f64], innovation: f64) -> (&[f64], &[f64]) {
         let (n, count) = (gain.len(), self.count);
         let observed = &self.states[state * count..(state + 1) * count];

@@ -1,8 +1,7 @@
 //! Measurements of a building: temperatures of zones and of what surrounds them, and the heat that is known.
 //!
-//! [`Telemetry`] holds them in the units of this crate, from a table ([`Mapping`] and [`Telemetry::read`]) or a
-//! simulation. Sampling is regular within a segment. The time between segments is unknown, so no sum, smoother or
-//! filter crosses it.
+//! [`Telemetry`] holds them in the units of this crate, from a table ([`Mapping`] and [`Telemetry::read`]) or a simulation.
+//! Sampling is regular within a segment. The time between segments is unknown, so no sum, smoother or filter crosses it.
 
 mod error;
 mod form;

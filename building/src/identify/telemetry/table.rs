@@ -76,8 +76,7 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Finds a column; `role` says in error messages what the column is for. Spaces around titles and names are
-    /// ignored.
+    /// Finds a column; `role` says in error messages what the column is for. Spaces around titles and names are ignored.
     pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
         match self.computed.iter().position(|computed| computed.name == name.trim()) {
             Some(index) => Ok(Column(self.header.len() + index)),

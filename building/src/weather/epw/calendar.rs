@@ -1,7 +1,6 @@
 //! The calendar of a file, which determines the next row.
 //!
-//! Years are ignored, because typical years combine months of different years. 29 February exists if the rows contain
-//! it.
+//! Years are ignored, because typical years combine months of different years. 29 February exists if the rows contain it.
 
 use std::fmt;
 

@@ -146,8 +146,7 @@ impl Place<'_> {
 /// A profile that is nowhere beyond an edge and nowhere steeper than [`MAX_EDGE_SLOPE`], times `sign`.
 fn smooth_edge(places: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
     let mut knots = places.clone();
-    // Where an edge jumps between two positions, both get the inner value, because the jump may be anywhere between
-    // them.
+    // Where an edge jumps between two positions, both get the inner value, because the jump may be anywhere between them.
     for pair in 0..places.len().saturating_sub(1) {
         let (before, after) = (places[pair], places[pair + 1]);
         if (after[1] - before[1]).abs() > MAX_EDGE_SLOPE * (after[0] - before[0]) {

@@ -139,8 +139,7 @@ impl Approach {
         let leg = route.legs.get(number);
         let before = number.checked_sub(1).and_then(|before| route.legs.get(before));
         let sign_of = |leg: Option<&RouteLeg>| leg.map(|leg| leg.right_of_way).unwrap_or_default();
-        // If the conflict begins on a lane with its own sign, the route leaves this lane there or the lane reaches into
-        // the conflict.
+        // If the conflict begins on a lane with its own sign, the route leaves this lane there or the lane reaches into the conflict.
         let (line_m, sign) = if sign_of(leg) != RightOfWay::Priority {
             (from_m, sign_of(leg))
         } else {

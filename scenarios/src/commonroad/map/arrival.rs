@@ -45,8 +45,7 @@ fn speed_mps(distance_m: f64, time_s: f64, own_mps: f64) -> f64 {
             high_mps = middle_mps;
         }
     }
-    // If no speed is high enough, the acceleration limit is too low; the final speed of a constant acceleration is then
-    // the best choice.
+    // If no speed is high enough, the acceleration limit is too low; the final speed of a constant acceleration is then the best choice.
     (0.5 * (low_mps + high_mps)).min((2.0 * distance_m / time_s - own_mps).max(own_mps))
 }
 

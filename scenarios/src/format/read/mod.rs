@@ -1,5 +1,4 @@
-//! Reads a scenario into a tree of keys and values with their places: its file, the files that it extends, and changes
-//! by flags.
+//! Reads a scenario into a tree of keys and values with their places: its file, the files that it extends, and changes by flags.
 
 pub(crate) mod degrees;
 pub(crate) mod embedded;

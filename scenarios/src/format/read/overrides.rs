@@ -184,8 +184,7 @@ impl SettingPath {
         paths.try_for_each(|path| lay(Some(schema), root, (&path.0, 0), value.clone()))
     }
 
-    /// The paths in a scenario that this path stands for: with `*`, one for each vehicle except the ego, otherwise
-    /// itself.
+    /// The paths in a scenario that this path stands for: with `*`, one for each vehicle except the ego, otherwise itself.
     pub fn in_scenario(&self, root: &Table) -> Vec<SettingPath> {
         if !self.is_of_others() {
             return vec![self.clone()];

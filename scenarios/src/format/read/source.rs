@@ -29,8 +29,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// The authored scenario with this name, otherwise the file at this path. Whether the file is readable is only
-    /// found when it is read.
+    /// The authored scenario with this name, otherwise the file at this path. Whether the file is readable is only found when it is read.
     ///
     /// # Errors
     ///

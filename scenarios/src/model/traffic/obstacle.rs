@@ -125,8 +125,7 @@ impl Outline {
         Outline::Polygon { corners_m: self.corners_m().into_iter().map(turn).collect() }
     }
 
-    /// Corners of the outline, counter-clockwise, as coordinates to the front and to the left \[m\]; a circle has
-    /// sixteen.
+    /// Corners of the outline, counter-clockwise, as coordinates to the front and to the left \[m\]; a circle has sixteen.
     pub fn corners_m(&self) -> Vec<[f64; 2]> {
         match self {
             Outline::Box { length_m, width_m } => {

@@ -1,6 +1,5 @@
-//! Tests whether the data contradict the assumptions of every model: that the weather's clock is that of the building,
-//! that all heat except white or coloured noise is measured, that walls do not change, and that one model is valid for
-//! the whole record.
+//! Tests whether the data contradict the assumptions of every model: that the weather's clock is that of the building, that all
+//! heat except white or coloured noise is measured, that walls do not change, and that one model is valid for the whole record.
 //!
 //! The estimate itself does not show this: false assumptions also have best parameters, with short intervals and often
 //! with white residuals.

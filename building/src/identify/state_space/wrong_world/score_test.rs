@@ -1,5 +1,4 @@
-//! Score tests (Lagrange multipliers) for heat that no model contains: they predict the gain in likelihood without a
-//! fit.
+//! Score tests (Lagrange multipliers) for heat that no model contains: they predict the gain in likelihood without a fit.
 //!
 //! ```text
 //! LM = g_βᵀ (I_ββ − I_βθ I_θθ⁻¹ I_θβ)⁻¹ g_β        at β = 0, chi-squared with as many degrees of freedom as β has entries
