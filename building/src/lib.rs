@@ -17,8 +17,8 @@
 //! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
 //! is zone i of n in step t.
 //!
-//! Exponentials and the like come from `libm`, random numbers from ChaCha, and products of large matrices are written out
-//! (nalgebra's round as the processor likes), so that runs are the same bit for bit on every machine.
+//! Exponentials and similar functions come from `libm`, random numbers from ChaCha, and products of large matrices are written out (the
+//! rounding of nalgebra's products depends on the processor), so that runs are bit-identical on every machine.
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.

@@ -206,7 +206,7 @@ fn baselines() -> [Controller; 4] {
 }
 
 #[test]
-fn no_controller_beats_the_clairvoyant_one_which_has_no_regret() {
+fn only_the_clairvoyant_controller_has_no_regret() {
     for seed in 1..4 {
         let world = World::new(seed, Forecast::Uncertain { level: ErrorLevel::Medium });
         for controller in baselines() {

@@ -127,7 +127,7 @@ fn fine_euler_steps_approach_the_exact_step() {
 }
 
 #[test]
-fn two_half_steps_are_one_step_and_the_steady_state_stays() {
+fn two_half_steps_equal_one_step_and_the_steady_state_is_kept() {
     let network = Network::grid(3, 4);
     let n = network.zone_count();
     let heat_kw = numbers(n, 2.0);

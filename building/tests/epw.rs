@@ -121,7 +121,7 @@ fn faulty_cells_that_a_run_does_not_use_give_remarks() {
 }
 
 #[test]
-fn a_short_gap_is_bridged_with_a_remark_and_a_long_one_refused() {
+fn short_gaps_are_bridged_with_a_remark_and_long_gaps_are_refused() {
     let missing = |rows: std::ops::Range<usize>| {
         rows.fold(File::days((1, 3)), |file, index| file.with(index, 6, "99.9")).parse().expect("rows")
     };
@@ -193,7 +193,7 @@ fn dates_of_the_data_period_may_begin_or_end_with_the_year() {
 }
 
 #[test]
-fn radiation_is_that_of_the_hour_before_the_stamp() {
+fn radiation_of_a_row_belongs_to_the_hour_before_its_stamp() {
     let weather = File::year().parse().expect("a whole year").weather();
     let sun = |hours: f64| weather.sun_w_per_m2.at(hours * HOUR_S);
     // Hours 8 to 17 have 500 Wh/m²: the sun shines from 07:00 to 17:00.

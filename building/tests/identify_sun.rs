@@ -91,7 +91,7 @@ fn sun_on_a_wall_is_identified_and_exported_as_such() {
 }
 
 #[test]
-fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
+fn no_sun_on_a_wall_is_identified_if_all_sun_reaches_the_air() {
     let found = identify(&telemetry(0.0, 2), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor");
     let aperture = found.report.zones[0].physical.iter().find(|it| it.name == "aperture to the sun").expect("listed");

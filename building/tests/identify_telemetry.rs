@@ -113,7 +113,7 @@ fn zone_names_with_any_characters_are_read_back() {
 }
 
 #[test]
-fn an_empty_table_is_named() {
+fn an_empty_table_is_reported_by_name() {
     for empty in ["", "\n", "t;Ta;Ti;P;sun\n"] {
         let message = read(empty).expect_err("nothing to read").to_string();
         assert_eq!(message, "home.csv: the table is empty; it needs a header and at least two rows");
@@ -330,7 +330,7 @@ fn contradictions_in_mappings_are_located_and_explained() {
 
 /// The check before reading and the reader itself accept the same documents.
 #[test]
-fn every_mapping_that_passes_the_check_can_be_read() {
+fn every_mapping_that_passes_the_check_is_read_without_error() {
     let values =
         ["3", "-3", "0.5", "1e300", "true", "\"a\"", "\";\"", "[]", "[[]]", "{}", "1979-05-27", "{ kind = \"water\" }"];
     let places = [

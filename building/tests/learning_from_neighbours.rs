@@ -26,7 +26,7 @@ fn dense(size: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> [f64; 2] {
 }
 
 #[test]
-fn convergence_conditions_match_those_of_the_dense_matrix() {
+fn convergence_conditions_match_a_dense_computation() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), 8);
     let (change, errors) = (common::numbers(32, 0.5), common::numbers(64, 1.0)[32..].to_vec());
     for law in [LearningLaw::uniform(4, 8, 0.15, 0.88), LearningLaw::recovered(4, &change, &errors)] {

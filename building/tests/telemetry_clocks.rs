@@ -93,7 +93,7 @@ fn the_suffix_z_means_utc() {
 }
 
 #[test]
-fn an_offset_that_the_format_lacks_is_named() {
+fn a_missing_offset_in_the_time_format_is_reported() {
     let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S");
     let error = read(&mapping, DATED).expect_err("the format has no offset").to_string();
     assert!(error.contains("it has an offset from UTC: set `time.format` to `%Y-%m-%dT%H:%M:%S%z`"), "{error}");

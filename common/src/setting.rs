@@ -1,6 +1,6 @@
-//! Settings that are out of range, and the keys that they have in a file.
+//! Checks that settings are within their ranges, and names their keys in a file.
 //!
-//! The bound of a setting stands on its field, as a `schemars` attribute; [`check`] reads it from there.
+//! The bound of a setting is stated on its field, as a `schemars` attribute; [`check`] reads it from there.
 //!
 //! ```
 //! use interplay_common::setting::check;

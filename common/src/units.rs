@@ -1,7 +1,7 @@
 //! The unit of a setting, read from the end of its key: `speed_mps` is in m/s.
 //!
-//! A number whose key ends with no unit states one on its field: `#[schemars(extend("x-unit" = "1/m²"))]`, or
-//! `"dimensionless"`. Whole numbers are counts and have none.
+//! A number whose key does not end with a unit states one on its field: `#[schemars(extend("x-unit" = "1/m²"))]`, or
+//! `"dimensionless"`. Whole numbers are counts and have no unit.
 
 /// Endings of keys, and the units that they stand for.
 const ENDINGS: [(&str, &str); 23] = [

@@ -26,7 +26,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     #[test]
-    fn the_largest_eigenvalue_is_found_by_semidefinite_programming(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
+    fn semidefinite_programming_finds_the_largest_eigenvalue(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
         let c = symmetric(order, &values[..order * order]);
         let program = largest_eigenvalue(&c);
         let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");

@@ -16,7 +16,7 @@
 //! - [`traffic`]: the closed loop of all vehicles on a road
 //! - [`motion_prediction`]: predictions of one recorded vehicle, by several models
 //!
-//! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
+//! Sines, exponentials and similar functions come from `libm`, so that results are bit-identical on every machine.
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.

@@ -44,7 +44,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
 }
 
 #[test]
-fn without_alternatives_the_problem_is_the_conservative_one() {
+fn without_alternatives_the_contingency_problem_is_the_conservative_one() {
     for (scene, ..) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
         let one = futures(&scene, &[], &settings(0.05));
         let others: Vec<_> = scene.others.iter().collect();

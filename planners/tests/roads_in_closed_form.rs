@@ -69,7 +69,7 @@ fn numbers(qp: &StageQp) -> Vec<f64> {
 
 /// In Frenet coordinates, tracking and edges have the same value, gradient and Hessian as on a straight road.
 #[test]
-fn terms_on_a_straight_line_of_pieces_are_those_of_a_straight_road() {
+fn terms_on_a_straight_centre_line_equal_those_on_a_straight_road() {
     for seed in 0..50 {
         let random = &mut SplitMix64::new(seed);
         let problems = twins(random);

@@ -66,7 +66,7 @@ fn asking_two_vehicles_costs_no_more_than_asking_one() {
 
 /// Each is believed to accept what it accepts itself, and the planner reports the one that accepts least.
 #[test]
-fn each_asked_vehicle_has_an_acceptance_of_its_own() {
+fn each_asked_vehicle_has_its_own_acceptance() {
     let plans = run(lane_change(negotiator(2), [Nice, Tough]), 15).plans;
     let both: Vec<[f64; 2]> = plans
         .iter()

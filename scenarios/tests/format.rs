@@ -117,7 +117,7 @@ fn a_table_set_on_a_vehicle_changes_only_the_keys_that_it_states() {
 }
 
 #[test]
-fn another_planner_keeps_the_settings_that_it_knows() {
+fn changing_the_planner_keeps_settings_that_the_new_one_has() {
     let one_class = Override::Set("vehicle.ego.driver.passing_orders=\"off\"".to_owned());
     let conservative = Override::Planner("conservative".to_owned());
     let scenario = load("lane-change/front-nice", &[one_class, conservative]).expect("a planner");
@@ -179,7 +179,7 @@ fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(
 
 /// The schema file that the first line of every authored scenario names. `INTERPLAY_BLESS=1` rewrites it.
 #[test]
-fn the_schema_beside_the_authored_files_is_the_published_one() {
+fn the_published_schema_is_up_to_date() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema.json");
     let text = serde_json::to_string_pretty(&schema()).expect("JSON") + "\n";
     if std::env::var_os("INTERPLAY_BLESS").is_some() {

@@ -75,7 +75,7 @@ fn scaled_numbers_in_messages_are_short() {
 
 /// One bracket where a list wants two: at the header with one, whichever comes first.
 #[test]
-fn one_bracket_instead_of_two_is_named_as_the_cause() {
+fn a_single_bracket_in_place_of_two_is_named_as_the_cause() {
     for (vehicles, line, message) in [
         ("[vehicle]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here for the second time"),
         ("[vehicle]\nname = 'a'\n[[vehicle]]\nname = 'b'\n", 3, "`[vehicle]` stands here beside `[[vehicle]]`"),

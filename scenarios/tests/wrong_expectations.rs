@@ -96,7 +96,7 @@ fn every_expectation_has_a_name() {
 
 /// The conflict zones of an intersection are the overlap of its roads, in either order of the vehicles.
 #[test]
-fn zones_of_an_intersection_are_those_of_its_roads() {
+fn conflict_zones_of_an_intersection_are_where_its_roads_overlap() {
     let scenario = load("intersection/stop-sign", &[]).expect("authored");
     let vehicle = |name: &str| scenario.vehicle(name).expect("authored");
     let zones = scenario.road.conflict_zones(vehicle("ego"), vehicle("first"));

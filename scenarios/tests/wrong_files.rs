@@ -43,7 +43,7 @@ const SECRET: &str = "root:x:0:0:root:/root:/bin/bash\nalice:$6$secret:1000:1000
 
 /// A scenario may name any file, and its user may not be its author: errors show no text of a file of another kind.
 #[test]
-fn the_text_of_a_file_of_another_kind_is_not_shown() {
+fn errors_do_not_show_the_text_of_files_of_another_kind() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: &[u8]| {
         let path = folder.path().join(name);

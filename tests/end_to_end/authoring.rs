@@ -54,7 +54,7 @@ fn new_never_overwrites_files_and_leaves_none_when_it_fails() {
 }
 
 #[test]
-fn the_printed_schema_is_the_checked_one_and_shipped_files_name_it() {
+fn the_schema_command_prints_the_checked_schema_that_shipped_files_name() {
     assert_eq!(interplay(&scratch("schema"), &["schema"]).json(), schema());
     let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/files");
     for file in embedded() {

@@ -201,7 +201,7 @@ fn every_scenario_in_the_documents_is_used_there() {
 
 /// The excerpt of an error message in the authoring guide is what the command says.
 #[test]
-fn the_error_quoted_in_the_authoring_guide_is_the_printed_one() {
+fn the_error_quoted_in_the_authoring_guide_is_what_check_prints() {
     let text = fs::read_to_string(root().join("docs/guide/authoring.md")).expect("the guide");
     let folder = scratch("book-error");
     let blocks = blocks(&text);

@@ -280,7 +280,7 @@ fn why_switches_off_every_mechanism() {
 }
 
 #[test]
-fn why_refuses_what_it_cannot_change() {
+fn why_refuses_buildings_and_unknown_scenarios() {
     let folder = scratch("why-refuses");
     let building = interplay(&folder, &["why", "building/four-room-pid"]);
     assert_eq!((building.code, building.stdout.as_str()), (Some(2), ""), "{building:?}");

@@ -48,7 +48,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
 }
 
 #[test]
-fn after_failed_plans_the_vehicle_continues_then_brakes_and_reports_it() {
+fn after_failed_plans_the_vehicle_continues_then_brakes_and_reports_failures() {
     let (frames, failed) = run_with_failures();
     assert_eq!(failed, SPOILT.len());
     assert!(SPOILT.len() > HORIZON, "long enough for both fallbacks");

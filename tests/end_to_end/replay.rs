@@ -75,7 +75,7 @@ fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
 }
 
 #[test]
-fn fresh_planners_given_the_same_scenes_decide_the_same() {
+fn new_planners_make_the_same_decisions_in_the_same_scenes() {
     for film in FILMS.iter() {
         let mut planners: Vec<Planner> = film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
         let mut sensors: Vec<Option<Sensor>> =

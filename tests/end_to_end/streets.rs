@@ -127,7 +127,7 @@ fn a_negotiator_with_priority_drives_on() {
 
 /// Right before left, also when the one with priority has stopped first.
 #[test]
-fn three_cars_at_a_crossing_without_signs_go_in_order() {
+fn three_cars_at_a_crossing_without_signs_follow_right_before_left() {
     for style in ["tough", "assertive", "normal", "considerate", "nice"] {
         let film = driven("right-before-left-three", &[&format!("defaults.driver.style=\"{style}\"")]);
         assert_untouched(&film, style);

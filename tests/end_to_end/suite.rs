@@ -61,7 +61,7 @@ fn the_number_of_jobs_does_not_change_the_results_of_a_suite() {
 }
 
 #[test]
-fn one_failed_expectation_fails_the_suite_and_is_named() {
+fn a_failed_expectation_fails_the_suite_and_is_named() {
     let folder = scratch("suite-failed");
     short(&folder, "sub/good.toml", "");
     short(&folder, "sub/bad.toml", "min_gap_m = 9");
@@ -82,7 +82,7 @@ fn one_failed_expectation_fails_the_suite_and_is_named() {
 
 /// No scenario runs if one of them is wrong.
 #[test]
-fn all_bad_files_are_reported_and_nothing_runs() {
+fn a_suite_reports_all_invalid_files_and_runs_nothing() {
     let folder = scratch("suite-bad");
     short(&folder, "good.toml", "");
     fs::write(folder.join("one.toml"), "title = 3\n").expect("a file can be written");

@@ -104,7 +104,7 @@ fn different_files_with_the_same_name_are_different_runs() {
 }
 
 #[test]
-fn faults_of_the_first_sample_are_counted_and_flags_are_blamed_for_their_samples() {
+fn faults_of_samples_are_counted_and_attributed_to_their_flags() {
     let folder = scratch("sweep-first-sample");
     let of_all = "samples = 3\n[vary]\nvehicle.front.start.x_m = [-1.65]\nvehicle.ego.start.speed_mps = { uniform = [1.0, 1.1] }\n";
     for (more, arguments, words) in

@@ -265,7 +265,7 @@ fn bills_and_electricity_of_buildings_are_compared() {
 }
 
 #[test]
-fn two_sweeps_by_one_version_are_equal() {
+fn two_sweeps_by_one_version_do_not_differ() {
     let folder = scratch("sweep-versions");
     plan(&folder);
     for out in ["before", "after"] {

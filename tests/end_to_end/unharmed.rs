@@ -143,7 +143,7 @@ fn report_pages_by_other_programs_are_not_replaced() {
 /// Reading these would wait for ever, or never end.
 #[cfg(target_os = "linux")]
 #[test]
-fn pipes_and_devices_are_refused_at_once() {
+fn pipes_and_devices_as_inputs_are_refused_without_blocking() {
     let folder = scratch("devices");
     let made = std::process::Command::new("mkfifo").arg(folder.join("pipe.toml")).status().expect("mkfifo");
     assert!(made.success());

@@ -63,7 +63,7 @@ impl Agenda {
         targets
     }
 
-    /// The currency of prices; none without a tariff.
+    /// The currency of prices; `None` without a tariff.
     pub fn currency(&self) -> Option<&str> {
         self.tariff.as_ref().map(|tariff| tariff.currency.as_str())
     }

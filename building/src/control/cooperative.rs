@@ -7,11 +7,11 @@
 //! U_k+1 = U_k + L Ω E_k + C (E_k+1 − …)      E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k    on days that are all the same
 //! ```
 //!
-//! The dissertation calls Ω the adjacency matrix with ones on the diagonal. That has a negative eigenvalue wherever two neighbours of a
-//! zone are not neighbours of each other, and then any uniform L > 0 diverges. It also equates spectral radius, largest singular
-//! value and diagonal. The radius of the block lower triangular matrix is that of its diagonal blocks,
-//! max_t ρ(I − B diag(L_i(t,t)) Ω), and decides the end; the largest singular value decides whether errors grow on the way, and may
-//! be far above one when the radius is below.
+//! The dissertation calls Ω the adjacency matrix with ones on the diagonal. That matrix has a negative eigenvalue if
+//! two neighbours of a zone are not neighbours of each other, and then any uniform L > 0 diverges. The dissertation
+//! also equates spectral radius, largest singular value and diagonal. The radius of the block lower triangular matrix
+//! is that of its diagonal blocks, max_t ρ(I − B diag(L_i(t,t)) Ω), and decides whether the errors vanish in the end;
+//! the largest singular value decides whether they grow before, and may be far above one when the radius is below.
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;

@@ -45,7 +45,7 @@ pub(super) struct PlanHistory {
 }
 
 impl PlanHistory {
-    /// The plan of today; none before the first day has ended.
+    /// The plan of today; `None` before the first day has ended.
     pub fn plan(&self) -> Option<&DayPlan> {
         self.plan.as_ref()
     }

@@ -8,13 +8,13 @@
 //! end of the day  Day::learn    the controller gets the record
 //! ```
 //!
-//! The application calls these functions from its phases, [`run_day`] calls them in one go; no other loop exists.
+//! The application calls these functions from its phases, and [`run_day`] calls them in sequence; no other loop exists.
 //!
 //! # When a controller fails
 //!
-//! A design that finds no plan for a day is not an error: its controller repeats the day before, and says why
-//! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] when the controller
-//! cannot work with this building or this day at all. The run then ends with that error, and no temperature moves any more.
+//! If a design finds no plan for a day, this is not an error: its controller repeats the previous day and gives the reason
+//! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] if the controller cannot work with
+//! this building or this day at all. The run then ends with that error, and no temperature changes any more.
 
 mod key_figures;
 mod surroundings;

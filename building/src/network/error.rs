@@ -85,7 +85,7 @@ pub enum NetworkError {
 }
 
 impl NetworkError {
-    /// The zone or wall at fault; none if the error concerns the building as a whole.
+    /// The zone or wall at fault; `None` if the error concerns the building as a whole.
     pub fn part(&self) -> Option<Part> {
         match self {
             Self::NoZones | Self::Believed(_) => None,

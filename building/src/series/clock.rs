@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn a_format_that_lacks_only_the_offset_is_found() {
+    fn a_time_format_that_lacks_only_the_offset_is_suggested() {
         let found = |text| format_with_offset("%Y-%m-%d %H:%M", text);
         assert_eq!(found("2026-07-06 00:15Z").as_deref(), Some("%Y-%m-%d %H:%M%z"));
         assert_eq!(found("2026-07-06 00:15 +0200").as_deref(), Some("%Y-%m-%d %H:%M %z"));

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! with the direct normal radiation I_beam, the angle of incidence θ, the diffuse radiation of the sky D (`perez`), the
-//! reflectance ρ of the ground, the global horizontal radiation G, and the tilt β of the plane. Angles of the sun are true ones,
-//! without refraction; azimuths are clockwise from north.
+//! reflectance ρ of the ground, the global horizontal radiation G, and the tilt β of the plane. Angles of the sun are
+//! true angles, without refraction; azimuths are clockwise from north.
 
 mod erbs;
 mod perez;

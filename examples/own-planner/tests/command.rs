@@ -31,7 +31,7 @@ fn report(folder: &Path, words: &[&str], code: i32) -> Value {
 const SCENARIO: &str = "extends = 'lane-change/front-nice'\n";
 
 #[test]
-fn the_own_planner_reaches_its_goal_behind_the_front_driver() {
+fn a_custom_planner_reaches_its_goal_behind_the_front_driver() {
     let folder = tempdir().expect("a folder");
     let run = ["run", "lane-change/front-nice", "--planner", "gap-acceptance"];
     // The scenario expects what negotiation does: the ego ahead of both.
@@ -44,7 +44,7 @@ fn the_own_planner_reaches_its_goal_behind_the_front_driver() {
 }
 
 #[test]
-fn settings_of_the_own_planner_are_checked_like_built_in_ones() {
+fn settings_of_a_custom_planner_are_checked_like_built_in_ones() {
     let folder = tempdir().expect("a folder");
     let check = |driver: &str| {
         let file = format!("{SCENARIO}[[vehicle]]\nname = 'ego'\ndriver = {{ {driver} }}\n");
@@ -69,7 +69,7 @@ fn settings_of_the_own_planner_are_checked_like_built_in_ones() {
 }
 
 #[test]
-fn the_own_planner_is_compared_with_built_in_planners() {
+fn a_custom_planner_is_compared_with_built_in_planners() {
     let folder = tempdir().expect("a folder");
     let planners = ["--planner", "gap-acceptance", "--planner", "conservative", "--planner", "negotiation"];
     let sweep = [&["sweep", "--scenario", "lane-change/front-nice", "--starts", "4", "--out", "rows"], &planners[..]];
@@ -83,7 +83,7 @@ fn the_own_planner_is_compared_with_built_in_planners() {
 }
 
 #[test]
-fn counterfactuals_and_why_accept_the_own_planner() {
+fn counterfactuals_and_why_accept_a_custom_planner() {
     let folder = tempdir().expect("a folder");
     let claim = "[[counterfactual]]\nname = 'gaps'\nplanner = 'gap-acceptance'\n[counterfactual.expect]\norder_differs = true\n";
     std::fs::write(folder.path().join("claim.toml"), format!("{SCENARIO}{claim}")).expect("a file");
@@ -120,7 +120,7 @@ impl Drive for Lost {
 }
 
 #[test]
-fn an_own_planner_without_a_plan_drives_the_fallback() {
+fn a_custom_planner_without_a_plan_drives_the_fallback() {
     let registry = Registry::default().with_driver::<Lost>().expect("a new word");
     let changes = [Override::Planner("lost".to_owned()), Override::Set("duration_s=2".to_owned())];
     let scenario = registry.load("lane-change/front-nice", &changes).expect("sound");
@@ -136,7 +136,7 @@ fn registering_a_kind_twice_is_refused() {
 
 /// The metric of this crate is in the report, may be bound, and is in the comparison.
 #[test]
-fn the_own_metric_is_reported_judged_and_compared() {
+fn a_custom_metric_is_reported_judged_and_compared() {
     let folder = tempdir().expect("a folder");
     let bound = "expect.metric=[{ name = 'waiting_share', vehicle = 'ego', at_most = 0.5 }]";
     let report = report(folder.path(), &["run", "lane-change/front-nice", "--set", bound], 0);

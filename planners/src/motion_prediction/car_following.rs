@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slow_leader_is_not_run_into() {
+    fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let moment = behind(30.0, 5.0);
         let motion = CarFollowing::literature().predict(&moment);
         assert!(motion.along_m[STEPS] < 30.0 + 25.0, "{}", motion.along_m[STEPS]);

@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_leader_is_not_run_into() {
+    fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let motion = PredictedDriver::usual().predict(&behind(30.0, 10.0));
         assert!(motion.along_m[STEPS] < 30.0 + 50.0, "{}", motion.along_m[STEPS]);
     }

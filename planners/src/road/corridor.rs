@@ -1,7 +1,7 @@
-//! The strip of road that a vehicle may use, and how far its corners are from its edges.
+//! The strip of road that a vehicle may use, and the distances of its corners to the edges.
 //!
-//! Eq. 6.7 bounds the `y` of the four corners, which fits only a road along x. Here a [`Corridor`] has a heading `ψ`
-//! of its own, and the bounded quantity is the lateral coordinate `n = −x sin ψ + y cos ψ` of a corner.
+//! Eq. 6.7 bounds the `y` of the four corners, which is valid only for a road along x. Here a [`Corridor`] has its own
+//! heading `ψ`, and the bounded quantity is the lateral coordinate `n = −x sin ψ + y cos ψ` of a corner.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,11 +1,11 @@
 //! Streets for which no planner was tuned: ordinary scenes, each drawn from a seed.
 //!
-//! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario has a name: in `run`, `why`, plans of
-//! sweeps and `extends`. The same name is the same file for ever. A change of a kind that changes its draws needs another word, since
-//! rows of sweeps are compared by name.
+//! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario can be named: in `run`,
+//! `why`, plans of sweeps and `extends`. The same name always means the same file. If a kind is changed such that its
+//! random draws change, it needs a new word, because rows of sweeps are compared by name.
 //!
-//! The ego of each street is a human of a drawn style; `--planner` gives it another driver. Each scene has a conflict in most of its
-//! draws: a road user stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
+//! The ego of each street is a human of a random style; `--planner` gives it another driver. Most scenes contain a
+//! conflict: a road user stands in the ego's lane, crosses, merges, comes towards the ego, or drives slowly ahead.
 
 mod draft;
 mod junctions;

@@ -1,7 +1,8 @@
-//! A scenario written out as a file to start from: every key with what the schema says of it.
+//! Writes a scenario as a file to start from, with a comment from the schema on every key.
 //!
-//! What the scenario states is written as it stands, `extends` resolved. What it leaves out follows as a comment with its
-//! default (`#step_s = 0.1`). Each sort of table is explained where it first appears; later ones state only their own.
+//! Keys that the scenario states are written with their values, including those that it inherits by `extends`. All
+//! other keys follow as comments with their defaults (`#step_s = 0.1`). Each kind of table is explained where it first
+//! appears; later tables of the kind contain only the keys that they state.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -144,7 +145,7 @@ impl Writer {
     /// What the schema says of a key, as a comment.
     fn explain(&mut self, property: SchemaNode) {
         let mut words = property.description().to_owned();
-        // It goes without saying that a count is at least 0.
+        // A lower bound of 0 on a count need not be stated.
         let is_news = |bound: &Bound| *bound != Bound::AtLeast(0.0) || property.type_name() == Some("number");
         let bounds: Vec<String> = property.bounds().filter(is_news).map(|bound| bound.to_string()).collect();
         let mut bounds = bounds.join(", ");

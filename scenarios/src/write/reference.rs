@@ -1,4 +1,4 @@
-//! The reference of all keys, as a page of Markdown made of the schema.
+//! The reference of all keys, as a page of Markdown made from the schema.
 //!
 //! A section is a table of the scenario file, or one kind of a table that has several. Each definition of the schema is
 //! described where it first appears; other places link there.

@@ -87,7 +87,7 @@ fn modules_have_no_cyclic_dependencies() {
 }
 
 #[test]
-fn a_public_type_s_name_is_in_one_module_only() {
+fn each_public_type_name_occurs_in_one_module_only() {
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (member, modules) in libraries() {
         for (place, module) in &modules.0 {

@@ -164,7 +164,7 @@ impl Identify {
         };
         let found =
             identify_with_progress(&telemetry, &mapping.identify, &progress).map_err(|reason| match reason {
-                // These errors are in the mapping, not in the table.
+                // Errors of these kinds are in the mapping, not in the table.
                 IdentifyError::Setting(_)
                 | IdentifyError::NothingToIdentify { .. }
                 | IdentifyError::TooMuchWork { .. }

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn states_at_ticks_are_those_of_the_run_and_motion_between_is_smooth() {
+    fn drawn_states_equal_the_run_at_ticks_and_are_smooth_between_them() {
         let recorded = recorded("lane-change/front-nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         for frame in &run.frames {

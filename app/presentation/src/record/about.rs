@@ -1,4 +1,4 @@
-//! The text of a recording, which says what it shows and what to look for.
+//! The text of a recording: its content, and the points to look for.
 
 use interplay_common::spelling::counted;
 use interplay_scenarios::{Scenario, Vehicle, WeatherSource};

@@ -1,5 +1,5 @@
-//! Control: the controller plans at midnight and decides at every step; equipment limits the heat. A day without a plan
-//! of its own is an event.
+//! Control: the controller plans at midnight and decides at every step; the equipment limits the heat. A day without a
+//! plan of its own is logged as an event.
 
 use std::time::Instant;
 

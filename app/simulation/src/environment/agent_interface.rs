@@ -110,7 +110,7 @@ impl AgentInterface {
         handed_in(self.action, &later, &scene.ego)
     }
 
-    /// The possible meta-actions, by number; none for other kinds of action.
+    /// The possible meta-actions, by number; `None` for other kinds of action.
     pub fn action_mask(&self, scene: &Scene) -> Option<[bool; DiscreteMeta::COUNT]> {
         (self.action == Action::DiscreteMeta).then(|| {
             let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));

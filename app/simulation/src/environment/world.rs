@@ -256,7 +256,7 @@ impl Environment {
         Ok(())
     }
 
-    /// The meta-actions that are possible for an agent now; none with other actions, or before the first episode.
+    /// The meta-actions that are possible for an agent now; `None` with other actions, or before the first episode.
     pub fn action_mask(&self, agent: usize) -> Option<[bool; DiscreteMeta::COUNT]> {
         let seat = &self.seats[agent];
         seat.interface.action_mask(&seat.sensed.as_ref()?.scene)
@@ -280,12 +280,12 @@ impl Environment {
         Ok(seat.interface.numbers_of(&sensed.scene, &plan))
     }
 
-    /// The world of the episode; none before the first.
+    /// The world of the episode; `None` before the first.
     pub fn world(&self) -> Option<&Simulation> {
         self.world.as_ref()
     }
 
-    /// Ends the episode and returns its report; none before the first.
+    /// Ends the episode and returns its report; `None` before the first.
     ///
     /// # Errors
     /// [`EnvironmentError::Run`] if a watcher failed.

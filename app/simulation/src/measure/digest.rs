@@ -1,8 +1,8 @@
 //! Digests of a run, exact in every bit, for each phase.
 //!
-//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ: they
-//! show that the runs differ, not where the difference began. Digests of single ticks ([`Digest::of_tick`]) show where: in the first
-//! tick that differs, the first phase that differs is the cause.
+//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ:
+//! they show that the runs differ, but not where the difference began. Digests of single ticks ([`Digest::of_tick`])
+//! show this: in the first tick that differs, the first phase that differs is the cause.
 
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;

@@ -82,7 +82,7 @@ impl MetricValue {
 }
 
 impl MetricValues {
-    /// The result of the metric with this name; none if it is not measured.
+    /// The result of the metric with this name; `None` if it is not measured.
     pub fn get(&self, name: &str) -> Option<(&MetricDeclaration, &Measured)> {
         self.0.iter().find(|(declaration, _)| declaration.name == name).map(|(declaration, one)| (declaration, one))
     }

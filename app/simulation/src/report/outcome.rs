@@ -151,7 +151,7 @@ pub struct PlansReport {
 }
 
 impl Report {
-    /// Smallest distance of the ego's footprint to another; none without others \[m\].
+    /// Smallest distance of the ego's footprint to another; `None` without others \[m\].
     pub fn min_gap_m(&self) -> Option<f64> {
         self.metrics.number("ego_gap_m")
     }

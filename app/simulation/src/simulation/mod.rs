@@ -175,7 +175,7 @@ impl Simulation {
         self.world.get_resource()
     }
 
-    /// The last frame; none before the first step.
+    /// The last frame; `None` before the first step.
     pub fn frame(&self) -> Option<&Frame> {
         (self.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
     }

@@ -78,7 +78,7 @@ impl HandedIn {
         if is_external { HandedIn::Awaited } else { HandedIn::NotExternal }
     }
 
-    /// Takes the input; none for a vehicle with its own driver.
+    /// Takes the input; `None` for a vehicle with its own driver.
     pub fn take(&mut self) -> Option<Self> {
         match self {
             HandedIn::NotExternal => None,

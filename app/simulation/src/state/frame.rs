@@ -129,7 +129,7 @@ impl VehicleFrame {
         }
     }
 
-    /// The cost of the plan; none for a plan that was not chosen by cost.
+    /// The cost of the plan; `None` for a plan that was not chosen by cost.
     pub fn plan_cost(&self) -> Option<f64> {
         self.plan.value_of(&diagnostic::COST)
     }

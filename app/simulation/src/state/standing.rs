@@ -94,7 +94,7 @@ impl<'a> Standing<'a> {
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
 
-    /// Why a vehicle is stationary; none if no reason is visible, or if vehicles wait for one another in a cycle.
+    /// Why a vehicle is stationary; `None` if no reason is visible, or if vehicles wait for one another in a cycle.
     pub fn reason(&self, index: usize) -> Option<StandingReason> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }

@@ -61,7 +61,7 @@ fn expectation(what: &str, passed: bool) -> Expectation {
 }
 
 #[test]
-fn the_message_of_a_panic_is_kept() {
+fn the_message_of_a_panic_becomes_the_error_of_the_run() {
     let words = |panic: fn()| catch_unwind(panic).map_err(|panic| message(&*panic).to_owned());
     let said = std::hint::black_box("made of parts");
     assert_eq!(message(&said.to_owned()), said);
@@ -117,7 +117,7 @@ fn success_of_a_rule_keeping_ego_needs_more_than_its_task() -> Outcome {
 }
 
 #[test]
-fn contacts_of_the_ego_are_counted_apart_from_all_contacts() -> Outcome {
+fn contacts_of_the_ego_are_counted_separately() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let none = measured(&scenario, &report)?;
     has(&none, json!({ "contacts": 0, "ego_contact": false, "ego_contact_s": null, "impulse_ns": null }));

@@ -1,7 +1,7 @@
 //! The messages between neighbouring zones.
 //!
-//! Every zone simulates itself (and the walls it owns) by forward Euler, which needs the temperatures of its neighbours
-//! only, step by step; and backwards the sensitivity λ of J to its temperatures, which needs theirs only:
+//! Every zone simulates itself (and the walls it owns) by forward Euler, step by step, which needs only the temperatures of its
+//! neighbours. Backwards in time it computes the sensitivity λ of J to its temperatures, which needs only theirs:
 //!
 //! ```text
 //! T_p(t+1) = T_p(t) + h/c_p (Σ_q g_pq (T_q(t) − T_p(t)) + k_p (T₀(t) − T_p(t)) + w_p(t) + u_p(t))
@@ -9,9 +9,8 @@
 //! ∂J/∂u_p(t) = h/c_p λ_p(t+1) + 2 W_u u_p(t)
 //! ```
 //!
-//! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series
-//! over the day, one number for each step. A message that is lost is sent again; a zone from which nothing comes in a round
-//! is represented by its last message.
+//! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series over the day, with
+//! one number for each step. A lost message is sent again; if no message of a zone arrives in a round, its last message is used.
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,4 @@
-//! The decay rate that a feedback can have, and the one that is chosen.
+//! The lowest decay rate that a feedback can reach, and the rate that the design uses.
 //!
 //! A feedback of zone temperatures on the heat of zones leaves the columns of walls in A − BK as they are. With the
 //! temperatures of the zones before those of the walls,

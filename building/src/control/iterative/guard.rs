@@ -1,9 +1,9 @@
-//! A guard against a feedback whose model is wrong: it is weakened where its inputs alternate, and beforehand where a stated error of
-//! the model would make it unstable.
+//! Protects against a feedback whose model is wrong: the guard weakens the feedback if its inputs alternate, and
+//! beforehand if a stated error of the model would make it unstable.
 //!
-//! A gain that is certified for the believed network can be unstable for the real one: with half of the believed capacity the
-//! temperature answers twice as strongly, an eigenvalue `1 − b k` of the closed loop leaves the unit circle at −1, and the input
-//! jumps between its limits. The certificate cannot see that. Two checks can:
+//! A gain that is certified for the believed network can be unstable for the real one. If the believed capacity is twice the real one,
+//! the temperature responds twice as strongly, an eigenvalue `1 − b k` of the closed loop leaves the unit circle at −1, and the input
+//! jumps between its limits. The certificate cannot detect this, but two checks can:
 //!
 //! - [`worst_radius`] is the largest spectral radius over capacities and resistances that are wrong by a stated share;
 //! - `AlternationGuard` watches the feedback's part of the heat, and halves the gain of a zone after `MOST_TURNS` large changes in

@@ -11,10 +11,10 @@
 //! The dissertation's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
 //! the nominal inputs. They are found as a sparse problem with temperatures as variables. The last line is U_ff = Û − K Ê.
 //!
-//! Where limits bind, feedback and plan compete for them. [`joint`] finds both together and designs each several times.
-//! Designing them in turn costs a few percent more there.
+//! Where limits bind, feedback and plan compete for them. [`joint`] designs both together, by designing each several
+//! times in turn. Designing each only once costs a few percent more there.
 //!
-//! The feedback is designed again when Σ or the targets have changed; with a constant Σ it is a constant gain.
+//! The feedback is redesigned when Σ or the targets change; with a constant Σ it is a constant gain.
 
 pub mod decay;
 pub mod feedback;

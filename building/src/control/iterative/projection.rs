@@ -1,4 +1,4 @@
-//! From the optimal causal feedback to a gain K that stabilises (step 2, eqs. 3.31-3.33).
+//! Projects the optimal causal feedback on a stabilising gain K (step 2, eqs. 3.31-3.33).
 //!
 //! K approximates C* on the errors that occur. These have the covariance G Y Σ Yᵀ Gᵀ = PPᵀ, not the single
 //! direction Ê of the printed (3.32), along which the fit is nearly singular (gains of 10⁴). With e = −Pw and u = Vw for

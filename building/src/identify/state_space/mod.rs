@@ -1,4 +1,4 @@
-//! Identification by maximum likelihood in state space.
+//! Identification by maximum likelihood with state-space models.
 //!
 //! A zone is a network of one measured and up to two hidden temperatures ([`structure`]), driven by the measured
 //! boundaries, heat and sun, and by random heat. Zones with walls between them form one model. A Kalman filter turns

@@ -302,7 +302,7 @@ impl Mapping {
         let key = SettingKey::from("table.separator");
         let wanted = "another character than `table.decimal`";
         let problem = conflict(&key, &format!("`{separator}`"), wanted);
-        // One of the two may be left out.
+        // Suggest to leave out one of the two keys.
         Err((vec![key, "table.decimal".into()], problem))
     }
 

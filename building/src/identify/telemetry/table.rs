@@ -38,7 +38,7 @@ impl<'a> Table<'a> {
     /// Splits `text` into rows and fields.
     pub fn split(file: &'a str, text: &'a str, mapping: &'a Mapping) -> Result<Self, TelemetryError> {
         let form = &mapping.table;
-        // Some programs write a byte-order mark first.
+        // Some programs begin files with a byte-order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = Lines::new(text);
         // The schema of the mapping requires an ASCII character.

@@ -89,7 +89,7 @@ fn a_straight_centre_line_equals_the_corridor_bit_for_bit() {
 }
 
 #[test]
-fn position_heading_and_curvature_are_continuous_and_the_speed_is_one() {
+fn centre_lines_have_continuous_curvature_and_unit_speed() {
     let points = [[0.0, 0.0], [3.0, 0.5], [12.0, 4.0], [13.0, 6.0], [13.5, 20.0]];
     for line in [winding(), loop_road(), circle(3.0), CentreLine::through(&points).expect("distinct points")] {
         for knot_m in line.knots_m().iter().skip(1).rev().skip(1) {

@@ -146,7 +146,7 @@ impl Route {
         self.legs.iter().find(|leg| along_m < leg.to_m).or_else(|| self.legs.last())
     }
 
-    /// The arc length of the route at an arc length of one of its lanes \[m\]; none for a lane on which it has no leg.
+    /// The arc length of the route at an arc length of one of its lanes \[m\]; `None` for a lane on which it has no leg.
     ///
     /// Exact where the route follows the lane's centre line. Where it changes to a lane beside it, it is the place of the
     /// lane's continuation, which may lie before or after the leg.
@@ -171,7 +171,7 @@ impl Route {
         highest_speed_mps(&self.bends, along_m, lateral_mps2, braking_mps2)
     }
 
-    /// The place with the largest curvature; none for a route without legs.
+    /// The place with the largest curvature; `None` for a route without legs.
     pub fn tightest_turn(&self) -> Option<TightestTurn> {
         let (along_m, curvature_1pm) = max_curvature(&self.centre);
         let lane = self.leg(along_m)?.lane.clone();

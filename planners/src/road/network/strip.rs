@@ -1,4 +1,4 @@
-//! The strip of a route in Frenet coordinates: where a position is, and how far a body is inside the edges.
+//! The strip of a route in Frenet coordinates: projections of positions, and distances of a body to the edges.
 
 use super::super::centre_line::FrenetPoint;
 use super::super::corridor::LaneEnd;

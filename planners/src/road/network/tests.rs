@@ -256,7 +256,7 @@ fn the_strip_narrows_before_a_neighbour_ends() {
 
 /// Straight lanes at an angle γ overlap over `w (1 + |cos γ|)/sin γ`.
 #[test]
-fn crossing_lanes_overlap_as_parallelograms_do() {
+fn the_conflict_of_crossing_lanes_matches_their_parallelogram() {
     for angle_deg in [90.0, 60.0, -120.0, 30.0_f64] {
         let (sin, cos) = libm::sincos(angle_deg.to_radians());
         let crossing = straight("crossing", [-50.0 * cos + 3.0, -50.0 * sin], angle_deg.to_radians(), 100.0);
@@ -337,7 +337,7 @@ fn a_route_search_ends_without_a_route_and_with_loops() {
 }
 
 #[test]
-fn a_loop_without_an_exit_is_found() {
+fn lanes_of_a_loop_without_an_exit_are_found() {
     let around = roundabout(12.0);
     assert!(around.lanes_without_end().is_empty());
     let closed = around.lanes().iter().filter(|lane| !lane.name.starts_with("out")).cloned().map(|mut lane| {

@@ -1,7 +1,7 @@
 //! Changes of a scenario from the command line, such as `--set vehicle.ego.goal.speed_mps=1.2`.
 //!
-//! A change is merged into the file as a file is merged into the one that it extends, and then checked like it. Its document is the
-//! text of the flag, so errors point into the flag. The changes of a counterfactual are merged in the same way.
+//! A change is merged into the file as a file is merged into the one that it extends, and then checked in the same way. Its document is
+//! the text of the flag, so errors point into the flag. The changes of a counterfactual are merged in the same way.
 
 use std::sync::Arc;
 

@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_kinds_of_drivers_are_those_of_the_planners() {
+    fn the_registry_lists_every_kind_of_driver_of_the_planners() {
         let kinds = Registry::standard().driver_kinds();
         assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
         for kind in kinds {

@@ -50,7 +50,7 @@ impl Known {
         Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
     }
 
-    /// The reading of the electricity meter between two times \[s\]; none if no electricity is measured.
+    /// The reading of the electricity meter between two times \[s\]; `None` if no electricity is measured.
     ///
     /// # Errors
     /// [`BoptestError`].

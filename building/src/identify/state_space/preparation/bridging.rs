@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_gap_joins_two_segments_and_a_long_one_does_not() {
+    fn short_gaps_join_segments_and_long_gaps_separate_them() {
         let telemetry = without(50..53);
         let (bridged, unknown_heat) = bridged(&telemetry).expect("a short gap");
         assert_eq!((bridged.segments.len(), bridged.rows()), (1, telemetry.rows() + 3));
