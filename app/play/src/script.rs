@@ -10,7 +10,7 @@ use crate::session::{Controls, Session, SessionError};
 /// Most lines of a script.
 const MAX_LINES: usize = 1_000_000;
 
-/// A message with its tick.
+/// A message of a page, with the tick at which it arrives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptLine {
     /// Number of ticks before the message.

@@ -62,7 +62,7 @@ impl BodyStyle {
 
 /// The size of a vehicle as a multiple of one at 1/10 scale.
 ///
-/// A body with stated lengths may not say its scale. One that is longer than any lorry at 1/10 scale is of full size.
+/// A body with stated lengths may not state its scale. A body longer than any lorry at 1/10 scale has full size.
 pub fn scale(body: &Body) -> f64 {
     let is_large = body.front_m + body.rear_m > MAX_SCALE_MODEL_M;
     if body.scale == 1.0 && is_large { FULL_SIZE_SCALE } else { body.scale }

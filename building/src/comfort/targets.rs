@@ -159,8 +159,8 @@ impl Targets {
         self.reference_c.len() / self.zones.max(1)
     }
 
-    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` is
-    /// an index of stacked quantities.
+    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within the band, and while the zone is not
+    /// occupied. `i` is an index of stacked quantities.
     ///
     /// # Panics
     /// When `i` is out of range.

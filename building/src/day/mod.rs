@@ -71,7 +71,7 @@ impl Day {
         Self { initial_c, forecast, actual, record, outlook: None, expected_targets: None }
     }
 
-    /// The same day with a forecast of the day after.
+    /// The same day with a forecast of the next day.
     #[must_use]
     pub fn before(self, outlook: Option<Disturbance>) -> Self {
         Self { outlook, ..self }

@@ -173,8 +173,8 @@ impl Occupancy {
 }
 
 impl People {
-    /// The same people, but those of zones with schedules of their own, who come and go by them. Reality deviates from a
-    /// schedule as from the common hours, but for the peak, which the schedule states.
+    /// The same people, except that those of zones with their own schedules come and go by these. Their deviations are
+    /// as before, except for the peak, which the schedule states.
     #[must_use]
     pub fn following(self, timetable: Timetable) -> Self {
         Self { timetable, ..self }

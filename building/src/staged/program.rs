@@ -2,7 +2,7 @@
 
 use super::stage_map::{HeatInput, StageMap};
 
-/// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
+/// A soft bound on the temperature of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftBound {
     /// The node.

@@ -42,7 +42,7 @@ impl Weather {
         Some(TimeSeries { values: moments.map(radiation).collect(), ..self.sun_w_per_m2.clone() })
     }
 
-    /// The same weather, its times counted from `start_s` on.
+    /// The same weather with times counted from `start_s`.
     #[must_use]
     pub fn from_s(self, start_s: f64) -> Self {
         let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };

@@ -67,7 +67,7 @@ pub struct DynamicsCurvature {
 }
 
 impl DynamicsCurvature {
-    /// These derivatives times a number.
+    /// These derivatives multiplied by a number.
     pub fn scaled(&self, share: f64) -> DynamicsCurvature {
         DynamicsCurvature {
             heading_heading: share * self.heading_heading,

@@ -106,10 +106,9 @@ impl Trajectory {
         self.inputs.len()
     }
 
-    /// The same plan one step later: the first state is dropped and the last one moves on as it did in the last
-    /// step (straight-line extrapolation), with no further input.
+    /// The plan one step later: the first state is dropped, and the last one is extrapolated in a straight line, without further input.
     ///
-    /// A trajectory without steps is returned as it is.
+    /// A trajectory without steps is returned unchanged.
     pub fn shifted(&self) -> Trajectory {
         let [.., before, last] = self.states.as_slice() else { return self.clone() };
         let end = State { x_m: 2.0 * last.x_m - before.x_m, y_m: 2.0 * last.y_m - before.y_m, ..*last };
@@ -118,7 +117,7 @@ impl Trajectory {
         Trajectory { states, inputs }
     }
 
-    /// The inputs of the same plan one step later, the last one repeated: a guess for the next plan.
+    /// The inputs of the plan one step later, with the last one repeated: an initial guess for the next plan.
     pub fn later_inputs(&self) -> Vec<Input> {
         self.inputs.iter().skip(1).chain(self.inputs.last()).copied().collect()
     }

@@ -198,7 +198,7 @@ impl Scenario {
         self.tick_count().div_ceil(self.ticks_per_plan)
     }
 
-    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    /// Time between two plans, which is also the length of a stage of a plan \[s\].
     pub fn planning_period_s(&self) -> f64 {
         self.step_s * self.ticks_per_plan as f64
     }

@@ -249,7 +249,7 @@ impl Factor {
         }
     }
 
-    /// One of finitely many values.
+    /// The value with this index, for a factor with finitely many values.
     pub fn value(&self, index: usize) -> TomlNode {
         match &self.values {
             Values::List(items) => items[index].clone(),

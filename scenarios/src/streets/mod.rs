@@ -67,7 +67,7 @@ pub struct Street {
 }
 
 impl Street {
-    /// The words of all kinds.
+    /// The words of all kinds of streets.
     pub fn kinds() -> impl Iterator<Item = &'static str> {
         KINDS.iter().map(|kind| kind.word)
     }

@@ -211,7 +211,7 @@ impl Fault {
         self.help.as_deref()
     }
 
-    /// What is wrong.
+    /// The text that says what is wrong.
     pub fn message(&self) -> &str {
         &self.message
     }

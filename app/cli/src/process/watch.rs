@@ -17,7 +17,7 @@ pub(crate) struct WatchedFiles {
 }
 
 impl WatchedFiles {
-    /// Notes the present state of the files of a scenario: its own, and those that it extends or names.
+    /// Records the present state of the files of a scenario: its own, and those that it extends or names.
     pub fn look(registry: &Registry, scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;

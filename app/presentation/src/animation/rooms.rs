@@ -31,7 +31,7 @@ pub struct Rooms {
 }
 
 impl Rooms {
-    /// Rooms as large as fit between left, top, right and bottom \[px\].
+    /// Lays out the rooms as large as possible between left, top, right and bottom \[px\].
     pub fn new(plan: FloorPlan, names: Vec<String>, [left, top, right, bottom]: [f64; 4]) -> Rooms {
         let (wide, high) = (right - left - 2.0 * AROUND_PX, bottom - top - 2.0 * AROUND_PX);
         let blocks = |across: usize| [across, plan.floors.div_ceil(across)];

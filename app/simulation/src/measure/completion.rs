@@ -8,11 +8,11 @@ use interplay_scenarios::{Road, Vehicle};
 /// Tolerance of the lateral position at the goal, as a share of the lane's width.
 const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 
-/// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
-/// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone; on a network, once its rear
-/// bumper is on the last lane of its route.
+/// Whether and when a vehicle completes its task. On a road of parallel lanes it has done so once its centre is within
+/// 15 % of a lane's width of the goal's lateral position; at an intersection, once its rear bumper has left the
+/// conflict zone; on a network, once its rear bumper is on the last lane of its route.
 ///
-/// A vehicle that starts there has no task, and neither has one that follows a record.
+/// A vehicle that starts at its goal has no task, nor has a vehicle that follows a record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,

@@ -43,7 +43,7 @@ impl Measured {
         Measured { value: value.map(MetricValue::Number), ..Measured::default() }
     }
 
-    /// A number of two vehicles at a time \[s\].
+    /// A number that concerns two vehicles, at a time \[s\].
     pub fn between(value: f64, between: [String; 2], time_s: f64) -> Self {
         Measured { time_s: Some(time_s), between: Some(between), ..Measured::number(Some(value)) }
     }

@@ -170,7 +170,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of the simulation.
+    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of the simulation itself.
     pub fn state<T: Resource>(&self) -> Option<&T> {
         self.world.get_resource()
     }

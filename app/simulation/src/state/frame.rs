@@ -134,7 +134,7 @@ impl VehicleFrame {
         self.plan.value_of(&diagnostic::COST)
     }
 
-    /// The new partner of its planner, or the end of the partnership; `None` if neither has changed in this tick.
+    /// The new partner of the vehicle's planner, or the end of the partnership; `None` if neither has changed in this tick.
     pub fn new_partner(&self) -> Option<Option<&str>> {
         self.plan.events.iter().rev().find_map(|event| match &event.kind {
             PlanEventKind::Partner(partner) => Some(partner.as_deref()),

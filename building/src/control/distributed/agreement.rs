@@ -17,11 +17,11 @@
 //!
 //! J does not rise with Jacobi steps (Theorem I) if each zone's own step does not raise it: J is convex, and d/n is the mean of the steps
 //! of the single zones. Therefore the cost of a zone's problem must not be below J for any of its inputs. With only the comfort bounds of
-//! its neighbours, as printed in (5.13), it can be below J: where bounds of more distant zones bind, the cost rose, up to 180 % above the optimum on
-//! random networks. Here the curvature of a zone's problem includes *all* bounds that its heat can affect: those of its neighbours as
-//! they are, and those of more distant zones as if they were violated, which is the most that they can add. So a zone needs only the
-//! messages of its neighbours and its response to its own heat, which is part of its model. The gradient includes all bounds exactly, so
-//! the common optimum is the only fixed point.
+//! its neighbours, as printed in (5.13), it can be below J: where bounds of more distant zones bind, the cost rose, up to 180 % above the
+//! optimum on random networks. Here the curvature of a zone's problem includes *all* bounds that its heat can affect: those of its
+//! neighbours as they are, and those of more distant zones as if they were violated, which is the most that they can add. So a zone needs
+//! only the messages of its neighbours and its response to its own heat, which is part of its model. The gradient includes all bounds
+//! exactly, so the common optimum is the only fixed point.
 //!
 //! # How near they come
 //!

@@ -207,7 +207,7 @@ impl Messages {
         series
     }
 
-    /// How temperatures move with inputs, by the messages that arrive.
+    /// The response of temperatures to inputs, as the zones compute it from the messages that arrive.
     pub fn directions(&mut self, heat_kw: &[f64]) -> Vec<Vec<f64>> {
         self.draw(Subject::Direction);
         self.forwards(&vec![0.0; self.gain.len()], heat_kw, None)

@@ -32,7 +32,7 @@ impl Rival {
         Self { weight: 1.0 / (1.0 + libm::exp(-criterion_gain)), offset, error }
     }
 
-    /// The same with the offset reflected by a sign, to compute the other end of the interval.
+    /// The same model as seen towards one end of the interval: its offset multiplied by `sign`.
     pub fn towards(self, sign: f64) -> Self {
         Self { offset: sign * self.offset, ..self }
     }

@@ -111,7 +111,7 @@ impl Telemetry {
         self.time_s.len()
     }
 
-    /// The places that exchange heat with a zone through its walls, in the order of [`Telemetry::walls`].
+    /// The zones and boundaries that exchange heat with a zone through its walls, in the order of [`Telemetry::walls`].
     pub fn neighbours(&self, zone: usize) -> Vec<Neighbour> {
         self.walls
             .iter()

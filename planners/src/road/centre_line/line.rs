@@ -7,8 +7,8 @@ use super::segment::{Jet, Segment};
 
 /// A plane curve of which position, heading and curvature are continuous, by arc length.
 ///
-/// Beyond both ends the line goes on straight, with the heading of that end and without curvature. So the curvature jumps at
-/// an end that is curved. Copies share their knots.
+/// Beyond both ends the line continues straight, with the heading of that end and zero curvature. So the curvature
+/// jumps at an end that is curved. Copies share their knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CentreLine(pub(super) Shape);
 

@@ -140,8 +140,8 @@ fn jump(before: &Piece, after: &Piece) -> Option<[f64; 2]> {
 }
 
 impl CentreLine {
-    /// The line of pieces one after the other, from a start with a heading \[m, rad\]; its headings go on from this one, also
-    /// beyond a full turn.
+    /// The line of consecutive pieces, from a start with a heading \[m, rad\]; its headings continue from this one,
+    /// beyond a full turn if necessary.
     ///
     /// Clothoids are integrated by Gauss-Legendre quadrature with ten points between neighbouring knots, to rounding.
     ///

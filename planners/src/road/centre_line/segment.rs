@@ -67,8 +67,8 @@ impl Segment {
         Segment { middle: [x / speed, y / speed], middle_heading_rad: libm::atan2(y, x), ..self }
     }
 
-    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`. The heading does not depend
-    /// on where the segment was placed before, in any bit.
+    /// The segment moved to another arc length. Of its headings, which differ by full turns, it takes the one nearest to
+    /// `heading_rad`. The heading is bit-identical wherever the segment was before.
     pub fn placed(self, from_m: f64, heading_rad: f64) -> Segment {
         let principal_rad = self.with_middle().middle_heading_rad;
         let turns = ((heading_rad - principal_rad) / std::f64::consts::TAU).round();

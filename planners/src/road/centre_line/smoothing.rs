@@ -8,12 +8,12 @@ const SEARCH_STEPS: usize = 60;
 /// Smallest and largest smoothing that is tried, by the cube of the mean distance of the points.
 const SMOOTHING_RANGE: [f64; 2] = [1e-9, 1e9];
 
-/// Points of which each is at most `tolerance_m` from the given one, so that the curve of
-/// [`CentreLine::through`](super::CentreLine::through) bends less. The first and the last point stay.
+/// Moves each point by at most `tolerance_m`, so that the curve of [`CentreLine::through`](super::CentreLine::through)
+/// bends less. The first and the last point stay.
 ///
-/// Measured points make curvature of their errors: 1 cm at a spacing of 0.5 m makes about 0.2 1/m. For x and y over the
-/// length of the chords, the smoothing spline minimises `Σ (fᵢ − yᵢ)² + λ ∫ f″²` (Reinsch 1967; Green and Silverman 1994,
-/// section 2.3). `λ` is the largest that keeps the tolerance, found by bisection.
+/// Errors of measured points cause curvature: 1 cm at a spacing of 0.5 m causes about 0.2 1/m. For x and y over the
+/// length of the chords, the smoothing spline minimises `Σ (fᵢ − yᵢ)² + λ ∫ f″²` (Reinsch 1967; Green and Silverman
+/// 1994, section 2.3). `λ` is the largest value that keeps the tolerance, found by bisection.
 ///
 /// # Errors
 /// [`CentreLineError::NotFinite`] for a point or a tolerance that is not finite, and [`CentreLineError::TooFewPoints`] where

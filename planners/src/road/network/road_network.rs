@@ -7,8 +7,7 @@ use super::lane::Lane;
 use super::neighbours::is_beside;
 use super::self_overlap::self_overlap_m;
 
-/// RoadLanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
-/// itself.
+/// Lanes that form a valid network: every named lane exists, successors touch, and no lane overlaps itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadNetwork {
     lanes: Vec<Lane>,

@@ -36,7 +36,7 @@ pub struct Route {
     pub(super) number: Option<usize>,
     /// Where it meets the others of that set.
     pub(super) conflicts: Vec<RouteConflict>,
-    /// The same strip as a straight road, if it is one.
+    /// The route as a straight road, if it is one.
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
     pub(super) max_curvature_1pm: f64,
@@ -131,7 +131,7 @@ impl Route {
         self.own_lane.as_ref()
     }
 
-    /// The same strip as a straight road, if it is one.
+    /// The route as a straight road, if it is one.
     pub fn straight(&self) -> Option<&Corridor> {
         self.straight.as_ref()
     }

@@ -33,8 +33,8 @@ impl RoadNetwork {
         self.route(&names)
     }
 
-    /// The lanes from which no end of the network can be reached, in the order of the network: loops without an exit, and what
-    /// leads into them. An end is a lane without successors; changes into open neighbours count.
+    /// The lanes from which no end of the network can be reached, in the order of the network: loops without an exit,
+    /// and the lanes that lead only into them. An end is a lane without successors; changes into open neighbours count.
     pub fn lanes_without_end(&self) -> Vec<&Lane> {
         let mut ends: Vec<bool> = self.lanes().iter().map(|lane| lane.successors.is_empty()).collect();
         let leads_to =

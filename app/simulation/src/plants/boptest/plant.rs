@@ -51,7 +51,8 @@ pub struct BoptestPlant {
 }
 
 impl BoptestPlant {
-    /// A plant with `steps` steps that connects when the run begins. `outdoor_c` is the temperature of the first day \[°C\].
+    /// The plant of a run of `steps` steps. It connects to the test case when the run begins. `outdoor_c` are the
+    /// outdoor temperatures of the first day \[°C\].
     pub fn new(config: &BoptestPlantConfig, believed: Model, steps: usize, outdoor_c: &[f64]) -> Self {
         let mean_outdoor_c = outdoor_c.iter().sum::<f64>() / outdoor_c.len().max(1) as f64;
         let steps_per_day = ((DAY_S / believed.step_s()).round() as usize).max(1);
