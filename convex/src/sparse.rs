@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn products() {
+    fn sparse_products_match_hand_computed_ones() {
         let matrix = sample();
         assert_eq!(matrix.times(&[1.0, 10.0, 100.0]), [21.0, 30.0]);
         assert_eq!(matrix.transposed_times(&[1.0, 10.0]), [1.0, 32.0, 0.0]);

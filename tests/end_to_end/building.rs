@@ -272,7 +272,7 @@ fn spoilt_buildings_are_refused_at_the_spoilt_line() {
 
 /// A week of weather, two lines of it spoilt in turn.
 #[test]
-fn paths_of_weather_files_are_relative_to_the_scenario_and_faults_located() {
+fn weather_files_are_found_relative_to_the_scenario_and_their_faults_located() {
     let folder = scratch("building-epw");
     let july = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/weather/tropical-july.epw"));
     let july = july.expect("the authored weather");

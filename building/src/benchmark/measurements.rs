@@ -28,7 +28,7 @@ pub struct PowerSignal {
     pub emission_kg_per_kwh: Vec<f64>,
 }
 
-/// The temperature of a zone and its comfort band, at each time \[°C, or K for all\].
+/// The temperature of a zone and its comfort band at each time, all in °C or all in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThermalZone {
     /// Operative or air temperature.

@@ -23,7 +23,7 @@
 //! only the messages of its neighbours and its response to its own heat, which is part of its model. The gradient includes all bounds
 //! exactly, so the common optimum is the only fixed point.
 //!
-//! # How near they come
+//! # Distance from the optimum
 //!
 //! Momentum is within 0.1 % of the centralised optimum after 40 rounds on the grids of the tests, and after 400 on 50 random networks
 //! where limits and comfort bounds bind. Line search needs 200 on the grids. Jacobi's share 1/n leaves up to 1 % after 800 rounds, and

@@ -1,8 +1,8 @@
 //! EPW files (EnergyPlus weather).
 //!
 //! The hour of a row is the hour that *ends* at its time: hour 1 of 1 January ends at 01:00. Temperatures, humidity, pressure and wind
-//! are those at the end of the interval; radiation is the sum over it. So row k (from zero) of an hourly file states its temperature at k
-//! + 1 hours after the first midnight, and its mean radiation at k + ½ hours. A file of a whole year is cyclic: the temperature between
+//! are those at the end of the interval; radiation is the sum over it. So row k (from zero) of an hourly file states its temperature
+//! k + 1 hours after the first midnight, and its mean radiation at k + ½ hours. A file of a whole year is cyclic: the temperature between
 //! 00:00 and 01:00 of the first day lies between those of the last and the first row.
 //!
 //! Times are local standard time all year, as in the file. Daylight saving in the header is ignored, and so are the years and minutes of
