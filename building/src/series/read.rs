@@ -42,7 +42,7 @@ pub struct SeriesColumn {
     pub values: Vec<f64>,
 }
 
-/// A table of series that cannot be read.
+/// Why a table of series cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct SeriesError {

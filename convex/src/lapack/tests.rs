@@ -210,7 +210,7 @@ proptest! {
     }
 
     #[test]
-    fn eigenvalues_match_nalgebra(entries in matrix(5, 5), upper: bool, low_rank: bool) {
+    fn eigenvalues_and_eigenvectors_decompose_the_matrix(entries in matrix(5, 5), upper: bool, low_rank: bool) {
         let a = if low_rank {
             let thin = entries.columns(0, 2).into_owned();
             &thin * thin.transpose()
