@@ -6,7 +6,7 @@ use common::reference::*;
 use interplay_building::control::Controller;
 
 #[test]
-fn the_first_day_uses_no_heat_where_temperatures_are_free() {
+fn no_heat_is_used_on_the_first_day_while_temperatures_are_free() {
     let (model, days) = (testbed(), [day(0)]);
     for controller in [
         Controller::Iterative(Default::default()),

@@ -69,7 +69,7 @@ fn chosen(found: &Identification) -> &str {
 }
 
 #[test]
-fn sun_on_the_wall_is_found_and_written_as_sun_on_the_wall() {
+fn sun_on_a_wall_is_identified_and_exported_as_such() {
     let found = identify(&telemetry(WALL_M2, 1), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor, sun on the wall to outdoor");
     for (name, truth, limit) in [
@@ -91,7 +91,7 @@ fn sun_on_the_wall_is_found_and_written_as_sun_on_the_wall() {
 }
 
 #[test]
-fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
+fn no_sun_on_a_wall_is_identified_if_all_sun_reaches_the_air() {
     let found = identify(&telemetry(0.0, 2), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor");
     let aperture = found.report.zones[0].physical.iter().find(|it| it.name == "aperture to the sun").expect("listed");
@@ -99,7 +99,7 @@ fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
 }
 
 #[test]
-fn only_the_kinds_of_hidden_temperatures_that_are_named_are_tried() {
+fn only_the_stated_kinds_of_hidden_temperatures_are_tried() {
     let settings = IdentifySettings { hidden: vec![HiddenTemperature::Interior], ..IdentifySettings::default() };
     let found = identify(&telemetry(WALL_M2, 3), &settings).expect("rich data");
     // Coloured heat is not a temperature, and is always tried.

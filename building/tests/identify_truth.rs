@@ -98,7 +98,7 @@ fn without_the_known_disturbance_conductances_come_out_wrong_by_their_own_size()
 
 /// Figs. 2.5 and 2.6: nine days to train, eighteen to test, r = 2.
 #[test]
-fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
+fn the_residual_model_improves_predictions_on_unseen_days() {
     for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut mean = [0.0; 5];
         for seed in SEEDS {
@@ -122,7 +122,7 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
 }
 
 #[test]
-fn series_belong_to_the_telemetry_and_agree_with_the_report() {
+fn series_for_drawing_match_the_telemetry_and_the_report() {
     let found = identified(&Classroom::default(), Estimator::PredictionError);
     let (series, zone) = (&found.series[0], &found.report.zones[0]);
     let rows = series.measured_c.len();

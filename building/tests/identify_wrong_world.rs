@@ -22,7 +22,7 @@ fn causes(report: &IdentificationReport) -> Vec<SuspectedCause> {
 
 /// The house with its weather, and a sunny one with the weather of an hour before.
 #[test]
-fn a_clock_error_of_an_hour_is_suspected_and_nothing_is_identified() {
+fn a_clock_error_of_an_hour_prevents_identification() {
     let telemetry = WALL_HOUSE.simulate(900.0, 14, 21);
     let right = report(&telemetry);
     assert!(right.suspicions.is_empty(), "{:?}", right.suspicions);
@@ -63,7 +63,7 @@ fn unmeasured_heat_at_the_same_hours_is_attributed_to_people() {
 
 /// A record without a few of its rows says the same as with them.
 #[test]
-fn a_missing_row_loses_no_more_information_than_one_row() {
+fn a_missing_row_loses_only_the_information_of_that_row() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/telemetry/cabin");
     let read = |ending: &str| std::fs::read_to_string(format!("{path}{ending}")).expect("part of the repository");
     let mut mapping = Mapping::parse("cabin.toml", &read(".toml")).expect("sound");

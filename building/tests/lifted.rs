@@ -32,7 +32,7 @@ proptest! {
     }
 
     #[test]
-    fn solving_recovers_the_inputs(network in network(5)) {
+    fn solving_the_lifted_map_recovers_the_inputs(network in network(5)) {
         for lifted in forms(&network) {
             let u = numbers(lifted.size(), 2.0);
             let found = lifted.solve(&lifted.product(&u));

@@ -98,7 +98,7 @@ fn invalid_zones_and_walls_are_refused_with_their_place() {
 }
 
 #[test]
-fn separate_zones_are_allowed_with_a_remark() {
+fn zones_without_a_connecting_wall_are_allowed_with_a_remark() {
     let walls = [Wall::new("a", "c", 30.0), Wall::new("b", AMBIENT, 30.0)];
     let network = Network::new(&zones(&["a", "b", "c"]), &walls).expect("allowed");
     let remarks = network.remarks();

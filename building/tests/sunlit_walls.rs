@@ -21,7 +21,7 @@ fn building() -> Model {
 }
 
 #[test]
-fn an_exact_forecast_is_met_exactly() {
+fn with_an_exact_forecast_sunlit_walls_reach_the_planned_temperatures() {
     let model = building();
     let network = model.network();
     let sun = |t: usize| if (16..36).contains(&t) { 500.0 } else { 0.0 };

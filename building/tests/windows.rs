@@ -60,7 +60,7 @@ fn walls_receive_the_sun_of_the_direction_they_face() {
 }
 
 #[test]
-fn a_window_may_shine_on_a_wall_that_stores_heat() {
+fn sun_through_a_window_may_heat_a_wall_that_stores_heat() {
     let floor = Wall { windows: vec![Window::facing(180.0, 3.0)], ..outer("a").with_capacity_kj_per_k(2000.0) };
     let zones = [Zone { windows: vec![Window::facing(180.0, 1.0)], ..Zone::named("a") }];
     let kwh = sun_kwh(&zones, &[floor]);

@@ -25,7 +25,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn norms_propagate_nan() {
+    fn norms_of_vectors_with_nan_are_nan() {
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
         assert!(magnitude(&[f64::NAN, 3.0]).is_nan());
         assert!(euclidean(&[3.0, f64::NAN]).is_nan());

@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn repeated_entries_share_a_slot_and_zeros_stay() {
+    fn repeated_matrix_entries_add_up_and_zeros_are_kept() {
         let matrix = sample();
         assert_eq!(matrix.start, [0, 1, 3, 4]);
         assert_eq!(matrix.row, [0, 0, 1, 1]);
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn products() {
+    fn sparse_products_match_hand_computed_ones() {
         let matrix = sample();
         assert_eq!(matrix.times(&[1.0, 10.0, 100.0]), [21.0, 30.0]);
         assert_eq!(matrix.transposed_times(&[1.0, 10.0]), [1.0, 32.0, 0.0]);
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn empty_columns_are_allowed() {
+    fn matrices_may_have_empty_columns() {
         let matrix = SparseColumns::with_pattern(2, 4, [(1, 2)].into_iter());
         assert_eq!(matrix.start, [0, 0, 0, 1, 1]);
     }

@@ -1,7 +1,7 @@
 //! Interplay: planners for vehicles that interact.
 //!
-//! Pure functions of plain values: a planner is given a [`Scene`] (what one vehicle knows at a moment) and answers with a
-//! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
+//! The crate contains only pure functions of plain values: a planner receives a [`Scene`] (the knowledge of one vehicle
+//! at one time) and returns a [`Plan`] or a [`PlanError`]. It uses no clock, files, physics or pictures.
 //!
 //! - [`vehicle`]: state, input, body, limits, and the bicycle with its derivatives
 //! - [`road`]: lanes, routes and the Frenet frame: where a vehicle may drive
@@ -16,7 +16,7 @@
 //! - [`traffic`]: the closed loop of all vehicles on a road
 //! - [`motion_prediction`]: predictions of one recorded vehicle, by several models
 //!
-//! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
+//! Sines, exponentials and similar functions come from `libm`, so that results are bit-identical on every machine.
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.

@@ -44,7 +44,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
 }
 
 #[test]
-fn without_alternatives_the_problem_is_the_conservative_one() {
+fn without_alternatives_the_contingency_problem_is_the_conservative_one() {
     for (scene, ..) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
         let one = futures(&scene, &[], &settings(0.05));
         let others: Vec<_> = scene.others.iter().collect();
@@ -55,7 +55,7 @@ fn without_alternatives_the_problem_is_the_conservative_one() {
 /// The plan, by geometry of its own: in every future the ego is outside of the ellipses around the motions of that future, and all
 /// branches begin alike.
 #[test]
-fn every_branch_keeps_out_of_the_ellipses_of_its_future() {
+fn every_branch_stays_outside_the_safety_ellipses_of_its_future() {
     let mut several = 0;
     for (scene, inferred_futures, plan) in seen(&lane_keeping(contingency(0.05), Style::Tough)) {
         let problem = plan.problem.as_ref().expect("a problem");
@@ -105,7 +105,7 @@ fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
 }
 
 #[test]
-fn an_unlikely_driver_that_shows_itself_at_once_has_a_future_of_its_own() {
+fn an_unlikely_driver_that_is_recognised_at_once_has_its_own_branch() {
     let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Style::Nice)).swap_remove(0);
     let mass = |known: &[Alternative]| known.iter().map(|one| one.probability).sum::<f64>();
     assert!(inferred_futures.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));

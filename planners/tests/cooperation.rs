@@ -109,7 +109,7 @@ fn solutions_are_pareto_optimal() {
 }
 
 #[test]
-fn the_list_of_cooperators_is_the_same_for_all() {
+fn all_vehicles_agree_on_the_list_of_cooperators() {
     let vehicles = convoy(3);
     let lists: Vec<Vec<JointVehicle>> = (0..3).map(|i| cooperators(&scene(&vehicles, i), vehicles[i].goal)).collect();
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
@@ -120,7 +120,7 @@ fn the_list_of_cooperators_is_the_same_for_all() {
 }
 
 #[test]
-fn a_merge_is_driven_as_it_was_agreed() {
+fn a_cooperative_merge_is_driven_as_agreed() {
     for count in [2, 3, 4] {
         let run = run(convoy(count), 60);
         assert!(run.collision.is_none(), "{count}: {:?}", run.collision);
@@ -133,7 +133,7 @@ fn a_merge_is_driven_as_it_was_agreed() {
 
 /// More than the structured solver takes: the general one takes over.
 #[test]
-fn five_vehicles_share_a_problem() {
+fn five_cooperating_vehicles_share_one_problem() {
     let vehicles = convoy(5);
     let plan = vehicles[0].driver.planner().plan(&scene(&vehicles, 0)).expect("a plan");
     assert_eq!(number(&plan, COOPERATING_VEHICLES), 5.0);
@@ -142,7 +142,7 @@ fn five_vehicles_share_a_problem() {
 
 /// A human between cooperating vehicles is an obstacle to both.
 #[test]
-fn strangers_are_kept_out_of() {
+fn cooperating_vehicles_avoid_other_drivers() {
     let mut vehicles = convoy(3);
     vehicles[1].drive(common::world::human(Style::Tough));
     let run = run(vehicles, 60);

@@ -54,7 +54,7 @@ fn the_solvers_agree_on_qp_subproblems() {
 }
 
 #[test]
-fn descents_end_at_optima() {
+fn descents_with_coupled_rows_end_at_optima() {
     let (mut confirmed, mut compared) = (0, 0);
     for seed in 0..SEEDS {
         let problem = problem(seed);
@@ -83,7 +83,7 @@ fn descents_end_at_optima() {
 
 /// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.
 #[test]
-fn a_mean_speed_is_as_binding_as_its_price() {
+fn a_bound_on_the_mean_speed_binds_only_if_its_price_is_high() {
     let mut free = common::alone(3);
     free.terms.retain(|term| !matches!(term, Term::KeepOut(_)));
     let guess = vec![vec![Input::default(); HORIZON]];

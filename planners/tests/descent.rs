@@ -41,7 +41,7 @@ fn descents_end_at_points_that_satisfy_the_optimality_conditions() {
 }
 
 #[test]
-fn an_optimum_costs_no_more_than_its_guess() {
+fn an_optimum_costs_no_more_than_its_initial_guess() {
     let mut solved = 0;
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
@@ -56,7 +56,7 @@ fn an_optimum_costs_no_more_than_its_guess() {
 
 /// Without time to end, a descent returns a motion that costs less than its guess and is as safe, or fails and keeps the guess.
 #[test]
-fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
+fn an_unfinished_descent_improves_on_its_guess_or_fails() {
     let (mut handed_out, mut refused) = (0, 0);
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));

@@ -22,7 +22,7 @@ fn driver(value: serde_json::Value) -> Result<Driver, serde_json::Error> {
 }
 
 #[test]
-fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
+fn every_kind_of_driver_has_defaults_and_reads_back_as_written() {
     for kind in kinds() {
         let read = driver(json!({ "kind": kind })).expect("every setting has a default");
         assert_eq!(read.kind(), kind);
@@ -40,7 +40,7 @@ fn unknown_settings_are_refused() {
 }
 
 #[test]
-fn words_choose_values_solutions_and_predictions() {
+fn settings_select_values_solutions_and_predictions_by_word() {
     let exact = driver(json!({ "kind": "bayesian", "value": "exact", "prediction": "constant-velocity" }));
     assert!(matches!(exact, Ok(Driver::Bayesian(settings)) if settings.prediction == Prediction::ConstantVelocity));
     let nash = driver(json!({ "kind": "game", "solution": "nash", "prospect": { "lambda": 1.0 } }));

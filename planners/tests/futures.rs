@@ -29,7 +29,7 @@ fn moved_to(term: &Term, vehicle: usize) -> Term {
 }
 
 #[test]
-fn the_first_inputs_are_shared_and_the_rest_differs() {
+fn branches_share_their_first_inputs_and_then_differ() {
     let mut differ = 0;
     for seed in 0..20 {
         let shared_steps = 1 + seed as usize % 12;
@@ -47,7 +47,7 @@ fn the_first_inputs_are_shared_and_the_rest_differs() {
 /// Not knowing the future costs something: knowing it from the begin is never dearer, and having to decide everything now never
 /// cheaper.
 #[test]
-fn the_later_the_future_is_known_the_more_it_costs() {
+fn learning_the_future_later_costs_more() {
     let mut dearer = 0;
     for seed in 0..20 {
         let known: f64 =
@@ -73,7 +73,7 @@ fn the_later_the_future_is_known_the_more_it_costs() {
 
 /// With the same future everywhere the plan is that of one vehicle, whatever is shared.
 #[test]
-fn equal_futures_are_one() {
+fn equal_futures_give_the_plan_of_one_future() {
     for seed in 0..10 {
         let one = futures(seed, 1, 0);
         let guess = one.start(&[]).inputs[0].clone();

@@ -45,7 +45,7 @@ fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
 }
 
 #[test]
-fn a_search_of_other_classes_passes_on_the_cheaper_side_from_any_guess() {
+fn a_homotopy_search_finds_the_cheaper_side_from_any_guess() {
     for left_m in [-0.12, -0.08, -0.04, -0.02, 0.02, 0.04, 0.08, 0.12] {
         let problem = with_a_vehicle_ahead(left_m);
         let far = -left_m.signum();
@@ -58,7 +58,7 @@ fn a_search_of_other_classes_passes_on_the_cheaper_side_from_any_guess() {
 }
 
 #[test]
-fn looking_across_is_never_dearer() {
+fn a_search_in_other_homotopy_classes_never_raises_the_cost() {
     let (mut gained, mut compared) = (0, 0);
     for seed in 0..60 {
         for problem in [alone(seed), pair(seed, 1.0 + 0.02 * seed as f64)] {

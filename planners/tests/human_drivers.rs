@@ -62,7 +62,7 @@ fn a_late_driver_brakes_later_by_its_reaction_time() {
 
 /// It decides at its first plan and then every two seconds: what begins at 1.0 s it takes into account from 2.0 s on.
 #[test]
-fn a_hesitant_driver_brakes_only_when_it_decides_anew() {
+fn a_hesitant_driver_brakes_only_at_its_next_decision() {
     let prompt = brakes_at(&cut_in(hesitant(0.0)));
     assert!(prompt < 18, "{prompt}");
     let found = brakes_at(&cut_in(hesitant(2.0)));
@@ -126,7 +126,7 @@ fn a_late_and_hesitant_driver_can_be_replayed() {
 
 /// The more a driver minds others, the more it slows down for one who cuts in.
 #[test]
-fn styles_are_points_of_a_continuum() {
+fn driver_styles_are_points_of_a_continuum() {
     let slowest = |settings| {
         let run = cut_in(settings);
         run.states.iter().map(|states| states[0].speed_mps).fold(f64::INFINITY, f64::min)
@@ -194,7 +194,7 @@ proptest! {
 
     /// Whatever the settings, and whichever vehicles come, go and jump, a driver plans a finite motion or says why it has none.
     #[test]
-    fn no_setting_panics(
+    fn no_setting_of_a_human_driver_panics(
         settings in any_settings(),
         seen in prop::collection::vec((0_usize..4, prop::collection::vec(any_agent(), 0..4)), 1..8),
     ) {

@@ -49,7 +49,7 @@ fn crossed_first(run: &Run) -> bool {
 }
 
 #[test]
-fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_velocity() {
+fn inferred_plans_win_as_many_merges_as_known_plans_and_constant_velocity_does_not() {
     let keeping =
         |prediction| wins(|| world::lane_keeping(negotiation(prediction), Style::Nice), &belief::Settings::default());
     assert_eq!(keeping(Prediction::Plan), 6);
@@ -69,7 +69,7 @@ fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_ve
 
 /// Without learning the prior decides: an ego that takes all drivers for tough gives up what a nice driver would grant.
 #[test]
-fn a_belief_that_does_not_learn_loses_the_wins() {
+fn negotiation_with_a_fixed_belief_no_longer_goes_first() {
     let crossing = |learning| {
         let settings = belief::Settings { prior: Prior::Tough, learning, ..belief::Settings::default() };
         wins(|| world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9), &settings)
@@ -94,7 +94,7 @@ fn named(run: &Run) -> Vec<DriverModel> {
 }
 
 #[test]
-fn a_tough_driver_is_named_within_a_second_of_interaction() {
+fn a_tough_driver_is_recognised_within_a_second_of_interaction() {
     let families: [&dyn Fn(Driver) -> Vec<Vehicle>; 2] =
         [&|ego| world::intersection(ego, Style::Tough, 1.75), &|ego| world::lane_keeping(ego, Style::Tough)];
     for family in families {
@@ -123,7 +123,7 @@ fn a_nice_driver_that_yields_is_not_taken_for_tough() {
 
 /// A driver of no hypothesis: it weaves, brakes and accelerates for no reason.
 #[test]
-fn a_driver_of_no_known_model_is_named_and_not_touched() {
+fn a_driver_of_an_unknown_model_is_recognised_and_not_touched() {
     let script = (0..12).map(|number| {
         let is_odd = number % 2 == 1;
         let (speed_mps, lateral_m) = if is_odd { (1.2, 0.05) } else { (0.3, -0.05) };
@@ -211,7 +211,7 @@ fn before_and_after_absence(memory: bool) -> [f64; 2] {
 
 /// Only with a memory is a driver who was out of sight the one that it was.
 #[test]
-fn a_driver_is_remembered_by_its_name() {
+fn the_belief_about_a_driver_is_stored_by_its_name() {
     let [before, after] = before_and_after_absence(true);
     assert!(before > 0.2 && (after - before).abs() < 0.1, "{before}, then {after}");
     let [before, after] = before_and_after_absence(false);

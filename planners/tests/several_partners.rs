@@ -31,7 +31,7 @@ fn nearest(a: &[State], b: &[State]) -> f64 {
 
 /// Both are asked for motions that leave room for the ego and for one another, in one problem.
 #[test]
-fn two_are_asked_at_once_and_kept_apart() {
+fn a_negotiator_asks_two_vehicles_at_once_and_keeps_them_apart() {
     assert_eq!(names(&first_plan(&lane_change(negotiator(1), [Nice, Nice])).proposals), ["front"]);
     let plan = first_plan(&lane_change(negotiator(2), [Nice, Nice]));
     assert_eq!(names(&plan.proposals), ["front", "rear"]);
@@ -49,7 +49,7 @@ fn two_are_asked_at_once_and_kept_apart() {
 
 /// What one vehicle is asked for while the other goes on as it plans is one of the motions that are compared when both are asked.
 #[test]
-fn asking_two_costs_no_more_than_asking_one() {
+fn asking_two_vehicles_costs_no_more_than_asking_one() {
     for styles in [[Nice, Nice], [Nice, Tough], [Tough, Nice]] {
         let vehicles = lane_change(negotiator(2), styles);
         let (both, one) = (first_plan(&vehicles), first_plan(&lane_change(negotiator(1), styles)));
@@ -66,7 +66,7 @@ fn asking_two_costs_no_more_than_asking_one() {
 
 /// Each is believed to accept what it accepts itself, and the planner reports the one that accepts least.
 #[test]
-fn each_asked_vehicle_has_an_acceptance_of_its_own() {
+fn each_asked_vehicle_has_its_own_acceptance() {
     let plans = run(lane_change(negotiator(2), [Nice, Tough]), 15).plans;
     let both: Vec<[f64; 2]> = plans
         .iter()
@@ -83,7 +83,7 @@ fn each_asked_vehicle_has_an_acceptance_of_its_own() {
 
 /// With one other vehicle it does not matter how many may be asked.
 #[test]
-fn one_partner_is_negotiated_with_as_ever() {
+fn a_limit_on_partners_changes_nothing_with_one_other_vehicle() {
     for style in [Nice, Tough] {
         let plans = [1, 3].map(|most| run(intersection(negotiator(most), style, 1.965), 40).plans);
         assert_eq!(plans[0], plans[1]);

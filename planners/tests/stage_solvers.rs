@@ -37,7 +37,7 @@ fn is_optimal_for_oracle(residual: &Residual, problem: &Problem) -> bool {
 
 /// The bounds are narrow enough to tell a solution from one that is a little off.
 #[test]
-fn a_solution_that_is_slightly_off_is_no_optimum() {
+fn a_slightly_wrong_solution_is_not_accepted_as_optimum() {
     for (seed, problem) in (0..20).flat_map(|seed| [(seed, alone(seed)), (seed, pair(seed, 1.0 + 0.01 * seed as f64))])
     {
         let qp = qp_subproblem(&problem, seed);
@@ -99,7 +99,7 @@ const BROKEN: [Broken; 12] = [
 
 /// Each optimality condition is checked by itself: a solution that breaks one of them by a known amount has at least that residual.
 #[test]
-fn each_condition_that_is_broken_is_seen() {
+fn each_violated_optimality_condition_has_a_residual() {
     for (what, break_it, of) in BROKEN {
         for seed in 0..10 {
             let problem = if what.contains("shared") { futures(seed, 2, 5) } else { pair(seed, 1.2) };
@@ -118,7 +118,7 @@ fn each_condition_that_is_broken_is_seen() {
 
 /// Damping belongs to the problem: its solution is none of the problem without.
 #[test]
-fn damping_is_part_of_the_conditions() {
+fn optimality_conditions_include_the_damping() {
     for seed in 0..10 {
         let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         qp.damping = 3.0;
@@ -132,7 +132,7 @@ fn damping_is_part_of_the_conditions() {
 
 /// The curvature of the dynamics pushes the steering, and nothing else: a bound that pushes back as much makes up for it.
 #[test]
-fn curvature_pushes_the_steering() {
+fn optimality_conditions_include_the_curvature_of_the_dynamics() {
     for seed in 0..10 {
         let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         let mut solution = StageSolution::default();
@@ -163,7 +163,7 @@ fn two_vehicles_with_persuasion() {
 
 /// One vehicle in several futures, whose first inputs are the same in all.
 #[test]
-fn futures_that_share_their_first_inputs() {
+fn stage_solvers_agree_for_futures_that_share_their_first_inputs() {
     for seed in 0..60 {
         let (count, shared_steps) = (2 + seed as usize % 3, 1 + seed as usize % 20);
         compare(&futures(seed, count, shared_steps), seed);

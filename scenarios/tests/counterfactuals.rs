@@ -57,7 +57,7 @@ fn a_counterfactual_is_the_scenario_that_flags_would_make() {
 }
 
 #[test]
-fn another_planner_comes_before_its_settings() {
+fn a_counterfactual_changes_the_planner_before_its_settings() {
     let found = changed("planner = 'negotiation'\nset = { vehicle.ego.driver.persuasion = false }", &[]);
     let Some(Driver::Negotiation(settings)) = found.ego().map(|ego| &ego.driver) else { panic!("not negotiation") };
     assert!(!settings.persuasion && settings.safety_filter);
@@ -67,7 +67,7 @@ fn another_planner_comes_before_its_settings() {
 
 /// Changes by flags apply to the counterfactual too, unless it states another value.
 #[test]
-fn flags_change_counterfactuals_too_and_their_own_changes_win() {
+fn flags_also_change_counterfactuals_whose_own_changes_win() {
     let flags = [Override::Seed(9), set("duration_s=5"), set("vehicle.crossing.driver.style=\"nice\"")];
     let found = changed("set = { duration_s = 2.0 }", &flags);
     assert_eq!((found.seed, found.duration_s, style(&found)), (9, 2.0, Some(Style::Nice)));
@@ -80,7 +80,7 @@ fn flags_change_counterfactuals_too_and_their_own_changes_win() {
 
 /// A counterfactual of a mechanism that the planner of a flag does not have is not an error of the file.
 #[test]
-fn a_counterfactual_that_flags_make_impossible_is_left_out() {
+fn a_counterfactual_that_flags_make_invalid_is_left_out() {
     let text = variant("set = { vehicle.ego.driver.persuasion = false }");
     assert_eq!(loaded(&text, &[]).counterfactuals.len(), 1);
     let scenario = loaded(&text, &[Override::Planner("idm".to_owned())]);
@@ -104,7 +104,7 @@ fn a_variant_has_its_own_counterfactuals_only() {
 
 /// A written counterfactual reads back, and `interplay new` keeps it.
 #[test]
-fn a_counterfactual_survives_writing() {
+fn a_counterfactual_is_written_and_read_back() {
     let scenario = loaded(&variant("set = { 'vehicle.crossing.driver.style' = 'nice', vehicle.ego.limits = {} }"), &[]);
     assert_eq!(loaded(&scenario.to_file().to_toml(), &[]), scenario);
 }
@@ -143,7 +143,7 @@ fn faults_of_a_counterfactual_are_located_before_anything_runs() {
 }
 
 #[test]
-fn wrong_expectations_are_located_too() {
+fn wrong_expectations_of_a_counterfactual_are_located() {
     let mut errors = Catalogue::default();
     let mut case = |name: &str, expect: &str, fragments: &[&str]| {
         let text = variant("planner = 'idm'").replace("order_differs = true", expect);
@@ -163,7 +163,7 @@ fn wrong_expectations_are_located_too() {
 
 /// A building has no order and no planner.
 #[test]
-fn a_building_has_counterfactuals_too() {
+fn a_building_may_have_counterfactuals() {
     let stated = |more: &str| {
         let text = "extends = 'building/four-room-pid'\ntitle = 'Mine'\niterations = 2\n[[counterfactual]]\nname = 'what if'\n";
         from_text("mine.toml", &format!("{text}{more}"), &[])
@@ -180,7 +180,7 @@ fn a_building_has_counterfactuals_too() {
 
 /// Settings that a file states for its planner are varied, and no others.
 #[test]
-fn settings_that_a_file_names_are_varied() {
+fn why_varies_the_planner_settings_that_a_file_states() {
     let factors = |sets: &[&str]| -> Vec<(String, String)> {
         let sets: Vec<Override> = sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
         let scenario = load("intersection/nice", &sets).expect("sound");
@@ -208,7 +208,7 @@ fn settings_that_a_file_names_are_varied() {
 
 /// Each change of the standard list is a scenario that differs from its origin in this one thing.
 #[test]
-fn standard_changes_fit_every_authored_scenario() {
+fn the_standard_changes_of_why_fit_every_authored_scenario() {
     for file in embedded() {
         let scenario = load(file.name, &[]).expect("authored");
         let changes = Registry::standard().standard_changes(file.name, &scenario, &[]);
@@ -224,7 +224,7 @@ fn standard_changes_fit_every_authored_scenario() {
 }
 
 #[test]
-fn a_driver_without_a_table_is_varied() {
+fn why_varies_a_driver_that_the_file_does_not_state() {
     let text = "title = 'a'\nshows = 'b'\nscale = 'full'\n[[vehicle]]\nname = 'car'\nstart = { lane = 0, along_m = 1.0, speed_mps = 3.0 }\n";
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("mine.toml").to_string_lossy().into_owned();

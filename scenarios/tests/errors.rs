@@ -11,12 +11,12 @@ use interplay_scenarios::{Override, from_text};
 use spoiled::{GOOD, refusal, spoiled};
 
 #[test]
-fn the_good_scenario_is_good() {
+fn the_valid_reference_scenario_loads() {
     from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
 }
 
 #[test]
-fn syntax() {
+fn syntax_errors_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(&mut errors, "syntax", &[("lane_count = 2", "lane_count = = 2")], &["bad.toml:7:", "not valid TOML"]);
     refusal(
@@ -35,7 +35,7 @@ fn syntax() {
 }
 
 #[test]
-fn keys() {
+fn wrong_keys_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(&mut errors, "unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?"]);
     refusal(
@@ -76,7 +76,7 @@ fn keys() {
 }
 
 #[test]
-fn types_and_words() {
+fn wrong_types_and_words_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(&mut errors, "not_a_number", &[("5.0", "\"long\"")], &["bad.toml:3:14", "must be a number", "`long`"]);
     refusal(&mut errors, "not_a_whole_number", &[("lane_count = 2", "lane_count = 2.5")], &["whole number", "2.5"]);
@@ -96,7 +96,7 @@ fn types_and_words() {
 }
 
 #[test]
-fn numbers() {
+fn wrong_numbers_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(&mut errors, "not_finite", &[("x_m = 1.0", "x_m = nan")], &["`vehicle.front.start.x_m`", "finite"]);
     refusal(&mut errors, "infinite", &[("5.0", "inf")], &["`duration_s`", "finite"]);
@@ -128,7 +128,7 @@ fn numbers() {
 }
 
 #[test]
-fn places() {
+fn wrong_positions_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(
         &mut errors,
@@ -155,7 +155,7 @@ fn places() {
 }
 
 #[test]
-fn roads() {
+fn wrong_roads_are_located_with_help() {
     let mut errors = Catalogue::default();
     let ramp = ("kind = \"lanes\"", "kind = \"ramp-merge\"\nramp_end_m = 3.0");
     let crossing = ("kind = \"lanes\"", "kind = \"intersection\"");
@@ -201,7 +201,7 @@ fn roads() {
 }
 
 #[test]
-fn names_and_times() {
+fn wrong_names_and_times_are_located_with_help() {
     let mut errors = Catalogue::default();
     refusal(
         &mut errors,
@@ -246,7 +246,7 @@ fn names_and_times() {
 }
 
 #[test]
-fn drivers_and_limits() {
+fn wrong_drivers_and_limits_are_located_with_help() {
     let mut errors = Catalogue::default();
     let limits = |text: &'static str| [("goal = { lane = 1 }", text)];
     refusal(&mut errors, "limits_inverted", &limits("limits = { speed_min_mps = 2.0 }"), &["not below the largest"]);
@@ -274,7 +274,7 @@ fn drivers_and_limits() {
 }
 
 #[test]
-fn plants_and_crashes() {
+fn wrong_plants_and_crash_expectations_are_located_with_help() {
     let mut errors = Catalogue::default();
     let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
     refusal(
@@ -302,7 +302,7 @@ fn plants_and_crashes() {
 }
 
 #[test]
-fn all_independent_errors_at_once() {
+fn all_independent_errors_are_reported_together() {
     let mut errors = Catalogue::default();
     let changes =
         [("5.0", "-1"), ("lane_count", "lanes"), ("\"nice\"", "3"), ("no_collision = true", "no_collision = 0")];
@@ -323,7 +323,7 @@ fn all_independent_errors_at_once() {
 }
 
 #[test]
-fn long_lines_are_cut_around_the_error() {
+fn long_lines_are_shortened_around_the_error() {
     let long = format!("# {}\nshows = [{}nan]", "a".repeat(5000), "0.5, ".repeat(2000));
     let error = from_text("bad.toml", &long, &[]).expect_err("not a text");
     let text = rendered(&error, 100);
@@ -332,7 +332,7 @@ fn long_lines_are_cut_around_the_error() {
 }
 
 #[test]
-fn overrides() {
+fn errors_in_overrides_are_located_with_help() {
     let mut errors = Catalogue::default();
     let set = |text: &str| from_text("good.toml", GOOD, &[Override::Set(text.to_owned())]);
     errors.error("set_unknown_vehicle", set("vehicle.eggo.goal.lane=1"), &["--set:1:9", "`eggo`", "`ego`?"]);
@@ -350,7 +350,7 @@ fn overrides() {
 }
 
 #[test]
-fn chains_of_files() {
+fn errors_in_chains_of_extended_files_are_located() {
     let mut errors = Catalogue::default();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a writable folder");

@@ -116,7 +116,7 @@ const WRONG: &[plans::WrongPlan] = &[
 ];
 
 #[test]
-fn changes_and_samples_without_effect_are_refused_where_they_are_written() {
+fn changes_and_samples_without_effect_are_refused_at_their_place() {
     plans::all_are_refused(WRONG);
 }
 

@@ -37,7 +37,7 @@ fn a_network_of_lanes_is_built_and_written_out() {
 
 /// A text and the same values in code describe the same scenario, and a file that was read may be changed in code.
 #[test]
-fn code_and_text_mean_the_same() {
+fn a_scenario_made_in_code_equals_its_text() {
     let text = "title = 'A'\nshows = 'B'\nroad = { kind = 'crossing' }\n[[vehicle]]\nname = 'ego'\nclass = 'van'\n\
                 start = { lane = 'west-in', along_m = 20, speed_mps = 8 }\nlimits.speed_max_mps = 12.0\ngoal.lane = 'east-out'";
     let mut ego = VehicleConfig::new("ego", StartConfig::in_lane("west-in", 20.0, 8.0));

@@ -13,7 +13,7 @@ fn names(text: &str) -> Result<BTreeSet<String>, toml::de::Error> {
 }
 
 #[test]
-fn each_key_that_is_present_has_one_name() -> Outcome {
+fn each_present_expectation_key_has_one_name() -> Outcome {
     let text = r#"
         no_collision = true
         rules_kept = true
@@ -49,14 +49,14 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
 }
 
 #[test]
-fn an_absent_key_has_no_name() -> Outcome {
+fn an_absent_expectation_key_has_no_name() -> Outcome {
     assert_eq!(names("")?, BTreeSet::new());
     assert_eq!(names("building = { after_iterations = 2 }")?, BTreeSet::new());
     Ok(())
 }
 
 #[test]
-fn bounds_carry_their_own_keys() -> Outcome {
+fn names_of_bounds_include_their_keys() -> Outcome {
     let text = r#"
         comfort = [{ vehicle = "ego", acceleration_at_most_mps2 = 1.0, braking_at_most_mps2 = 2.0, jerk_at_most_mps3 = 3.0 }]
         metric = [{ name = "hard_braking", is = false }, { name = "off_road_m", vehicle = "ego", at_most = 0.1, at_least = 0.0 }]

@@ -41,12 +41,12 @@ fn refusal(errors: &mut Catalogue, name: &str, from: &str, to: &str, fragments: 
 }
 
 #[test]
-fn the_good_building_is_good() {
+fn the_valid_reference_building_loads() {
     from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
 }
 
 #[test]
-fn wrong_units() {
+fn keys_with_a_wrong_unit_are_refused() {
     let mut errors = Catalogue::default();
     let all = &mut errors;
     let resistance = "resistance_k_per_kw = 62.5";
@@ -74,7 +74,7 @@ fn wrong_units() {
 }
 
 #[test]
-fn zones_and_walls() {
+fn wrong_zones_and_walls_are_refused() {
     let mut errors = Catalogue::default();
     let all = &mut errors;
     refusal(all, "same_zone_twice", "name = \"store\"", "name = \"office\"", &["bad.toml:13:8", "`office`"]);
@@ -99,7 +99,7 @@ fn zones_and_walls() {
 }
 
 #[test]
-fn days_and_controllers() {
+fn wrong_days_and_controllers_are_refused() {
     let mut errors = Catalogue::default();
     let all = &mut errors;
     refusal(all, "step_divides_no_day", "900.0", "1000.0", &["bad.toml:6:10", "does not divide a day", "1800"]);
@@ -134,7 +134,7 @@ fn days_and_controllers() {
 
 /// A flag about vehicles is refused without any.
 #[test]
-fn flags_for_vehicles() {
+fn flags_about_vehicles_are_refused_for_a_building() {
     let mut errors = Catalogue::default();
     let with = |text: &str, change: Override| from_text("good.toml", text, &[change]);
     let planner = || Override::Planner("idm".to_owned());
@@ -152,7 +152,7 @@ fn flags_for_vehicles() {
 
 /// Each error points at its key, even if only the building crate can find it.
 #[test]
-fn keys_of_controllers_and_setpoints() {
+fn wrong_keys_of_controllers_and_setpoints_are_refused() {
     let mut errors = Catalogue::default();
     let all = &mut errors;
     let controller = |settings: &str| format!("kind = {settings}");
@@ -206,7 +206,7 @@ fn keys_of_controllers_and_setpoints() {
 
 /// Errors of schedules, prices and zones.
 #[test]
-fn wrong_schedules_and_prices() {
+fn wrong_schedules_and_prices_are_refused() {
     let mut errors = Catalogue::default();
     let mut refused = |name: &str, more: &str, fragments: &[&str]| {
         errors.error(name, from_text("bad.toml", &format!("{GOOD}{more}"), &[]), fragments);
@@ -269,7 +269,7 @@ fn wrong_schedules_and_prices() {
 
 /// A table of prices beside the scenario is read, and its errors are located in it.
 #[test]
-fn prices_come_from_a_table() {
+fn prices_are_read_from_a_table() {
     let folder = std::env::temp_dir().join(format!("interplay-prices-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join("priced.toml");

@@ -13,7 +13,7 @@ fn with(expectations: &str) -> String {
 }
 
 #[test]
-fn an_order_that_can_never_fail() {
+fn expectations_that_can_never_fail_are_refused() {
     let mut errors = Catalogue::default();
     let order = |text: &'static str| [("order = [\"front\", \"ego\"]", text)];
     let remedy = "order = [\"ego\", \"front\"]";
@@ -25,7 +25,7 @@ fn an_order_that_can_never_fail() {
 }
 
 #[test]
-fn comfort_and_limits() {
+fn wrong_comfort_and_limit_expectations_are_refused() {
     let mut errors = Catalogue::default();
     let mut refuse = |name: &str, text: &str, fragments: &[&str]| {
         errors.error(name, from_text("bad.toml", &with(text), &[]), fragments);
@@ -96,7 +96,7 @@ fn every_expectation_has_a_name() {
 
 /// The conflict zones of an intersection are the overlap of its roads, in either order of the vehicles.
 #[test]
-fn zones_of_an_intersection_are_those_of_its_roads() {
+fn conflict_zones_of_an_intersection_are_where_its_roads_overlap() {
     let scenario = load("intersection/stop-sign", &[]).expect("authored");
     let vehicle = |name: &str| scenario.vehicle(name).expect("authored");
     let zones = scenario.road.conflict_zones(vehicle("ego"), vehicle("first"));

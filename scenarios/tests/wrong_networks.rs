@@ -59,7 +59,7 @@ fn refuse(errors: &mut Catalogue, good: &str, name: &str, from: &str, to: &str, 
 }
 
 #[test]
-fn lanes() {
+fn wrong_lanes_are_refused() {
     let mut errors = Catalogue::default();
     from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
     let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
@@ -108,7 +108,7 @@ fn lanes() {
 
 /// Neighbours that are not beside each other, and a lane that is beside itself.
 #[test]
-fn lanes_in_each_others_way() {
+fn overlapping_lanes_of_a_network_are_refused() {
     let mut errors = Catalogue::default();
     let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
         refuse(&mut errors, GOOD, name, from, to, fragments);
@@ -138,7 +138,7 @@ fn lanes_in_each_others_way() {
 
 /// A ring without an exit.
 #[test]
-fn loops() {
+fn a_ring_without_an_exit_is_refused() {
     let mut errors = Catalogue::default();
     let half = |name: &str, x_m: f64, heading_deg: f64, next: &str| {
         format!(
@@ -157,7 +157,7 @@ fn loops() {
 }
 
 #[test]
-fn vehicles_on_lanes() {
+fn wrong_vehicles_on_lanes_are_refused() {
     let mut errors = Catalogue::default();
     let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
         refuse(&mut errors, GOOD, name, from, to, fragments);
@@ -203,7 +203,7 @@ fn vehicles_on_lanes() {
 }
 
 #[test]
-fn routes() {
+fn wrong_routes_are_refused() {
     let mut errors = Catalogue::default();
     from_text("good.toml", CROSSING, &[]).expect("nothing is wrong with it");
     let mut case = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
@@ -238,7 +238,7 @@ fn routes() {
 }
 
 #[test]
-fn short_forms() {
+fn wrong_junction_forms_are_refused() {
     let mut errors = Catalogue::default();
     let mut case = |name: &str, road: &str, fragments: &[&str]| {
         let text = CROSSING.replace("kind = \"crossing\"\nturning_lanes = true", road);
@@ -258,7 +258,7 @@ fn short_forms() {
 
 /// The lanes of a road that has only numbers.
 #[test]
-fn names_on_parallel_lanes() {
+fn lane_names_on_parallel_lanes_are_refused() {
     let mut errors = Catalogue::default();
     let good = "title = \"a\"\nshows = \"b\"\n[[vehicle]]\nname = \"car\"\n\
         start = { lane = 0, along_m = 1.0, speed_mps = 1.0 }\n";
@@ -278,7 +278,7 @@ fn refused(from: &str, to: &str, words: &[&str]) {
 }
 
 #[test]
-fn a_width_of_zero_is_named_before_the_length_that_it_allows() {
+fn a_lane_width_of_zero_is_reported_before_the_length() {
     let (widths, zeros) = ("[[0.0, 3.5], [60.0, 3.0]]", "[[0.0, 0.0], [60.0, 0.0]]");
     refused(widths, zeros, &["bad.toml:18:18", "a lane has the width 0 m", "widths are at least 0.001 m"]);
 }
@@ -291,7 +291,7 @@ fn the_error_of_points_that_double_back_names_the_point() {
 
 /// Lanes of a millimetre would be compared at millions of places before the cars turn out not to fit.
 #[test]
-fn cars_on_lanes_of_a_millimetre_are_refused_at_once() {
+fn cars_on_lanes_of_a_millimetre_are_refused_quickly() {
     let car = |name: &str, lane: &str| {
         format!("[[vehicle]]\nname = \"{name}\"\nstart = {{ lane = \"{lane}\", along_m = 5.0, speed_mps = 9.0 }}\n")
     };

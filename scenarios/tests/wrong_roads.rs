@@ -17,7 +17,7 @@ pieces = [
 "#;
 
 #[test]
-fn curves() {
+fn wrong_curved_roads_are_refused() {
     let mut errors = Catalogue::default();
     let good = spoiled(&[("kind = \"lanes\"", CURVE)]);
     from_text("good.toml", &good, &[]).expect("nothing is wrong with it");
@@ -62,7 +62,7 @@ fn curves() {
 }
 
 #[test]
-fn vehicles_on_curves() {
+fn wrong_vehicles_on_curves_are_refused() {
     let mut errors = Catalogue::default();
     let good = spoiled(&[("kind = \"lanes\"", CURVE)]);
     let mut refuse = |name: &str, (from, to): (&str, &str), fragments: &[&str]| {
@@ -82,7 +82,7 @@ fn vehicles_on_curves() {
 }
 
 #[test]
-fn places_in_lanes() {
+fn wrong_positions_in_lanes_are_refused() {
     let mut errors = Catalogue::default();
     let front = |to: &'static str| [("start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }", to)];
     let mut refuse = |name: &str, to: &'static str, fragments: &[&str]| {

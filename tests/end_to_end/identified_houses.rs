@@ -109,7 +109,7 @@ fn an_identified_house_runs_under_any_controller() {
 }
 
 #[test]
-fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
+fn identify_overwrites_no_file_and_omits_unknown_values() {
     let folder = house("identify-no-scenario");
     let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "house.toml"]);
     assert_eq!(outcome.code, Some(2), "{outcome:?}");

@@ -28,7 +28,7 @@ fn a_played_run_repeats_with_the_same_digest() {
 
 /// A front driver that yields is not asked again; the ego waits for one that does not yield.
 #[test]
-fn negotiation_answers_the_person_in_the_other_car() {
+fn negotiation_reacts_to_a_person_in_the_other_car() {
     let folder = scratch("played-front");
     let order = |acceleration: &str| {
         let line = format!(

@@ -47,7 +47,7 @@ pub fn distance(first: (&Body, &State), second: (&Body, &State)) -> f64 {
 }
 
 #[test]
-fn distances_in_closed_form() {
+fn distances_of_rectangles_match_closed_forms() {
     let body = Body::default();
     let at = |x_m: f64, y_m: f64, heading_rad: f64| State { x_m, y_m, heading_rad, speed_mps: 0.0 };
     let far = |a: State, b: State| distance((&body, &a), (&body, &b));

@@ -78,7 +78,7 @@ fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
 }
 
 #[test]
-fn fresh_planners_given_the_same_scenes_decide_the_same() {
+fn new_planners_make_the_same_decisions_in_the_same_scenes() {
     for film in FILMS.iter() {
         let mut planners: Vec<Planner> = film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
         let mut sensors: Vec<Option<Sensor>> =
@@ -142,7 +142,7 @@ fn the_prediction_of_a_planner_is_its_last_plan() {
 
 /// Among vehicles that do not plan first, the order in which they are listed gives no advantage.
 #[test]
-fn two_planners_meet_on_equal_terms() {
+fn the_listed_order_of_two_planners_gives_no_advantage() {
     let changes = ["duration_s=3", "vehicle.front.driver.kind=\"conservative\"", "expect.completes=[]"];
     let mut scenario = authored("lane-change/front-nice", &changes);
     scenario.vehicles.retain(|vehicle| vehicle.name != "rear");

@@ -23,7 +23,7 @@ const CONSERVATIVE: &str = "vehicle.ego.driver={ kind = 'conservative' }";
 const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
 
 #[test]
-fn unsuited_drivers_break_their_expectations() {
+fn unsuited_drivers_fail_the_stated_expectations() {
     UNSUITED.par_iter().for_each(|(name, change, expected): &(&str, &str, &[&str])| {
         let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
         let report = film(name, scenario).report;

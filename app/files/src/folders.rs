@@ -26,7 +26,7 @@ impl NewFolders {
 
 impl Drop for NewFolders {
     fn drop(&mut self) {
-        // A folder that cannot be removed was never created, or another process uses it by now.
+        // A folder that cannot be removed was never created, or another process now uses it.
         for folder in &self.0 {
             let _ = fs::remove_dir(folder);
         }

@@ -1,11 +1,11 @@
-//! Errors of exports.
+//! Errors of the export of a building as an FMU.
 
 use interplay_building::discretise::ModelError;
 use interplay_building::network::NetworkError;
 use interplay_simulation::climate::BuildingError;
 use thiserror::Error;
 
-/// A scenario cannot be exported.
+/// Why a scenario cannot be exported.
 #[derive(Debug, Error)]
 pub enum FmuError {
     /// The scenario has no building.

@@ -151,7 +151,7 @@ impl Host {
 
 impl Drop for Host {
     fn drop(&mut self) {
-        // Without its input the process ends by itself, but a unit that hangs does not.
+        // The process ends by itself when its input is closed, unless the unit hangs.
         self.input = None;
         self.kill();
     }

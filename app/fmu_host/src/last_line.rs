@@ -23,7 +23,7 @@ impl LastLine {
         let (reading, open) = mpsc::channel();
         let last = Arc::clone(&line);
         thread::spawn(move || {
-            // Dropped when the thread ends.
+            // This sender is dropped when the thread ends.
             let _reading: mpsc::Sender<()> = reading;
             // Units in other languages may write encodings other than UTF-8.
             for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {

@@ -66,7 +66,7 @@ impl Unit {
         &self.description
     }
 
-    /// Its library.
+    /// The path of the unit's library.
     pub fn library(&self) -> PathBuf {
         self.folder.path().join(SYSTEM).join(format!("{}.{ENDING}", self.description.library))
     }

@@ -10,7 +10,7 @@ use crate::session::{Controls, Session, SessionError};
 /// Most lines of a script.
 const MAX_LINES: usize = 1_000_000;
 
-/// A message with its tick.
+/// A message of a page, with the tick at which it arrives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptLine {
     /// Number of ticks before the message.
@@ -19,7 +19,7 @@ pub struct ScriptLine {
     pub message: PageMessage,
 }
 
-/// A script cannot be played.
+/// Why a script cannot be played.
 #[derive(Debug, Error)]
 pub enum ScriptError {
     /// A line is not a message.
@@ -68,8 +68,8 @@ pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptErro
     Ok(lines)
 }
 
-/// Plays a script in a seat, to the end of the scenario or of the script. The ticks of lines count all ticks that were made, also
-/// after a rewind.
+/// Plays a script in a seat, to the end of the scenario or of the script. The ticks of lines count every simulated
+/// tick, including those that a rewind discards.
 ///
 /// # Errors
 /// [`SessionError`] if the simulation fails, or if a message is refused.

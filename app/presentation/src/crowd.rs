@@ -1,4 +1,4 @@
-//! Which vehicles of a crowd are drawn in detail: names, colours and plans of distant vehicles would hide the interaction.
+//! Selects the vehicles of a crowd that are drawn in detail: names, colours and plans of distant vehicles would hide the interaction.
 
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, VehicleFrame};
@@ -25,7 +25,8 @@ const MAX_LABELLED: usize = 8;
 /// Vehicles of a crowd are described within this distance from the ego, in lengths of their bodies.
 const NEAR_LENGTHS: f64 = 30.0;
 
-/// For each vehicle whether a recording has its plans, numbers and words at a tick: always, but in a crowd only near the ego.
+/// For each vehicle, whether a recording contains its plans, numbers and words at a tick: always, except that in a
+/// crowd only vehicles near the ego have them.
 pub fn described(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     let ego = frame.vehicles.get(scenario.ego_index());
     let is_near = |(vehicle, stated): (&VehicleFrame, &Vehicle)| {
@@ -40,7 +41,7 @@ pub fn described(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     frame.vehicles.iter().zip(&scenario.vehicles).map(is_near).collect()
 }
 
-/// For each vehicle whether it has a label: the ego and the vehicles nearest to it.
+/// For each vehicle, whether it has a label: the ego and the vehicles nearest to it have one.
 pub fn labelled(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     let mut near = nearest_vehicles(scenario, frame);
     near.truncate(MAX_LABELLED);

@@ -1,4 +1,4 @@
-//! How wide the parts of a road are drawn: the same in animations, recordings, figures and on pages.
+//! Widths of the parts of a road in drawings: the same in animations, recordings, figures and on pages.
 
 /// Width of the lines where vehicles stop or yield, in lane widths.
 pub const STOP_LINE_LANES: f64 = 0.11;

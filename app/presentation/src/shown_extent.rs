@@ -134,7 +134,7 @@ pub fn shown_extent(scenario: &Scenario, moment: &CameraFrame, largest: &Largest
     if kept.len() > 1 {
         return shown;
     }
-    // No further vehicle fits: extend as far as possible toward the next one.
+    // If no further vehicle fits, the extent grows as far as possible toward the next one.
     let largest_m = if partners.is_empty() { largest.usual_m } else { largest.spoken_of_m };
     let is_coming = |next: usize| {
         let is_near = away_m(next) < NEAR_WIDTHS * largest_m[0];

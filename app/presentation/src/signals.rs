@@ -102,7 +102,7 @@ fn on_network(network: &RoadNetwork, states: &[State]) -> Option<f64> {
         let beside: &Option<LaneNeighbour> = if off > 0.0 { &lane.left } else { &lane.right };
         let holds = |neighbour: &LaneNeighbour| network.lane(&neighbour.lane).is_some_and(|lane| contains(lane, state));
         if off.abs() > 0.5 + OVER_THE_LINE_LANES && beside.as_ref().is_some_and(holds) {
-            // In a lane that is driven against its direction, the left of the lane is the right of the vehicle.
+            // In a lane that is driven against its direction, its left is the right of the vehicle.
             return Some(off.copysign(off * libm::cos(state.heading_rad - point.heading_rad)));
         }
     }

@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_follow_the_wanted_temperature_or_the_usual_one() {
+    fn room_colours_are_relative_to_the_wanted_or_usual_temperature() {
         let zone = |reference_c| ZoneFrame {
             temperature_c: 21.0,
             next_c: 21.0,

@@ -1,4 +1,4 @@
-//! Why recordings give no result.
+//! Errors of recordings that cannot be evaluated.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use interplay_scenarios::LoadError;
 use thiserror::Error;
 
-/// Why recordings give no result.
+/// Why recordings cannot be evaluated.
 #[derive(Debug, Error)]
 pub enum RecordingsError {
     /// A folder cannot be read.

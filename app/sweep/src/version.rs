@@ -1,4 +1,4 @@
-//! The version of the program as far as it determines results.
+//! The version that identifies the sources on which results depend.
 
 /// The version of the package and a digest of the sources that compute a run.
 pub fn program_version() -> String {

@@ -1,4 +1,4 @@
-//! The indicators, each a function of the measurements.
+//! Computes each indicator as a function of the measurements.
 
 use serde::Serialize;
 
@@ -52,7 +52,7 @@ impl Indicators {
         })
     }
 
-    /// Mean share of a control step that the controller took (`time_rat`): the mean of `control_s` over `step_s`, both \[s\]; none
+    /// Mean share of a control step that the controller took (`time_rat`): the mean of `control_s` over `step_s`, both \[s\]; `None`
     /// before the first decision.
     pub fn computational_time_ratio(control_s: &[f64], step_s: f64) -> Option<f64> {
         (!control_s.is_empty()).then(|| control_s.iter().sum::<f64>() / control_s.len() as f64 / step_s)

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// What carries the energy of a power signal.
+/// The carrier of the energy of a power signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// Electricity (`ElectricPower`).
@@ -28,7 +28,7 @@ pub struct PowerSignal {
     pub emission_kg_per_kwh: Vec<f64>,
 }
 
-/// The temperature of a zone and the band in which it is comfortable, at each time \[°C\]; kelvin serve as well.
+/// The temperature of a zone and its comfort band at each time, all in °C or all in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThermalZone {
     /// Operative or air temperature.
@@ -74,7 +74,7 @@ pub struct MeasuredRun {
     pub water: Vec<Water>,
 }
 
-/// Measurements of which no indicators can be computed.
+/// Why indicators cannot be computed from measurements.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeasurementError {
     /// There are fewer than two times, so an integral is not defined.
@@ -118,7 +118,7 @@ pub enum MeasurementError {
 }
 
 impl MeasuredRun {
-    /// Refuses measurements of which no indicators can be computed.
+    /// Refuses measurements from which indicators cannot be computed.
     ///
     /// # Errors
     /// [`MeasurementError`], of the first fault.

@@ -53,7 +53,7 @@ impl Agenda {
         Self { tariff: Some(tariff), ..self }
     }
 
-    /// The targets of day `day`, counted from zero; with those of the next day if days differ.
+    /// The targets of day `day`, counted from zero. If days differ, they include the targets of the next day.
     pub fn of_day(&self, day: usize) -> Targets {
         let mut targets = self.alone(day);
         let bounded = self.bounds.is_some();
@@ -63,7 +63,7 @@ impl Agenda {
         targets
     }
 
-    /// The currency of prices; none without a tariff.
+    /// The currency of prices; `None` without a tariff.
     pub fn currency(&self) -> Option<&str> {
         self.tariff.as_ref().map(|tariff| tariff.currency.as_str())
     }

@@ -8,8 +8,8 @@ const DAY_S: f64 = 86_400.0;
 
 /// The lowest and the highest comfortable temperature of each zone over a run.
 ///
-/// A zone counts as occupied where its bounds are closest together: there it has a wanted temperature and a band that reaches down to the
-/// lower bound. At other times it is free, or wanted at `other_c` of the setpoints.
+/// A zone counts as occupied where its bounds are closest together: there it has a wanted temperature and a band that reaches down
+/// to the lower bound. At other times its temperature is free, or the setting `other_c` of the setpoints states it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComfortBounds {
     /// How long each value holds \[s\].

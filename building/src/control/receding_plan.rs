@@ -1,4 +1,4 @@
-//! The last plan of a controller that plans at every step, and what it does in a step without a plan.
+//! The last plan of a controller that plans at every step, which it follows in a step without a plan.
 
 use super::ControlError;
 

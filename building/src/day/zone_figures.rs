@@ -1,4 +1,4 @@
-//! How a day turned out for one zone.
+//! The key figures of one zone on a day.
 
 use serde::Serialize;
 

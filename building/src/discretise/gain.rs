@@ -1,5 +1,5 @@
-//! What a steady kilowatt into each node does to all temperatures within one step: a symmetric matrix \[K/kW\], kept in
-//! one of three forms.
+//! The effect of a steady kilowatt into each node on all temperatures within one step: a symmetric matrix \[K/kW\],
+//! stored in one of three forms.
 
 use std::f64::consts::PI;
 
@@ -39,7 +39,7 @@ impl Gain {
 
     /// f(C⁻¹L)·C⁻¹ as a series, without a matrix; `f` must be analytic around \[0, ∞).
     pub(super) fn series(network: &Network, f: impl Fn(f64) -> f64) -> Self {
-        // A network without any conductance has the spectrum {0}; any interval will do.
+        // A network without any conductance has the spectrum {0}; then any interval is valid.
         let bound_per_s = rate_bound_per_s(network).max(f64::MIN_POSITIVE.sqrt());
         let coefficients = chebyshev(|x| f(0.5 * bound_per_s * (x + 1.0)));
         Self::Series(ChebyshevSeries { coefficients, inverse_root: inverse_root(network), bound_per_s })
@@ -119,7 +119,7 @@ fn chebyshev(f: impl Fn(f64) -> f64) -> Vec<f64> {
 /// Coefficients of the interpolating polynomial in the zeros of T_m.
 fn interpolated(f: impl Fn(f64) -> f64, points: usize) -> Vec<f64> {
     let m = points as f64;
-    // cos(kπ/2m) for all k that the sums need.
+    // The cosines cos(kπ/2m) for all k that the sums need.
     let cosines: Vec<f64> = (0..4 * points).map(|k| libm::cos(PI * k as f64 / (2.0 * m))).collect();
     let values: Vec<f64> = (0..points).map(|j| f(cosines[2 * j + 1])).collect();
     let coefficient = |k: usize| {

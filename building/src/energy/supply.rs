@@ -1,4 +1,4 @@
-//! What the heat of a day takes and costs.
+//! The electricity that the heat of a day takes, and its cost.
 
 use super::HeatPump;
 
@@ -21,7 +21,7 @@ pub struct EnergySupply {
 }
 
 impl EnergySupply {
-    /// Electric power that takes `heat_kw` out of a zone or brings it in \[kW\].
+    /// Electric power of the equipment that adds `heat_kw` to a zone or, if negative, removes it \[kW\].
     pub fn electric_kw(&self, step: usize, heat_kw: f64) -> f64 {
         match (&self.heat_pump, self.outdoor_c.get(step)) {
             (Some(heat_pump), Some(outdoor_c)) => heat_kw.abs() / heat_pump.cop(heat_kw > 0.0, *outdoor_c),
@@ -29,7 +29,7 @@ impl EnergySupply {
         }
     }
 
-    /// What `electric_kwh` cost in a step \[currency\]; none without a tariff.
+    /// The cost of `electric_kwh` in a step \[currency\]; `None` without a tariff.
     pub fn money(&self, step: usize, electric_kwh: f64) -> Option<f64> {
         Some(self.price_per_kwh.as_ref()?.get(step)? * electric_kwh)
     }

@@ -68,7 +68,7 @@ impl Default for Tariff {
     }
 }
 
-/// A tariff without a price to compare others with.
+/// Why a tariff is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct TariffError {
@@ -112,12 +112,12 @@ impl Tariff {
         self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
-    /// How many days the prices are.
+    /// The number of days that the prices cover.
     pub fn days(&self) -> f64 {
         self.prices_per_kwh.len() as f64 * self.interval_s / DAY_S
     }
 
-    /// Refuses prices that would begin anew in the middle of a day of a run of `days` days.
+    /// Refuses prices that, in a run of `days` days, would start again in the middle of a day.
     ///
     /// # Errors
     /// [`TariffError`].
@@ -137,7 +137,7 @@ impl Tariff {
         Err(TariffError { key: "prices_per_kwh".into(), problem })
     }
 
-    /// Whether one day has other prices or emissions than the next.
+    /// Whether prices or emissions differ between days.
     pub fn days_differ(&self) -> bool {
         let has_prices = !self.prices_per_kwh.is_empty();
         (has_prices && !is_whole(1.0 / self.days())) || 24 % self.emissions_kg_per_kwh.len().max(1) != 0

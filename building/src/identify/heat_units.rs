@@ -1,4 +1,4 @@
-//! Remarks on heat that is probably in another unit than the mapping says: nothing else in a record would contradict it.
+//! Remarks on heat that is probably in another unit than the mapping says: nothing else in a record would reveal it.
 
 use super::telemetry::{MeasuredZone, Telemetry};
 

@@ -44,7 +44,7 @@ enum Term {
 }
 
 impl ZoneModel {
-    /// The terms for which there is telemetry.
+    /// The zone model with a term for each measured quantity.
     pub fn new(telemetry: &Telemetry, zone: usize) -> Self {
         let measured = &telemetry.zones[zone];
         let mut terms: Vec<_> = telemetry.neighbours(zone).into_iter().map(Term::Wall).collect();
@@ -53,7 +53,7 @@ impl ZoneModel {
         Self { zone, terms }
     }
 
-    /// What the coefficients are.
+    /// The coefficients of the model, in order.
     pub fn coefficients(&self, telemetry: &Telemetry) -> Vec<Coefficient> {
         let name = |term: &Term| match *term {
             Term::Wall(neighbour) => Coefficient::Wall { to: telemetry.name(neighbour).into() },
@@ -139,7 +139,7 @@ impl Regression {
         regression
     }
 
-    /// What is left of the target: target − Σ column · coefficient.
+    /// The residuals: target − Σ column · coefficient.
     pub fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut rest = self.target.clone();
         for (column, coefficient) in self.columns.iter().zip(coefficients) {

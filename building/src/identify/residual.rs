@@ -35,7 +35,7 @@ pub(super) struct ResidualSeries {
 }
 
 impl ResidualModel {
-    /// Fits the model to what `coefficients` leave on `segments`.
+    /// Fits the model to the residuals of `coefficients` on `segments`.
     ///
     /// # Errors
     /// [`IdentifyError`] when there are too few rows.

@@ -1,4 +1,4 @@
-//! The first block of G, h₁: what a kilowatt into each zone does to the zones within a step.
+//! The first block of G, h₁: the effect of a kilowatt into each zone on the zones within a step.
 
 use nalgebra::{Cholesky, DVector, Dyn};
 

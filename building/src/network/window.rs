@@ -1,4 +1,4 @@
-//! Windows: how the sun of a direction gets into a zone or onto a wall.
+//! Windows, through which the sun of a direction heats a zone or a wall.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

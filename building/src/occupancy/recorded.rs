@@ -1,4 +1,4 @@
-//! Recorded heat of people and machines, in the place of that of schedules or beside it.
+//! Recorded heat of people and machines, which replaces the heat of schedules or adds to it.
 
 use crate::series::HeldSeries;
 
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_record_takes_the_place_of_people_or_adds_to_them() {
+    fn recorded_heat_replaces_scheduled_people_or_adds_to_them() {
         let heat_kw = HeldSeries { first_s: 0.0, interval_s: 3600.0, cyclic: true, values: vec![3.0, 5.0] };
         let record =
             |beside_people| ZoneRecord { zone: 1, heat_kw: heat_kw.clone(), beside_people, is_forecast: false };

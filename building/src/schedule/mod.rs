@@ -1,4 +1,4 @@
-//! Schedules of zones: when people are in a zone, how warm it shall then be, and how much heat they bring, by weekday.
+//! Schedules of zones by weekday: when people are in a zone, the wanted temperature at those times, and the heat that people bring.
 //!
 //! A zone that is named in a [`ZoneSchedule`] follows its schedules alone. A zone that is named in none follows the
 //! common setpoints and the common occupancy.

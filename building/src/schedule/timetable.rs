@@ -79,7 +79,7 @@ impl Timetable {
         self.schedules.is_empty()
     }
 
-    /// Whether some zone has other hours on one kind of day than on another.
+    /// Whether the hours of a zone differ between kinds of days.
     pub fn days_differ(&self) -> bool {
         self.zones.iter().flatten().any(|own| own.iter().any(|schedule| schedule != &own[0]))
     }

@@ -1,4 +1,4 @@
-//! What a scenario file says about the schedule of some zones.
+//! The schedule of some zones as a scenario file states it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

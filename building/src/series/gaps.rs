@@ -1,4 +1,4 @@
-//! Gaps in a series, and how they are bridged.
+//! Finds gaps in a series and bridges them.
 
 use std::ops::Range;
 
@@ -32,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gaps_are_filled_linearly_and_ends_by_their_neighbour() {
+    fn gaps_are_interpolated_and_missing_ends_take_the_nearest_value() {
         const NONE: f64 = f64::NAN;
         let filled = |values: &[f64]| {
             let mut filled = values.to_vec();

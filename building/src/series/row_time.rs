@@ -37,7 +37,7 @@ pub(super) struct RowTime {
 }
 
 impl TimeForm {
-    /// The form that the title of a column of times promises.
+    /// The form of time that the title of a column announces.
     pub fn of(title: &str) -> Self {
         match title.to_ascii_lowercase().as_str() {
             "hour" | "hours" | "hour_h" | "time_h" => Self::Elapsed(3600.0),
@@ -46,7 +46,7 @@ impl TimeForm {
         }
     }
 
-    /// What the times must look like, in words.
+    /// The expected form of the times, in words.
     pub fn wanted(self) -> &'static str {
         match self {
             Self::Elapsed(3600.0) => "hours since the first midnight, as in 0.25",
@@ -57,7 +57,7 @@ impl TimeForm {
         }
     }
 
-    /// The moment that a cell states.
+    /// The time that a cell states.
     pub fn read(self, text: &str) -> Option<RowTime> {
         match self {
             Self::Elapsed(unit_s) => {

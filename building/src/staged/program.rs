@@ -2,7 +2,7 @@
 
 use super::stage_map::{HeatInput, StageMap};
 
-/// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
+/// A soft bound on the temperature of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftBound {
     /// The node.
@@ -40,7 +40,7 @@ pub struct PlanStage {
     pub power: Vec<f64>,
 }
 
-/// The highest power of all stages, which has a price.
+/// The highest power over all stages, which has a price.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Cost of a kilowatt.
@@ -64,7 +64,7 @@ pub struct StagedProgram {
     pub peak: Option<Peak>,
 }
 
-/// An optimal point.
+/// An optimal solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagedSolution {
     /// Inputs, stage by stage \[kW\].

@@ -1,4 +1,4 @@
-//! How temperatures move over a stage.
+//! The map of temperatures over a stage.
 
 use nalgebra::DMatrix;
 
@@ -14,7 +14,7 @@ pub struct HeatInput {
     pub sign: f64,
 }
 
-/// How temperatures move over a stage: `x⁺ = x + B (M v − L x) + d`, where M brings inputs into their zones.
+/// The change of temperatures over a stage: `x⁺ = x + B (M v − L x) + d`, where M assigns inputs to their zones.
 #[derive(Clone, Debug)]
 pub struct StageMap {
     /// Steps of the model over which inputs are held.
@@ -34,7 +34,7 @@ impl StageMap {
         let laplacian: Vec<Vec<(usize, f64)>> = (0..nodes)
             .map(|j| (0..nodes).map(|i| (i, laplacian[(i, j)])).filter(|(_, value)| *value != 0.0).collect())
             .collect();
-        // B of k steps is that of one, and what k − 1 steps have left of B.
+        // The gain B of k steps is that of one step, plus the part of B that remains after k − 1 further steps.
         let mut gain = one.clone();
         for _ in 1..span {
             let mut conducted = DMatrix::zeros(nodes, nodes);

@@ -14,7 +14,7 @@ pub struct SkyRadiation {
     pub global_w_per_m2: f64,
 }
 
-/// A flat surface: where it faces, and what lies before it.
+/// A flat surface: its orientation, and the ground in front of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// Direction that it faces, clockwise from north \[°\]: 180 is south.

@@ -1,9 +1,9 @@
-//! Radiation by its direction: what windows of any orientation need.
+//! Radiation by direction, which windows of any orientation need.
 
 use super::{TimeSeries, Weather};
 use crate::sun::{Plane, Site, SkyRadiation, SplitRadiation, split_global};
 
-/// The place under the sun where global radiation was measured, and its parts if they were measured.
+/// The site where global radiation was measured, and its direct and diffuse parts if they were measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
     /// The place.
@@ -26,8 +26,8 @@ impl Sky {
 }
 
 impl Weather {
-    /// Radiation on a plane over time \[W/m²\], at the times of the global radiation, with the sun where it stands at each of
-    /// them; `None` where the sky is not known.
+    /// Radiation on a plane over time \[W/m²\], at the times of the global radiation and with the position of the sun
+    /// at each of them; `None` if the site of the measurement is unknown.
     pub fn on_plane_w_per_m2(&self, plane: &Plane) -> Option<TimeSeries> {
         let sky = self.sky.as_ref()?;
         let radiation = |(index, (days, global)): (usize, (&f64, &f64))| {
@@ -42,7 +42,7 @@ impl Weather {
         Some(TimeSeries { values: moments.map(radiation).collect(), ..self.sun_w_per_m2.clone() })
     }
 
-    /// The same weather, its times counted from `start_s` on.
+    /// The same weather with times counted from `start_s`.
     #[must_use]
     pub fn from_s(self, start_s: f64) -> Self {
         let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };

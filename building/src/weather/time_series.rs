@@ -1,4 +1,4 @@
-//! A quantity known at equal intervals of time, linear in between.
+//! A quantity at equal intervals of time, interpolated linearly.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct TimeSeries {
 }
 
 impl TimeSeries {
-    /// The value at a time, interpolated linearly. Outside of a series that is not cyclic it is that at the nearer end.
+    /// The value at a time, interpolated linearly. Beyond the ends of a series that is not cyclic, the value at the nearer end holds.
     ///
     /// # Panics
     /// When there are no values.
@@ -34,7 +34,7 @@ impl TimeSeries {
         self.values[before] + part * (self.values[after] - self.values[before])
     }
 
-    /// When the last value holds no longer: an interval after its time \[s\].
+    /// The time until which the last value holds: one interval after its own time \[s\].
     pub fn end_s(&self) -> f64 {
         self.first_s + self.values.len() as f64 * self.interval_s
     }

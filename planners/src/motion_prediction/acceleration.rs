@@ -14,7 +14,7 @@ pub(super) fn predict(moment: &TrafficMoment, decay: Option<[f64; 2]>, lateral: 
             let passed_s = decay_s * (1.0 - libm::exp(-time_s / decay_s));
             moment.trusted_acceleration_mps2(half_noise_mps) * decay_s * (time_s - passed_s)
         });
-        // Who stands does not drive backwards.
+        // A standing vehicle does not drive backwards.
         farthest_m = farthest_m.max(moment.speed_mps * time_s + gained_m);
         along_m.push(farthest_m);
     }

@@ -1,8 +1,8 @@
-//! Our human driver as a prediction: one plan of it, made on the straightened lane.
+//! The human driver model as a prediction: one of its plans, made on the straightened lane.
 //!
-//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those
-//! beside it are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A
-//! driver in traffic wants about the speed that it has: what it would want on a free road cannot be seen.
+//! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and its
+//! neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to keep their speed. A driver in
+//! traffic is assumed to want about its present speed, because the speed that it would choose on a free road cannot be observed.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ const TRACKING: [f64; 4] = [0.0, 0.01, 0.5, 0.1];
 /// Weight of changes of the steering angle.
 const STEERING_CHANGE: f64 = 0.1;
 
-/// Our human driver, as a prediction of a vehicle in traffic.
+/// The human driver model of Interplay, as a prediction of a vehicle in traffic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedDriver {
     /// The driver.
@@ -57,7 +57,7 @@ pub struct PredictedDriver {
 }
 
 impl PredictedDriver {
-    /// A real car's driver as scenarios have it.
+    /// The driver of a real car with the usual settings of scenarios.
     pub fn usual() -> PredictedDriver {
         PredictedDriver {
             settings: human::Settings { style: Some(human::Style::Normal), ..human::Settings::default() },
@@ -90,7 +90,7 @@ impl PredictedDriver {
 
     /// The moment as the driver sees it.
     fn scene(&self, moment: &TrafficMoment) -> Scene {
-        // A vehicle beside the road at the start is on a road that reaches there.
+        // If the vehicle starts beside the road, the road is widened to include it.
         let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
         let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
         let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };
@@ -198,20 +198,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn on_a_free_road_the_speed_is_kept() {
+    fn a_predicted_driver_keeps_its_speed_on_a_free_road() {
         let moment = TrafficMoment { others: Vec::new(), ..behind(1.0, 1.0) };
         let motion = PredictedDriver::usual().predict(&moment);
         assert!((motion.along_m[STEPS] - 100.0).abs() < 0.01, "{}", motion.along_m[STEPS]);
     }
 
     #[test]
-    fn a_slow_leader_is_not_run_into() {
+    fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let motion = PredictedDriver::usual().predict(&behind(30.0, 10.0));
         assert!(motion.along_m[STEPS] < 30.0 + 50.0, "{}", motion.along_m[STEPS]);
     }
 
     #[test]
-    fn a_vehicle_that_keeps_its_line_is_not_predicted_to_the_middle_of_the_lane() {
+    fn a_vehicle_off_the_lane_centre_is_predicted_to_keep_its_lateral_position() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
         let across_m =
             |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];

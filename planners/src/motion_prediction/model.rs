@@ -1,8 +1,8 @@
-//! The models, as one type.
+//! The motion models as one type.
 
 use super::{CarFollowing, LateralMotion, PredictedDriver, PredictedMotion, TrafficMoment, acceleration};
 
-/// A model of how a vehicle goes on.
+/// A model that predicts the motion of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionModel {
     /// Speed and lateral place are kept.
@@ -23,7 +23,7 @@ pub enum MotionModel {
 }
 
 impl MotionModel {
-    /// Where the model expects the vehicle.
+    /// Predicts the motion of the vehicle.
     pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         match self {
             MotionModel::ConstantVelocity => acceleration::predict(moment, None, LateralMotion::Kept),

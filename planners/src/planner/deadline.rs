@@ -1,9 +1,9 @@
-//! When a plan is too late, told by the work that it took: so the answer is the same on every machine.
+//! Deadlines of plans, measured by the work that a plan took, so that the result is the same on every machine.
 
 use crate::PlanError;
 use crate::trajectory::Statistics;
 
-/// The most work that a plan may take. Its vehicle drives on without a plan that took more.
+/// The most work that a plan may take. A plan that took more is discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanDeadline {
     most_work: usize,
@@ -14,12 +14,12 @@ impl PlanDeadline {
     /// `docs/evidence/benchmarks.md`.
     const WORK_PER_MS: f64 = 50.0;
 
-    /// The deadline after this time \[ms\], by what it stands for; at least one unit of work.
+    /// The deadline after this time \[ms\], converted to the work that the reference machine does in it; at least one unit of work.
     pub fn after_ms(budget_ms: f64) -> Self {
         PlanDeadline { most_work: (budget_ms * PlanDeadline::WORK_PER_MS).round().max(1.0) as usize }
     }
 
-    /// Whether the work behind a plan ended in time.
+    /// Checks that the work behind a plan stayed within the deadline.
     ///
     /// # Errors
     /// [`PlanError::Late`] if it did not.
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plan_is_late_above_the_work_that_its_time_stands_for() {
+    fn a_plan_is_late_if_it_takes_more_work_than_its_deadline() {
         let done = |work| Statistics { inner_iterations: work, ..Statistics::default() };
         let deadline = PlanDeadline::after_ms(2.0);
         assert_eq!(deadline.check(&done(100)), Ok(()));

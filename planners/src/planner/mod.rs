@@ -1,4 +1,4 @@
-//! A driver at work: what every kind of driver has around it.
+//! A driver with its surroundings, which are the same for every kind of driver: inference, certificate and deadline.
 
 pub(crate) mod deadline;
 
@@ -16,7 +16,8 @@ use crate::prediction::Prediction;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::{Plan, PlanError, PlanViolation, Scene};
 
-/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
+/// A driver in operation: it infers the plans that the driver does not know, checks each plan and its deadline, and
+/// logs homotopy classes.
 ///
 /// It is the same for all kinds of drivers, and knows them only through [`DriverKind`] and [`Drive`].
 #[derive(Debug)]
@@ -39,19 +40,19 @@ pub struct Planner {
 }
 
 impl Driver {
-    /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
+    /// A planner with this driver that has not planned yet. If it infers plans, it does so with the default settings.
     pub fn planner(&self) -> Planner {
         self.planner_believing(&belief::Settings::default())
     }
 
-    /// As [`Driver::planner`], with settings for how it infers plans.
+    /// As [`Driver::planner`], with settings for the inference of plans.
     pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
         Planner::new(&**self, inference)
     }
 }
 
 impl Planner {
-    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it knows none.
+    /// A planner with a driver of this kind that has not planned yet. `inference` sets how it infers plans that it does not know.
     pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
         Planner {
             driver: kind.driver(),
@@ -65,19 +66,18 @@ impl Planner {
         }
     }
 
-    /// The same planner, whose plans have this deadline, or none.
+    /// The same planner with this deadline for its plans, or with none.
     pub fn with_deadline(self, deadline: Option<PlanDeadline>) -> Self {
         Planner { deadline, ..self }
     }
 
-    /// Another driver takes over. What follows from the kind of the former one stays: what the driver knows, and whether its plans
-    /// may be refused.
+    /// Replaces the driver. Properties of the former driver's kind remain: what the driver knows, and whether its plans may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
         self.driver = driver;
     }
 
-    /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
-    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it knows none.
+    /// Changes the settings of the driver, or its kind. A driver of the same kind keeps its memory, one of another kind
+    /// starts anew; beliefs are kept in both cases. `inference` sets how the planner infers plans from now on.
     pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
         let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
         self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
@@ -88,7 +88,7 @@ impl Planner {
         self.is_vetoed = kind.is_vetoed();
     }
 
-    /// A copy that remembers the same; `None` if its driver cannot be copied.
+    /// A copy with the same memory; `None` if the driver cannot be copied.
     pub fn fork(&self) -> Option<Self> {
         Some(Planner {
             driver: self.driver.fork()?,
@@ -98,8 +98,8 @@ impl Planner {
         })
     }
 
-    /// Plans the next move in a scene that shows all vehicles as they are. A vehicle that can neither reach this one nor be reached by it
-    /// within the horizon has no part in the plan.
+    /// Plans the next move in a scene that shows all vehicles as they are. Vehicles that cannot meet this one within
+    /// the horizon are left out.
     ///
     /// # Errors
     /// [`PlanError`] if no plan was found; the caller falls back.
@@ -111,7 +111,7 @@ impl Planner {
         }
     }
 
-    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver knows no plans.
+    /// Plans the next move in a sensed scene, with inferred predictions where the driver knows no plans.
     ///
     /// # Errors
     /// As [`Planner::plan`].

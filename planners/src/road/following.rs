@@ -1,4 +1,4 @@
-//! Following a road without an optimiser.
+//! Inputs that follow a road without an optimiser.
 
 use super::centre_line::FrenetPoint;
 use crate::vehicle::slip_on_curve_rad;

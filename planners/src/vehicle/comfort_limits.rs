@@ -1,4 +1,4 @@
-//! What people bear: bounds within which a vehicle is driven unless safety asks for more.
+//! Comfort limits: bounds within which a vehicle is driven unless safety requires more.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

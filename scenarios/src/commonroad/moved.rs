@@ -1,4 +1,4 @@
-//! A local origin for scenarios whose coordinates are those of the earth.
+//! Moves scenarios in geographic coordinates to a local origin.
 
 use super::model::{CommonRoad, Region};
 use crate::resolve::local_origin;

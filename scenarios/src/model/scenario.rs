@@ -193,17 +193,17 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
-    /// How often each vehicle plans.
+    /// The number of plans that each vehicle makes.
     pub fn plan_count(&self) -> usize {
         self.tick_count().div_ceil(self.ticks_per_plan)
     }
 
-    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    /// Time between two plans, which is also the length of a stage of a plan \[s\].
     pub fn planning_period_s(&self) -> f64 {
         self.step_s * self.ticks_per_plan as f64
     }
 
-    /// How many days of the building are simulated; 0 without a building.
+    /// The number of simulated days of the building; 0 without a building.
     pub fn days(&self) -> usize {
         if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
     }
@@ -213,7 +213,7 @@ impl Scenario {
         self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
-    /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
+    /// The route along which positions on the whole road are measured: that of the main road, or on a network that of the ego.
     pub fn main_route(&self) -> Arc<Route> {
         let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
         let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
@@ -318,9 +318,8 @@ impl Vehicle {
         }
     }
 
-    /// The desired state of the vehicle: the lateral position of its goal (that of its start without one, and on a network the
-    /// middle of its route), along the road, at the desired speed. The coordinate along the road is that of the start; no
-    /// controller tracks it.
+    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (or of its start if it has
+    /// no goal; on a network, in the middle of its route). The coordinate along the road is that of the start; no controller tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
@@ -337,22 +336,22 @@ impl Vehicle {
 }
 
 impl Vehicle {
-    /// Its outline, if it is an obstacle.
+    /// The outline of an obstacle; `None` for other vehicles.
     pub fn outline(&self) -> Option<&Outline> {
         self.obstacle.as_ref().map(|obstacle| &obstacle.outline)
     }
 
-    /// Whether it keeps all rules of the road.
+    /// Whether the vehicle keeps all rules of the road.
     pub fn keeps_rules(&self) -> bool {
         self.rules == Some(RuleKeeping::Kept)
     }
 
-    /// Its planner, before its first plan.
+    /// The planner of the vehicle, before its first plan.
     pub fn planner(&self) -> Planner {
         self.driver.planner_believing(&self.inference.unwrap_or_default())
     }
 
-    /// Its sensor with the errors of a seed; `None` if it sees the exact states.
+    /// The sensor of the vehicle, with errors from a seed; `None` if it sees the exact states.
     pub fn sensor(&self, seed: u64) -> Option<Sensor> {
         self.sensing.map(|settings| Sensor::new(settings, seed))
     }

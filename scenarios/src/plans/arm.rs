@@ -26,17 +26,17 @@ pub(super) struct Arm {
 const AS_WRITTEN: &str = "as-written";
 
 impl Arm {
-    /// The scenario as it is.
+    /// An arm that changes nothing: the scenario as its file states it.
     pub fn as_written() -> Arm {
         Arm { name: AS_WRITTEN.to_owned(), kind: None, changes: Vec::new(), factors: Vec::new() }
     }
 
-    /// An arm that changes settings and has factors of its own.
+    /// An arm that changes settings and has its own factors.
     pub fn changing(name: &str, changes: Vec<(SettingPath, TomlNode)>, factors: Vec<Factor>) -> Arm {
         Arm { name: name.to_owned(), kind: None, changes, factors }
     }
 
-    /// A planner: a kind of driver, or a table.
+    /// An arm that replaces the planner of the ego: by a kind of driver, or by a table.
     pub fn planner(node: &TomlNode, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         match &node.value {
             TomlValue::Table(table) => {
@@ -51,13 +51,13 @@ impl Arm {
         }
     }
 
-    /// A counterfactual of a scenario, under its name.
+    /// An arm that is a counterfactual of a scenario, under its name.
     pub fn counterfactual(table: &Table, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         let kind = table.get("planner").map(|entry| entry.node.clone());
         Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0), registry)? })
     }
 
-    /// Drivers of the others: a style of humans, a kind of driver, or a table.
+    /// An arm that replaces the drivers of the other vehicles: by a style of humans, a kind of driver, or a table.
     pub fn style(node: &TomlNode, settings: DrawSettings, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         if let TomlValue::Table(table) = &node.value {
             return Arm::stated(table, settings, registry);
@@ -93,23 +93,23 @@ impl Arm {
         Ok(Arm { name, kind: None, changes, factors })
     }
 
-    /// The settings that it changes.
+    /// The settings that the arm changes.
     pub fn settings(&self) -> &[(SettingPath, TomlNode)] {
         &self.changes
     }
 
-    /// The kind of driver of the ego, if it is changed.
+    /// The kind of driver that the arm gives the ego, if any.
     pub fn kind(&self) -> Option<&TomlNode> {
         self.kind.as_ref()
     }
 
-    /// Its changes: the driver of the ego, then its settings.
+    /// The changes of the arm: the driver of the ego, then its settings.
     pub fn assignments(&self) -> impl Iterator<Item = Assignment<'_>> {
         let kind = self.kind.iter().map(Assignment::driver);
         kind.chain(self.changes.iter().map(|(path, value)| Assignment::setting(path, value)))
     }
 
-    /// Its changes in words; different arms have different words.
+    /// The changes of the arm in words; different arms have different words.
     pub fn canonical(&self) -> String {
         let kind = self.kind.iter().map(|kind| format!("kind={}", kind.to_json()));
         let changes = self.changes.iter().map(|(path, value)| format!("{}={}", path.written(), value.to_json()));

@@ -19,22 +19,22 @@ pub(super) struct Assignment<'a> {
 }
 
 impl<'a> Assignment<'a> {
-    /// The kind of driver of the ego.
+    /// Assigns the kind of driver of the ego.
     pub fn driver(kind: &'a TomlNode) -> Assignment<'a> {
         Assignment { path: None, value: Cow::Borrowed(kind), is_varied: false }
     }
 
-    /// A setting that all runs of an arm have.
+    /// Assigns a setting that all runs of an arm share.
     pub fn setting(path: &'a SettingPath, value: &'a TomlNode) -> Assignment<'a> {
         Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Borrowed(value), is_varied: false }
     }
 
-    /// A setting that varies, with its value in one run.
+    /// Assigns a varying setting its value in one run.
     pub fn varied(path: &'a SettingPath, value: TomlNode) -> Assignment<'a> {
         Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Owned(value), is_varied: true }
     }
 
-    /// The random change of the starts, stated at a place.
+    /// Assigns the random change of the starts, which is stated at a place of the plan.
     pub fn of_jitter(jitter: StartJitter, place: &Place) -> Vec<Assignment<'a>> {
         let amounts = [("start_jitter.position_m", jitter.position_m), ("start_jitter.speed_mps", jitter.speed_mps)];
         let assignment = |(path, amount)| {
@@ -57,13 +57,13 @@ impl<'a> Assignment<'a> {
         path.lay(root, &self.value, schema)
     }
 
-    /// Whether the setting is one of these or is below one, by the first key of its path.
+    /// Whether the setting is one of these or below one of them, by the first key of its path.
     pub fn is_below(&self, first_keys: &[&str]) -> bool {
         let written = self.path.as_ref().map(|path| path.written()).unwrap_or_default();
         first_keys.iter().any(|key| written.split('.').next() == Some(key))
     }
 
-    /// The place of the value.
+    /// The place in the plan at which the value is written.
     pub fn place(&self) -> &Place {
         &self.value.place
     }
@@ -79,7 +79,7 @@ impl<'a> Assignment<'a> {
         self.path.as_ref().is_none_or(|path| path.schema(schema).is_some())
     }
 
-    /// The assignment as it would be written, numbers to six digits.
+    /// The assignment as text, with numbers to six digits.
     pub fn written(&self) -> String {
         let path = self.path.as_ref().map_or_else(|| "planner".to_owned(), |path| path.written());
         let value = match self.value.value {

@@ -1,4 +1,4 @@
-//! Which change of a plan causes a fault of a run.
+//! Finds the change of a plan that causes a fault of a run.
 
 use std::collections::BTreeSet;
 

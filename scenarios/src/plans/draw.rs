@@ -1,4 +1,4 @@
-//! Numbers of the unit interval for each path and sample.
+//! Random numbers in the unit interval for each path and sample.
 
 use interplay_common::random::Random;
 
@@ -17,12 +17,12 @@ pub(super) struct UnitDraws {
 const PERMUTATION_STREAM: u64 = u64::MAX;
 
 impl UnitDraws {
-    /// The numbers of a path under a plan's seed.
+    /// The random numbers of a path under the seed of a plan.
     pub fn new(seed: u64, path: &str, sampling: Sampling, samples: u64) -> UnitDraws {
         let seed = seed.wrapping_add(hash(path));
         let count = if sampling == Sampling::LatinHypercube { u32::try_from(samples).unwrap_or(u32::MAX) } else { 0 };
         let mut strata: Vec<u32> = (0..count).collect();
-        // Fisher and Yates.
+        // The Fisher-Yates shuffle.
         let mut random = Random::new(seed, PERMUTATION_STREAM);
         for last in (1..strata.len()).rev() {
             let other = random.uniform(0.0, (last + 1) as f64) as usize;
@@ -33,7 +33,7 @@ impl UnitDraws {
 
     /// The number of a sample, in the open interval (0, 1).
     pub fn at(&self, sample: u64) -> f64 {
-        // Half a step away from zero: a normal distribution has infinite quantiles at both ends.
+        // Adding half a step avoids zero: a normal distribution has infinite quantiles at both ends.
         let unit = Random::new(self.seed, sample).uniform(0.0, 1.0) + 0.5_f64.powi(54);
         let stratum = usize::try_from(sample).ok().and_then(|sample| self.strata.get(sample));
         let drawn = stratum.map_or(unit, |stratum| (f64::from(*stratum) + unit) / self.strata.len() as f64);
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_part_of_a_latin_hypercube_has_one_sample() {
+    fn every_stratum_of_a_latin_hypercube_has_one_sample() {
         let draws = UnitDraws::new(1, "a.b", Sampling::LatinHypercube, 50);
         let mut parts: Vec<usize> = (0..50).map(|sample| (draws.at(sample) * 50.0) as usize).collect();
         assert!(parts.windows(2).any(|pair| pair[1] < pair[0]), "not in order");
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn more_samples_and_other_paths_change_nothing() {
+    fn drawn_numbers_do_not_depend_on_sample_count_or_other_paths() {
         let [few, many] = [10, 1000].map(|samples| UnitDraws::new(7, "a.b", Sampling::Random, samples));
         assert!((0..10).all(|sample| few.at(sample) == many.at(sample)));
         let other = UnitDraws::new(7, "a.c", Sampling::Random, 10);

@@ -193,7 +193,7 @@ fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> 
         }
         (None, Some(step), _) => match number(&step.node) {
             Some(width) if width > 0.0 && (to - from) / width < MAX_VALUES as f64 => {
-                // A step that divides the range, up to rounding, reaches its end.
+                // If the step divides the range, up to rounding, the last value is the end of the range.
                 let steps = ((to - from) / width + 1e-9).floor();
                 Ok(Values::Numbers(from, from + steps * width, steps as usize + 1))
             }
@@ -227,7 +227,7 @@ impl Factor {
         }
     }
 
-    /// Where the last word of its path is written.
+    /// The place at which the last word of its path is written.
     pub fn key(&self) -> &Place {
         self.path.places().last().unwrap_or(&self.place)
     }
@@ -249,7 +249,7 @@ impl Factor {
         }
     }
 
-    /// One of finitely many values.
+    /// The value with this index, for a factor with finitely many values.
     pub fn value(&self, index: usize) -> TomlNode {
         match &self.values {
             Values::List(items) => items[index].clone(),
@@ -262,7 +262,7 @@ impl Factor {
         }
     }
 
-    /// The value of a sample.
+    /// The value that is drawn for a sample.
     pub fn drawn(&self, sample: u64) -> TomlNode {
         let unit = self.draws.at(sample);
         if let Some(count) = self.count() {
@@ -277,14 +277,14 @@ impl Factor {
         self.node(TomlValue::Float(number))
     }
 
-    /// The extreme values; of a list all values, up to `limit`.
+    /// The extreme values; of a list, all values up to `limit`.
     pub fn extremes(&self, limit: usize) -> Vec<TomlNode> {
         let ends = |ends: [f64; 2]| ends.map(|end| self.node(TomlValue::Float(end))).to_vec();
         match &self.values {
             Values::List(items) => items.iter().take(limit).cloned().collect(),
             Values::Integers(_, _, count) | Values::Numbers(_, _, count) => vec![self.value(0), self.value(count - 1)],
             Values::Uniform(from, to) | Values::LogUniform(from, to) => ends([*from, *to]),
-            // Its tails are unbounded: every drawn value is checked.
+            // A normal distribution has no extremes; instead, every drawn value is checked.
             Values::Normal(mean, _) => vec![self.node(TomlValue::Float(*mean))],
         }
     }

@@ -1,4 +1,4 @@
-//! The contents of the files that a scenario names: a comparison of scenarios must compare them, too.
+//! The contents of the files that a scenario names: a comparison of two scenarios must include them.
 
 use interplay_building::energy::Tariff;
 

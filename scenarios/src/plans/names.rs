@@ -1,4 +1,4 @@
-//! The scenarios that an entry of a plan stands for.
+//! The scenarios that an entry of a plan selects.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Settings below a path.
+//! Finds settings below a path, and how later settings remove them.
 
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ pub(super) enum Removal {
 }
 
 impl<'s> Rivals<'s> {
-    /// Those of a path without `*`.
+    /// Finds the ways to remove the setting at a path without `*`.
     pub fn find(path: &str, schema: SchemaNode<'s>) -> Rivals<'s> {
         let words: Vec<&str> = path.split('.').collect();
         let up_to = |count: usize| words[..count].join(".");
@@ -77,7 +77,7 @@ impl<'s> Rivals<'s> {
         rivals
     }
 
-    /// How later settings remove this one, if they do.
+    /// How later settings remove this one; `None` if they do not.
     pub fn removal(&self, laid: &BTreeMap<String, Option<String>>) -> Option<Removal> {
         let states = |path: &str| {
             laid.contains_key(path)

@@ -1,4 +1,4 @@
-//! The reasons why a table is not a valid road.
+//! Reasons why a table is not a valid road.
 
 /// A fault of a road, and its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ impl RoadFault {
         RoadFault { path: path.into(), label: label.to_owned(), message, help: String::new() }
     }
 
-    /// The same with a help text.
+    /// The same fault with a help text.
     pub fn help(self, help: impl Into<String>) -> RoadFault {
         RoadFault { help: help.into(), ..self }
     }

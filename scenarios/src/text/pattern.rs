@@ -16,7 +16,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_star_stands_for_a_part_of_a_name() {
+    fn a_star_in_a_pattern_matches_any_part_of_a_name() {
         for (pattern, name, expected) in [
             ("lane-change/*", "lane-change/front-nice", true),
             ("*/nice", "intersection/nice", true),

@@ -1,4 +1,4 @@
-//! How a command ends.
+//! Exit codes of commands.
 
 /// How a command ended, from well to worst; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

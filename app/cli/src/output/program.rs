@@ -1,4 +1,4 @@
-//! How this program is called.
+//! The name by which a shell finds this program.
 
 use std::env;
 

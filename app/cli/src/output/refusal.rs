@@ -1,4 +1,4 @@
-//! How a command ends without a result.
+//! Prints why a command ends without a result.
 
 use interplay_sweep::SweepError;
 

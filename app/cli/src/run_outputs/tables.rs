@@ -9,15 +9,15 @@ use interplay_sweep::{DetectorWriter, SeriesWriter, TableFile, TableFormatError,
 
 use super::{BegunOutput, OutputError, RunOutput};
 
-/// A table of what every vehicle did.
+/// A table of the trajectories of all vehicles.
 #[derive(Clone, Debug)]
 pub struct TrajectoryTable(TableFile);
 
-/// A table of what detectors counted.
+/// A table of the counts of all detectors.
 #[derive(Clone, Debug)]
 pub struct DetectorTable(TableFile);
 
-/// A table of what happened in the building.
+/// A table of the building's temperatures, heat and weather over time.
 #[derive(Clone, Debug)]
 pub struct SeriesFile(TableFile);
 

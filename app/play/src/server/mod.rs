@@ -64,7 +64,7 @@ impl ServeOptions {
     }
 }
 
-/// The server failed.
+/// Why the server failed.
 #[derive(Debug, Error)]
 pub enum ServeError {
     /// The address is not available.

@@ -4,7 +4,7 @@ use interplay_simulation::NotCopied;
 use interplay_simulation::run::RunError;
 use thiserror::Error;
 
-/// A request to a session failed.
+/// Why a request to a session failed.
 #[derive(Debug, Error)]
 pub enum SessionError {
     /// The vehicle does not exist, or a person cannot drive it.

@@ -43,7 +43,7 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         run.frames.iter().copied().filter(shown).collect::<Vec<&Frame>>()
     };
     let hit = past(COLLISION_SHOWN_S).into_iter().flat_map(|frame| &frame.collisions).find(|hit| hit.time_s <= time_s);
-    // The last event of the ego, or if there is none, of another vehicle.
+    // The last event of the ego or, without one, of another vehicle.
     let recent = past(EVENT_SHOWN_S);
     let last = |is_of: &dyn Fn(bool) -> bool| recent.iter().rev().find_map(|frame| reportable_event(run, frame, is_of));
     let second = last(&|is_ego| is_ego).or_else(|| last(&|is_ego| !is_ego)).unwrap_or_default();
@@ -111,7 +111,7 @@ fn intention(run: &DrivingRun, frame: &Frame) -> Option<String> {
 fn reportable_event(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option<String> {
     let ego = run.scenario.ego().map(|ego| ego.name.as_str());
     let of_level = |level: Level| {
-        // The end of requests is not reported, and the request of the ego is in the first line.
+        // The end of a request is not reported, and the ego's request is already in the first line.
         let is_news = |event: &&Event| {
             let is_wanted = event.level == level && is_of(Some(event.vehicle.as_str()) == ego);
             is_wanted && !is_change_of_partner(frame, event) && run.is_named(frame, &event.vehicle)
@@ -121,7 +121,7 @@ fn reportable_event(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> boo
         };
         frame.events.iter().filter(is_news).find_map(said)
     };
-    // Collisions are in the first line.
+    // Collisions are already in the first line.
     of_level(Level::Warning).or_else(|| of_level(Level::Note))
 }
 

@@ -49,7 +49,7 @@ pub fn draw_edge_mark(
     let away = 0.5 * ARROW_PX + BETWEEN_PX;
     let middle = [mark.at[0] - dx * (away + 0.5 * wide), mark.at[1] - dy * (away + 0.5 * high)];
     let half = [0.5 * wide + 2.0, 0.5 * high + 2.0];
-    // Between the arrow and the middle of the view, otherwise above or below.
+    // The label lies between the arrow and the middle of the view or, if that is taken, above or below.
     let place = |beside: f64| {
         let wanted = [middle[0], middle[1] + beside * (high + 8.0)];
         let inside = |axis: usize| wanted[axis].clamp(half[axis], (view.size_px[axis] - half[axis]).max(half[axis]));

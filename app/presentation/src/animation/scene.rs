@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn states_at_ticks_are_those_of_the_run_and_motion_between_is_smooth() {
+    fn drawn_states_equal_the_run_at_ticks_and_are_smooth_between_them() {
         let recorded = recorded("lane-change/front-nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         for frame in &run.frames {
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn brake_lights_shine_exactly_while_braking() {
+    fn brake_lights_are_lit_exactly_while_braking() {
         let recorded = recorded("roundabout/nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let (mut lit, mut dark) = (0, 0);

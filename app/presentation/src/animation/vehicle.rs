@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_shine_when_they_are_lit() {
+    fn vehicle_lights_are_drawn_when_they_are_lit() {
         let dark = standing();
         assert_eq!(count(&dark, BRAKE_LIGHT), 0);
         assert_eq!(count(&dark, INDICATOR), 0);

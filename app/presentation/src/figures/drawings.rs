@@ -1,4 +1,4 @@
-//! How the entries of the registry are drawn.
+//! Drawing functions for the entries of the registry.
 
 use interplay_building::comfort::Setpoints;
 use serde::Deserialize;

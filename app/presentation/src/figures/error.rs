@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::plot::PlotError;
 
-/// A figure, or a page of figures, was not made.
+/// Why a figure, or a page of figures, was not made.
 #[derive(Debug, Error)]
 pub enum FigureError {
     /// A scenario cannot be loaded.

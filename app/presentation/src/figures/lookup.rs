@@ -48,7 +48,7 @@ fn id_of(words: &str) -> String {
 
 fn unknown(words: &str, id: &str) -> UnknownFigure {
     let ids: Vec<String> = registry().map(Entry::id).collect();
-    // Names are similar only by their numbers.
+    // Only a name with a number can resemble another one.
     let near = nearest(id, ids.iter().map(String::as_str)).filter(|_| !id.ends_with('-'));
     let help = match near {
         Some(near) => format!("did you mean `{near}`?"),

@@ -132,7 +132,7 @@ fn run_content(recorded: &RecordedRun) -> FigureContent {
         content.pictures.push(climate::costs("Cost of each day", &[recorded]).drawing());
         content.pictures.push(climate::weather(weather_title(recorded), recorded).drawing());
     }
-    // One row per measure: a row of all measures would be wider than a page.
+    // Each measure has a row: a single row with all measures would be wider than a page.
     content.tables = measures::side_by_side(&[recorded]).into_iter().map(TextTable::transposed).collect();
     content.tables.extend(recorded.report.building.as_ref().map(measures::zones));
     if !recorded.report.expectations.is_empty() {

@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_difference_of_two_runs_lists_the_facts_that_differ() {
+    fn the_difference_between_two_runs_lists_the_facts_that_differ() {
         let recorded =
             |label: &str, sets: &[&str]| RunSpec::new(label, "lane-change/front-nice", sets).record().expect("a run");
         let (nice, other) =

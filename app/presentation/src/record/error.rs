@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rerun::RecordingStreamError;
 use thiserror::Error;
 
-/// A recording failed. No incomplete file is left behind.
+/// Why a recording failed. No incomplete file is left behind.
 #[derive(Debug, Error)]
 pub enum RecordError {
     /// The file cannot be written.

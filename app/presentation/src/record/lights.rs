@@ -1,4 +1,4 @@
-//! Traffic lights in a recording, logged where they change.
+//! Traffic lights in a recording, logged when their colours change.
 
 use interplay_scenarios::Scenario;
 

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_convert_to_time_gaps_and_back() {
+    fn safety_weights_convert_to_time_gaps_and_back() {
         for (ratio, weight) in [(0.6, 0.0), (1.4, 50.0), (0.3, 0.0), (2.0, 50.0)] {
             assert!((safety_weight_keeping(ratio) - weight).abs() < 1e-9, "{ratio}");
         }
@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn the_minimum_is_refined_between_the_candidates() {
+    fn the_fitted_minimum_is_interpolated_between_candidates() {
         let grid: Vec<[usize; 2]> =
             (0..RATIOS.len()).flat_map(|ratio| (0..COMFORTS.len()).map(move |comfort| [ratio, comfort])).collect();
         let bowl = |place: &[usize; 2]| {

@@ -1,9 +1,9 @@
 //! Fits a human driver model to a recorded trajectory.
 //!
-//! From each second of the record with a leader in sight, a candidate driver plans on what is known then; its plan is
-//! compared with the record 1, 2 and 3 s later. Fitted are the time gap, the weight of changes of the acceleration (comfort), and, as
-//! a nuisance parameter, the desired speed. The style is the safety weight at which our human keeps that time gap; yielding is not
-//! considered.
+//! From each second of the record with a leader in sight, a candidate driver plans from the state at that second; its
+//! plan is compared with the record 1, 2 and 3 s later. The fit determines the time gap, the weight on changes of the
+//! acceleration (comfort) and, as a nuisance parameter, the desired speed. The style is the safety weight at which the
+//! human driver model keeps that time gap; yielding is not considered.
 //!
 //! Intervals come from a bootstrap over blocks of consecutive starts, since neighbouring errors are correlated. They are widened by the
 //! grid of candidates.

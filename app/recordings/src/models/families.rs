@@ -1,4 +1,4 @@
-//! Each model with its fitted parameters.
+//! The families of models, each fitted to recordings.
 
 use interplay_planners::drivers::{human, idm};
 use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionModel, PredictedDriver, STEP_S};

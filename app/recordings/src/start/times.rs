@@ -1,4 +1,4 @@
-//! The times before and after a start.
+//! The time span before the start of a prediction that is observed, and the horizons after it that are evaluated.
 
 /// Time before a start over which slopes are computed \[s\].
 pub(crate) const PAST_S: f64 = 1.2;

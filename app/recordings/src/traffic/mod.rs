@@ -24,7 +24,7 @@ pub struct Recordings {
 }
 
 impl Recordings {
-    /// Reads files and folders; each argument is a group of its own.
+    /// Reads files and folders; each argument becomes a separate group.
     ///
     /// # Errors
     /// [`RecordingsError`] if a file cannot be read, with the place.

@@ -1,4 +1,4 @@
-//! Rows that repeat others: published files contain the same cars several times, each time with another one removed as the ego.
+//! Finds rows that repeat others: published files contain the same cars several times, each time with a different one removed as the ego.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_car_in_two_files_is_one_car() {
+    fn a_car_that_two_files_contain_is_counted_once() {
         let file = |name: &str, from: i64| {
             let at = |step: i64| RecordedMoment {
                 step: step - from,

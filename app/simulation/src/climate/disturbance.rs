@@ -1,4 +1,4 @@
-//! Disturb: weather and people, and their forecasts.
+//! Disturb: applies weather and people, and makes their forecasts.
 
 use bevy_ecs::prelude::*;
 use interplay_building::day::Day;

@@ -1,8 +1,8 @@
 //! Digests of a run, exact in every bit, for each phase.
 //!
-//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ: they
-//! show that the runs differ, not where the difference began. Digests of single ticks ([`Digest::of_tick`]) show where: in the first
-//! tick that differs, the first phase that differs is the cause.
+//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ:
+//! they show that the runs differ, but not where the difference began. Digests of single ticks ([`Digest::of_tick`])
+//! show this: in the first tick that differs, the first phase that differs is the cause.
 
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
@@ -57,7 +57,7 @@ impl Digest {
         digest.phases()
     }
 
-    /// Takes one tick and the states at its end.
+    /// Adds one tick, and the states at its end, to the digests.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());
@@ -146,7 +146,7 @@ mod tests {
 
     /// The prediction of a vehicle that plans first is its plan, so another plan does not change the digest of Predict.
     #[test]
-    fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
+    fn a_prediction_equal_to_the_plan_belongs_to_the_plan_digest() {
         let told = |x_m: f64| {
             let mut recorded = tick(1.0);
             let vehicle = &mut recorded.frame.vehicles[0];

@@ -18,12 +18,12 @@ pub struct Planning {
 }
 
 impl Planning {
-    /// No plan yet; `budget_ms` is the time budget of a plan \[ms\].
+    /// Begins without a plan; `budget_ms` is the time budget of a plan \[ms\].
     pub fn new(budget_ms: Option<f64>) -> Self {
         Planning { budget_ms, ..Planning::default() }
     }
 
-    /// Takes one tick.
+    /// Updates the counts and times with one tick.
     pub fn observe(&mut self, vehicle: &VehicleFrame) {
         if vehicle.origin == Origin::Crashed {
             return;

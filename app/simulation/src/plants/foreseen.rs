@@ -1,4 +1,4 @@
-//! What a plant in another program knows in advance about its own run.
+//! The forecasts that a plant in another program states about its own run.
 
 use interplay_building::comfort::{Agenda, ComfortBounds};
 use interplay_building::day::Surroundings;

@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_rounded_unless_that_hides_the_failure() {
+    fn numbers_are_rounded_unless_rounding_hides_the_failure() {
         let gap = json!({ "m": 2.288_119_792_938_232_4, "time_s": 16.601_957_716, "between": ["a", "b"] });
         let shown = said(json!(0.5), gap);
         assert!(shown.contains("2.288,") && shown.contains("16.6"), "{shown}");

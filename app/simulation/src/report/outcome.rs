@@ -151,7 +151,7 @@ pub struct PlansReport {
 }
 
 impl Report {
-    /// Smallest distance of the ego's footprint to another; none without others \[m\].
+    /// Smallest distance of the ego's footprint to another; `None` without others \[m\].
     pub fn min_gap_m(&self) -> Option<f64> {
         self.metrics.number("ego_gap_m")
     }
@@ -176,7 +176,7 @@ impl CounterfactualReport {
 }
 
 impl VehicleReport {
-    /// Its lowest and its highest speed \[m/s\].
+    /// The lowest and the highest speed of the vehicle \[m/s\].
     pub fn speed_range_mps(&self) -> [f64; 2] {
         ["min_speed_mps", "max_speed_mps"].map(|name| self.metrics.number(name).unwrap_or(self.last.speed_mps))
     }

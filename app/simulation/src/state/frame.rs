@@ -129,12 +129,12 @@ impl VehicleFrame {
         }
     }
 
-    /// The cost of the plan; none for a plan that was not chosen by cost.
+    /// The cost of the plan; `None` for a plan that was not chosen by cost.
     pub fn plan_cost(&self) -> Option<f64> {
         self.plan.value_of(&diagnostic::COST)
     }
 
-    /// The new partner of its planner, or the end of the partnership; none if that has not changed in this tick.
+    /// The new partner of the vehicle's planner, or the end of the partnership; `None` if neither has changed in this tick.
     pub fn new_partner(&self) -> Option<Option<&str>> {
         self.plan.events.iter().rev().find_map(|event| match &event.kind {
             PlanEventKind::Partner(partner) => Some(partner.as_deref()),
@@ -176,7 +176,7 @@ pub struct Event {
     pub text: String,
 }
 
-/// How serious an event is.
+/// The severity of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// For information.

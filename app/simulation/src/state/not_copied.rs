@@ -13,12 +13,12 @@ pub struct NotCopied {
 }
 
 impl NotCopied {
-    /// The entity of the vehicle called `name` was removed from the world, or lacks a component that it began with.
+    /// The error that the entity of the vehicle called `name` was removed from the world, or lacks one of its initial components.
     pub fn incomplete(name: &str) -> Self {
         NotCopied { who: format!("the vehicle `{name}`"), why: "an added system removed it or a part of it".to_owned() }
     }
 
-    /// The driver of the vehicle called `name` does not fork.
+    /// The error that the driver of the vehicle called `name` cannot be copied.
     pub fn driver_of(name: &str) -> Self {
         NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() }
     }

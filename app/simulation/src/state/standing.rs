@@ -94,12 +94,13 @@ impl<'a> Standing<'a> {
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
 
-    /// Why a vehicle is stationary; none if no reason is visible, or if vehicles wait for one another in a cycle.
+    /// Why a vehicle is stationary; `None` if no reason is visible, or if vehicles wait for one another in a cycle.
     pub fn reason(&self, index: usize) -> Option<StandingReason> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
-    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty without a cycle.
+    /// The cycle of vehicles that wait for one another and to which a vehicle belongs, itself included, in ascending
+    /// order; empty without a cycle.
     pub fn circle(&self, index: usize) -> Vec<usize> {
         let together = |other: &usize| self.reaches(*other).contains(&index);
         let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();

@@ -44,7 +44,7 @@ impl Share {
         Share { count, of, interval: wilson_interval(count, of) }
     }
 
-    /// The share itself; none if `of` is zero.
+    /// The share itself; `None` if `of` is zero.
     pub fn share(&self) -> Option<f64> {
         (self.of > 0).then(|| self.count as f64 / self.of as f64)
     }

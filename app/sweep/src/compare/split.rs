@@ -1,10 +1,10 @@
-//! How often each of two planners did better, and whether the difference is significant.
+//! Counts how often each of two planners did better, and tests whether the difference is significant.
 
 use serde::Serialize;
 
 use crate::statistics::sign_test;
 
-/// How often each of two planners did better, with the significance.
+/// The number of pairs in which each of two planners did better, with the significance of the difference.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Split {
     /// Pairs in which the first did better.

@@ -55,7 +55,7 @@ impl TableColumn {
         }
     }
 
-    /// A value.
+    /// The value in a row.
     pub fn cell(&self, row: usize) -> Cell {
         match self {
             TableColumn::Flags(all) => Cell::Flag(all.get(row).copied().flatten()),

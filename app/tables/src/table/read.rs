@@ -153,7 +153,7 @@ fn values<D: DataType, T>(
         }
         let mut found = found.drain(..);
         if levels.is_empty() {
-            // A column of required values has no levels.
+            // A column without missing values has no definition levels.
             all.extend(found.map(|value| Some(convert(value))));
         } else {
             all.extend(levels.iter().map(|level| if *level > 0 { found.next().map(&convert) } else { None }));
@@ -184,7 +184,7 @@ impl RowTable {
         Ok(whole)
     }
 
-    /// The column of a name.
+    /// The column with this name.
     pub fn column(&self, name: &str) -> Option<&TableColumn> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
     }

@@ -1,4 +1,4 @@
-//! A day that all zones plan together, and what it costs.
+//! A day that all zones plan together, and its cost.
 
 use super::zone_models::ZoneModels;
 use crate::comfort::Targets;

@@ -9,7 +9,7 @@
 //! violated. Rows r are the comfort bounds of the zone and its neighbours, whose temperatures it knows.
 //! Rows that are not violated now take part, since they may be after the step: leaving them out breaks the descent.
 //!
-//! The minimum is found by projected Newton steps: it is piecewise quadratic, so they end exactly, after a few.
+//! Projected Newton steps find the minimum: the cost is piecewise quadratic, so a few steps reach it exactly.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -52,7 +52,7 @@ pub(super) struct ZoneProblem<'a> {
 }
 
 impl ZoneProblem<'_> {
-    /// The minimising d, up to rounding. `None` if it is not unique: a number is not finite, or the cost is not strictly
+    /// The minimising d, up to rounding. `None` if d is not unique: a number is not finite, or the cost is not strictly
     /// convex in the inputs that are not at a limit.
     pub fn solve(&self) -> Option<Vec<f64>> {
         let n = self.gradient.len();

@@ -1,4 +1,4 @@
-//! What each zone knows before the first message: its responses and the curvature of the common cost.
+//! The model that each zone has before the first message: its responses and the curvature of the common cost.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -10,8 +10,8 @@ use crate::lifted::Lifted;
 
 /// Smallest response of a zone that counts in another zone's curvature, as a share of that zone's own response.
 const MIN_RESPONSE_RATIO: f64 = 1e-6;
-/// What each zone knows beforehand: how a kilowatt of its own acts, and the largest curvature of the common cost in its inputs
-/// but for the bounds near it.
+/// The models of all zones: the effect of a kilowatt of each zone, and the largest curvature of the common cost in its
+/// inputs, without the bounds near it.
 #[derive(Clone, Debug)]
 pub(super) struct ZoneModels {
     pub zones: Vec<Zone>,
@@ -27,7 +27,7 @@ pub(super) struct Zone {
 }
 
 impl ZoneModels {
-    /// For the weights of `targets` and `penalty`.
+    /// Builds the model of each zone for the weights of `targets` and `penalty`.
     pub fn new(lifted: &Lifted, targets: &Targets, penalty: BandPenalty, messages: &Messages) -> Self {
         let (n, steps) = (lifted.zones(), lifted.steps());
         let zone = |i: usize| {
@@ -46,7 +46,7 @@ impl ZoneModels {
             for j in 0..n {
                 let kernel = kernel(j);
                 if size(&kernel) > least {
-                    // Bounds of zones that send no messages to this one: as if they were all violated.
+                    // Comfort bounds of zones that send no messages to this one count as if all were violated.
                     let bent = if near.binary_search(&j).is_ok() { 0.0 } else { penalty.quadratic };
                     let bend = |t: usize| if targets.occupied[t * n + j] { bent } else { 0.0 };
                     add_curvature(&mut curvature, &kernel, |t| targets.error_weight[t * n + j] + bend(t));

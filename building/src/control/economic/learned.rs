@@ -1,4 +1,4 @@
-//! What is learned of the forecast from day to day: heat that it misses at the same hour of every day.
+//! Learns the heat that the forecast misses at the same hour of every day.
 //!
 //! ```text
 //! m ← (1 − λ) m + λ d_k          mean of the missed heat of a step and zone
@@ -6,7 +6,8 @@
 //! bias = m · m² / (m² + v λ/(2 − λ))
 //! ```
 //!
-//! A mean that is small beside its own uncertainty `v λ/(2 − λ)` is not trusted: what does not repeat is not expected.
+//! A mean that is small compared with its own uncertainty `v λ/(2 − λ)` is not trusted: an error that does not repeat
+//! is not expected again.
 
 /// Learned means of the missed heat of each step and zone.
 #[derive(Clone, Debug)]
@@ -22,13 +23,13 @@ pub(super) struct LearnedForecast {
 }
 
 impl LearnedForecast {
-    /// Nothing is learned yet of `size` steps times zones. `rate` is λ.
+    /// Begins without any learned heat; `size` is the number of steps times the number of zones, and `rate` is λ.
     pub fn new(size: usize, rate: f64) -> Self {
         let zeros = vec![0.0; size];
         Self { rate, mean_kw: zeros.clone(), variance_kw2: zeros, today_kw: vec![None; size], days: 0 }
     }
 
-    /// Notes the heat of a step that the forecast missed \[kW\], one number per zone.
+    /// Records the heat of a step that the forecast missed \[kW\], one number per zone.
     pub fn note(&mut self, step: usize, missed_kw: &[f64]) {
         let zones = missed_kw.len();
         for (today, missed_kw) in self.today_kw.iter_mut().skip(step * zones).zip(missed_kw) {
@@ -36,13 +37,13 @@ impl LearnedForecast {
         }
     }
 
-    /// Learns from the day that is over.
+    /// Updates the means and variances with the day that is over.
     pub fn end_day(&mut self) {
         if self.today_kw.iter().all(Option::is_none) {
             return;
         }
         self.days += 1;
-        // The first days count alike, as in an average.
+        // The first days have equal weights, as in an average.
         let rate = self.rate.max(1.0 / self.days as f64).min(if self.rate > 0.0 { 1.0 } else { 0.0 });
         for (i, today_kw) in self.today_kw.iter_mut().enumerate() {
             let Some(missed_kw) = today_kw.take() else { continue };
@@ -56,7 +57,7 @@ impl LearnedForecast {
     pub fn bias_kw(&self, step: usize, zones: usize) -> impl Iterator<Item = f64> + '_ {
         (step * zones..(step + 1) * zones).map(|i| {
             let square = self.mean_kw[i] * self.mean_kw[i];
-            // After a single day nothing is known of how days vary.
+            // A single day does not show how days vary.
             if self.days < 2 || square == 0.0 {
                 return 0.0;
             }

@@ -9,9 +9,9 @@
 //! emissions, `P_max` the highest electric power of the run, whose price ϖ is the demand charge. The state is estimated by a Kalman
 //! filter (`kalman`), the disturbance is the forecast with what was learned of its errors (`learned`).
 //!
-//! π values the heat that is left at the end of the horizon: it is the multiplier of the state at the start of the last plan, so
-//! that a day ahead heat is worth as much as now. Without it every plan would end with a cold building. It is kept within the dearest
-//! price of heat in the horizon.
+//! π is the value of the heat that remains at the end of the horizon. It is the multiplier of the state at the start of
+//! the last plan, so that heat a day ahead is worth as much as heat now. Without it, every plan would end with a cold
+//! building. It is limited to the highest price of heat in the horizon.
 
 mod kalman;
 mod learned;
@@ -154,7 +154,7 @@ impl Economic {
     /// What is expected over the horizon: the forecast, what was learned of it, and the missed heat, which dies out.
     fn expected(&self, step: usize, horizon: usize) -> Disturbance {
         let (known, zones) = (self.forecast.ambient_c.len(), self.filter.missed_kw.len());
-        // Beyond what is known, the last day once more.
+        // Beyond the known steps, the last day repeats.
         let known_step = |t: usize| if t < known { t } else { known - self.steps + t % self.steps };
         let mut gains = Vec::with_capacity(horizon * self.model.network().gain_count());
         for t in step..step + horizon {
@@ -198,7 +198,8 @@ impl ControllerKind for EconomicSettings {
     }
 
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
-        // About 15 iterations, with some dense products of nodes by nodes at each stage; walls are as many as zones.
+        // The solver needs about 15 iterations, each with some dense products of nodes by nodes per stage; there are as
+        // many walls as zones.
         let stages = self.spans(0, 86_400.0 / steps).len() as f64;
         steps * stages * 15.0 * (0.2 * (2.0 * zones).powi(3) + 5000.0)
     }

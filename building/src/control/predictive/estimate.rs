@@ -1,4 +1,4 @@
-//! What the controller believes of the building's state, and of heat that its model does not explain.
+//! The controller's estimate of the building's state, and of heat that its model does not explain.
 //!
 //! ```text
 //! T⁻(t+1) = A T(t) + B (k T₀ + u + w + d)        the step that the model expects
@@ -28,13 +28,13 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// Nothing is known yet. `rate` is λ.
+    /// Begins without an estimate. `rate` is λ.
     pub fn new(model: &Model, rate: f64) -> Self {
         let missed_kw = vec![0.0; model.network().zone_count()];
         Self { one_step: Lifted::new(model, 1), rate, nodes_c: Vec::new(), missed_kw, is_predicted: false }
     }
 
-    /// At midnight all temperatures are told. What was predicted for them still teaches.
+    /// Begins a day with the temperatures of all nodes. They also correct the prediction that was made for them.
     pub fn begin_day(&mut self, nodes_c: &[f64]) {
         self.measure(&nodes_c[..self.missed_kw.len()]);
         self.nodes_c = nodes_c.to_vec();
@@ -57,15 +57,15 @@ impl Estimate {
         }
     }
 
-    /// Forecast gains of the nodes with the heat of the zones that the forecast misses \[kW\].
+    /// Forecast gains of the nodes, plus the heat of the zones that the forecast misses \[kW\].
     pub fn with_missed_kw(&self, gains_kw: &[f64]) -> Vec<f64> {
         let mut gains_kw = gains_kw.to_vec();
         gains_kw.iter_mut().zip(&self.missed_kw).for_each(|(gain, missed)| *gain += missed);
         gains_kw
     }
 
-    /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. With a number that
-    /// is not finite nothing is predicted: the temperatures stay until they are measured.
+    /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. If a
+    /// number is not finite, it predicts nothing: the temperatures stay until they are measured.
     pub fn predict(&mut self, heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
         let gains_kw = self.with_missed_kw(gains_kw);
         if !ambient_c.is_finite() || !gains_kw.iter().all(|gain| gain.is_finite()) {

@@ -5,10 +5,11 @@
 //! from        T(t) as estimated, under the forecast and the heat d that it missed so far
 //! ```
 //!
-//! It is the field's usual controller and the baseline of the designs that plan once a day: it needs the same model and forecast,
-//! solves a programme at every step, and what it corrects it corrects within a step, but from a day it learns `d` only.
+//! It is the usual controller in the literature, and the baseline of the designs that plan once a day. It needs the same model and
+//! forecast, but solves a programme at every step. It corrects errors within a step, but learns only `d` from one day to the next.
 //!
-//! A step without a plan (a number that is not finite, or a solver without a result) follows the last plan, and says so.
+//! In a step without a plan (because a number is not finite, or the solver has no result), the controller follows its
+//! last plan and reports this.
 
 mod estimate;
 mod settings;
@@ -100,7 +101,7 @@ impl ControllerKind for PredictiveSettings {
     }
 
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
-        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond, and there is one at each step.
+        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond; every step needs a plan.
         let horizon = self.horizon(86_400.0 / steps) as f64;
         steps * (0.15 * (zones * horizon).powi(3) + 1.5e6)
     }

@@ -37,7 +37,7 @@ impl PredictiveSettings {
         setting::check(self)
     }
 
-    /// How many steps of `step_s` a plan has, at least one.
+    /// The number of steps of `step_s` in a plan, at least one.
     pub fn horizon(&self, step_s: f64) -> usize {
         ((self.horizon_h * 3600.0 / step_s).round() as usize).max(1)
     }

@@ -1,4 +1,4 @@
-//! Whether the data determine a coefficient.
+//! Verdicts on whether the data determine a coefficient.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -71,7 +71,7 @@ mod tests {
     use super::{Confidence, judge};
 
     #[test]
-    fn every_verdict_is_reached_by_some_value_and_error() {
+    fn every_verdict_occurs_for_some_value_and_error() {
         for (value, error, confidence) in [
             (1.0, 0.05, Confidence::Identified),
             (1.0, 0.4, Confidence::Weak),

@@ -1,4 +1,4 @@
-//! Whether residuals are white: autocorrelation, Ljung and Box's test, cumulated periodogram.
+//! Tests whether residuals are white: autocorrelation, Ljung and Box's test, cumulated periodogram.
 
 use std::ops::Range;
 

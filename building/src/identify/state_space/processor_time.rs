@@ -4,9 +4,9 @@
 //! time ∝ rows · models · (2 · zones)^2.5
 //! ```
 //!
-//! The time of a model is proportional to the rows that are fitted, and grows with the states of all zones together, of which a filter
-//! and its derivatives have matrices. How many models are tried depends on which of them are better: as many as three rounds of all that
-//! may be added are counted.
+//! The time of a model is proportional to the rows that are fitted, and grows with the number of states of all zones,
+//! which determines the size of the matrices. How many models are tried depends on the results; the estimate assumes
+//! three rounds that each try every extension.
 
 use super::observations::InputLayout;
 use crate::identify::settings::{HiddenTemperature, IdentifySettings};

@@ -24,7 +24,7 @@ pub(super) struct Sandwich {
 }
 
 impl Sandwich {
-    /// `None` where the model has no likelihood.
+    /// Computes the matrices of the sandwich; `None` if the model has no likelihood.
     pub fn new(fit: &Fit, observations: &Observations) -> Option<Self> {
         let model = |theta: &[super::exponential::Number]| fit.structure.model(theta);
         let rows: usize = observations.segments.iter().map(Range::len).sum();

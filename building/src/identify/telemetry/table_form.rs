@@ -1,4 +1,4 @@
-//! The form of a table: what separates its fields, and what its texts mean.
+//! The form of a table: its separators, and the meaning of its texts.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

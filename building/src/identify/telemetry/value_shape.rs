@@ -1,11 +1,11 @@
-//! What the value of a key must be.
+//! The shape that the value of a key must have.
 
 use std::fmt;
 
 use interplay_common::json_schema::type_in_words;
 use interplay_common::spelling::listed;
 
-/// What the value of a key must be. Displays as `a table with …`, `one of …` or `a number`.
+/// The shape that the value of a key must have. Displays as `a table with …`, `one of …` or `a number`.
 pub(super) enum ValueShape {
     /// With the keys that it may have.
     Table(Vec<String>),

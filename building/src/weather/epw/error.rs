@@ -1,8 +1,8 @@
-//! What is wrong with an EPW file, and where.
+//! Errors of EPW files, with their lines.
 
 use std::fmt;
 
-/// A file that is not a complete EPW file, or lacks what a run uses.
+/// Why an EPW file is refused: it is incomplete, or lacks what a run uses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct EpwError {

@@ -1,5 +1,5 @@
-//! The columns that are read, with what marks a value as missing and what is possible (EnergyPlus, *Auxiliary Programs*,
-//! EPW data dictionary).
+//! The columns that are read, each with its marks for missing values and its range of possible values (EnergyPlus,
+//! *Auxiliary Programs*, EPW data dictionary).
 
 /// A column of an EPW file that a run can use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn specifications_stand_in_the_order_of_the_fields() {
+    fn specifications_of_epw_fields_are_in_the_order_of_the_fields() {
         assert!(FIELDS.iter().enumerate().all(|(i, specification)| specification.field as usize == i));
         assert!(FIELDS.iter().all(|specification| specification.column < COLUMNS));
     }

@@ -1,4 +1,4 @@
-//! A curve of any parameter, given knots by arc length.
+//! Converts a curve with any parameter to knots by arc length.
 
 use super::error::CentreLineError;
 use super::gauss_legendre::integrate;

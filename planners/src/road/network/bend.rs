@@ -1,4 +1,4 @@
-//! The curves of a route, and how fast they can be taken.
+//! The curves of a route, and the highest speeds in them.
 
 use crate::road::centre_line::CentreLine;
 

@@ -1,4 +1,4 @@
-//! For whom a lane is.
+//! The road users that a lane is reserved for.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -18,8 +18,8 @@ pub struct LanePlace {
 const EDGE_TOLERANCE_M: f64 = 1e-6;
 
 impl RoadNetwork {
-    /// The lanes that hold a position, edges and ends included, those first whose direction is nearest to a heading
-    /// \[m, rad\]; of equal directions, those whose centre is nearer.
+    /// The lanes that contain a position, edges and ends included, sorted by the difference between their direction and
+    /// a heading \[m, rad\], then by the distance of their centre.
     pub fn locate(&self, position: [f64; 2], heading_rad: f64) -> Vec<LanePlace> {
         let mut places: Vec<LanePlace> = Vec::new();
         for lane in self.lanes() {

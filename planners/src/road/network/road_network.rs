@@ -7,8 +7,7 @@ use super::lane::Lane;
 use super::neighbours::is_beside;
 use super::self_overlap::self_overlap_m;
 
-/// RoadLanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
-/// itself.
+/// Lanes that form a valid network: every named lane exists, successors touch, and no lane overlaps itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadNetwork {
     lanes: Vec<Lane>,
@@ -28,7 +27,7 @@ const MAX_KINK_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const CHECKS_PER_KNOT: usize = 4;
 
 impl RoadNetwork {
-    /// Checks lanes and makes a network of them.
+    /// Checks lanes and joins them to a network.
     ///
     /// # Errors
     /// The first fault that is found, in the order of the lanes, with the lane and the field:
@@ -52,7 +51,7 @@ impl RoadNetwork {
             }
         }
         let network = RoadNetwork { lanes, numbers };
-        // RoadLanes are checked alone before they are compared: a comparison needs lanes with ends.
+        // Each lane is checked alone before lanes are compared, because a comparison needs lanes with valid ends.
         for check in [RoadNetwork::check_alone, RoadNetwork::check_beside_others] {
             for (index, lane) in network.lanes.iter().enumerate() {
                 check(&network, lane).map_err(|(field, fault)| RoadNetworkError {

@@ -1,6 +1,6 @@
-//! What a route knows of the places where it meets another one.
+//! The conflicts of a route with another one, as the route stores them.
 
-/// A place where a route meets another one of the same network, as the first one sees it.
+/// A place where a route meets another one of the same network, described from the first route.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteConflict {
     /// The number of the other route.
@@ -23,7 +23,7 @@ pub struct RouteConflict {
     pub precedence: Precedence,
 }
 
-/// Who goes first where two routes meet.
+/// The rule for which vehicle goes first where two routes meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precedence {
     /// The vehicles on this route go first.
@@ -34,7 +34,7 @@ pub enum Precedence {
     ByArrival,
 }
 
-/// What two routes do where they overlap.
+/// How two routes overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConflictKind {
     /// The routes come from different lanes and go on to different lanes.

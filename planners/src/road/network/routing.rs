@@ -1,4 +1,4 @@
-//! Routes from lists of lanes.
+//! Makes routes from lists of lanes.
 
 use super::super::centre_line::{CentreLine, CentreLineError, JoinedLine, LineSection};
 use super::edges;
@@ -30,8 +30,8 @@ const MIN_CHANGE_RATIO: f64 = 4.0;
 const MAX_REPLACED_SHARE: f64 = 0.4;
 
 impl RoadNetwork {
-    /// The route along lanes, each a successor of the one before, or a neighbour in the same direction into which one may
-    /// change.
+    /// The route along lanes. Each lane is a successor of the one before, or a neighbour in the same direction into
+    /// which a vehicle may change.
     ///
     /// Its centre line follows the lanes' centres from the begin of the first to the end of the last. Where lanes touch
     /// without being continuous in position, heading and curvature, a smooth curve replaces one lane width on either side. A

@@ -1,4 +1,4 @@
-//! Whether a lane comes back onto itself.
+//! Checks whether a lane overlaps itself.
 
 use std::collections::BTreeMap;
 

@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ids_are_given_once_and_as_wanted_where_they_are_free() {
+    fn ids_are_unique_and_as_requested_if_free() {
         let mut ids = Ids::taken([3, 7].into_iter());
         assert_eq!([ids.give(Some(5)), ids.give(Some(3)), ids.give(None)], [5, 8, 9]);
         assert_eq!(Ids::default().give(None), FIRST);

@@ -45,7 +45,7 @@ fn speed_mps(distance_m: f64, time_s: f64, own_mps: f64) -> f64 {
             high_mps = middle_mps;
         }
     }
-    // If no speed is high enough, the acceleration is too small; the final speed of a constant one is as good.
+    // If no speed is high enough, the acceleration limit is too low; the final speed of a constant acceleration is then the best choice.
     (0.5 * (low_mps + high_mps)).min((2.0 * distance_m / time_s - own_mps).max(own_mps))
 }
 
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_speed_covers_the_distance_in_time() {
+    fn the_arrival_speed_covers_the_distance_in_time() {
         assert!((speed_mps(100.0, 10.0, 10.0) - 10.0).abs() < 1e-3, "as it drives");
         // 10 m/s to 13 m/s takes 2 s and 23 m, and 8 s more are 104 m.
         assert!((speed_mps(127.0, 10.0, 10.0) - 13.0).abs() < 1e-3);

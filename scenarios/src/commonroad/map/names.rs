@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_plain_and_unique() {
+    fn imported_names_are_valid_and_unique() {
         let mut names = Names::default();
         assert_eq!(names.name("l", "12"), "l12");
         assert_eq!(names.name("l", "12"), "l12-2");

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_things_are_counted_in_one_line() {
+    fn equal_import_notes_are_counted_in_one_line() {
         let mut notes = Notes::default();
         notes.several(0, ["sign", "signs"], NOT_YET);
         notes.one(["light", "lights"], NOT_YET);

@@ -99,7 +99,7 @@ fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State,
     let shares = SHARES.iter().map(|share| {
         let [x_m, y_m] = route.position(at.along_m, share * at.across_m);
         let heading_rad = (at.heading_rad + share * error_rad).to_degrees();
-        // Rounded as in the file, so that the check sees the values that are read back.
+        // The values are rounded as in the file, so that the check sees what is read back.
         let [x_m, y_m] = [x_m, y_m].map(|coordinate| rounded(coordinate, 4));
         State { x_m, y_m, heading_rad: rounded(heading_rad, 4).to_radians(), ..*state }
     });

@@ -1,6 +1,7 @@
 //! Recorded traffic as plain values: lanes with their bounds, and vehicles with their positions at each time step.
 //!
-//! It is not a scenario: it has no drivers. Comparisons of driver models with people, and fits to people, read it.
+//! It is not a scenario, because it has no drivers. It is the input for comparing driver models with people, and for
+//! fitting models to people.
 
 mod table;
 
@@ -37,7 +38,7 @@ pub struct RecordedLane {
 }
 
 impl RecordedLane {
-    /// Whether a place is between its bounds \[m\].
+    /// Whether a position is between the bounds of the lane \[m\].
     pub fn contains(&self, place: [f64; 2]) -> bool {
         is_inside(self.left.iter().chain(self.right.iter().rev()).copied(), place)
     }
@@ -52,7 +53,7 @@ pub(crate) fn is_inside(corners: impl Iterator<Item = [f64; 2]> + Clone, [x, y]:
     corners.zip(next).filter(|(from, to)| crosses([*from, *to])).count() % 2 == 1
 }
 
-/// A vehicle, with where it was.
+/// A recorded vehicle with its states.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedVehicle {
     /// Its name in the record.
@@ -67,7 +68,7 @@ pub struct RecordedVehicle {
     pub moments: Vec<RecordedMoment>,
 }
 
-/// Where a vehicle was at a step of time.
+/// The state of a vehicle at one time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedMoment {
     /// Number of the step of time.
@@ -85,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lane_contains_what_is_between_its_bounds() {
+    fn a_lane_contains_the_points_between_its_bounds() {
         let (left, right) = (vec![[0.0, 4.0], [20.0, 4.0]], vec![[0.0, 0.0], [7.0, 0.0], [20.0, 0.0]]);
         let lane = RecordedLane { left, right, ..RecordedLane::default() };
         assert!(lane.contains([5.0, 1.0]) && !lane.contains([5.0, 4.5]));

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_table_becomes_vehicles_at_steps_of_time() {
+    fn a_table_of_records_becomes_vehicles_at_time_steps() {
         let text =
             "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,1,0,0,5\nb,0.4,9,1,0,3\nb,0.6,9.6,1,0,3\n";
         let traffic = recorded_traffic_in_text("t.csv", text).expect("a table");
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_names_its_line() {
+    fn an_error_in_a_table_of_records_names_its_line() {
         let text = "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,no,0,0,5\n";
         let error = recorded_traffic_in_text("t.csv", text).expect_err("no number");
         assert_eq!(error.faults()[0].line_and_column().map(|(line, _)| line), Some(3));

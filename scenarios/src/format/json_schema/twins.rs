@@ -1,4 +1,4 @@
-//! Twins in degrees of the keys that are in radians.
+//! Adds to each key in radians a second key (its twin) for the same angle in degrees.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_angles_have_twins() {
+    fn only_keys_of_angles_have_twins_in_degrees() {
         assert_eq!(in_degrees("steering_max_rad").as_deref(), Some("steering_max_deg"));
         assert_eq!((in_degrees("front_stiffness_per_rad"), in_degrees("rate_radps")), (None, None));
     }

@@ -1,4 +1,4 @@
-//! Whether a run depends on the seed of its scenario.
+//! Determines whether a run depends on the seed of its scenario.
 
 use interplay_building::weather::Forecast;
 

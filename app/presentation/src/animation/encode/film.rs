@@ -1,4 +1,4 @@
-//! All pictures with one palette, and what changes from each to the next.
+//! All pictures of an animation with one palette, and the changes from each picture to the next.
 
 use rayon::prelude::*;
 
@@ -66,7 +66,7 @@ impl Film {
         let columns = || 0..width;
         let left = columns().find(|x| rows.iter().any(|y| differs(*x, *y))).unwrap_or_default();
         let right = columns().rev().find(|x| rows.iter().any(|y| differs(*x, *y))).unwrap_or_default();
-        // WebP has even corners only.
+        // In WebP, the corners of a changed part have even coordinates.
         let (left, top) = (left & !1, top & !1);
         let pixel = |x: usize, y: usize| differs(x, y).then(|| now[y * width + x]);
         let pixels =

@@ -1,4 +1,4 @@
-//! MP4, by the program `ffmpeg`.
+//! Encoding as MP4 by the program `ffmpeg`.
 
 use std::io::{self, Read, Write};
 use std::process::{Command, Stdio};

@@ -12,7 +12,7 @@ const COLUMNS: usize = 2;
 const GAP_PX: usize = 6;
 const PAPER: u8 = 0xFF;
 
-/// Pictures at equal distances, including the first and the last, as PNG.
+/// A filmstrip as PNG: pictures at equal intervals of time, including the first and the last.
 pub fn filmstrip(pictures: &dyn Pictures) -> Result<Vec<u8>, png::EncodingError> {
     let [width, height] = pictures.size().map(|part| part as usize);
     let last = pictures.count() - 1;

@@ -1,4 +1,4 @@
-//! View of the beliefs about the nearest drivers, which our inference updates from their motion.
+//! View of the beliefs about the nearest drivers, which are inferred from their motion.
 
 use interplay_planners::scene::driver_estimate::DriverModel;
 use schemars::JsonSchema;

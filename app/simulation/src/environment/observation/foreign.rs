@@ -1,4 +1,4 @@
-//! Views of other crates.
+//! Views that other crates provide.
 
 use std::fmt;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub trait ObservationKind: fmt::Debug + Send + Sync {
 pub struct ForeignView(Arc<dyn ObservationKind>);
 
 impl ForeignView {
-    /// The view.
+    /// Wraps a view of another crate.
     pub fn new(view: impl ObservationKind + 'static) -> ForeignView {
         ForeignView(Arc::new(view))
     }

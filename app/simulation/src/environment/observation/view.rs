@@ -19,12 +19,12 @@ pub struct ObservationSpace {
 }
 
 impl ObservationSpace {
-    /// Number of numbers.
+    /// Number of numbers of an observation.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether there are none.
+    /// Whether an observation has no numbers.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

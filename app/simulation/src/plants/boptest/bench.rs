@@ -1,4 +1,4 @@
-//! The interface of a running test case.
+//! The interface of a running BOPTEST test case, on a server or as an FMU.
 
 use std::fmt::Debug;
 

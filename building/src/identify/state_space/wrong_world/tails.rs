@@ -1,5 +1,5 @@
-//! Heavy tails: innovations that are far larger at times than they are in general. Random heat and sensor noise have none; windows
-//! that are opened, and people who come and go, have.
+//! Tests for heavy tails: innovations that are occasionally far larger than usual. Random heat and sensor noise have no
+//! heavy tails, but opened windows and people who come and go do.
 
 use super::World;
 use crate::identify::report::SuspectedCause;
@@ -32,7 +32,7 @@ pub(super) fn heavy_tail(world: &World<'_>, zone: usize) -> Option<HeavyTail> {
     if kurtosis < LIMIT && skewness.abs() < LIMIT {
         return None;
     }
-    // Positive where the air follows the outdoors by more than the walls explain.
+    // Positive if the air follows the outdoor temperature more than the walls explain.
     let outward = values.iter().map(|(value, to_outdoor)| (value - mean).powi(3) * to_outdoor.signum()).sum::<f64>();
     let times = format!(
         "innovations are at times far larger than in general (kurtosis {kurtosis:.0} standard errors too large)"
