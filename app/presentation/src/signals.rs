@@ -1,6 +1,7 @@
 //! Brake lights and indicators of vehicles, from their accelerations and plans.
 
 use interplay_planners::road::network::{Lane, LaneNeighbour, RoadNetwork, RouteLeg};
+use interplay_planners::scene::IndicatorSide;
 use interplay_planners::{Route, State};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::VehicleFrame;
@@ -14,25 +15,21 @@ const TURN_AHEAD_LANES: f64 = 5.0;
 /// Time before crossing the line from which a lane change is indicated \[s\], at 1/10 scale: 3 s of a real car.
 const LANE_CHANGE_AHEAD_S: f64 = 1.0;
 
-/// The side on which a vehicle indicates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IndicatorSide {
-    /// The vehicle moves to the left.
-    Left,
-    /// The vehicle moves to the right.
-    Right,
-}
-
 /// Whether an acceleration lights the brake lights.
 pub fn is_braking(acceleration_mps2: f64) -> bool {
     acceleration_mps2 < BRAKING_MPS2
 }
 
-/// The side on which a vehicle indicates, if its plan changes the lane or turns on a network.
+/// The side on which a vehicle indicates, if it changes the lane or turns on a network. Among people the change of lane is part of their
+/// state; in other files, where plans are told, it is that of the plan.
 pub fn indicator_side(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<IndicatorSide> {
     let states = &seen.plan.trajectory.states;
     let ahead = (LANE_CHANGE_AHEAD_S * vehicle.body.time_ratio() / scenario.step_s).ceil() as usize;
-    let to_another_lane = lane_change(scenario, vehicle, &states[..states.len().min(ahead + 1)]);
+    if !vehicle.tells_plan() && seen.indicator.is_some() {
+        return seen.indicator;
+    }
+    let told = if vehicle.tells_plan() { &states[..states.len().min(ahead + 1)] } else { &[] };
+    let to_another_lane = lane_change(scenario, vehicle, told);
     let along_m = vehicle.route.along(seen.state.position());
     let leftward = to_another_lane.or_else(|| turned_rad(scenario, &vehicle.route, along_m))?;
     Some(if leftward > 0.0 { IndicatorSide::Left } else { IndicatorSide::Right })

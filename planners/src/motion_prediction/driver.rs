@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 use crate::drivers::human::{self, Human};
-use crate::prediction::constant_velocity;
+use crate::prediction::{SeenMotion, constant_velocity};
 use crate::rules::RoadRules;
 use crate::scene::Knowledge;
 use crate::scene::inferred_futures::InferredFutures;
@@ -86,6 +86,15 @@ impl PredictedDriver {
             None => states.iter().map(|state| state.y_m).collect(),
         };
         PredictedMotion { along_m: travelled_m(states), across_m }
+    }
+
+    /// Where any driver expects the vehicle who sees it behind the vehicle ahead.
+    pub(super) fn predict_seen(&self, moment: &TrafficMoment) -> PredictedMotion {
+        let Scene { ego, others, .. } = PredictedDriver { lateral: None, ..self.clone() }.scene(moment);
+        let leader = others.iter().find(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
+        let motion = SeenMotion { vehicle: &ego, leader }.expected(STEPS, STEP_S);
+        let across_m = motion.states.iter().map(|state| state.y_m).collect();
+        PredictedMotion { along_m: travelled_m(&motion.states), across_m }
     }
 
     /// The moment as the driver sees it.

@@ -9,6 +9,7 @@
 //! | constant velocity | `s = v t` | the lateral place is kept |
 //! | decaying acceleration | `s = v t + a τ (t − τ (1 − e^{−t/τ}))` | as stated |
 //! | IDM | Treiber, Hennecke and Helbing (2000), with or without a lag | as stated |
+//! | seen | what drivers expect who know no plans (`SeenMotion`) | as seen |
 //! | human | one plan of our human driver | as planned, or as stated |
 //!
 //! "As stated" refers to [`LateralMotion`]: the lateral position is kept, or the present lateral speed decays.

@@ -20,6 +20,8 @@ pub enum MotionModel {
     CarFollowing(CarFollowing),
     /// Our human driver.
     Driver(PredictedDriver),
+    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::prediction::SeenMotion)).
+    Seen,
 }
 
 impl MotionModel {
@@ -32,6 +34,7 @@ impl MotionModel {
             }
             MotionModel::CarFollowing(model) => model.predict(moment),
             MotionModel::Driver(model) => model.predict(moment),
+            MotionModel::Seen => PredictedDriver::usual().predict_seen(moment),
         }
     }
 }

@@ -71,7 +71,7 @@ impl RoadUser {
     }
 
     /// Whether it sees only the motion of the others, as people do; the drivers of the dissertation who infer plans see states.
-    pub(super) fn observes(&self) -> bool {
+    pub fn observes(&self) -> bool {
         !self.knows_plans && self.agent.limits.comfort.is_some()
     }
 

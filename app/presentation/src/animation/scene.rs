@@ -10,7 +10,8 @@ use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
 use crate::palette::{Colour, UNNAMED, VERMILLION};
 use crate::requests::Requests;
-use crate::signals::{IndicatorSide, indicator_side, is_braking, wrapped};
+use crate::signals::{indicator_side, is_braking, wrapped};
+use interplay_planners::scene::IndicatorSide;
 
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;

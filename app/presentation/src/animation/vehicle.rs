@@ -11,7 +11,7 @@ use crate::body::{
     BodyArea, BodyPart, RIDER, Wheels, body_parts, indicators, lamp_across, light_depth, place_on, rear_lamp, rectangle,
 };
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
-use crate::signals::IndicatorSide;
+use interplay_planners::scene::IndicatorSide;
 
 /// Least width of a pedestrian \[px\].
 const LEAST_WALKER_PX: f64 = 7.0;

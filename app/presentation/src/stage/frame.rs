@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use crate::passing_words::event_text;
 use crate::requests::Requests;
-use crate::signals::{IndicatorSide, indicator_side, is_braking};
+use crate::signals::{indicator_side, is_braking};
+use interplay_planners::scene::IndicatorSide;
 
 /// A tick as a page shows it; lists have an entry for each vehicle.
 #[derive(Clone, Debug, Serialize)]

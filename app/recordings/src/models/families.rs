@@ -40,13 +40,20 @@ const HALF_NOISE: Parameter =
     Parameter { name: "half_noise_mps", values: &[0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.4, 1.0], start: 5 };
 
 /// All models that are compared. The first is the baseline of the others.
-pub(super) const FAMILIES: [Family; 7] = [
+pub(super) const FAMILIES: [Family; 8] = [
     Family {
         name: "constant velocity",
         parameters: &[],
         decays: false,
         plans: false,
         model: |_, _| MotionModel::ConstantVelocity,
+    },
+    Family {
+        name: "seen",
+        parameters: &[],
+        decays: false,
+        plans: false,
+        model: |_, _| MotionModel::Seen,
     },
     Family {
         name: "decaying acceleration",

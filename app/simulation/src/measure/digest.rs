@@ -4,6 +4,7 @@
 //! they show that the runs differ, but not where the difference began. Digests of single ticks ([`Digest::of_tick`])
 //! show this: in the first tick that differs, the first phase that differs is the cause.
 
+use interplay_planners::scene::IndicatorSide;
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -61,6 +62,9 @@ impl Digest {
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());
+            if let Some(side) = vehicle.indicator {
+                self.sense.update(&[u8::from(side == IndicatorSide::Left)]);
+            }
             // The prediction of a vehicle that plans first is its plan, so an error in it comes from the phase Plan.
             if *vehicle.prediction != vehicle.plan.trajectory {
                 trajectory(&mut self.predict, &vehicle.prediction);
