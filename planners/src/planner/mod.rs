@@ -147,7 +147,7 @@ impl Planner {
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
         if let Some(violation) = self.refused(scene, &plan) {
-            return Err(PlanError::Refused(violation.clone()));
+            return Err(PlanError::Refused(violation));
         }
         if plan.problem.is_some() {
             self.homotopy_log.note(scene, &mut plan);
@@ -156,15 +156,13 @@ impl Planner {
     }
 
     /// The violation for which a plan is refused.
-    fn refused<'a>(&self, scene: &Scene, plan: &'a Plan) -> Option<&'a PlanViolation> {
-        if plan.violations.is_empty() {
-            None
-        } else if scene.knowledge.is_of_motion() {
-            if self.is_vetoed { refused_by_motion(scene, &plan.trajectory, &plan.violations) } else { None }
-        } else if self.may_be_refused {
-            refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations)
-        } else {
-            None
+    fn refused(&self, scene: &Scene, plan: &Plan) -> Option<PlanViolation> {
+        let Plan { trajectory, violations, .. } = plan;
+        if scene.knowledge.is_of_motion() {
+            return self.is_vetoed.then(|| refused_by_motion(scene, trajectory, violations)).flatten();
         }
+        let may_be_refused = self.may_be_refused && !violations.is_empty();
+        let refused = may_be_refused.then(|| refused(&self.prediction.applied_to(scene), trajectory, violations));
+        refused.flatten().cloned()
     }
 }

@@ -22,6 +22,8 @@ const LEAST_SHARE: f64 = 0.15;
 const FIRM_STANDSTILL_SHARE: f64 = 0.5;
 /// A gap that is too short opens within about this time, of real vehicles \[s\].
 const OPENING_S: f64 = 4.0;
+/// Time gap ahead and behind that is enough to merge, of real vehicles \[s\].
+const MERGING_S: f64 = 0.5;
 /// A vehicle beside or behind within this time is in the way of passing, of real vehicles \[s\].
 const BESIDE_S: f64 = 1.0;
 
@@ -37,10 +39,46 @@ impl Scene {
         let rules = &self.ego.rules;
         let is_ahead = |other: &&Agent| self.ego.shares_lane_with(other) && self.ego.lead_of(other) > 0.0;
         let ahead = self.others.iter().filter(is_ahead);
-        let leader = ahead.min_by(|a, b| self.ego.lead_of(a).total_cmp(&self.ego.lead_of(b)))?;
+        let Some(leader) = ahead.min_by(|a, b| self.ego.lead_of(a).total_cmp(&self.ego.lead_of(b))) else {
+            return self.before_lane_end();
+        };
         let is_passed = rules.passes.as_ref().is_some_and(|obstacle| obstacle.name == leader.name);
         let stays = !is_passed && (rules.stays_in_lane || !self.has_room_beside(leader));
-        if stays { self.followed(leader, PLANNER_SHARE) } else { None }
+        if stays { self.followed(leader, PLANNER_SHARE) } else { self.before_lane_end() }
+    }
+
+    /// How the planning vehicle stays before the end of its lane on a straight road while the lane beside is taken.
+    pub(crate) fn before_lane_end(&self) -> Option<Followed> {
+        let ego = &self.ego;
+        let corridor = ego.route.straight()?;
+        let end = corridor.end?;
+        let [along_m, across_m] = [ego.route.along(ego.state.position()), ego.route.across(ego.state.position())];
+        let (edge_m, half_m) = (corridor.right_m + end.height_m, 0.5 * ego.body.width_m);
+        let (front_m, line_m) = (along_m + ego.body.front_m, end.end_m - end.taper_m);
+        if across_m - half_m >= edge_m || front_m >= line_m {
+            return None;
+        }
+        let aim_m = ego.route.across(self.goal.target.position()).max(edge_m + half_m);
+        let taken_by = self.others.iter().find(|other| self.is_too_near_to_merge(other, aim_m))?;
+        let rears = vec![[line_m, 0.0]; self.horizon];
+        let speeds_mps = self.approach_mps(front_m, &rears, |_| 0.0);
+        Some(Followed { name: taken_by.name.clone(), lines_m: vec![line_m; self.horizon], speeds_mps })
+    }
+
+    /// Whether a vehicle is in the lane at a lateral place, beside the planning vehicle or a shorter time gap away than is needed to merge.
+    fn is_too_near_to_merge(&self, other: &Agent, across_m: f64) -> bool {
+        let (ego, lead_m) = (&self.ego, self.ego.lead_of(other));
+        let reach_m = 0.5 * (ego.body.width_m + other.body.width_m);
+        if other.is_obstacle || (ego.route.across(other.state.position()) - across_m).abs() >= reach_m {
+            return false;
+        }
+        let gap_m = if lead_m > 0.0 {
+            lead_m - other.body.rear_m - ego.body.front_m
+        } else {
+            -lead_m - other.body.front_m - ego.body.rear_m
+        };
+        let behind = if lead_m > 0.0 { ego } else { other };
+        gap_m < MERGING_S * ego.body.real_ratio().sqrt() * behind.state.speed_mps
     }
 
     /// Whether the road beside a vehicle ahead is wide enough and free.

@@ -48,13 +48,7 @@ pub(super) const FAMILIES: [Family; 8] = [
         plans: false,
         model: |_, _| MotionModel::ConstantVelocity,
     },
-    Family {
-        name: "seen",
-        parameters: &[],
-        decays: false,
-        plans: false,
-        model: |_, _| MotionModel::Seen,
-    },
+    Family { name: "seen", parameters: &[], decays: false, plans: false, model: |_, _| MotionModel::Seen },
     Family {
         name: "decaying acceleration",
         parameters: &[DECAY, HALF_NOISE],

@@ -206,6 +206,7 @@ impl Drive for Human {
         if scene.knowledge.is_of_motion() {
             let leader = leader(&wanted, wanted.others.iter().filter(|other| is_minded(&wanted, met.as_ref(), other)));
             let followed = leader.and_then(|leader| wanted.followed(leader, self.settings.gap_share()));
+            let followed = followed.or_else(|| wanted.before_lane_end());
             wanted.to_mut().ego.rules.follows = followed;
         }
         let scene = wanted.as_ref();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::violation::{expected, first_contact, first_off_road};
 use crate::prediction::steady_inputs;
 use crate::prediction::steering::{admissible, roll_out, steer};
-use crate::{Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// Accelerations of the last resorts, as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
@@ -105,7 +105,7 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
 /// Where no harmless motion is left now, the plan is driven: of two motions with a contact, the one that was planned counts on
 /// what the others will do next, and the other one on nothing.
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
-    let contact = early_contact(scene, plan);
+    let contact = early_contact(scene, plan).map(|(stage, _)| stage);
     if contact.is_none() {
         return false;
     }
@@ -125,12 +125,12 @@ pub(super) fn is_worse_than_a_last_resort(scene: &Scene, plan: &Trajectory) -> b
     !harms.iter().any(Harm::is_none) && harms.iter().any(|harm| harm.is_less_than(&planned))
 }
 
-/// The first stage at which a plan touches a vehicle, if the own one could not stand before.
-fn early_contact(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+/// The vehicle that a plan touches first with the stage, if the own one could not stand before.
+pub(super) fn early_contact<'a>(scene: &'a Scene, plan: &Trajectory) -> Option<(usize, &'a Agent)> {
     let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
     let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
-    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
-    contact.filter(|stage| *stage <= could_stand)
+    let contacts = scene.others.iter().filter_map(|other| Some((first_contact(scene, plan, other)?, other)));
+    contacts.min_by_key(|(stage, _)| *stage).filter(|(stage, _)| *stage <= could_stand)
 }
 
 /// The scene after the first step of a plan, if all vehicles move as expected.
