@@ -24,9 +24,12 @@ below 1 cm, from its sampling at ticks. The same holds for the vehicle that was 
 beside), so a swerve into a third vehicle counts as avoidable if braking in the lane avoids both.
 
 When motion shows: a leader's, when it brakes with more than 0.5 m/s²; sideways motion, at 0.375 m from where it began (the wandering
-distance of UN Regulation 157); that of a vehicle without right of way, when it could stop before the strip only by braking harder than
-3 m/s². A contact before the motion shows is avoidable: there was no reason for it. Of two drivers that touch, the one that moved
-sideways is judged, otherwise the rear one. Later contacts of the same driver are not judged: the run continues as if there had been none.
+zone of UN Regulation 157); that of a vehicle without right of way, when it could stop before the strip only by braking harder than
+3 m/s²; that of another driver that was touched, when its last braking before the contact began, or, where it did not brake, when the
+intruder's motion showed. A contact before all that is avoidable: there was no reason for it.
+
+Of two drivers that touch, the one that moved sideways is judged, otherwise the rear one. Later contacts of drivers that were in one are
+not judged, since the run continues as if there had been none.
 
 `stand` counts drivers that stand at the end although the way ahead is free for 15 m, `not 2-4 m` the followers that are not 2 to 4 m
 behind the vehicle ahead 15 s after their leader stopped, of `followers` without contact. Intervals are Wilson's, at 95 %.
@@ -51,6 +54,8 @@ from unannounced_cases import BODIES, BRAKING_MPS2, DRIVERS, KINDS, PLAN_S, STEP
 REACTION_S, SHOWN_BRAKING_MPS2, SHOWN_SIDEWAYS_M = 0.6, 0.5, 0.375
 #: Least gap that counts as avoided, more than the error of sampling [m].
 LEAST_M = 0.05
+#: A driver that stops braking for at most this long brakes on, and stands below this speed [m/s].
+PAUSE_TICKS, STANDING_MPS = 10, 0.1
 #: A driver that moved this far sideways is judged for a contact with another driver [m].
 SWERVE_M = 0.6
 
@@ -116,16 +121,28 @@ class Drive:
             inside += [s0 + (edge - n0) / (n1 - n0) * (s1 - s0) for edge in (low, high) if (n0 - edge) * (n1 - edge) < 0.0]
         return (min(inside), max(inside)) if inside else None
 
-    def shows(self, name):
-        """The first tick whose state shows the motion of a vehicle after the onset; None if there is none."""
-        if self.case.shows_s is not None and name == self.intruder:
+    def brakes(self, name, tick):
+        return self.tracks[name][tick - 1][3] - self.tracks[name][tick][3] > SHOWN_BRAKING_MPS2 * STEP_S
+
+    def intruder_shows(self):
+        """The first tick whose state shows the motion of the intruder; None if there is none."""
+        if self.case.shows_s is not None:
             return math.ceil(self.case.shows_s / STEP_S)
         onset = round(self.case.onset_s / STEP_S)
         for tick in range(onset + 1, self.last + 1):
-            (_, n, _, v), (_, _, _, before) = self.seen(name, tick), self.seen(name, tick - 1)
-            if before - v > SHOWN_BRAKING_MPS2 * STEP_S or abs(n - self.seen(name, onset)[1]) > SHOWN_SIDEWAYS_M:
+            moved_m = abs(self.seen(self.intruder, tick)[1] - self.seen(self.intruder, onset)[1])
+            if self.brakes(self.intruder, tick) or moved_m > SHOWN_SIDEWAYS_M:
                 return tick
         return None
+
+    def driver_shows(self, name, contact):
+        """The first tick of the last time that a driver braked or stood before a contact; None if it did neither."""
+        first, tick = None, contact
+        while tick > 0 and (first or contact) - tick <= PAUSE_TICKS:
+            if self.brakes(name, tick) or self.tracks[name][tick][3] < STANDING_MPS:
+                first = tick
+            tick -= 1
+        return first
 
     def margin(self, name, others, shown, until):
         """The least gap to the others if the driver brakes at its limit one plan after it can know; negative if they touch."""
@@ -164,9 +181,10 @@ class Drive:
             name = self.judged(pair, tick)
             if name not in touched:
                 other = next(other for other in pair if other != name)
-                shown = self.shows(other) if other == self.intruder else self.shows(other) or self.shows(self.intruder)
-                early = shown is None or collision["time_s"] <= self.case.onset_s
-                margin = math.inf if early else self.margin(name, {other, self.intruder}, shown, tick)
+                shown = None if other == self.intruder else self.driver_shows(other, tick)
+                if shown is None and collision["time_s"] > self.case.onset_s:
+                    shown = self.intruder_shows()
+                margin = math.inf if shown is None else self.margin(name, {other, self.intruder}, shown, tick)
                 found.append((name, other, collision["time_s"], margin))
             touched.update(pair)
         return found
@@ -188,7 +206,7 @@ class Drive:
             behind = [name for name in clear if self.seen(name, tick)[0] < leader]
             gaps = [gap for gap in (self.room(name, tick) for name in behind) if gap < math.inf]
         free = [name for name in clear if self.room(name, self.last) > 15.0]
-        return gaps, sum(self.tracks[name][self.last][3] < 0.1 for name in free)
+        return gaps, sum(self.tracks[name][self.last][3] < STANDING_MPS for name in free)
 
 
 def run(program, folder, job):
@@ -226,7 +244,7 @@ def print_table(results):
             continue
         avoidable = [[contact for contact in contacts if contact[3] > LEAST_M] for _, contacts, *_ in of]
         gaps = [gap for result in of for gap in result[2]]
-        far = sum(not 2.0 <= gap <= 4.0 for gap in gaps)
+        far = sum(not 2.0 <= round(gap, 1) <= 4.0 for gap in gaps)
         cells = [kind, driver, len(of), share(sum(bool(result[1]) for result in of), len(of)), share(sum(map(bool, avoidable)), len(of))]
         cells += [sum(len(result[1]) for result in of), sum(map(len, avoidable)), sum(result[3] for result in of), len(gaps)]
         cells += [share(far, len(gaps)), f"{statistics.median(gaps):.1f}" if gaps else "–"]

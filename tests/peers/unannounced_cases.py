@@ -16,6 +16,8 @@ STEP_S, PLAN_S, BRAKING_MPS2 = 0.1, 0.2, 6.4
 BODIES = {"car": (2.2, 2.3, 1.8), "van": (2.8, 3.2, 2.0), "bicycle": (0.9, 0.9, 0.65)}
 #: A vehicle that gives way brakes at most this hard [m/s²].
 GIVING_WAY_MPS2 = 3.0
+#: Where leaders stop, those twice that leave no way round.
+STOPS = ["one lane"] * 2 + ["two lanes, left taken"] * 2 + ["two lanes, left free", "street", "bend", "crossing"]
 STREET_X_M, CROSSING_ARM_M, LANE_M = -300.0, 400.0, 3.5
 
 
@@ -174,8 +176,8 @@ def chain(case, rng, count, front_m, speed_mps, lane, goal_lane=None):
 
 
 def stops(case, rng):
-    place = rng.choice(["one lane", "two lanes, left free", "two lanes, left taken", "street", "bend", "crossing"])
-    slowest, fastest = (12.0, 25.0) if "lane" in place else (8.0, 13.5)
+    place = rng.choice(STOPS)
+    slowest, fastest = (12.0, 25.0) if "lane" in place else (8.0, 20.0 if place == "street" else 13.5)
     v, begins, braking = rng.uniform(slowest, fastest), round(rng.uniform(2.0, 6.0), 1), rng.uniform(3.0, 7.0)
     gap_s, count, record, goes_on = rng.uniform(1.0, 3.0), rng.choice([1, 1, 2, 3, 3]), case.record, rng.random() < 0.3
     at_m = 250.0
