@@ -5,7 +5,7 @@
 
 `--count` is the number of files of each kind. File `i` of a kind depends on `--seed` and `i` alone, its driver is number `i` of
 `DRIVERS`, counted round, and half of the intruders (leaders that stop, vehicles that cut in, pull out or cross) follow a record (CSV),
-the others a script. Exit codes: 0 no avoidable contact, 1 an avoidable contact, 2 a run that did not finish.
+the others a script. Exit codes: 0 no avoidable contact, 1 an avoidable contact, 2 wrong arguments or a run that did not finish.
 
 Closed form of avoidability. Let `v` be the speed of the driver, `b = -limits.acceleration_min_mps2` (a car: 6.4 m/s²), `r` its
 reaction time (human 0.6 s, others 0), `T` the planning period (0.2 s), and `t_s` the first tick (every 0.1 s) whose state shows the
@@ -43,6 +43,7 @@ import itertools
 import json
 import math
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -259,7 +260,12 @@ def arguments():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
     parser.add_argument("--keep", type=Path, help="folder for all files; without it those of avoidable contacts stay in a temporary one")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if not shutil.which(options.interplay):
+        parser.error(f"`{options.interplay}` is not a program; build it, or name it with --interplay")
+    if options.count < 1 or options.jobs < 1:
+        parser.error("--count and --jobs are at least 1")
+    return options
 
 
 def main():
@@ -288,6 +294,8 @@ def main():
         if case.name not in faults and not problem:
             for file in folder.glob(f"{case.name}*"):
                 file.unlink()
+    if not any(folder.iterdir()):
+        folder.rmdir()
     return 1 if faults else 2 if unfinished else 0
 
 
