@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 use crate::drivers::human::{self, Human};
-use crate::prediction::{SeenMotion, constant_velocity};
+use crate::perception::SeenMotion;
+use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
 use crate::scene::Knowledge;
 use crate::scene::inferred_futures::InferredFutures;

@@ -20,7 +20,7 @@ pub enum MotionModel {
     CarFollowing(CarFollowing),
     /// Our human driver.
     Driver(PredictedDriver),
-    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::prediction::SeenMotion)).
+    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::perception::SeenMotion)).
     Seen,
 }
 

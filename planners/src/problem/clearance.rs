@@ -4,7 +4,7 @@
 //! (`docs/guide/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
 //! ahead or behind.
 
-use crate::prediction::SeenMotion;
+use crate::prediction;
 use crate::road::network::ConflictKind;
 use crate::scene::relation::Relation;
 use crate::trajectory::Penalty;
@@ -172,7 +172,7 @@ impl Scene {
         let spread_m = |stage: usize| {
             let is_spread = self.knowledge.is_of_motion() && !is_in_lane;
             let time_s = (self.step_s * (stage + 1) as f64).min(SPREAD_S * ego.body.real_ratio().sqrt());
-            if is_spread { SeenMotion::spread_m(other, time_s) } else { 0.0 }
+            if is_spread { prediction::spread_m(other, time_s) } else { 0.0 }
         };
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;

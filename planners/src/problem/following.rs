@@ -19,7 +19,7 @@ use crate::{Agent, Scene, State};
 /// No line leaves a gap below this share of the one at standstill.
 const LEAST_SHARE: f64 = 0.15;
 /// The firm gap at standstill, as a share of the comfortable one.
-const FIRM_STANDSTILL_SHARE: f64 = 0.5;
+const FIRM_STANDSTILL_SHARE: f64 = 0.75;
 /// A gap that is too short opens within about this time, of real vehicles \[s\].
 const OPENING_S: f64 = 4.0;
 /// Time gap ahead and behind that is enough to merge, of real vehicles \[s\].
@@ -33,8 +33,8 @@ impl Scene {
         self.ego.rules.follows.as_ref().map_or(&[], |followed| &followed.speeds_mps)
     }
 
-    /// The vehicle ahead behind which the planning vehicle stays because there is no way past it: it has to stay in its lane, or there is
-    /// no room beside.
+    /// The vehicle ahead behind which the planning vehicle stays because it cannot pass: it has to stay in its lane, or the road beside is
+    /// narrow or taken.
     pub(crate) fn kept_behind(&self) -> Option<Followed> {
         let rules = &self.ego.rules;
         let is_ahead = |other: &&Agent| self.ego.shares_lane_with(other) && self.ego.lead_of(other) > 0.0;

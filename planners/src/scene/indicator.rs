@@ -4,6 +4,7 @@
 //! begun. So an indicator tells nothing that is only decided later.
 
 use crate::road::centre_line::FrenetPoint;
+use crate::scene::IndicatorSide;
 use crate::{Agent, State, Trajectory};
 
 /// Time before the change of lane from which it is indicated, for 1/10 scale cars \[s\]: 3 s of a real one.
@@ -14,15 +15,6 @@ const CHANGE_LANES: f64 = 0.6;
 const LANE_WIDTHS: f64 = 1.9;
 /// A change of lane has begun at this lateral speed, for 1/10 scale cars \[m/s\].
 const BEGUN_MPS: f64 = 0.15;
-
-/// The side on which a vehicle indicates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IndicatorSide {
-    /// The vehicle moves to the left.
-    Left,
-    /// The vehicle moves to the right.
-    Right,
-}
 
 impl IndicatorSide {
     /// The side of a displacement, positive to the left.

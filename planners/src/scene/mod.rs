@@ -1,7 +1,7 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
 pub mod driver_estimate;
-pub mod indicator;
+mod indicator;
 pub mod inferred_futures;
 pub(crate) mod input_record;
 pub mod knowledge;
@@ -10,7 +10,6 @@ pub(crate) mod relation;
 pub(crate) mod road_rules;
 pub mod trigger;
 
-pub use indicator::IndicatorSide;
 pub use input_record::InputRecord;
 pub use knowledge::Knowledge;
 
@@ -49,6 +48,15 @@ pub struct Agent {
     pub rules: RoadRules,
     /// How many times harder than is comfortable it has to brake now; 1 where comfort is enough, and before that is judged.
     pub urgency: f64,
+}
+
+/// The side on which a vehicle indicates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndicatorSide {
+    /// The vehicle moves to the left.
+    Left,
+    /// The vehicle moves to the right.
+    Right,
 }
 
 /// The goal of a vehicle: a desired state, and the weights of its costs.

@@ -71,17 +71,30 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     let here_m = ego.route.across(ego.state.position());
     let accelerations = ACCELERATION_SHARES
         .map(|share| share * if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 });
-    let straight_on = accelerations.into_iter().map(|mps2| rolled_out(scene, steady_inputs(scene, mps2)));
+    let straight_on = accelerations.into_iter().map(|mps2| taken(scene, steady_inputs(scene, mps2)));
     let aside = ASIDE_WIDTHS.into_iter().flat_map(move |widths| {
         let across_m = here_m + widths * ego.body.width_m;
         accelerations.into_iter().map(move |mps2| {
-            roll_out(scene, |_, state| Input {
+            let motion = roll_out(scene, |_, state| Input {
                 acceleration_mps2: admissible(ego, state, mps2, scene.step_s),
                 steering_rad: steer(ego, state, across_m),
-            })
+            });
+            if scene.knowledge.is_of_motion() { taken(scene, motion.inputs) } else { motion }
         })
     });
     straight_on.chain(aside)
+}
+
+/// Where inputs lead the planning vehicle. People change to the first of them evenly over the first step, so that half of the change counts
+/// there.
+fn taken(scene: &Scene, mut inputs: Vec<Input>) -> Trajectory {
+    if let Some(first) = inputs.first_mut().filter(|_| scene.knowledge.is_of_motion()) {
+        let last = &scene.ego.previous_input;
+        first.acceleration_mps2 = 0.5 * (first.acceleration_mps2 + last.acceleration_mps2);
+        first.steering_rad = 0.5 * (first.steering_rad + last.steering_rad);
+        first.acceleration_mps2 = admissible(&scene.ego, &scene.ego.state, first.acceleration_mps2, scene.step_s);
+    }
+    rolled_out(scene, inputs)
 }
 
 /// The least harmful of some motions with its index, the first of equals; `None` without motions.

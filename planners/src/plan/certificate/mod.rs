@@ -21,7 +21,7 @@ pub use rectangles::overlap_m;
 pub use violation::violations;
 pub(crate) use violation::{touches_ahead, within_touch};
 
-use crate::prediction::SeenMotion;
+use crate::prediction::spread_m;
 use crate::{Agent, PlanCondition, PlanViolation, Scene, Trajectory};
 
 /// The violation for which a plan must not be driven, if there is one: a fault of the plan itself, or a contact with
@@ -52,8 +52,8 @@ pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanVio
 /// A vehicle as long as the places at which its body may be that is expected in a second.
 fn spread(other: &Agent) -> Agent {
     let mut other = other.clone();
-    let spread_m = if other.is_obstacle { 0.0 } else { SeenMotion::spread_m(&other, other.body.real_ratio().sqrt()) };
-    other.body.front_m += spread_m;
-    other.body.rear_m += spread_m;
+    let longer_m = if other.is_obstacle { 0.0 } else { spread_m(&other, other.body.real_ratio().sqrt()) };
+    other.body.front_m += longer_m;
+    other.body.rear_m += longer_m;
     other
 }

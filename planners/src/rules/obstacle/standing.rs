@@ -1,6 +1,6 @@
 //! A vehicle that stands in the way: where it is, and how it is passed.
 
-use crate::plan::certificate::touches_ahead;
+use crate::plan::certificate::{rolled_out, touches_ahead};
 use crate::prediction::steering::{admissible, roll_out, steer};
 use crate::problem::clearance::{containing, ellipses};
 use crate::scene::road_rules::Obstacle;
@@ -60,6 +60,11 @@ impl Obstacle {
             }
         });
         motion.inputs
+    }
+
+    /// Whether a driver who sees it without having been told of it before is so near behind it that swinging out would touch it.
+    pub(super) fn is_too_near_to_swing_out(&self, scene: &Scene) -> bool {
+        scene.knowledge.is_of_motion() && self.is_touched_by(scene, &rolled_out(scene, self.guess(scene)), 0.0)
     }
 
     /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays

@@ -3,16 +3,15 @@
 //! ```text
 //! acceleration  a(t) = min(a₀ e^(−t/τ), τ = τ₀ max(1, −a₀/a_τ), behind its leader, before its line, within its speed limit)
 //! lateral       towards n₀ + v_n τ_n, or into the lane to which it indicates
-//! spread        σ(t) = σ₀ + σ_a t²/2
 //! ```
 //!
 //! `a₀` is its present acceleration and `v_n` its lateral speed. Who brakes hard brakes for long: for a stop. Behind its leader, whose own seen motion is known, and before the line at
 //! which the rules hold it, it brakes as the intelligent driver model of the literature does, with the time gap that it keeps now. The
 //! motion is rolled out through the bicycle, so that its inputs reproduce it, on bends too.
 
-use super::steadily_along;
-use super::steering::{admissible, geometry};
 use crate::drivers::idm;
+use crate::prediction::steadily_along;
+use crate::prediction::steering::{admissible, geometry};
 use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Bicycle, Input, State, Trajectory};
 
@@ -24,10 +23,6 @@ const LONGER_MPS2: f64 = 1.0;
 const LATERAL_DECAY_S: f64 = 1.0;
 /// Who drives at a larger angle to its route is expected to go on as it goes \[rad\].
 const ALONG_RAD: f64 = 0.8;
-/// Half width of the spread of an observed position along the road, of real vehicles \[m\].
-const SPREAD_M: f64 = 0.25;
-/// Half width of the spread of an acceleration \[m/s²\].
-const SPREAD_MPS2: f64 = 0.5;
 /// A gap is at least this, of real vehicles \[m\].
 const LEAST_GAP_M: f64 = 0.1;
 
@@ -41,11 +36,6 @@ pub struct SeenMotion<'a> {
 }
 
 impl SeenMotion<'_> {
-    /// The half width of the spread of its place along the road after some time \[m\].
-    pub fn spread_m(vehicle: &Agent, time_s: f64) -> f64 {
-        SPREAD_M * vehicle.body.real_ratio() + 0.5 * SPREAD_MPS2 * time_s * time_s
-    }
-
     /// The expected motion over some steps. A vehicle that knows no comfort, as model cars do, and an obstacle keep their speed.
     pub fn expected(&self, steps: usize, step_s: f64) -> Trajectory {
         let Agent { route, body, state, limits, .. } = self.vehicle;
@@ -202,12 +192,5 @@ mod tests {
         let vehicle = Agent { indicator: Some(IndicatorSide::Left), ..car(0.0, 20.0, 0.0) };
         let moved_m = end(&expected(&vehicle, None)).y_m - vehicle.state.y_m;
         assert!((3.0..4.5).contains(&moved_m), "{moved_m}");
-    }
-
-    #[test]
-    fn the_spread_grows_with_the_square_of_time() {
-        let vehicle = car(0.0, 20.0, 0.0);
-        let [now, later] = [0.0, 2.0].map(|time_s| SeenMotion::spread_m(&vehicle, time_s));
-        assert!((later - now - 1.0).abs() < 1e-12);
     }
 }
