@@ -1,6 +1,6 @@
 //! Interplay: zones that interact.
 //!
-//! Pure functions of plain values, like the planners: no wall clock, files, entities or pictures.
+//! The crate contains only pure functions of plain values, like the planners: it uses no wall clock, files, entities or pictures.
 //!
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)
@@ -17,8 +17,8 @@
 //! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
 //! is zone i of n in step t.
 //!
-//! Exponentials and the like come from `libm`, random numbers from ChaCha, and products of large matrices are written out
-//! (nalgebra's round as the processor likes), so that runs are the same bit for bit on every machine.
+//! Exponentials and similar functions come from `libm`, random numbers from ChaCha, and products of large matrices are written out (the
+//! rounding of nalgebra's products depends on the processor), so that runs are bit-identical on every machine.
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.

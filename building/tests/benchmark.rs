@@ -79,7 +79,7 @@ fn assert_near(name: &str, ours: f64, theirs: f64) {
 
 /// BOPTEST 21433f81 with NumPy 1.26, SciPy 1.13 and pandas 2.1.
 #[test]
-fn indicators_are_those_of_boptests_own_calculator() {
+fn indicators_match_boptests_own_calculator() {
     let scenarios = [
         (held(0.2535), 0.656_056_482_110_830_6),
         (switched(300, 100, 0.2383, 0.2666), 0.657_545_907_266_823_9),
@@ -114,7 +114,7 @@ fn the_time_ratio_is_the_mean_over_decisions() {
 }
 
 #[test]
-fn measurements_that_do_not_fit_together_are_refused() {
+fn inconsistent_measurements_are_refused() {
     let refused = |change: fn(&mut MeasuredRun)| {
         let mut wrong = measured(&held(0.25));
         change(&mut wrong);

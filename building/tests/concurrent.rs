@@ -29,7 +29,7 @@ fn designed(settings: &ConcurrentSettings) -> Result<filter::FilterDesign, Contr
 }
 
 #[test]
-fn taps_and_costs_are_those_of_independent_code() {
+fn taps_and_costs_match_independent_code() {
     let wanted = &optima()["ch4"];
     let found = designed(&ConcurrentSettings::default()).expect("designed");
     assert_close(found.cost, number(&wanted["H2_cost"]), 1e-4);
@@ -115,7 +115,7 @@ fn the_printed_impulse_vector_misses_what_the_impulse_matrix_sees() {
 }
 
 #[test]
-fn robust_bounds_hold_raise_the_cost_and_have_floors() {
+fn robust_bounds_hold_at_a_higher_cost_and_have_floors() {
     let lifted = lifted();
     let free = designed(&ConcurrentSettings::default()).expect("designed");
     assert!((free.filter.row_norm() - 2.47).abs() < 0.01 && (free.filter.impulse_norm(&lifted) - 4.45).abs() < 0.01);

@@ -62,7 +62,7 @@ fn answers(controller: Controller, targets: &Targets, temperatures_c: &[f64]) ->
 }
 
 #[test]
-fn a_thermostat_starts_beyond_its_dead_band_and_stops_at_what_is_wanted() {
+fn a_thermostat_starts_beyond_its_dead_band_and_stops_at_the_reference() {
     let thermostat = Controller::Thermostat(ThermostatSettings { dead_band_k: 0.5, power: 0.75 });
     let targets = targets(&always(), 1);
     let cooling = answers(thermostat.clone(), &targets, &[22.4, 22.6, 22.3, 22.0, 22.4, 21.6, 21.4, 21.9, 22.1]);
@@ -206,7 +206,7 @@ fn baselines() -> [Controller; 4] {
 }
 
 #[test]
-fn no_controller_beats_the_clairvoyant_one_which_has_no_regret() {
+fn only_the_clairvoyant_controller_has_no_regret() {
     for seed in 1..4 {
         let world = World::new(seed, Forecast::Uncertain { level: ErrorLevel::Medium });
         for controller in baselines() {

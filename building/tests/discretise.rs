@@ -49,7 +49,7 @@ proptest! {
     }
 
     #[test]
-    fn matrices_and_series_are_the_same_map(network in network(8), step_s in 1.0..40_000.0) {
+    fn dense_matrices_and_chebyshev_series_give_the_same_step(network in network(8), step_s in 1.0..40_000.0) {
         let [dense, series, _] = &models(&network, step_s)[..] else { unreachable!("three models") };
         prop_assert!((dense.state_matrix() - series.state_matrix()).amax() < 1e-13);
         let difference = (dense.gain_matrix() - series.gain_matrix()).amax();
@@ -90,7 +90,7 @@ proptest! {
     }
 
     #[test]
-    fn the_transpose_product_is_adjoint_to_the_product(network in network(6), step_s in 60.0..7200.0) {
+    fn the_transpose_product_of_the_model_is_adjoint_to_its_product(network in network(6), step_s in 60.0..7200.0) {
         for model in models(&network, step_s) {
             let n = network.node_count();
             let (x, y) = (numbers(n, 1.0), numbers(2 * n, 1.0)[n..].to_vec());
@@ -128,7 +128,7 @@ fn fine_euler_steps_approach_the_exact_step() {
 }
 
 #[test]
-fn two_half_steps_are_one_step_and_the_steady_state_stays() {
+fn two_half_steps_equal_one_step_and_the_steady_state_is_kept() {
     let network = Network::grid(3, 4);
     let n = network.zone_count();
     let heat_kw = numbers(n, 2.0);
@@ -198,7 +198,7 @@ fn a_step_that_is_not_a_positive_duration_is_refused() {
 }
 
 #[test]
-fn a_zone_left_alone_integrates_its_heat() {
+fn an_isolated_zone_integrates_its_heat() {
     let network = Network::new(&[Zone::named("a")], &[]).expect("allowed");
     for model in models(&network, HALF_HOUR_S) {
         let mut temperatures_c = [20.0];
@@ -244,7 +244,7 @@ proptest! {
     }
 
     #[test]
-    fn solving_recovers_the_inputs(network in network(5)) {
+    fn solving_the_lifted_map_recovers_the_inputs(network in network(5)) {
         for lifted in forms(&network) {
             let u = numbers(lifted.size(), 2.0);
             let found = lifted.solve(&lifted.product(&u));

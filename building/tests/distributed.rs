@@ -74,7 +74,7 @@ fn a_hundred_rooms_agree_within_a_thousandth() {
 }
 
 #[test]
-fn messages_go_to_neighbours_only_and_are_counted() {
+fn zones_send_messages_only_to_neighbours_and_count_them() {
     let (model, targets, day, _) = grids().remove(1);
     let settings = DistributedSettings { scheme: Scheme::Jacobi, rounds: 7, tolerance_kw: 0.0, ..Default::default() };
     let (_, exchange) = exchange(settings, &model, &targets, &day);

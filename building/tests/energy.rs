@@ -22,7 +22,7 @@ fn curve(points: &[(f64, f64)]) -> Vec<CopPoint> {
 /// One zone that loses no heat, wanted warm at midnight only. With weights w(t) the cheapest heat is
 /// `u(t) = λ / w(t)`, `λ = W b (r − T(0)) / (1 + W b² Σ 1/w)`, where `b = h/c` and W is W_e.
 #[test]
-fn heat_is_shared_out_in_inverse_proportion_to_price_over_cop() {
+fn heat_is_distributed_in_inverse_proportion_to_price_over_cop() {
     const STEPS: usize = 24;
     let network = Network::new(&[Zone { limit_kw: 100.0, ..Zone::named("store") }], &[]).expect("a zone");
     let model = Model::new(&network, Discretisation::Exact, 3600.0).expect("a model");

@@ -96,7 +96,7 @@ fn all_days(fields: &[Field]) -> EpwUse<'_> {
 
 /// 120 cells of −999 in October are nothing to a run in February, whatever the field, and its first line is told.
 #[test]
-fn cells_that_a_run_does_not_use_are_remarks() {
+fn faulty_cells_that_a_run_does_not_use_give_remarks() {
     let october = 24 * 280;
     let file = (october..october + 120).fold(File::year(), |file, index| file.with(index, 6, "-999"));
     let file = (0..8760).fold(file, |file, index| file.with(index, 14, "-1"));
@@ -121,7 +121,7 @@ fn cells_that_a_run_does_not_use_are_remarks() {
 }
 
 #[test]
-fn a_short_gap_is_bridged_with_a_remark_and_a_long_one_refused() {
+fn short_gaps_are_bridged_with_a_remark_and_long_gaps_are_refused() {
     let missing = |rows: std::ops::Range<usize>| {
         rows.fold(File::days((1, 3)), |file, index| file.with(index, 6, "99.9")).parse().expect("rows")
     };
@@ -175,7 +175,7 @@ fn the_hour_of_a_row_ends_at_its_time_stamp() {
 }
 
 #[test]
-fn dates_of_the_data_period_may_have_a_year_first_or_last() {
+fn dates_of_the_data_period_may_begin_or_end_with_the_year() {
     let text = File::year().text();
     let stated = "Sunday, 1/ 1,12/31";
     assert!(text.contains(stated));
@@ -193,7 +193,7 @@ fn dates_of_the_data_period_may_have_a_year_first_or_last() {
 }
 
 #[test]
-fn radiation_is_that_of_the_hour_before_the_stamp() {
+fn radiation_of_a_row_belongs_to_the_hour_before_its_stamp() {
     let weather = File::year().parse().expect("a whole year").weather();
     let sun = |hours: f64| weather.sun_w_per_m2.at(hours * HOUR_S);
     // Hours 8 to 17 have 500 Wh/m²: the sun shines from 07:00 to 17:00.
@@ -204,7 +204,7 @@ fn radiation_is_that_of_the_hour_before_the_stamp() {
 }
 
 #[test]
-fn steps_are_means_over_the_step() {
+fn weather_of_a_step_is_the_mean_over_the_step() {
     let weather = File::year().parse().expect("a whole year").weather();
     let steps = weather.ambient_steps_c(24.0 * HOUR_S, 0.5 * HOUR_S, 4);
     let fine = weather.ambient_steps_c(24.0 * HOUR_S, 0.001 * HOUR_S, 2000);
@@ -228,7 +228,7 @@ fn leap_years_are_recognised_by_their_rows() {
 }
 
 #[test]
-fn periods_shorter_than_a_year_and_intervals_shorter_than_an_hour() {
+fn short_data_periods_and_sub_hourly_intervals_are_read() {
     let epw = File::new(false, 4, (2, 27), (3, 2)).parse().expect("four days");
     assert_eq!((epw.rows(), epw.interval_s, epw.is_whole_year()), (4 * 96, 900.0, false));
     assert_eq!(epw.midnight_s(3, 1), Some(2.0 * 24.0 * HOUR_S));
@@ -329,7 +329,7 @@ fn a_wrong_header_is_located() {
 /// `INTERPLAY_EPW_DIR=FOLDER cargo test --release -p interplay-building --test epw -- --ignored`
 #[test]
 #[ignore = "needs two real EPW files in the folder INTERPLAY_EPW_DIR"]
-fn real_files_load_right() {
+fn real_epw_files_load_correctly() {
     let folder = std::env::var_os("INTERPLAY_EPW_DIR").expect("INTERPLAY_EPW_DIR names a folder");
     for (name, mean_c, first_c, last_c) in [
         ("SGP_Singapore.486980_IWEC.epw", Some(27.464), 24.7, 25.1),

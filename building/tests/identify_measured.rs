@@ -56,7 +56,7 @@ fn dutch_homes_are_predicted_as_well_as_by_the_published_models() {
 /// The heated house of BSSPy: by its heat balance 0.18 kW/K, and 14 MJ/K.
 #[test]
 #[ignore = "needs the data of measured buildings in INTERPLAY_THERMAL_DATA"]
-fn the_heated_house_has_its_conductance_and_capacity() {
+fn the_known_conductance_and_capacity_of_the_heated_house_are_identified() {
     let table = table("flexhouse/inputPRBS1.csv");
     let mapping = Mapping::parse("flexhouse.toml", FLEXHOUSE).expect("sound");
     let report = report(&mapping, "inputPRBS1.csv", &table);
@@ -79,7 +79,7 @@ fn the_heated_house_has_its_conductance_and_capacity() {
 /// no fit can know them, published or not.
 #[test]
 #[ignore = "needs the data of measured buildings in INTERPLAY_THERMAL_DATA"]
-fn heat_without_a_unit_leaves_dutch_homes_without_an_absolute_scale() {
+fn without_a_unit_of_heat_parameters_of_dutch_homes_have_no_absolute_scale() {
     let file = "dutch3/blg_2.csv";
     let table = table(file);
     let mut mapping = Mapping::parse("dutch3.toml", DUTCH).expect("sound");

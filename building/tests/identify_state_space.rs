@@ -24,7 +24,7 @@ fn assert_covers(report: &IdentificationReport, name: &str, truth: f64) {
 
 /// The network is simulated by the crate's own exact discretisation, which shares no code with the filter.
 #[test]
-fn a_house_with_a_heavy_wall_is_recovered_where_one_state_is_three_times_off() {
+fn a_hidden_wall_state_is_identified_where_one_state_errs_threefold() {
     let house = WALL_HOUSE;
     let telemetry = house.simulate(900.0, 14, 1);
     let report = identify(&telemetry, &IdentifySettings::default()).expect("rich data").report;
@@ -68,7 +68,7 @@ fn gaps_and_missing_temperatures_are_bridged() {
 
 /// Without any change of heat or weather nothing can be said of a capacity.
 #[test]
-fn data_without_information_identify_nothing() {
+fn no_parameter_is_identified_from_data_without_information() {
     let mut house = WALL_HOUSE;
     house.is_steady = true;
     let report = identify(&house.simulate(900.0, 14, 3), &IdentifySettings::default()).expect("enough rows").report;
@@ -79,7 +79,7 @@ fn data_without_information_identify_nothing() {
 }
 
 #[test]
-fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
+fn without_a_unit_of_heat_only_scale_free_quantities_are_identified() {
     let house = WALL_HOUSE;
     let mut telemetry = house.simulate(900.0, 14, 4);
     let with_unit = identify(&telemetry, &IdentifySettings::default()).expect("rich data");
@@ -148,7 +148,7 @@ time,north,south,out,heat
 
 /// Means of columns, factors, and times with offsets; the clock was put forward between the last two rows.
 #[test]
-fn columns_are_averaged_and_scaled_and_offsets_are_understood() {
+fn columns_are_averaged_and_scaled_and_utc_offsets_are_read() {
     let text = "walls = [['house', 'outdoor']]\n\
         [time]\ncolumn = 'time'\nformat = '%Y-%m-%d %H:%M%z'\nstep_s = 3600.0\ngaps = 'bridge'\n\
         [[column]]\nname = 'inside'\nmean_of = ['north', 'south']\n\

@@ -47,7 +47,7 @@ fn message(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn columns_become_quantities_in_the_units_of_the_crate() {
+fn columns_are_converted_to_the_units_of_the_crate() {
     let telemetry = read(TABLE).expect("the table is sound");
     assert_eq!(telemetry.step_s, 900.0);
     assert_eq!((telemetry.segments.len(), telemetry.segments[0].clone()), (1, 0..4));
@@ -61,7 +61,7 @@ fn columns_become_quantities_in_the_units_of_the_crate() {
 }
 
 #[test]
-fn other_separators_units_and_forms_of_time_are_read_alike() {
+fn other_separators_units_and_time_formats_give_the_same_telemetry() {
     let text = MAPPING
         .replace(
             "separator = \";\"",
@@ -113,7 +113,7 @@ fn zone_names_with_any_characters_are_read_back() {
 }
 
 #[test]
-fn an_empty_table_is_named() {
+fn an_empty_table_is_reported_by_name() {
     for empty in ["", "\n", "t;Ta;Ti;P;sun\n"] {
         let message = read(empty).expect_err("nothing to read").to_string();
         assert_eq!(message, "home.csv: the table is empty; it needs a header and at least two rows");
@@ -152,7 +152,7 @@ fn a_gap_in_time_is_located_and_may_be_split() {
 }
 
 #[test]
-fn a_batch_ends_where_its_column_changes_gap_or_not() {
+fn a_batch_ends_where_its_column_changes_even_without_a_gap() {
     let text = MAPPING.replace("step_s = 900.0", "step_s = 900.0\nbatch = \"sun\"");
     let mapping = Mapping::parse("home.toml", &text).expect("sound");
     let table = TABLE.replace("2026-02-01 00:15:00", "2026-07-01 00:15:00");
@@ -161,7 +161,7 @@ fn a_batch_ends_where_its_column_changes_gap_or_not() {
 }
 
 #[test]
-fn missing_values_broken_rows_times_and_columns_are_located() {
+fn faults_of_values_rows_times_and_columns_are_located() {
     assert!(
         message("750", "").starts_with("home.csv:4:31: column `P` has no value here (``); fill the value in, or set")
     );
@@ -206,7 +206,7 @@ fn wrong_mappings_are_located_and_explained() {
 
 /// The check before reading and the reader itself accept the same documents.
 #[test]
-fn every_mapping_that_passes_the_check_can_be_read() {
+fn every_mapping_that_passes_the_check_is_read_without_error() {
     let values =
         ["3", "-3", "0.5", "1e300", "true", "\"a\"", "\";\"", "[]", "[[]]", "{}", "1979-05-27", "{ kind = \"water\" }"];
     let places = [

@@ -105,7 +105,7 @@ fn without_the_known_disturbance_conductances_come_out_wrong_by_their_own_size()
 
 /// Figs. 2.5 and 2.6: nine days to train, eighteen to test, r = 2.
 #[test]
-fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
+fn the_residual_model_improves_predictions_on_unseen_days() {
     for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut mean = [0.0; 5];
         for seed in SEEDS {
@@ -129,7 +129,7 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
 }
 
 #[test]
-fn series_belong_to_the_telemetry_and_agree_with_the_report() {
+fn series_for_drawing_match_the_telemetry_and_the_report() {
     let found = identified(&Classroom::default(), Estimator::PredictionError);
     let (series, zone) = (&found.series[0], &found.report.zones[0]);
     let rows = series.measured_c.len();
@@ -212,7 +212,7 @@ fn chosen(found: &Identification) -> &str {
 }
 
 #[test]
-fn sun_on_the_wall_is_found_and_written_as_sun_on_the_wall() {
+fn sun_on_a_wall_is_identified_and_exported_as_such() {
     let found = identify(&telemetry(WALL_M2, 1), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor, sun on the wall to outdoor");
     for (name, truth, limit) in [
@@ -234,7 +234,7 @@ fn sun_on_the_wall_is_found_and_written_as_sun_on_the_wall() {
 }
 
 #[test]
-fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
+fn no_sun_on_a_wall_is_identified_if_all_sun_reaches_the_air() {
     let found = identify(&telemetry(0.0, 2), &IdentifySettings::default()).expect("rich data");
     assert_eq!(chosen(&found), "air, wall to outdoor");
     let aperture = found.report.zones[0].physical.iter().find(|it| it.name == "aperture to the sun").expect("listed");
@@ -242,7 +242,7 @@ fn no_sun_on_the_wall_is_found_if_all_sun_reaches_the_air() {
 }
 
 #[test]
-fn only_the_kinds_of_hidden_temperatures_that_are_named_are_tried() {
+fn only_the_stated_kinds_of_hidden_temperatures_are_tried() {
     let settings = IdentifySettings { hidden: vec![HiddenTemperature::Interior], ..IdentifySettings::default() };
     let found = identify(&telemetry(WALL_M2, 3), &settings).expect("rich data");
     // Coloured heat is not a temperature, and is always tried.
@@ -272,7 +272,7 @@ fn causes(report: &IdentificationReport) -> Vec<SuspectedCause> {
 
 /// The house with its weather, and a sunny one with the weather of an hour before.
 #[test]
-fn a_clock_error_of_an_hour_is_suspected_and_nothing_is_identified() {
+fn a_clock_error_of_an_hour_prevents_identification() {
     let telemetry = WALL_HOUSE.simulate(900.0, 14, 21);
     let right = report(&telemetry);
     assert!(right.suspicions.is_empty(), "{:?}", right.suspicions);
@@ -313,7 +313,7 @@ fn unmeasured_heat_at_the_same_hours_is_attributed_to_people() {
 
 /// A record without a few of its rows says the same as with them.
 #[test]
-fn a_missing_row_loses_no_more_information_than_one_row() {
+fn a_missing_row_loses_only_the_information_of_that_row() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/telemetry/cabin");
     let read = |ending: &str| std::fs::read_to_string(format!("{path}{ending}")).expect("part of the repository");
     let mut mapping = Mapping::parse("cabin.toml", &read(".toml")).expect("sound");

@@ -123,7 +123,7 @@ fn heat_that_never_changes_identifies_no_capacity() {
 }
 
 #[test]
-fn identical_neighbours_are_not_identifiable_and_the_rest_is() {
+fn identical_neighbours_are_not_identifiable_but_other_walls_are() {
     for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
         telemetry.boundaries[2].temperature_c = telemetry.boundaries[1].temperature_c.clone();
@@ -142,7 +142,7 @@ fn identical_neighbours_are_not_identifiable_and_the_rest_is() {
 }
 
 #[test]
-fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
+fn without_a_unit_of_heat_only_scale_free_quantities_are_identified() {
     let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
     let with_unit = identify(&telemetry, &settings(Estimator::PredictionError)).expect("identifiable").report;
     telemetry.zones[0].power_has_unit = false;

@@ -74,7 +74,7 @@ impl Control for FeedbackAtNight {
 }
 
 #[test]
-fn days_cost_what_independent_code_says() {
+fn costs_of_days_match_independent_code() {
     let (optima, model) = (optima(), testbed());
     let days: Vec<_> = (0..5).map(day).collect();
     let fixed = IterativeSettings {
@@ -274,7 +274,7 @@ fn the_causal_feedback_is_optimal() {
 }
 
 #[test]
-fn inputs_stay_within_their_limits_as_often_as_promised() {
+fn inputs_stay_within_their_limits_with_the_stated_probability() {
     // A day on which the limits bind; the disturbance is drawn from its covariance.
     let (lifted, targets) = (lifted(), chapter_3(1.0));
     let settings = IterativeSettings::default();
@@ -297,7 +297,7 @@ fn inputs_stay_within_their_limits_as_often_as_promised() {
 }
 
 #[test]
-fn a_failed_design_repeats_the_day_before_and_says_why() {
+fn a_failed_design_repeats_the_previous_day_and_gives_the_reason() {
     let targets = chapter_3(1.0);
     let mut days: Vec<_> = (0..5).map(day).collect();
     days[2].0.ambient_c[7] = f64::NAN;
@@ -354,7 +354,7 @@ fn the_uncertainty_is_reestimated_from_prediction_errors() {
 
 /// The first day has no plan yet: designs only feed back, and only where temperatures have a weight.
 #[test]
-fn the_first_day_uses_no_heat_where_temperatures_are_free() {
+fn no_heat_is_used_on_the_first_day_while_temperatures_are_free() {
     let (model, days) = (testbed(), [day(0)]);
     for controller in [
         Controller::Iterative(Default::default()),

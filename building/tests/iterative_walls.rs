@@ -88,7 +88,7 @@ fn heavy_walls_have_a_plan_every_day_and_costs_fall() {
 }
 
 #[test]
-fn a_decay_below_the_floor_is_refused_with_one_that_works() {
+fn a_decay_rate_below_its_floor_is_refused_with_a_feasible_one() {
     let lifted = Lifted::new(&row_of_rooms(3, 5000.0, 7), STEPS);
     for stability in [Stability::Lmi, Stability::Linear, Stability::LeastSquares] {
         let settings = IterativeSettings { stability, decay: Some(0.7), ..IterativeSettings::default() };

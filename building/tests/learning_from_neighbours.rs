@@ -26,7 +26,7 @@ fn dense(size: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> [f64; 2] {
 }
 
 #[test]
-fn convergence_conditions_match_those_of_the_dense_matrix() {
+fn convergence_conditions_match_a_dense_computation() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), 8);
     let (change, errors) = (common::numbers(32, 0.5), common::numbers(64, 1.0)[32..].to_vec());
     for law in [LearningLaw::uniform(4, 8, 0.15, 0.88), LearningLaw::recovered(4, &change, &errors)] {
@@ -93,7 +93,7 @@ fn with_the_printed_adjacency_matrix_every_gain_diverges() {
 
 /// A zone without a weight learns nothing, and its neighbours learn nothing from it.
 #[test]
-fn nothing_is_learned_where_the_temperature_is_free() {
+fn a_zone_with_a_free_temperature_learns_nothing() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(1, 3), STEP_S).expect("stable"), 1);
     let errors = [Some(1.0), Some(3.0), None];
     assert_eq!(LearnedErrors::Own.combine(&lifted, &errors), [1.0, 3.0, 0.0]);

@@ -103,7 +103,7 @@ fn invalid_zones_and_walls_are_refused_with_their_place() {
 }
 
 #[test]
-fn separate_zones_are_allowed_with_a_remark() {
+fn zones_without_a_connecting_wall_are_allowed_with_a_remark() {
     let walls = [Wall::new("a", "c", 30.0), Wall::new("b", AMBIENT, 30.0)];
     let network = Network::new(&zones(&["a", "b", "c"]), &walls).expect("allowed");
     let remarks = network.remarks();
@@ -190,7 +190,7 @@ fn building() -> Model {
 }
 
 #[test]
-fn an_exact_forecast_is_met_exactly() {
+fn with_an_exact_forecast_sunlit_walls_reach_the_planned_temperatures() {
     let model = building();
     let network = model.network();
     let sun = |t: usize| if (16..36).contains(&t) { 500.0 } else { 0.0 };
@@ -283,7 +283,7 @@ fn walls_receive_the_sun_of_the_direction_they_face() {
 }
 
 #[test]
-fn a_window_may_shine_on_a_wall_that_stores_heat() {
+fn sun_through_a_window_may_heat_a_wall_that_stores_heat() {
     let floor = Wall { windows: vec![Window::facing(180.0, 3.0)], ..outer("a").with_capacity_kj_per_k(2000.0) };
     let zones = [Zone { windows: vec![Window::facing(180.0, 1.0)], ..Zone::named("a") }];
     let kwh = sun_kwh(&zones, &[floor]);

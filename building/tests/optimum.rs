@@ -53,7 +53,7 @@ fn assert_close(got: f64, want: f64, relative: f64) {
 }
 
 #[test]
-fn chapter_3_days_cost_what_independent_code_says() {
+fn optimal_costs_of_chapter_3_match_independent_code() {
     let optima = file(include_str!("data/optima.json"));
     let lifted = lifted(&testbed());
     for (name, other_weight) in [("ch3_night1", 1.0), ("ch3_night0", 0.0)] {
@@ -68,7 +68,7 @@ fn chapter_3_days_cost_what_independent_code_says() {
 }
 
 #[test]
-fn chapter_4_day_costs_what_independent_code_says() {
+fn optimal_cost_of_chapter_4_matches_independent_code() {
     let optima = file(include_str!("data/optima.json"));
     let setpoints = Setpoints {
         occupied_c: vec![22.5, 22.0, 23.0, 23.5],
@@ -84,7 +84,7 @@ fn chapter_4_day_costs_what_independent_code_says() {
 }
 
 #[test]
-fn chapter_5_grids_cost_what_independent_code_says() {
+fn optimal_costs_of_chapter_5_match_independent_code() {
     let optima = file(include_str!("data/optima.json"));
     for (name, network) in [("ch5_n4", testbed()), ("ch5_n9", Network::grid(3, 3)), ("ch5_n16", Network::grid(4, 4))] {
         let n = network.zone_count();
@@ -143,7 +143,7 @@ fn the_projected_gradient_vanishes_at_the_optimum() {
 }
 
 #[test]
-fn no_perturbation_is_cheaper() {
+fn no_perturbation_of_the_optimum_is_cheaper() {
     let (lifted, initial_c, targets, disturbance) = storing_day();
     let penalty = BandPenalty { linear: 5.0, quadratic: 5.0 };
     let found = optimum(&lifted, &initial_c, &targets, &disturbance, Some(penalty)).expect("solvable");

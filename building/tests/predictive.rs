@@ -84,7 +84,7 @@ fn a_plan_for_a_day_is_the_optimum_of_the_day() {
 
 /// With the day told exactly it comes near the optimum, and a controller without a forecast does not.
 #[test]
-fn with_an_exact_forecast_it_costs_little_more_than_the_optimum() {
+fn with_an_exact_forecast_predictive_control_costs_little_more_than_the_optimum() {
     let (model, exact) = (building(), day(0.0));
     let of = |controller: Controller| cost(&run(3, &mut *before_first_day(controller, &model), &exact, &exact)[2]);
     let [predictive, best, pid] = [
@@ -113,7 +113,7 @@ fn unforecast_heat_is_learned_within_a_day() {
 
 /// A step without a plan follows the last one, the day says so, and the next day goes on.
 #[test]
-fn a_step_without_a_plan_follows_the_last_one_and_says_why() {
+fn a_step_without_a_plan_follows_the_last_plan_and_gives_the_reason() {
     let actual = day(0.0);
     let mut told = actual.clone();
     told.ambient_c[40] = f64::NAN;

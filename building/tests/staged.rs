@@ -118,7 +118,7 @@ fn the_staged_solver_matches_an_independent_solver() {
 
 /// A price of the peak lowers the peak and does not lower the cost.
 #[test]
-fn a_priced_peak_is_lower() {
+fn a_price_on_the_peak_lowers_it() {
     let solved = |peak| solve(&problem(0.0, peak), 1e-8).expect("solved");
     let highest_kw = |inputs: &[f64]| inputs.chunks(2 * ZONES).map(|v| 0.4 * v.iter().sum::<f64>()).fold(0.0, f64::max);
     let (free, priced) = (solved(None), solved(Some(Peak { price: 5.0, least_kw: 0.0 })));
@@ -145,7 +145,7 @@ fn no_change_of_the_inputs_lowers_the_cost() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_and_limits_without_room_are_refused() {
+fn infinite_numbers_and_empty_limits_of_programmes_are_refused() {
     let mut wrong = problem(0.0, None);
     wrong.stages[3].linear[0] = f64::NAN;
     assert!(solve(&wrong, 1e-8).is_err());

@@ -290,7 +290,7 @@ fn a_meter_gives_the_mean_power_until_the_next_row() {
 }
 
 #[test]
-fn what_is_wrong_with_clocks_and_meters_is_located() {
+fn faults_of_clocks_and_meters_are_located() {
     let refused = |mapping: &str, table: &str| read(mapping, table).expect_err("must be refused").to_string();
     let error = refused(MAPPING, &TABLE.replace("5;115", "5;99"));
     assert!(error.starts_with("home.csv:9:") && error.contains("falls from 110 to 99"), "{error}");
@@ -310,7 +310,7 @@ fn what_is_wrong_with_clocks_and_meters_is_located() {
 }
 
 #[test]
-fn whole_days_are_weather_for_a_scenario() {
+fn whole_days_of_telemetry_become_weather_for_a_scenario() {
     let rows = (10..80).map(|hour| format!("{}.06.2026 {:02}:00;20;{};{hour}\n", 1 + hour / 24, hour % 24, hour % 24));
     let table = format!("\n\nt;in;out;E\n{}", rows.collect::<String>());
     let recorded = read(MAPPING, &table).expect("a table").recorded_days().expect("whole days");
@@ -330,7 +330,7 @@ fn the_suffix_z_means_utc() {
 }
 
 #[test]
-fn an_offset_that_the_format_lacks_is_named() {
+fn a_missing_offset_in_the_time_format_is_reported() {
     let mapping = MAPPING.replace("zone = \"Europe/Zurich\"\n", "").replace("%d.%m.%Y %H:%M", "%Y-%m-%dT%H:%M:%S");
     let error = read(&mapping, DATED).expect_err("the format has no offset").to_string();
     assert!(error.contains("it has an offset from UTC: set `time.format` to `%Y-%m-%dT%H:%M:%S%z`"), "{error}");

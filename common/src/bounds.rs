@@ -1,4 +1,4 @@
-//! Bounds of settings. A bound stands on the field, as a `schemars` attribute, and nowhere else.
+//! Bounds of settings. A bound is stated on the field, as a `schemars` attribute, and nowhere else.
 
 use std::fmt;
 
@@ -27,7 +27,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Whether a number respects the bound.
+    /// Whether a number satisfies the bound.
     pub fn admits(self, value: f64) -> bool {
         match self {
             Self::Finite => value.is_finite(),

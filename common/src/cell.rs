@@ -1,4 +1,4 @@
-//! Cells of tables, as errors show them.
+//! Cells of tables as error messages show them.
 
 /// Cells longer than this are not shown: the file is probably not a table \[characters\].
 const MAX_SHOWN: usize = 40;

@@ -1,4 +1,4 @@
-//! Kinds that another crate provides, as tables of a scenario file.
+//! Settings of kinds of drivers, controllers and roads that another crate provides, read from and written to tables of a scenario file.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 use serde_json::{Error, Map, Value as Json};
 
-/// The settings of a kind that another crate provides; `Kind` is the trait by which they are used.
+/// The settings of a kind of driver, controller or road that another crate provides; `Kind` is the trait through which they are used.
 pub struct ForeignSettings<Kind: ?Sized> {
     settings: Arc<Kind>,
     /// The same as a table of a scenario file, its `kind` included.
@@ -57,7 +57,7 @@ impl<Kind: ?Sized> Serialize for ForeignSettings<Kind> {
     }
 }
 
-/// Settings as a table of a scenario file: beside their `kind`.
+/// A table of a scenario file that states a `kind` together with its settings.
 #[derive(Serialize)]
 pub struct KindTable<'a, Settings> {
     /// The word for the kind.

@@ -1,4 +1,4 @@
-//! Reading a JSON Schema that `schemars` has generated: what the checks of settings, mappings and scenarios share.
+//! Reads a JSON Schema that `schemars` has generated, for the checks of settings, mappings and scenarios.
 
 use serde_json::Value as Json;
 
@@ -20,7 +20,7 @@ pub fn words_of(schema: &Json) -> impl Iterator<Item = &str> {
     plain.chain(described).filter_map(Json::as_str)
 }
 
-/// A type of JSON in the words of errors. What has no type is a number.
+/// The name of a JSON type in error messages. A schema without a type describes a number.
 pub fn type_in_words(type_name: Option<&str>) -> &'static str {
     match type_name {
         Some("object") => "a table",

@@ -1,8 +1,8 @@
 //! All random numbers of runs, the same on every machine.
 //!
-//! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change of
-//! starts and mixes the numbers of a sensor's errors. Both stay, because the seeds of recorded runs and of the tables in the
-//! documents stand for their numbers.
+//! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change
+//! of starts and mixes the numbers of a sensor's errors. Both generators must stay: the seeds of recorded runs and of
+//! the tables in the documents depend on their numbers.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ impl Random {
         self.unit() < probability
     }
 
-    /// True with this probability, from half as much of the stream.
+    /// True with this probability; uses half as much of the stream as [`Random::chance`].
     pub fn chance_of_32_bits(&mut self, probability: f64) -> bool {
         f64::from(self.0.next_u32()) < probability * 4_294_967_296.0
     }
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn streams_differ_and_repeat() {
+    fn random_streams_repeat_and_differ_by_label() {
         let draw = |seed, label| Random::new(seed, label).uniform(0.0, 1.0);
         assert_eq!(draw(1, 1), draw(1, 1));
         assert!(draw(1, 1) != draw(1, 2) && draw(1, 1) != draw(2, 1));

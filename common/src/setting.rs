@@ -1,6 +1,6 @@
-//! Settings that are out of range, and the keys that they have in a file.
+//! Checks that settings are within their ranges, and names their keys in a file.
 //!
-//! The bound of a setting stands on its field, as a `schemars` attribute; [`check`] reads it from there.
+//! The bound of a setting is stated on its field, as a `schemars` attribute; [`check`] reads it from there.
 //!
 //! ```
 //! use interplay_common::setting::check;
@@ -74,7 +74,7 @@ pub struct SettingError {
     pub bound: Bound,
 }
 
-/// Holds settings to the bounds on their fields. Every number must also be finite, and not huge.
+/// Checks settings against the bounds of their fields. Every number must also be finite, and not huge.
 ///
 /// # Errors
 /// [`SettingError`] for the first number that breaks a bound, in the order of the fields.
@@ -100,7 +100,7 @@ pub fn check_each<T: Serialize + JsonSchema>(tables: &[T]) -> Result<(), (usize,
     })
 }
 
-/// Refuses a setting that breaks a bound which is known only together with other settings.
+/// Checks a setting against a bound that depends on other settings.
 pub fn check_bound(key: &str, value: f64, bound: Bound) -> Result<(), SettingError> {
     if bound.admits(value) { Ok(()) } else { Err(SettingError { key: key.into(), value, bound }) }
 }
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_hold_in_nested_tables_and_lists() {
+    fn bounds_are_checked_in_nested_tables_and_lists() {
         assert_eq!(check(&Outer { count: 1, inner: None }), Ok(()));
         assert_eq!(check(&Outer { count: 1, inner: Some(Inner::Plain(Shares { share: 1.0 })) }), Ok(()));
         assert_eq!(refused(0, Inner::Plain(Shares { share: 1.0 })), "`count` is 0; it must be at least 1");

@@ -1,12 +1,12 @@
-//! The known word that an unknown one was probably meant to be, for errors about keys, names and words.
+//! Suggests the known word that an unknown one was probably meant to be, for errors about keys, names and words.
 
-/// The candidate with the fewest edits from `word`, if those are few enough to be a slip.
+/// The candidate with the fewest edits from `word`, if they are few enough for a typing error.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Longer than any word we know: not a slip, and the distance would take long.
+    // A word of this length is not a misspelling, and computing the distance would take long.
     if word.len() > 100 {
         return None;
     }
-    // A word in other letters, `IDM` for `idm`, is the same word.
+    // A word in different case, such as `IDM` for `idm`, is the same word.
     let lower = word.to_lowercase();
     let scored =
         candidates.into_iter().map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate));
@@ -15,7 +15,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     (edits <= tolerated && edits < best.len()).then_some(best)
 }
 
-/// `did you mean …?` if a word is near, otherwise the list of all.
+/// `did you mean …?` if a candidate is similar, otherwise the list of all candidates.
 pub fn suggestion(word: &str, what: &str, candidates: &[impl AsRef<str>]) -> String {
     match nearest(word, candidates.iter().map(AsRef::as_ref)) {
         Some(best) => format!("did you mean `{best}`?"),
@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn misspelt_words_are_matched_and_unrelated_ones_are_not() {
+    fn misspelt_words_are_corrected_and_unrelated_words_are_not() {
         assert_eq!(nearest("sped_mps", ["speed_mps", "x_m"]), Some("speed_mps"));
         assert_eq!(nearest("fornt", ["front", "rear"]), Some("front"));
         assert_eq!(nearest("IDM", ["human", "idm", "game"]), Some("idm"), "capitals are no edits");

@@ -1,7 +1,7 @@
 //! The unit of a setting, read from the end of its key: `speed_mps` is in m/s.
 //!
-//! A number whose key ends with no unit states one on its field: `#[schemars(extend("x-unit" = "1/m²"))]`, or
-//! `"dimensionless"`. Whole numbers are counts and have none.
+//! A number whose key does not end with a unit states one on its field: `#[schemars(extend("x-unit" = "1/m²"))]`, or
+//! `"dimensionless"`. Whole numbers are counts and have no unit.
 
 /// Endings of keys, and the units that they stand for.
 const ENDINGS: [(&str, &str); 23] = [
@@ -33,7 +33,7 @@ const ENDINGS: [(&str, &str); 23] = [
 /// Endings of expectations, after the unit.
 const COMPARISONS: [&str; 2] = ["_at_most", "_at_least"];
 
-/// The unit that a key ends with, if it ends with one; of several the longest.
+/// The unit that a key ends with, the longest if several match.
 pub fn unit_of(key: &str) -> Option<&'static str> {
     split(key).map(|(_, unit)| unit)
 }
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_unit_is_the_longest_matching_ending() {
+    fn the_unit_of_a_key_is_its_longest_matching_ending() {
         assert_eq!(unit_of("speed_mps"), Some("m/s"));
         assert_eq!(unit_of("integral_kw_per_k_h"), Some("kW/(K·h)"));
         assert_eq!(unit_of("front_stiffness_per_rad"), Some("1/rad"));

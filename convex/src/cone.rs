@@ -113,7 +113,7 @@ mod tests {
     const BALL: Cone = Cone::SecondOrder { dimension: 3 };
 
     #[test]
-    fn distance_to_the_second_order_cone_in_its_three_regions() {
+    fn the_distance_to_the_second_order_cone_is_exact_in_its_three_regions() {
         assert_eq!(BALL.distance(&[5.0, 3.0, 4.0]), 0.0);
         assert_eq!(BALL.distance(&[-12.0, 3.0, 4.0]), 13.0);
         let beside = BALL.distance(&[0.0, 3.0, 4.0]);
@@ -121,19 +121,19 @@ mod tests {
     }
 
     #[test]
-    fn equalities_bind_the_slack_and_free_the_dual() {
+    fn an_equality_has_zero_slack_and_a_free_dual() {
         assert_eq!(Cone::Zero.distance(&[0.5, -2.0]), 2.0);
         assert_eq!(Cone::Zero.dual_distance(&[0.5, -2.0]), 0.0);
     }
 
     #[test]
-    fn inequalities_count_only_the_violated_side() {
+    fn the_distance_to_an_inequality_counts_only_violations() {
         assert_eq!(Cone::Nonnegative.distance(&[3.0, -0.25]), 0.25);
         assert_eq!(Cone::Nonnegative.complementarity(&[3.0, 0.0], &[0.5, 9.0]), 1.5);
     }
 
     #[test]
-    fn distance_to_the_semidefinite_cone_is_that_of_its_negative_part() {
+    fn the_distance_to_the_semidefinite_cone_is_the_norm_of_the_negative_part() {
         let cone = Cone::Semidefinite { order: 2 };
         // [1 2; 2 1] has the eigenvalues 3 and −1.
         assert!((cone.distance(&[1.0, 2.0 * 2.0_f64.sqrt(), 1.0]) - 1.0).abs() < 1e-12);

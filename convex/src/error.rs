@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::place::{ProblemPlace, VariablePlace};
 
-/// The problem, or the settings, are malformed: nothing was solved.
+/// Why a problem or its settings are malformed; nothing was solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// The problem has no variables.
@@ -77,7 +77,7 @@ pub enum ProblemError {
     },
 }
 
-/// A well-formed problem without a solution, or whose solution was not found.
+/// Why a well-formed problem has no solution, or why none was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// No x satisfies every row: proved by a certificate z with Aᵀz = 0, z ∈ K*, bᵀz = −1.

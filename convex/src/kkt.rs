@@ -123,7 +123,7 @@ mod tests {
 
     /// Every term and every scale, by hand.
     #[test]
-    fn residuals_have_the_scale_of_their_terms() {
+    fn residuals_are_relative_to_their_largest_term() {
         let OptimalityCheck { residuals, slack, objective } = check(&form(), &[10.0, 5.0], &[-8.0, 20.0]);
         assert_eq!((slack, objective), (vec![-5.0, 390.0], 200.0 - 1000.0));
         // Px = (40, 0), q = (−100, 0), Aᵀz = (−4, −8).
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn certificates_are_scaled_to_a_gain_of_one() {
+    fn certificates_are_scaled_to_a_unit_gain() {
         // bᵀz = −60, Aᵀz = (−6, −2), and z is outside of its cone by 2.
         assert_eq!(infeasibility(&form(), &[-2.0, 0.0]), 6.0 / 60.0);
         // qᵀx = −200, Px = (8, 0), −Ax = (−6, −2).

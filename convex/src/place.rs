@@ -1,4 +1,4 @@
-//! Where in a [`Program`](crate::Program) an error lies.
+//! The place of an error in a [`Program`](crate::Program).
 
 use std::fmt;
 

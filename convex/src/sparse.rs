@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn repeated_entries_share_a_slot_and_zeros_stay() {
+    fn repeated_matrix_entries_add_up_and_zeros_are_kept() {
         let matrix = sample();
         assert_eq!(matrix.start, [0, 1, 3, 4]);
         assert_eq!(matrix.row, [0, 0, 1, 1]);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn products() {
+    fn sparse_products_match_hand_computed_ones() {
         let matrix = sample();
         assert_eq!(matrix.times(&[1.0, 10.0, 100.0]), [21.0, 30.0]);
         assert_eq!(matrix.transposed_times(&[1.0, 10.0]), [1.0, 32.0, 0.0]);
@@ -140,13 +140,13 @@ mod tests {
     }
 
     #[test]
-    fn empty_columns_are_allowed() {
+    fn matrices_may_have_empty_columns() {
         let matrix = SparseColumns::with_pattern(2, 4, [(1, 2)].into_iter());
         assert_eq!(matrix.start, [0, 0, 0, 1, 1]);
     }
 
     #[test]
-    fn norms_propagate_nan() {
+    fn norms_of_vectors_with_nan_are_nan() {
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
         assert!(magnitude(&[f64::NAN, 3.0]).is_nan());
         assert!(euclidean(&[3.0, f64::NAN]).is_nan());

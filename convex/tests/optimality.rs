@@ -241,7 +241,7 @@ impl Follow {
 }
 
 #[test]
-fn a_solver_follows_a_moving_target_and_a_zero_keeps_its_place() {
+fn an_updated_solver_tracks_a_moving_target_and_keeps_zero_entries() {
     let mut follow = Follow::new();
     let mut solver = follow.solver();
     for k in 0..20 {
@@ -280,7 +280,7 @@ fn a_result_does_not_depend_on_earlier_problems() {
 }
 
 #[test]
-fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
+fn a_changed_pattern_is_refused_by_its_place_and_leaves_the_solver_unchanged() {
     let follow = Follow::new();
     let mut solver = follow.solver();
     let before = solver.solve();
@@ -311,7 +311,7 @@ fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
 }
 
 #[test]
-fn a_changed_cone_is_refused_though_its_rows_are_the_same() {
+fn a_changed_cone_with_unchanged_rows_is_refused() {
     let program = |cone| {
         let mut program = Program::new();
         let x = program.variables("x", 1).at(0);
@@ -328,7 +328,7 @@ fn a_changed_cone_is_refused_though_its_rows_are_the_same() {
 }
 
 #[test]
-fn a_refused_number_changes_nothing() {
+fn a_refused_number_leaves_the_solver_unchanged() {
     let mut follow = Follow::new();
     let mut solver = follow.solver();
     let before = solver.solve();

@@ -29,7 +29,7 @@ fn disc(radius: f64) -> (Program, Variables, Block) {
 }
 
 #[test]
-fn projection_onto_a_disc_has_its_closed_form() {
+fn projection_onto_a_disc_matches_its_closed_form() {
     for radius in [0.5_f64, 1.0, 4.0, 10.0] {
         let (program, x, disc) = disc(radius);
         let solution = solver(&program).solve().expect("solvable");
@@ -85,7 +85,7 @@ fn off_diagonal_costs_count_once_and_repeated_entries_add_up() {
 }
 
 #[test]
-fn rows_of_several_blocks_may_be_written_in_turn() {
+fn rows_of_several_blocks_may_be_interleaved() {
     // x₀ = 1, xₖ₊₁ = ½xₖ, xₖ ≥ 0.2: least sum.
     let mut program = Program::new();
     let x = program.variables("x", 3);
@@ -121,7 +121,7 @@ fn infeasible() -> Program {
 }
 
 #[test]
-fn infeasible_rows_are_named_and_certified() {
+fn an_infeasible_problem_names_its_rows_and_has_a_certificate() {
     let error = solver(&infeasible()).solve().expect_err("infeasible");
     let message = error.to_string();
     let SolveError::PrimalInfeasible { conflict, certificate, .. } = error else {
@@ -148,7 +148,7 @@ fn unbounded() -> Program {
 }
 
 #[test]
-fn an_unbounded_cost_is_named_and_certified() {
+fn an_unbounded_problem_names_its_variables_and_has_a_certificate() {
     let error = solver(&unbounded()).solve().expect_err("unbounded");
     let SolveError::DualInfeasible { unbounded, certificate, .. } = &error else {
         panic!("wrong error: {error}");
@@ -268,7 +268,7 @@ fn variables_of_another_problem_are_refused() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_refused_where_they_stand() {
+fn numbers_that_are_not_finite_are_refused_by_their_place() {
     let write = |p: f64, q: f64, a: f64, b: f64| {
         let mut program = Program::new();
         let x = program.variables("speed", 2);
@@ -296,7 +296,7 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
 }
 
 #[test]
-fn a_cost_that_curves_downwards_is_refused() {
+fn a_concave_cost_is_refused() {
     let mut program = Program::new();
     let x = program.variables("x", 3);
     program.quadratic(x.at(2), x.at(2), 1.0);
@@ -329,6 +329,6 @@ fn a_solver_may_move_between_threads() {
 
 #[test]
 #[should_panic(expected = "variable 2 of a group of 2")]
-fn a_variable_beyond_its_group_panics() {
+fn reading_a_variable_beyond_its_group_panics() {
     let _ = Program::new().variables("x", 2).at(2);
 }

@@ -26,7 +26,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     #[test]
-    fn the_largest_eigenvalue_is_found_by_semidefinite_programming(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
+    fn semidefinite_programming_finds_the_largest_eigenvalue(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
         let c = symmetric(order, &values[..order * order]);
         let program = largest_eigenvalue(&c);
         let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");
@@ -72,7 +72,7 @@ proptest! {
 
 /// The Lovász number of a cycle of five is √5.
 #[test]
-fn the_lovasz_number_of_the_pentagon_is_the_root_of_five() {
+fn the_lovasz_number_of_the_pentagon_is_the_square_root_of_five() {
     let order = 5;
     let mut program = Program::new();
     let x = program.variables("X", order * (order + 1) / 2);
@@ -96,7 +96,7 @@ fn the_lovasz_number_of_the_pentagon_is_the_root_of_five() {
 
 /// A Lyapunov inequality AᵀPA − P ⪯ −I has a solution exactly when A is stable.
 #[test]
-fn a_lyapunov_inequality_tells_stable_from_unstable() {
+fn a_lyapunov_inequality_is_feasible_for_a_stable_matrix_only() {
     let solve = |a: [[f64; 2]; 2]| {
         let mut program = Program::new();
         let p = program.variables("P", 3);

@@ -1,7 +1,7 @@
 //! Interplay: planners for vehicles that interact.
 //!
-//! Pure functions of plain values: a planner is given a [`Scene`] (what one vehicle knows at a moment) and answers with a
-//! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
+//! The crate contains only pure functions of plain values: a planner receives a [`Scene`] (the knowledge of one vehicle
+//! at one time) and returns a [`Plan`] or a [`PlanError`]. It uses no clock, files, physics or pictures.
 //!
 //! - [`vehicle`]: state, input, body, limits, and the bicycle with its derivatives
 //! - [`road`]: lanes, routes and the Frenet frame: where a vehicle may drive
@@ -16,7 +16,7 @@
 //! - [`traffic`]: the closed loop of all vehicles on a road
 //! - [`motion_prediction`]: predictions of one recorded vehicle, by several models
 //!
-//! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
+//! Sines, exponentials and similar functions come from `libm`, so that results are bit-identical on every machine.
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.
@@ -29,6 +29,7 @@
 //! use interplay_planners::drivers::conservative;
 //! use interplay_planners::prediction::constant_velocity;
 //! use interplay_planners::rules::RoadRules;
+//! use interplay_planners::scene::Knowledge;
 //! use interplay_planners::scene::inferred_futures::InferredFutures;
 //! use interplay_planners::{
 //!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State,
@@ -48,6 +49,7 @@
 //!         shared_goal: None,
 //!         can_be_asked: true,
 //!         is_obstacle: false,
+//!         indicator: None,
 //!         rules: RoadRules::default(),
 //!         urgency: 1.0,
 //!     }
@@ -59,7 +61,7 @@
 //!     comfort: [0.1, 0.1],
 //!     safety: SafetyEllipse::default(),
 //! };
-//! let scene = Scene { tick: 0, step_s, horizon, ego, goal, others: vec![leader] };
+//! let scene = Scene { tick: 0, step_s, horizon, knowledge: Knowledge::Plans, ego, goal, others: vec![leader] };
 //!
 //! let plan = conservative::Settings::default().driver().plan(&scene, &InferredFutures::default())?;
 //! assert_eq!(plan.trajectory.inputs.len(), horizon);

@@ -23,7 +23,7 @@ fn steps(problem: &Problem, seed: u64) -> u64 {
 }
 
 #[test]
-fn steps_allocate_nothing_after_the_first() {
+fn optimiser_steps_after_the_first_allocate_no_memory() {
     for seed in 0..10 {
         assert_eq!(steps(&alone(seed), seed), 0, "one vehicle, seed {seed}");
         assert_eq!(steps(&pair(seed, 1.5), seed), 0, "two vehicles, seed {seed}");

@@ -2,6 +2,7 @@
 
 use interplay_planners::plan::certificate::{Harm, last_resorts, refused, violations};
 use interplay_planners::prediction::steadily_along;
+use interplay_planners::scene::Knowledge;
 use interplay_planners::traffic::{Origin, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Goal, Input, Limits, Plan, PlanCondition, PlanError, Route, SafetyEllipse, Scene, State,
@@ -33,6 +34,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,
+        indicator: None,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
     }
@@ -44,7 +46,7 @@ fn goal() -> Goal {
 }
 
 fn scene(ego: Agent, others: Vec<Agent>) -> Scene {
-    Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego, goal: goal(), others }
+    Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal: goal(), others }
 }
 
 /// A constant acceleration; the speed stays within its limits.
@@ -67,7 +69,7 @@ fn broken(scene: &Scene, plan: &Trajectory) -> Vec<(PlanCondition, usize)> {
 
 /// Of a plan that keeps everything each number is made wrong in turn.
 #[test]
-fn each_condition_is_found_where_it_is_violated_first() {
+fn the_certificate_finds_where_each_condition_is_first_violated() {
     let alone = scene(agent("ego", [0.0, 0.0, 0.0, 1.0]), Vec::new());
     let good = plan(&alone, -0.2);
     assert_eq!(broken(&alone, &good), []);
@@ -105,7 +107,7 @@ fn each_condition_is_found_where_it_is_violated_first() {
 /// A vehicle stands ahead. From 1 m/s with 1 m/s² a vehicle stands after 0.5 m (by eq. 6.3 in steps of 0.1 s after 0.55 m or less), so it
 /// may keep its speed as long as more room than that is left after the next step, and no longer.
 #[test]
-fn a_plan_may_end_in_a_contact_while_a_way_out_remains() {
+fn a_plan_may_end_in_contact_if_an_evasive_motion_remains() {
     let body = Body::default();
     let keeps_speed = |gap_m: f64| {
         let standing = agent("other", [gap_m + body.front_m + body.rear_m, 0.0, 0.0, 0.0]);
@@ -125,7 +127,7 @@ fn a_plan_may_end_in_a_contact_while_a_way_out_remains() {
 
 /// Without a planner: it brakes before a stationary vehicle, and does not brake to a stand in the way of a crossing one.
 #[test]
-fn without_a_plan_the_least_harmful_motion_is_driven() {
+fn the_least_harmful_motion_is_driven_without_a_plan() {
     let drive = |other: Agent| {
         let crossing = other.state.heading_rad != 0.0;
         let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), other].map(|agent| RoadUser::new(agent, goal(), false));
@@ -162,7 +164,7 @@ fn without_a_plan_the_least_harmful_motion_is_driven() {
 
 /// Braking would end in the way of a vehicle that crosses from the right; going on passes ahead.
 #[test]
-fn where_braking_does_harm_another_acceleration_is_chosen() {
+fn another_acceleration_is_chosen_if_braking_causes_harm() {
     let crossing = agent("other", [0.45, -1.2, std::f64::consts::FRAC_PI_2, 1.0]);
     let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), crossing].map(|agent| RoadUser::new(agent, goal(), false));
     let mut traffic = Traffic { step_s: STEP_S, horizon: HORIZON, road_users: users.into(), ..Traffic::default() };
@@ -182,7 +184,7 @@ fn steadily(scene: &Scene) -> Trajectory {
 
 /// When nothing helps, the weakest impact is chosen.
 #[test]
-fn of_harmful_motions_the_one_with_the_weakest_impact_is_the_least() {
+fn the_least_harmful_motion_has_the_weakest_impact() {
     let ego = agent("ego", [0.0, 0.0, 0.0, 1.0]);
     let scene = scene(ego, vec![agent("other", [0.6, 0.0, 0.0, 0.0])]);
     let impacts: Vec<Option<f64>> =

@@ -112,7 +112,7 @@ fn giving_up_on_a_human_behind_makes_no_contact() {
 
 /// The same starts, of an ego that never gives up: what the contacts come from is giving up late, not the starts.
 #[test]
-fn insisting_on_a_human_behind_makes_no_contact() {
+fn an_ego_that_never_gives_up_on_a_human_behind_makes_no_contact() {
     let patient = nash::Settings { patience_steps: usize::MAX, ..nash::Settings::default() };
     merges_without_contact(&Driver::Nash(patient), &NASH_MERGES);
 }

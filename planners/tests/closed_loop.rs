@@ -38,7 +38,7 @@ fn a_negotiator_goes_ahead_of_nice_drivers_and_a_conservative_one_between_them()
 }
 
 #[test]
-fn a_tough_driver_is_let_pass() {
+fn a_negotiator_lets_a_tough_driver_pass() {
     use Style::{Nice, Tough};
     assert_eq!(merged_order(negotiator(), [Tough, Nice]), ["front", "ego", "rear"]);
     assert_eq!(merged_order(negotiator(), [Tough, Tough]), ["front", "rear", "ego"]);

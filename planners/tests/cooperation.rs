@@ -16,6 +16,7 @@ use interplay_planners::perception::belief::{self, DriverBeliefs};
 use interplay_planners::perception::sensing::SensedScene;
 use interplay_planners::plan::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::problem::{JointVehicle, joint_problem};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::scene::inferred_futures::{Alternative, InferredFutures};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Proposal, SafetyEllipse, Scene, State};
@@ -46,6 +47,7 @@ fn scene(vehicles: &[Vehicle], index: usize) -> Scene {
         tick: 0,
         step_s: STEP_S,
         horizon: HORIZON,
+        knowledge: Knowledge::Plans,
         ego: told(&vehicles[index]),
         goal: vehicles[index].goal,
         others: others.map(|(_, other)| told(other)).collect(),
@@ -116,7 +118,7 @@ fn solutions_are_pareto_optimal() {
 }
 
 #[test]
-fn the_list_of_cooperators_is_the_same_for_all() {
+fn all_vehicles_agree_on_the_list_of_cooperators() {
     let vehicles = convoy(3);
     let lists: Vec<Vec<JointVehicle>> = (0..3).map(|i| cooperators(&scene(&vehicles, i), vehicles[i].goal)).collect();
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
@@ -127,7 +129,7 @@ fn the_list_of_cooperators_is_the_same_for_all() {
 }
 
 #[test]
-fn a_merge_is_driven_as_it_was_agreed() {
+fn a_cooperative_merge_is_driven_as_agreed() {
     for count in [2, 3, 4] {
         let run = run(convoy(count), 60);
         assert!(run.collision.is_none(), "{count}: {:?}", run.collision);
@@ -140,7 +142,7 @@ fn a_merge_is_driven_as_it_was_agreed() {
 
 /// More than the structured solver takes: the general one takes over.
 #[test]
-fn five_vehicles_share_a_problem() {
+fn five_cooperating_vehicles_share_one_problem() {
     let vehicles = convoy(5);
     let plan = vehicles[0].driver.planner().plan(&scene(&vehicles, 0)).expect("a plan");
     assert_eq!(number(&plan, COOPERATING_VEHICLES), 5.0);
@@ -149,7 +151,7 @@ fn five_vehicles_share_a_problem() {
 
 /// A human between cooperating vehicles is an obstacle to both.
 #[test]
-fn strangers_are_kept_out_of() {
+fn cooperating_vehicles_avoid_other_drivers() {
     let mut vehicles = convoy(3);
     vehicles[1].drive(world::human(Tough));
     let run = run(vehicles, 60);
@@ -179,7 +181,7 @@ fn nearest(a: &[State], b: &[State]) -> f64 {
 
 /// Both are asked for motions that leave room for the ego and for one another, in one problem.
 #[test]
-fn two_are_asked_at_once_and_kept_apart() {
+fn a_negotiator_asks_two_vehicles_at_once_and_keeps_them_apart() {
     assert_eq!(names(&first_plan(&lane_change(negotiator(1), [Nice, Nice])).proposals), ["front"]);
     let plan = first_plan(&lane_change(negotiator(2), [Nice, Nice]));
     assert_eq!(names(&plan.proposals), ["front", "rear"]);
@@ -197,7 +199,7 @@ fn two_are_asked_at_once_and_kept_apart() {
 
 /// What one vehicle is asked for while the other goes on as it plans is one of the motions that are compared when both are asked.
 #[test]
-fn asking_two_costs_no_more_than_asking_one() {
+fn asking_two_vehicles_costs_no_more_than_asking_one() {
     for styles in [[Nice, Nice], [Nice, Tough], [Tough, Nice]] {
         let vehicles = lane_change(negotiator(2), styles);
         let (both, one) = (first_plan(&vehicles), first_plan(&lane_change(negotiator(1), styles)));
@@ -214,7 +216,7 @@ fn asking_two_costs_no_more_than_asking_one() {
 
 /// Each is believed to accept what it accepts itself, and the planner reports the one that accepts least.
 #[test]
-fn each_asked_vehicle_has_an_acceptance_of_its_own() {
+fn each_asked_vehicle_has_its_own_acceptance() {
     let plans = run(lane_change(negotiator(2), [Nice, Tough]), 15).plans;
     let both: Vec<[f64; 2]> = plans
         .iter()
@@ -231,7 +233,7 @@ fn each_asked_vehicle_has_an_acceptance_of_its_own() {
 
 /// With one other vehicle it does not matter how many may be asked.
 #[test]
-fn one_partner_is_negotiated_with_as_ever() {
+fn a_limit_on_partners_changes_nothing_with_one_other_vehicle() {
     for style in [Nice, Tough] {
         let plans = [1, 3].map(|most| run(intersection(negotiator(most), style, 1.965), 40).plans);
         assert_eq!(plans[0], plans[1]);
@@ -279,7 +281,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, InferredFutures, Plan)> {
 }
 
 #[test]
-fn without_alternatives_the_problem_is_the_conservative_one() {
+fn without_alternatives_the_contingency_problem_is_the_conservative_one() {
     for (scene, ..) in seen(&lane_keeping(contingency(0.05), Tough)) {
         let one = futures(&scene, &[], &settings(0.05));
         let others: Vec<_> = scene.others.iter().collect();
@@ -290,7 +292,7 @@ fn without_alternatives_the_problem_is_the_conservative_one() {
 /// The plan, by geometry of its own: in every future the ego is outside of the ellipses around the motions of that future, and all
 /// branches begin alike.
 #[test]
-fn every_branch_keeps_out_of_the_ellipses_of_its_future() {
+fn every_branch_stays_outside_the_safety_ellipses_of_its_future() {
     let mut several = 0;
     for (scene, inferred_futures, plan) in seen(&lane_keeping(contingency(0.05), Tough)) {
         let problem = plan.problem.as_ref().expect("a problem");
@@ -340,7 +342,7 @@ fn a_branch_for_the_unlikely_driver_saves_hard_braking() {
 }
 
 #[test]
-fn an_unlikely_driver_that_shows_itself_at_once_has_a_future_of_its_own() {
+fn an_unlikely_driver_that_is_recognised_at_once_has_its_own_branch() {
     let (scene, inferred_futures, plan) = seen(&lane_keeping(contingency(0.05), Nice)).swap_remove(0);
     let mass = |known: &[Alternative]| known.iter().map(|one| one.probability).sum::<f64>();
     assert!(inferred_futures.alternatives.iter().all(|known| (mass(known) - 1.0).abs() < 1e-12));

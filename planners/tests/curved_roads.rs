@@ -60,7 +60,7 @@ fn off_the_road(random: &mut SplitMix64) -> Problem {
             vehicle: 0,
             front_m: 0.2,
             route,
-            line_m: along_m - 0.1,
+            lines_m: vec![along_m - 0.1; HORIZON],
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),
     ];
@@ -79,7 +79,7 @@ fn derivatives_agree_with_finite_differences() {
 
 /// Cheap values of the edge rows are the exact ones wherever a corner is beyond its edge, and positive lower bounds elsewhere.
 #[test]
-fn cheap_edge_values_never_hide_a_violation() {
+fn approximate_edge_distances_never_hide_a_violation() {
     let (random, body) = (&mut SplitMix64::new(3), Body::default());
     let narrowing = |from_m: f64, to_m: f64| Profile::steps(&[[3.0, from_m], [9.0, to_m]]).expect("a profile");
     let route = Route::curved(bend(0.9), narrowing(-0.2, 0.05), narrowing(0.2, 0.3), Profile::constant(0.37));

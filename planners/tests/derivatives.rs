@@ -132,7 +132,7 @@ fn mean_speed_derivatives_match_differences() {
 }
 
 #[test]
-fn distances() {
+fn distance_price_derivatives_match_differences() {
     let prices = [
         DistancePrice::Linear { weight: 0.9 },
         DistancePrice::Exact { base: 1.0, loyalty: 0.5, aversion: 0.3 },
@@ -213,7 +213,7 @@ impl RowOnTrajectory for OwnTrajectoryRow {
 }
 
 #[test]
-fn terms_of_another_crate() {
+fn derivatives_of_terms_of_another_crate_match_differences() {
     check_all(|random| {
         let cost = OwnCost { weight: random.uniform(0.5, 2.0), error: 0.0 };
         problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::cost(0, cost))])
@@ -225,7 +225,7 @@ fn terms_of_another_crate() {
 }
 
 #[test]
-fn a_wrong_derivative_of_another_crate_is_found() {
+fn a_wrong_derivative_in_a_term_of_another_crate_is_detected() {
     let random = &mut SplitMix64::new(1);
     let wrong = OwnCost { weight: 1.0, error: 0.1 };
     let problem = problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::cost(0, wrong))]);

@@ -5,6 +5,7 @@ mod common;
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, vehicle};
 use interplay_planners::drivers::{conservative, human};
 use interplay_planners::prediction::{Prediction, constant_velocity};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::{Driver, Plan, Scene, State};
 use serde_json::json;
 
@@ -21,7 +22,7 @@ fn driver(value: serde_json::Value) -> Result<Driver, serde_json::Error> {
 }
 
 #[test]
-fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
+fn every_kind_of_driver_has_defaults_and_reads_back_as_written() {
     for kind in kinds() {
         let read = driver(json!({ "kind": kind })).expect("every setting has a default");
         assert_eq!(read.kind(), kind);
@@ -39,7 +40,7 @@ fn unknown_settings_are_refused() {
 }
 
 #[test]
-fn words_choose_values_solutions_and_predictions() {
+fn settings_select_values_solutions_and_predictions_by_word() {
     let exact = driver(json!({ "kind": "bayesian", "value": "exact", "prediction": "constant-velocity" }));
     assert!(matches!(exact, Ok(Driver::Bayesian(settings)) if settings.prediction == Prediction::ConstantVelocity));
     let nash = driver(json!({ "kind": "game", "solution": "nash", "prospect": { "lambda": 1.0 } }));
@@ -52,7 +53,15 @@ fn words_choose_values_solutions_and_predictions() {
 fn beside(driver: Driver, other: &Vehicle) -> Plan {
     let own = vehicle("own", [-0.5, LANES[1], 1.2], [LANES[1], 1.2], [0.0, 4.0, 1.0, 1.0], driver);
     let others = vec![other.agent.clone()];
-    let scene = Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego: own.agent, goal: own.goal, others };
+    let scene = Scene {
+        tick: 0,
+        step_s: STEP_S,
+        horizon: HORIZON,
+        knowledge: Knowledge::Plans,
+        ego: own.agent,
+        goal: own.goal,
+        others,
+    };
     own.driver.planner().plan(&scene).expect("a plan")
 }
 

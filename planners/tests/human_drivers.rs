@@ -9,6 +9,7 @@ use interplay_planners::drivers::human::{Human, Settings, Style};
 use interplay_planners::drivers::scripted::{self, Order};
 use interplay_planners::drivers::{bayesian, conservative, game, negotiation};
 use interplay_planners::prediction::{Prediction, constant_velocity};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State};
@@ -63,7 +64,7 @@ fn a_late_driver_brakes_later_by_its_reaction_time() {
 
 /// It decides at its first plan and then every two seconds: what begins at 1.0 s it takes into account from 2.0 s on.
 #[test]
-fn a_hesitant_driver_brakes_only_when_it_decides_anew() {
+fn a_hesitant_driver_brakes_only_at_its_next_decision() {
     let prompt = brakes_at(&cut_in(hesitant(0.0)));
     assert!(prompt < 18, "{prompt}");
     let found = brakes_at(&cut_in(hesitant(2.0)));
@@ -127,7 +128,7 @@ fn a_late_and_hesitant_driver_can_be_replayed() {
 
 /// The more a driver minds others, the more it slows down for one who cuts in.
 #[test]
-fn styles_are_points_of_a_continuum() {
+fn driver_styles_are_points_of_a_continuum() {
     let slowest = |settings| {
         let run = cut_in(settings);
         run.states.iter().map(|states| states[0].speed_mps).fold(f64::INFINITY, f64::min)
@@ -183,6 +184,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             shared_goal: None,
             can_be_asked: true,
             is_obstacle: false,
+            indicator: None,
             rules: interplay_planners::rules::RoadRules::default(),
             urgency: 1.0,
         }
@@ -194,7 +196,7 @@ proptest! {
 
     /// Whatever the settings, and whichever vehicles come, go and jump, a driver plans a finite motion or says why it has none.
     #[test]
-    fn no_setting_panics(
+    fn no_setting_of_a_human_driver_panics(
         settings in any_settings(),
         seen in prop::collection::vec((0_usize..4, prop::collection::vec(any_agent(), 0..4)), 1..8),
     ) {
@@ -204,7 +206,7 @@ proptest! {
         for (later, others) in seen {
             tick += later;
             let (ego, goal) = (own.agent.clone(), own.goal);
-            let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego, goal, others };
+            let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal, others };
             if let Ok(plan) = driver.plan(&scene, &InferredFutures::default()) {
                 prop_assert!(plan.trajectory.states.iter().all(State::is_finite));
                 prop_assert_eq!(plan.trajectory.inputs.len(), HORIZON);

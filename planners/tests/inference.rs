@@ -52,7 +52,7 @@ fn crossed_first(run: &Run) -> bool {
 }
 
 #[test]
-fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_velocity() {
+fn inferred_plans_win_as_many_merges_as_known_plans_and_constant_velocity_does_not() {
     let keeping =
         |prediction| wins(|| world::lane_keeping(negotiation(prediction), Style::Nice), &belief::Settings::default());
     assert_eq!(keeping(Prediction::Plan), 6);
@@ -72,7 +72,7 @@ fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_ve
 
 /// Without learning the prior decides: an ego that takes all drivers for tough gives up what a nice driver would grant.
 #[test]
-fn a_belief_that_does_not_learn_loses_the_wins() {
+fn negotiation_with_a_fixed_belief_no_longer_goes_first() {
     let crossing = |learning| {
         let settings = belief::Settings { prior: Prior::Tough, learning, ..belief::Settings::default() };
         wins(|| world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9), &settings)
@@ -97,7 +97,7 @@ fn named(run: &Run) -> Vec<DriverModel> {
 }
 
 #[test]
-fn a_tough_driver_is_named_within_a_second_of_interaction() {
+fn a_tough_driver_is_recognised_within_a_second_of_interaction() {
     let families: [&dyn Fn(Driver) -> Vec<Vehicle>; 2] =
         [&|ego| world::intersection(ego, Style::Tough, 1.75), &|ego| world::lane_keeping(ego, Style::Tough)];
     for family in families {
@@ -126,7 +126,7 @@ fn a_nice_driver_that_yields_is_not_taken_for_tough() {
 
 /// A driver of no hypothesis: it weaves, brakes and accelerates for no reason.
 #[test]
-fn a_driver_of_no_known_model_is_named_and_not_touched() {
+fn a_driver_of_an_unknown_model_is_recognised_and_not_touched() {
     let script = (0..12).map(|number| {
         let is_odd = number % 2 == 1;
         let (speed_mps, lateral_m) = if is_odd { (1.2, 0.05) } else { (0.3, -0.05) };
@@ -214,7 +214,7 @@ fn before_and_after_absence(memory: bool) -> [f64; 2] {
 
 /// Only with a memory is a driver who was out of sight the one that it was.
 #[test]
-fn a_driver_is_remembered_by_its_name() {
+fn the_belief_about_a_driver_is_stored_by_its_name() {
     let [before, after] = before_and_after_absence(true);
     assert!(before > 0.2 && (after - before).abs() < 0.1, "{before}, then {after}");
     let [before, after] = before_and_after_absence(false);
@@ -242,7 +242,7 @@ fn moved_to(term: &Term, vehicle: usize) -> Term {
 }
 
 #[test]
-fn the_first_inputs_are_shared_and_the_rest_differs() {
+fn branches_share_their_first_inputs_and_then_differ() {
     let mut differ = 0;
     for seed in 0..20 {
         let shared_steps = 1 + seed as usize % 12;
@@ -260,7 +260,7 @@ fn the_first_inputs_are_shared_and_the_rest_differs() {
 /// Not knowing the future costs something: knowing it from the begin is never dearer, and having to decide everything now never
 /// cheaper.
 #[test]
-fn the_later_the_future_is_known_the_more_it_costs() {
+fn learning_the_future_later_costs_more() {
     let mut dearer = 0;
     for seed in 0..20 {
         let known: f64 =
@@ -286,7 +286,7 @@ fn the_later_the_future_is_known_the_more_it_costs() {
 
 /// With the same future everywhere the plan is that of one vehicle, whatever is shared.
 #[test]
-fn equal_futures_are_one() {
+fn equal_futures_give_the_plan_of_one_future() {
     for seed in 0..10 {
         let one = futures(seed, 1, 0);
         let guess = one.start(&[]).inputs[0].clone();

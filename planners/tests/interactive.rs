@@ -69,7 +69,7 @@ fn nice_drivers_are_persuaded_to_let_the_ego_in_ahead() {
 }
 
 #[test]
-fn tough_drivers_are_let_pass() {
+fn every_planner_lets_tough_drivers_pass() {
     for driver in [bayesian, game, conservative] {
         assert_eq!(place(driver(), [Tough, Nice]), BETWEEN, "{}", driver().kind());
         assert_eq!(place(driver(), [Tough, Tough]), BEHIND, "{}", driver().kind());
@@ -163,7 +163,7 @@ fn at_an_intersection_all_planners_yield_to_tough_drivers() {
 }
 
 #[test]
-fn a_mixed_equilibrium_drives_too() {
+fn a_planner_with_a_mixed_equilibrium_drives_safely() {
     let (form, solution) = (game::GameForm::AsPrinted, game::SolutionConcept::Nash);
     let nash = || Driver::Game(game::Settings { form, solution, ..game::Settings::default() });
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
@@ -233,7 +233,7 @@ fn in_the_corrected_form_the_accident_is_worst_and_intentions_stay_inside_their_
 
 /// Any vehicle may have any driver.
 #[test]
-fn two_persuading_planners_may_meet() {
+fn two_persuading_planners_can_interact_without_contact() {
     for (ego, front) in [(bayesian(), game()), (game(), bayesian()), (bayesian(), negotiator()), (game(), game())] {
         let mut vehicles = lane_change(ego.clone(), [Nice, Nice]);
         vehicles[1].drive(front.clone());
@@ -276,7 +276,7 @@ fn is_reported(run: &Run, quantity: &DiagnosticQuantity) -> bool {
 
 /// What a declaration of diagnostics must keep to, so that recordings and figures can show them.
 #[test]
-fn declarations_of_diagnostics_are_sound() {
+fn declarations_of_planner_diagnostics_are_valid() {
     let human = human(Nice);
     for driver in [conservative(), negotiator(), bayesian(), game(), idm(), human] {
         let (kind, Explanation { quantities, panels, plots, .. }) = (driver.kind(), driver.explanation());

@@ -62,7 +62,7 @@ fn no_player_gains_by_a_random_deviation() {
 /// Where the descent of the joint problem is cut short, best responses settle at an equilibrium, and no player gains there by any random
 /// deviation.
 #[test]
-fn replies_settle_where_the_joint_descent_does_not_end() {
+fn best_responses_converge_where_the_joint_descent_is_cut_short() {
     let mut random = SplitMix64::new(13);
     let mut settled = 0;
     for game in 0..GAMES {
@@ -88,7 +88,7 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
 
 /// Guesses that lead vehicles into one another are moved out of nearly all ellipses, at a lower cost; others stay.
 #[test]
-fn a_start_is_outside_of_the_ellipses() {
+fn initial_guesses_of_games_lie_outside_the_safety_ellipses() {
     let mut random = SplitMix64::new(17);
     let (mut moved, mut left_inside) = (0, 0);
     for game in 0..3 * GAMES {
@@ -109,7 +109,7 @@ fn a_start_is_outside_of_the_ellipses() {
 
 /// The game has a potential: whatever a player does alone changes its own cost and the joint cost by the same amount.
 #[test]
-fn what_a_player_gains_alone_the_sum_gains() {
+fn a_change_by_one_player_changes_the_joint_cost_equally() {
     let mut random = SplitMix64::new(11);
     for players in [2, 3, 4] {
         let problem = joint_problem(&mut random, players);
@@ -135,7 +135,7 @@ fn most_random_games_have_a_certified_equilibrium() {
 
 /// A motion that is not an equilibrium is not certified: players whose joint descent takes one step for enough would gain by leaving.
 #[test]
-fn a_motion_far_from_an_optimum_is_not_certified() {
+fn a_game_solution_far_from_an_optimum_is_not_certified() {
     let mut random = SplitMix64::new(5);
     let mut gains = 0;
     for _ in 0..GAMES {
@@ -152,7 +152,7 @@ fn a_motion_far_from_an_optimum_is_not_certified() {
 
 /// In closed loop among drivers who are not players: no contact, every plan an equilibrium, and the lane is reached.
 #[test]
-fn the_ego_changes_lane_among_humans() {
+fn a_nash_planner_changes_lane_among_humans() {
     for styles in [[Style::Nice; 2], [Style::Tough; 2]] {
         let run = run(lane_change(Driver::Nash(nash::Settings::default()), styles), 100);
         assert_eq!(run.collision, None, "{styles:?}");

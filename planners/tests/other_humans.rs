@@ -15,7 +15,7 @@ fn idm() -> Driver {
 }
 
 #[test]
-fn every_planner_merges_among_drivers_after_the_model() {
+fn every_planner_merges_among_idm_drivers() {
     for planner in egos() {
         let name = planner.kind();
         let mut vehicles = lane_change(planner, [Nice, Nice]);
@@ -30,7 +30,7 @@ fn every_planner_merges_among_drivers_after_the_model() {
 
 /// Three drivers after the model: one changes lanes, none brakes harder than it may, none collides.
 #[test]
-fn drivers_after_the_model_change_lanes_among_themselves() {
+fn idm_drivers_change_lanes_among_themselves() {
     let mut vehicles = lane_change(idm(), [Nice, Nice]);
     vehicles[1].drive(idm());
     vehicles[2].drive(idm());
@@ -43,7 +43,7 @@ fn drivers_after_the_model_change_lanes_among_themselves() {
 
 /// A script that brakes hard ahead of a follower: planners stay behind it.
 #[test]
-fn all_planners_cope_with_a_script() {
+fn all_planners_stay_behind_a_scripted_vehicle_that_brakes() {
     let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), ..Order::default() };
     let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), ..Order::default() };
     for planner in egos().into_iter().chain([idm()]) {
@@ -64,7 +64,7 @@ fn all_planners_cope_with_a_script() {
 
 /// A driver after the model sees no vehicle outside its lane: a negotiator asks the human behind it instead.
 #[test]
-fn a_negotiator_asks_only_drivers_that_see_it() {
+fn a_negotiator_sends_requests_only_to_drivers_that_see_it() {
     let negotiator = Driver::Negotiation(negotiation::Settings::default());
     let asked = |drivers: [Option<Driver>; 2]| {
         let mut vehicles = lane_change(negotiator.clone(), [Nice, Nice]);
@@ -84,7 +84,7 @@ fn a_negotiator_asks_only_drivers_that_see_it() {
 /// A crossing driver who hesitates changes its plan by leaps, so that the ego has little room: it may have to brake hard,
 /// but it does not leave the road.
 #[test]
-fn before_a_hesitating_driver_the_ego_stays_on_the_road() {
+fn the_ego_stays_on_the_road_before_a_hesitating_driver() {
     for hesitation_s in [0.5, 0.8, 1.0, 1.5] {
         let mut vehicles = intersection(Driver::Negotiation(negotiation::Settings::default()), Nice, 1.965);
         let settings =

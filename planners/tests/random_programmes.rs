@@ -126,7 +126,7 @@ fn ask(solver: &mut impl StageSolver, qp: &StageQp) -> Answer {
 
 /// Half of the problems each, on the machine's two threads.
 #[test]
-fn every_problem_is_solved_or_called_infeasible_as_the_general_solver_does() {
+fn every_random_problem_gets_the_verdict_of_the_general_solver() {
     let halves = [0, 1].map(|half| std::thread::spawn(move || compare((half..COUNT).step_by(2))));
     let wrong: Vec<String> = halves.into_iter().flat_map(|half| half.join().expect("no panic")).collect();
     assert!(wrong.is_empty(), "{} of {COUNT}: {:#?}", wrong.len(), &wrong[..wrong.len().min(20)]);
@@ -213,7 +213,7 @@ fn the_solvers_agree_on_qp_subproblems() {
 }
 
 #[test]
-fn descents_end_at_optima() {
+fn descents_with_coupled_rows_end_at_optima() {
     let (mut confirmed, mut compared) = (0, 0);
     for seed in 0..SEEDS {
         let problem = problem(seed);
@@ -242,7 +242,7 @@ fn descents_end_at_optima() {
 
 /// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.
 #[test]
-fn a_mean_speed_is_as_binding_as_its_price() {
+fn a_bound_on_the_mean_speed_binds_only_if_its_price_is_high() {
     let mut free = alone(3);
     free.terms.retain(|term| !matches!(term, Term::KeepOut(_)));
     let guess = vec![vec![Input::default(); HORIZON]];

@@ -89,7 +89,7 @@ fn a_vehicle_that_yields_crosses_after_those_with_priority() {
 
 /// At an all-way stop each vehicle stands once, and they go in the order of arrival.
 #[test]
-fn an_all_way_stop_is_left_in_the_order_of_arrival() {
+fn vehicles_leave_an_all_way_stop_in_the_order_of_arrival() {
     let network = crossing([RightOfWay::AllWayStop; 4]);
     for driver in drivers() {
         let found = routes(&network, &[["south", "north"], ["west", "east"], ["east", "south"], ["north", "east"]]);
@@ -112,7 +112,7 @@ fn an_all_way_stop_is_left_in_the_order_of_arrival() {
 
 /// Without a vehicle to yield to, a yield sign delays none, and a stop sign does.
 #[test]
-fn a_free_junction_is_crossed_without_waiting_unless_a_sign_says_so() {
+fn a_free_junction_is_crossed_without_waiting_unless_a_sign_requires_it() {
     for (sign, stands) in [(RightOfWay::Yield, false), (RightOfWay::Stop, true)] {
         for driver in drivers() {
             let found = routes(&crossing([sign; 4]), &[["south", "north"]]);

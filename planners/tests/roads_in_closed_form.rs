@@ -69,7 +69,7 @@ fn numbers(qp: &StageQp) -> Vec<f64> {
 
 /// In Frenet coordinates, tracking and edges have the same value, gradient and Hessian as on a straight road.
 #[test]
-fn terms_on_a_straight_line_of_pieces_are_those_of_a_straight_road() {
+fn terms_on_a_straight_centre_line_equal_those_on_a_straight_road() {
     for seed in 0..50 {
         let random = &mut SplitMix64::new(seed);
         let problems = twins(random);
@@ -109,7 +109,7 @@ fn from_place(side: f64, across_m: f64, angle_rad: f64, horizon: usize, step_s: 
 /// Beside the middle of a circle of radius `R`, a vehicle at the speed `v` drives on a circle of radius `R − n` around the same point,
 /// by the angle `v t/(R − n)`.
 #[test]
-fn along_an_arc_a_prediction_is_a_circle() {
+fn a_prediction_along_an_arc_is_a_circle() {
     for (side, across_m) in [(1.0, 0.0), (1.0, 0.6), (1.0, -0.6), (-1.0, 0.6), (-1.0, -0.6)] {
         let predicted = from_place(side, across_m, 0.0, 30, 0.1);
         let own_m = RADIUS_M - side * across_m;
@@ -130,7 +130,7 @@ fn along_an_arc_a_prediction_is_a_circle() {
 /// With a constant angle `φ` to the circles around a point, the motion is a logarithmic spiral: `ρ = ρ₀ − v t sin φ`, and the angle
 /// around the point is `cot φ ln(ρ₀/ρ)`. Euler's method comes to it by the first power of the step.
 #[test]
-fn at_an_angle_to_an_arc_a_prediction_is_a_spiral() {
+fn a_prediction_at_an_angle_to_an_arc_is_a_spiral() {
     let angle_rad = 0.2;
     let (rate_mps, duration_s) = (1.2 * libm::sin(angle_rad), 3.0);
     let left_m = RADIUS_M - rate_mps * duration_s;

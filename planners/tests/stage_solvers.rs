@@ -42,7 +42,7 @@ fn is_optimal_for_oracle(residual: &Residual, problem: &Problem) -> bool {
 
 /// The bounds are narrow enough to tell a solution from one that is a little off.
 #[test]
-fn a_solution_that_is_slightly_off_is_no_optimum() {
+fn a_slightly_wrong_solution_is_not_accepted_as_optimum() {
     for (seed, problem) in (0..20).flat_map(|seed| [(seed, alone(seed)), (seed, pair(seed, 1.0 + 0.01 * seed as f64))])
     {
         let qp = qp_subproblem(&problem, seed);
@@ -104,7 +104,7 @@ const BROKEN: [Broken; 12] = [
 
 /// Each optimality condition is checked by itself: a solution that breaks one of them by a known amount has at least that residual.
 #[test]
-fn each_condition_that_is_broken_is_seen() {
+fn each_violated_optimality_condition_has_a_residual() {
     for (what, break_it, of) in BROKEN {
         for seed in 0..10 {
             let problem = if what.contains("shared") { futures(seed, 2, 5) } else { pair(seed, 1.2) };
@@ -123,7 +123,7 @@ fn each_condition_that_is_broken_is_seen() {
 
 /// Damping belongs to the problem: its solution is none of the problem without.
 #[test]
-fn damping_is_part_of_the_conditions() {
+fn optimality_conditions_include_the_damping() {
     for seed in 0..10 {
         let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         qp.damping = 3.0;
@@ -137,7 +137,7 @@ fn damping_is_part_of_the_conditions() {
 
 /// The curvature of the dynamics pushes the steering, and nothing else: a bound that pushes back as much makes up for it.
 #[test]
-fn curvature_pushes_the_steering() {
+fn optimality_conditions_include_the_curvature_of_the_dynamics() {
     for seed in 0..10 {
         let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         let mut solution = StageSolution::default();
@@ -168,7 +168,7 @@ fn two_vehicles_with_persuasion() {
 
 /// One vehicle in several futures, whose first inputs are the same in all.
 #[test]
-fn futures_that_share_their_first_inputs() {
+fn stage_solvers_agree_for_futures_that_share_their_first_inputs() {
     for seed in 0..60 {
         let (count, shared_steps) = (2 + seed as usize % 3, 1 + seed as usize % 20);
         compare(&futures(seed, count, shared_steps), seed);
@@ -224,7 +224,7 @@ fn descents_end_at_points_that_satisfy_the_optimality_conditions() {
 }
 
 #[test]
-fn an_optimum_costs_no_more_than_its_guess() {
+fn an_optimum_costs_no_more_than_its_initial_guess() {
     let mut solved = 0;
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
@@ -239,7 +239,7 @@ fn an_optimum_costs_no_more_than_its_guess() {
 
 /// Without time to end, a descent returns a motion that costs less than its guess and is as safe, or fails and keeps the guess.
 #[test]
-fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
+fn an_unfinished_descent_improves_on_its_guess_or_fails() {
     let (mut handed_out, mut refused) = (0, 0);
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
@@ -322,7 +322,7 @@ fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
 }
 
 #[test]
-fn a_search_of_other_classes_passes_on_the_cheaper_side_from_any_guess() {
+fn a_homotopy_search_finds_the_cheaper_side_from_any_guess() {
     for left_m in [-0.12, -0.08, -0.04, -0.02, 0.02, 0.04, 0.08, 0.12] {
         let problem = with_a_vehicle_ahead(left_m);
         let far = -left_m.signum();
@@ -335,7 +335,7 @@ fn a_search_of_other_classes_passes_on_the_cheaper_side_from_any_guess() {
 }
 
 #[test]
-fn looking_across_is_never_dearer() {
+fn a_search_in_other_homotopy_classes_never_raises_the_cost() {
     let (mut gained, mut compared) = (0, 0);
     for seed in 0..60 {
         for problem in [alone(seed), pair(seed, 1.0 + 0.02 * seed as f64)] {

@@ -315,7 +315,7 @@ class RecordedRun:
         """The moving picture, as the bytes of a file: ``gif``, ``webp`` or ``png``."""
 
 def main(arguments: Sequence[str]) -> int:
-    """Does what the arguments of the command say, the first of which is its name, and returns the exit code."""
+    """Runs the command with these arguments, of which the first is its name, and returns the exit code."""
 
 def list_scenarios() -> list[tuple[str, str, str, str | None]]:
     """The scenarios in the package: name, title, what it shows, figure of the dissertation."""

@@ -1,4 +1,4 @@
-//! Arrays that go to Python and come from it.
+//! Conversion of arrays to and from Python.
 
 use numpy::ndarray::ArrayD;
 use numpy::{IntoPyArray, PyArrayDyn, PyReadonlyArrayDyn};

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 
 use crate::errors::refused_text;
 
-/// Finds thermal parameters in a table; returns the document of `interplay identify --json`, the summary, and a scenario with the network
-/// that was found, if one can be made. `names` are those of table and mapping in errors.
+/// Identifies thermal parameters from a table. Returns the document of `interplay identify --json`, the summary, and a
+/// scenario with the identified network, if one can be made. `names` are those of table and mapping in errors.
 #[pyfunction]
 pub fn identify(
     py: Python<'_>,

@@ -1,4 +1,4 @@
-//! Environments for learning, and our planners in them.
+//! Environments for learning, and the planners of Interplay in them.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ pub struct PyEnvironment {
     pub environment: Environment,
 }
 
-/// One of our planners with all that it remembers, for the agent of one environment.
+/// A planner of Interplay with its memory, for the agent of one environment.
 #[pyclass(name = "Planner", module = "interplay._native")]
 pub struct PyPlanner {
     driver: Driver,
@@ -31,17 +31,17 @@ pub struct PyPlanner {
     planners: HashMap<usize, Planner>,
 }
 
-/// The settings of an environment from JSON; without any word they are the defaults.
+/// Reads the settings of an environment from JSON; omitted settings have their defaults.
 pub fn settings(json: &str) -> PyResult<EnvironmentSettings> {
     serde_json::from_str(json).map_err(|error| bad_json("settings of the environment", &error))
 }
 
-/// What one agent sees, as rows of kind, shape, names, lowest and highest number.
+/// Describes the observation of an agent: for each view its kind, shape, names, and lowest and highest number.
 pub fn described(spaces: Vec<ObservationSpace>) -> Vec<(String, Vec<usize>, Vec<String>, f32, f32)> {
     spaces.into_iter().map(|space| (space.kind.to_owned(), space.shape, space.names, space.low, space.high)).collect()
 }
 
-/// How many rows an action has, or of how many it is one.
+/// Describes an action: the number of its rows, or the number of alternatives to choose from.
 pub fn described_action(space: ActionSpace) -> (Option<usize>, Option<usize>) {
     match space {
         ActionSpace::Rows(rows) => (Some(rows), None),

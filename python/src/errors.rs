@@ -1,4 +1,4 @@
-//! The exceptions of the package, and which error of the libraries raises which.
+//! The exceptions of the package, and the library errors that raise each of them.
 
 use interplay_scenarios::LoadError;
 use interplay_simulation::environment::EnvironmentError;
@@ -22,7 +22,7 @@ create_exception!(
 /// Adds the exceptions to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
-    // An error that lies in no text has none of these.
+    // An error without a place in a text has none of these attributes.
     for attribute in ["file", "line", "column", "key"] {
         py.get_type::<ScenarioError>().setattr(attribute, py.None())?;
     }
@@ -31,7 +31,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("RunError", py.get_type::<RunError>())
 }
 
-/// A refusal with the places of its faults: the text is that of the command.
+/// The exception for a refused scenario, with the place of each fault; its text is that of the command.
 pub fn refused(error: LoadError) -> PyErr {
     let faults: Vec<(Option<String>, Option<(usize, usize)>, String, Option<String>)> = error
         .faults()
@@ -58,7 +58,7 @@ pub fn refused(error: LoadError) -> PyErr {
     })
 }
 
-/// A refusal of which only the text is known; it begins with file and line where these are known.
+/// The exception for a refusal that is known only as a text, which begins with file and line if they are known.
 pub fn refused_text(text: &str) -> PyErr {
     Python::attach(|py| {
         let raised = ScenarioError::new_err(text.to_owned());
@@ -108,9 +108,9 @@ pub fn of_environment(error: EnvironmentError) -> PyErr {
     }
 }
 
-/// Text that should be JSON of Interplay and is not.
+/// The exception for a text that should be JSON but is not.
 pub fn bad_json(what: &str, error: &serde_json::Error) -> PyErr {
-    // The text was made by the package: its lines and columns mean nothing to the caller.
+    // The package made the text, so its lines and columns mean nothing to the caller.
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     PyValueError::new_err(format!("{what}: {message}"))

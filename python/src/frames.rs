@@ -29,7 +29,7 @@ const ZONE: [(&str, fn(&ZoneFrame) -> f64); 7] = [
     ("gains_kw", |zone| zone.gains_kw),
 ];
 
-/// Arrays of frames by name, the first axis the ticks. Numbers of who is not on the road are NaN.
+/// Arrays of the frames by name; the first axis is the tick. Numbers of vehicles that are not on the road are NaN.
 pub fn arrays<'py>(py: Python<'py>, scenario: &Scenario, frames: &[Frame]) -> PyResult<Bound<'py, PyDict>> {
     let arrays = PyDict::new(py);
     let ticks: Vec<&Frame> = frames.iter().filter(|frame| !frame.vehicles.is_empty()).collect();

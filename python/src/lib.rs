@@ -1,7 +1,7 @@
 //! Interplay in Python: the native half of the package `interplay`.
 //!
-//! Values other than numbers and arrays pass as JSON, with the keys of the command's own `--json`; the package makes objects
-//! of it. Every call that takes time lets other threads of Python run.
+//! Values other than numbers and arrays are passed as JSON, with the keys of the command's own `--json`; the package
+//! converts them to objects. Every call that takes time lets other Python threads run.
 
 mod arrays;
 mod batch;

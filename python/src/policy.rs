@@ -1,4 +1,4 @@
-//! Functions of Python at the wheel of a vehicle of any run.
+//! Python functions that drive a vehicle in any run.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};

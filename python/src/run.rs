@@ -1,4 +1,4 @@
-//! Whole runs.
+//! Runs a scenario from start to end.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Scenarios: loaded, changed, checked.
+//! Loads, changes and checks scenarios.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use crate::errors::refused;
 use crate::policy::PythonPolicy;
 
-/// The kinds of drivers and metrics of Interplay, and policies of Python.
+/// The registry of all kinds of drivers and metrics of Interplay, and of Python policies.
 pub fn registry() -> PyResult<&'static Registry> {
     static REGISTRY: OnceLock<Result<Registry, String>> = OnceLock::new();
     let made = REGISTRY.get_or_init(|| {

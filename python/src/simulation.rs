@@ -15,7 +15,7 @@ use crate::errors::{RunError, unfinished};
 use crate::frames;
 use crate::scenario::PyScenario;
 
-/// A scenario as a world that is stepped, looked at, steered from outside, copied and resumed.
+/// A scenario as a world that Python steps, observes, controls, copies and resumes.
 #[pyclass(name = "Simulation", module = "interplay._native")]
 pub struct PySimulation {
     world: Option<Simulation>,

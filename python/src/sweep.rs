@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use crate::errors::{RunError, refused};
 use crate::scenario::registry;
 
-/// Runs a plan into a folder, on all cores, and returns the path of the table of rows, how many were made, and how many have no result.
-/// `text` is a plan as JSON; without it `source` is a name or a path.
+/// Runs a plan into a folder, on all cores. Returns the path of the table of rows, the number of runs that were made,
+/// and the number of runs without a result. `text` is a plan as JSON; without it, `source` is a name or a path.
 #[pyfunction]
 #[pyo3(signature = (source, folder, text=None, jobs=None, samples=None, keep_failures=false))]
 pub fn sweep(

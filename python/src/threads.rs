@@ -1,7 +1,7 @@
 //! The threads in which many worlds are stepped.
 //!
-//! Threads of a process are not there in a child that it forks, as `SubprocVecEnv` does: a pool belongs to the process that made it, and
-//! a child makes its own when it first needs one.
+//! A child process that is made by `fork`, as in `SubprocVecEnv`, does not have the threads of its parent. Therefore a
+//! pool belongs to the process that made it, and a child makes its own when it first needs one.
 
 use std::sync::{Mutex, PoisonError};
 

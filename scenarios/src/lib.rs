@@ -1,8 +1,8 @@
 //! Scenarios of Interplay: their file format, its checks, and the authored files themselves.
 //!
-//! There are two types. A [`ScenarioFile`] is what is written, and nothing of what it leaves out. A [`Scenario`] is what is run:
-//! everything has a value, each vehicle has a start in world coordinates and a route along a road that was built, and the files
-//! that it names were read. One mechanism leads from the first to the second, for every author of a file:
+//! There are two types. A [`ScenarioFile`] contains exactly the keys that are written. A [`Scenario`] is ready to run:
+//! every key has a value, each vehicle has a start in world coordinates and a route along a road that was built, and
+//! the named files were read. One mechanism leads from the first to the second, for every author of a file:
 //!
 //! ```text
 //! text -> tree with places -> merged with what it extends -> changed by --set

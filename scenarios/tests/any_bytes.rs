@@ -79,7 +79,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_bytes(bytes in vec(any::<u8>(), 0..400)) {
+    fn random_bytes_never_crash_the_loader(bytes in vec(any::<u8>(), 0..400)) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("random.toml");
         fs::write(&path, &bytes).expect("a writable folder");
@@ -87,26 +87,26 @@ proptest! {
     }
 
     #[test]
-    fn random_text(text in "\\PC{0,200}") {
+    fn random_text_never_crashes_the_loader(text in "\\PC{0,200}") {
         show(from_text("random.toml", &text, &[]));
         show(load(&text, &[]));
         show(load("lane-change/front-nice", &[Override::Set(text.clone()), Override::Planner(text)]));
     }
 
     #[test]
-    fn spoiled_scenarios(file in select(embedded()), edits in edits()) {
+    fn edited_scenarios_never_crash_the_loader(file in select(embedded()), edits in edits()) {
         show(from_text("spoiled.toml", &edited(file.text, &edits), &[]));
     }
 
     #[test]
-    fn spoiled_overrides(edits in edits()) {
+    fn edited_overrides_never_crash_the_loader(edits in edits()) {
         let assignment = edited("vehicle.ego.goal.speed_mps=1.2", &edits);
         show(load("lane-change/both-tough", &[Override::Set(assignment)]));
     }
 }
 
 #[test]
-fn nesting_without_end() {
+fn deep_nesting_is_refused_without_a_crash() {
     let bombs = [
         format!("a = {}", "[".repeat(500_000)),
         format!("a = {}", "{a=".repeat(200_000)),

@@ -15,7 +15,7 @@ fn car(name: &str, x_m: usize) -> String {
 }
 
 #[test]
-fn counts_are_those_of_the_loop() {
+fn the_budget_counts_what_the_loop_does() {
     let two_cars = format!("duration_s = 2\nstep_s = 0.1\n{}{}", car("a", 0), car("b", 9));
     let kinematic = cost(&two_cars);
     assert_eq!((kinematic.plans, kinematic.steps, kinematic.records), (40, 60, 20), "two bodies and one pair");
@@ -37,7 +37,7 @@ fn comparing_with_the_central_optimum_costs_more() {
 }
 
 #[test]
-fn a_plan_at_every_step_costs_by_its_horizon() {
+fn the_budget_of_a_plan_at_every_step_grows_with_its_horizon() {
     let building = |horizon_h: u32| {
         cost(&format!("[building]\n[controller]\nkind = 'model-predictive'\nhorizon_h = {horizon_h}\n")).design_gop
     };
@@ -47,7 +47,7 @@ fn a_plan_at_every_step_costs_by_its_horizon() {
 }
 
 #[test]
-fn what_a_run_could_not_finish_is_refused_with_the_key() {
+fn a_run_that_is_too_large_is_refused_with_the_responsible_key() {
     let refused = |text: &str, fragments: &[&str]| {
         common::refused(from_text("bad.toml", &format!("{HEAD}{text}"), &[]), fragments);
     };
@@ -74,7 +74,7 @@ fn what_a_run_could_not_finish_is_refused_with_the_key() {
 }
 
 #[test]
-fn a_file_may_raise_its_limits() {
+fn a_file_may_raise_the_limits_of_its_budget() {
     let long =
         |budget: &str| format!("{HEAD}duration_s = 9000\n{budget}{}{}{}", car("a", 0), car("b", 9), car("c", 18));
     from_text("long.toml", &long(""), &[]).expect_err("270000 plans");

@@ -36,7 +36,7 @@ fn shown(error: &LoadError) -> String {
 }
 
 #[test]
-fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
+fn lanes_signs_vehicles_and_the_planning_problem_are_imported() {
     let imported = imported("motorway.xml");
     let scenario = resolved(&imported);
     let network = scenario.network.as_ref().expect("a network");
@@ -71,7 +71,7 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_carried_over() {
 
 /// Coordinates of UTM are moved; the records are those of the file, to the rounding of a table.
 #[test]
-fn maps_far_away_are_moved_near_the_origin_with_all_that_is_on_them() {
+fn distant_maps_are_moved_near_the_origin_with_all_their_objects() {
     let imported = imported("tee-in-utm.xml");
     let scenario = resolved(&imported);
     let car = scenario.vehicle("car-7").expect("a car");
@@ -105,7 +105,7 @@ fn a_scenario_written_to_files_is_the_same_scenario() {
 }
 
 #[test]
-fn drivers_of_ours_replace_records() {
+fn drivers_of_interplay_can_replace_records() {
     let replace = |vehicle: Option<&str>, kind: &str, style: Option<&str>| {
         let [vehicle, style] = [vehicle, style].map(|word| word.map(str::to_owned));
         Replacement { vehicle, kind: kind.to_owned(), style }

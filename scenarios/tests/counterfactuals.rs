@@ -59,7 +59,7 @@ fn a_counterfactual_is_the_scenario_that_flags_would_make() {
 }
 
 #[test]
-fn another_planner_comes_before_its_settings() {
+fn a_counterfactual_changes_the_planner_before_its_settings() {
     let found = changed("planner = 'negotiation'\nset = { vehicle.ego.driver.persuasion = false }", &[]);
     let Some(Driver::Negotiation(settings)) = found.ego().map(|ego| &ego.driver) else { panic!("not negotiation") };
     assert!(!settings.persuasion && settings.safety_filter);
@@ -69,7 +69,7 @@ fn another_planner_comes_before_its_settings() {
 
 /// Changes by flags apply to the counterfactual too, unless it states another value.
 #[test]
-fn flags_change_counterfactuals_too_and_their_own_changes_win() {
+fn flags_also_change_counterfactuals_whose_own_changes_win() {
     let flags = [Override::Seed(9), set("duration_s=5"), set("vehicle.crossing.driver.style=\"nice\"")];
     let found = changed("set = { duration_s = 2.0 }", &flags);
     assert_eq!((found.seed, found.duration_s, style(&found)), (9, 2.0, Some(Style::Nice)));
@@ -82,7 +82,7 @@ fn flags_change_counterfactuals_too_and_their_own_changes_win() {
 
 /// A counterfactual of a mechanism that the planner of a flag does not have is not an error of the file.
 #[test]
-fn a_counterfactual_that_flags_make_impossible_is_left_out() {
+fn a_counterfactual_that_flags_make_invalid_is_left_out() {
     let text = variant("set = { vehicle.ego.driver.persuasion = false }");
     assert_eq!(loaded(&text, &[]).counterfactuals.len(), 1);
     let scenario = loaded(&text, &[Override::Planner("idm".to_owned())]);
@@ -106,14 +106,14 @@ fn a_variant_has_its_own_counterfactuals_only() {
 
 /// A written counterfactual reads back, and `interplay new` keeps it.
 #[test]
-fn a_counterfactual_survives_writing() {
+fn a_counterfactual_is_written_and_read_back() {
     let scenario = loaded(&variant("set = { 'vehicle.crossing.driver.style' = 'nice', vehicle.ego.limits = {} }"), &[]);
     assert_eq!(loaded(&scenario.to_file().to_toml(), &[]), scenario);
 }
 
 /// A building has no order and no planner.
 #[test]
-fn a_building_has_counterfactuals_too() {
+fn a_building_may_have_counterfactuals() {
     let stated = |more: &str| {
         let text = "extends = 'building/four-room-pid'\ntitle = 'Mine'\niterations = 2\n[[counterfactual]]\nname = 'what if'\n";
         from_text("mine.toml", &format!("{text}{more}"), &[])
@@ -129,7 +129,7 @@ fn a_building_has_counterfactuals_too() {
 
 /// Settings that a file states for its planner are varied, and no others.
 #[test]
-fn settings_that_a_file_names_are_varied() {
+fn why_varies_the_planner_settings_that_a_file_states() {
     let factors = |sets: &[&str]| -> Vec<(String, String)> {
         let sets: Vec<Override> = sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
         let scenario = load("intersection/nice", &sets).expect("sound");
@@ -157,7 +157,7 @@ fn settings_that_a_file_names_are_varied() {
 
 /// Each change of the standard list is a scenario that differs from its origin in this one thing.
 #[test]
-fn standard_changes_fit_every_authored_scenario() {
+fn the_standard_changes_of_why_fit_every_authored_scenario() {
     for file in embedded() {
         let scenario = load(file.name, &[]).expect("authored");
         let changes = Registry::standard().standard_changes(file.name, &scenario, &[]);
@@ -173,7 +173,7 @@ fn standard_changes_fit_every_authored_scenario() {
 }
 
 #[test]
-fn a_driver_without_a_table_is_varied() {
+fn why_varies_a_driver_that_the_file_does_not_state() {
     let text = "title = 'a'\nshows = 'b'\nscale = 'full'\n[[vehicle]]\nname = 'car'\nstart = { lane = 0, along_m = 1.0, speed_mps = 3.0 }\n";
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("mine.toml").to_string_lossy().into_owned();
@@ -194,7 +194,7 @@ fn names(text: &str) -> Result<BTreeSet<String>, toml::de::Error> {
 }
 
 #[test]
-fn each_key_that_is_present_has_one_name() -> Outcome {
+fn each_present_expectation_key_has_one_name() -> Outcome {
     let text = r#"
         no_collision = true
         rules_kept = true
@@ -230,14 +230,14 @@ fn each_key_that_is_present_has_one_name() -> Outcome {
 }
 
 #[test]
-fn an_absent_key_has_no_name() -> Outcome {
+fn an_absent_expectation_key_has_no_name() -> Outcome {
     assert_eq!(names("")?, BTreeSet::new());
     assert_eq!(names("building = { after_iterations = 2 }")?, BTreeSet::new());
     Ok(())
 }
 
 #[test]
-fn bounds_carry_their_own_keys() -> Outcome {
+fn names_of_bounds_include_their_keys() -> Outcome {
     let text = r#"
         comfort = [{ vehicle = "ego", acceleration_at_most_mps2 = 1.0, braking_at_most_mps2 = 2.0, jerk_at_most_mps3 = 3.0 }]
         metric = [{ name = "hard_braking", is = false }, { name = "off_road_m", vehicle = "ego", at_most = 0.1, at_least = 0.0 }]
@@ -289,7 +289,7 @@ fn every_expectation_has_a_name() {
 
 /// The conflict zones of an intersection are the overlap of its roads, in either order of the vehicles.
 #[test]
-fn zones_of_an_intersection_are_those_of_its_roads() {
+fn conflict_zones_of_an_intersection_are_where_its_roads_overlap() {
     let scenario = load("intersection/stop-sign", &[]).expect("authored");
     let vehicle = |name: &str| scenario.vehicle(name).expect("authored");
     let zones = scenario.road.conflict_zones(vehicle("ego"), vehicle("first"));

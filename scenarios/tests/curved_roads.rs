@@ -63,7 +63,7 @@ fn the_default_transition_fits_the_pieces() {
 }
 
 #[test]
-fn a_place_in_a_lane_is_a_state_in_the_world() {
+fn a_position_in_a_lane_becomes_a_state_in_the_world() {
     let start = |vehicle: &str| curved(vehicle, &[]).vehicles[0].start;
     let in_straight = start("start = { lane = 1, along_m = 12.0, speed_mps = 1.3 }");
     assert_eq!(in_straight.to_array(), [12.0, 5.25, 0.0, 1.3]);
@@ -84,7 +84,7 @@ fn a_place_in_a_lane_is_a_state_in_the_world() {
 }
 
 #[test]
-fn the_target_on_a_curve_is_beside_the_start_in_the_lane_of_the_goal() {
+fn the_target_on_a_curve_is_in_the_goal_lane_beside_the_start() {
     for along_m in [10.0, 110.0, 180.0, 230.0] {
         let vehicle = format!(
             "start = {{ lane = 0, along_m = {along_m}, speed_mps = 5.0 }}\ngoal = {{ lane = 1, speed_mps = 6.0 }}"
@@ -105,7 +105,7 @@ fn the_target_on_a_curve_is_beside_the_start_in_the_lane_of_the_goal() {
 }
 
 #[test]
-fn straight_roads_take_places_in_lanes() {
+fn starts_on_straight_roads_may_be_stated_in_lanes() {
     let lane = least("", &[set("vehicle.car.start.lane=1"), set("vehicle.car.start.along_m=2.5")]);
     let start = lane.vehicles[0].start;
     assert!((start.y_m - 0.555).abs() < 1e-12, "`lane` takes the place of `x_m` and `y_m`: {start:?}");
@@ -132,7 +132,7 @@ fn ramp_merge() -> &'static str {
 }
 
 #[test]
-fn a_lane_of_a_curve_ends() {
+fn a_lane_of_a_curved_road_may_end() {
     let end = [set("road.lane_end={ end_m = 90.0, taper_m = 4.0 }")];
     let scenario = curved("start = { lane = 0, along_m = 10.0, speed_mps = 5.0 }\ngoal = { lane = 1 }", &end);
     let route = scenario.main_route();

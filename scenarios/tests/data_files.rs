@@ -89,7 +89,7 @@ fn gaps_outside_the_days_of_the_run_are_accepted() {
 }
 
 #[test]
-fn prices_by_the_quarter_hour_and_with_quotes_are_read() {
+fn quarter_hourly_and_quoted_prices_are_read() {
     let folder = Folder::new();
     let tariff = |text: &str| {
         folder.write("prices.csv", text);
@@ -130,7 +130,7 @@ fn prices_repeat_after_whole_days_only() {
 }
 
 #[test]
-fn weather_comes_from_a_table() {
+fn weather_is_read_from_a_table() {
     let folder = Folder::new();
     let rows: String = (0..=72)
         .map(|hour| {
@@ -153,7 +153,7 @@ fn weather_comes_from_a_table() {
 }
 
 #[test]
-fn gains_come_from_a_table() {
+fn gains_are_read_from_a_table() {
     let folder = Folder::new();
     let rows: String = (0..48).map(|hour| format!("{hour},{},1\n", hour % 24)).collect();
     folder.write("gains.csv", &format!("hour,living,Kitchen\n{rows}"));
@@ -187,7 +187,7 @@ fn windows_are_checked_like_other_settings() {
 }
 
 #[test]
-fn prices_by_the_megawatt_hour_are_remarked_upon() {
+fn prices_per_megawatt_hour_cause_a_remark() {
     let folder = Folder::new();
     let remarks_of = |price: &str| {
         folder.write(

@@ -51,7 +51,7 @@ fn a_written_scenario_reads_back_the_same() {
 }
 
 #[test]
-fn a_variant_states_only_its_difference() {
+fn a_variant_states_only_its_differences() {
     let (nice, tough) = (load("lane-change/front-nice", &[]), load("lane-change/front-tough", &[]));
     let (nice, tough) = (nice.expect("authored"), tough.expect("authored"));
     let style = |scenario: &Scenario, name: &str| match &scenario.vehicle(name).expect("a vehicle").driver {
@@ -88,7 +88,7 @@ fn a_file_extends_a_file_beside_it() {
 }
 
 #[test]
-fn overrides_change_what_they_name_in_their_order() {
+fn overrides_change_the_named_keys_in_order() {
     let changes = [
         set("vehicle.ego.goal.speed_mps=1.2"),
         set("vehicle.front.driver.safety_weight = 8"),
@@ -117,7 +117,7 @@ fn a_table_set_on_a_vehicle_changes_only_the_keys_that_it_states() {
 }
 
 #[test]
-fn another_planner_keeps_the_settings_that_it_knows() {
+fn changing_the_planner_keeps_settings_that_the_new_one_has() {
     let one_class = Override::Set("vehicle.ego.driver.passing_orders=\"off\"".to_owned());
     let conservative = Override::Planner("conservative".to_owned());
     let scenario = load("lane-change/front-nice", &[one_class, conservative]).expect("a planner");
@@ -143,7 +143,7 @@ fn a_vehicle_without_a_goal_keeps_its_lane_and_speed() {
 }
 
 #[test]
-fn jitter_is_bounded_and_repeats_with_the_seed() {
+fn start_jitter_is_bounded_and_repeats_with_the_seed() {
     let jittered = |seed| least("start_jitter = { position_m = 0.1, speed_mps = 0.6 }", &[Override::Seed(seed)]);
     let mut positions = BTreeSet::new();
     for seed in 0..200 {
@@ -179,7 +179,7 @@ fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(
 
 /// The schema file that the first line of every authored scenario names. `INTERPLAY_BLESS=1` rewrites it.
 #[test]
-fn the_schema_beside_the_authored_files_is_the_one_that_is_published() {
+fn the_published_schema_is_up_to_date() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema.json");
     let text = serde_json::to_string_pretty(&schema()).expect("JSON") + "\n";
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
@@ -240,7 +240,7 @@ fn writing_out_every_default_of_the_schema_changes_nothing() {
 
 /// A file of `interplay new` means the same as its origin, and explains each key once.
 #[test]
-fn a_commented_file_means_the_same_as_its_origin() {
+fn a_commented_file_means_the_same_as_its_original() {
     for file in embedded() {
         let scenario = Scenario { figure: None, ..load(file.name, &[]).expect("authored") };
         let text = Registry::standard().commented(file.name, Path::new("")).expect("authored");

@@ -66,7 +66,7 @@ fn assert_drivable(road: &str, lane: &str, pairs: usize) {
 }
 
 #[test]
-fn every_way_through_a_short_form_can_be_driven() {
+fn every_route_through_a_junction_form_is_drivable() {
     assert_drivable("kind = 'roundabout'", "east-in", 16);
     assert_drivable("kind = 'roundabout'\narms = 3", "arm-0-in", 9);
     assert_drivable("kind = 'roundabout'\narms = 5\nradius_m = 18", "arm-0-in", 25);
@@ -84,7 +84,7 @@ fn every_way_through_a_short_form_can_be_driven() {
 
 /// A start names a lane and a goal the lane to reach: the state lies on the lane, and the route leads there.
 #[test]
-fn a_start_by_lane_is_a_state_and_begins_the_route() {
+fn a_start_in_a_lane_becomes_a_state_at_the_start_of_the_route() {
     let vehicle = "start = { lane = 'west-in', along_m = 12.0, lateral_offset_m = 0.5, heading_error_deg = 5.0, \
         speed_mps = 7.0 }\ngoal = { lane = 'north-out', speed_mps = 9.0 }";
     let scenario = scenario("kind = 'crossing'", vehicle);
@@ -120,7 +120,7 @@ fn the_same_route_can_be_stated_lane_by_lane_and_from_world_coordinates() {
 
 /// Headings are those of the route, which may turn by more than half a circle.
 #[test]
-fn headings_go_on_along_a_ring() {
+fn headings_along_a_ring_continue_beyond_a_full_turn() {
     let car = |along_m: f64| {
         let start = format!(
             "start = {{ lane = 'ring-north', along_m = {along_m:?}, speed_mps = 5.0 }}\ngoal = {{ lane = 'north-out' }}"
@@ -136,7 +136,7 @@ fn headings_go_on_along_a_ring() {
 }
 
 #[test]
-fn without_a_goal_the_only_way_is_taken() {
+fn a_vehicle_without_a_goal_takes_the_only_route() {
     let lanes = |road: &str, lane: &str| {
         let vehicle = format!("start = {{ lane = '{lane}', along_m = 20.0, speed_mps = 5.0 }}");
         let car = scenario(road, &vehicle).vehicles[0].clone();
@@ -149,7 +149,7 @@ fn without_a_goal_the_only_way_is_taken() {
 
 /// The right of way and the neighbouring lanes of the short forms.
 #[test]
-fn short_forms_state_right_of_way_and_permitted_lane_changes() {
+fn junction_forms_define_right_of_way_and_lane_changes() {
     let right_of_way = |road: &str, lane: &str| network(road, lane).lane(lane).expect("it is there").right_of_way;
     assert_eq!(right_of_way("kind = 'roundabout'", "north-in"), RightOfWay::Yield);
     assert_eq!(right_of_way("kind = 't-junction'", "south-in"), RightOfWay::Yield);
@@ -208,7 +208,7 @@ fn a_lane_ends_where_its_pieces_end() {
 
 /// `interplay new` writes a file that means the same.
 #[test]
-fn networks_survive_writing() {
+fn networks_are_written_and_read_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let lanes = "kind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0.0, 0.0], [50.0, 1.0]]\nwidth_m = 3.5\n\
         left = 'b'\nsuccessors = ['c']\n[[road.lane]]\nname = 'b'\npoints = [[0.0, 3.5], [50.0, 4.5]]\n\
@@ -239,7 +239,7 @@ fn networks_survive_writing() {
 
 /// A variant changes one lane of its parent's network by name.
 #[test]
-fn flags_change_a_lane_by_name() {
+fn flags_change_the_lane_with_a_given_name() {
     let text = "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { lane = 'a', along_m = 9.0, speed_mps = 1.0 }\n\
         [road]\nkind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0.0, 0.0], [50.0, 1.0]]\nwidth_m = 3.5\n";
     let set = Override::Set("road.lane.a.speed_limit_mps=9.5".to_owned());
@@ -250,7 +250,7 @@ fn flags_change_a_lane_by_name() {
 
 /// Lanes of a millimetre would be compared at millions of places before the cars turn out not to fit.
 #[test]
-fn cars_on_lanes_of_a_millimetre_are_refused_at_once() {
+fn cars_on_lanes_of_a_millimetre_are_refused_quickly() {
     let car = |name: &str, lane: &str| {
         format!("[[vehicle]]\nname = \"{name}\"\nstart = {{ lane = \"{lane}\", along_m = 5.0, speed_mps = 9.0 }}\n")
     };

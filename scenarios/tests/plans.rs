@@ -103,7 +103,7 @@ fn drawn_values_have_their_distributions() {
 
 /// Each scenario has its own counterfactuals as planners after those of the plan, with the same values and seeds.
 #[test]
-fn counterfactuals_are_planners_of_their_scenario_alone() {
+fn counterfactuals_of_a_plan_apply_only_to_their_scenario() {
     let plan = sound(
         "scenario = ['lane-keeping/conservative-nice', 'intersection/nice']\nplanner = ['as-written', 'idm']\nstyle = ['as-written', \
          'tough']\ncounterfactuals = true\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
@@ -137,7 +137,7 @@ fn counterfactuals_are_planners_of_their_scenario_alone() {
 }
 
 #[test]
-fn a_star_is_every_vehicle_but_the_ego() {
+fn a_star_in_a_plan_stands_for_all_vehicles_except_the_ego() {
     let plan = sound("scenario = ['lane-change/front-nice']\nstyle = ['tough']\nplanner = ['conservative']\n");
     let scenario = plan.scenario(&plan.point(0)).expect("sound");
     let drivers: Vec<String> = scenario.vehicles.iter().map(|vehicle| format!("{:?}", vehicle.driver)).collect();
@@ -149,7 +149,7 @@ fn a_star_is_every_vehicle_but_the_ego() {
 
 /// The change of starts of real cars is that of 1/10 scale cars by Froude's law.
 #[test]
-fn jitter_is_scaled_to_the_vehicles() {
+fn jitter_of_a_plan_is_scaled_to_the_vehicles() {
     let plan = sound(
         "scenario = ['lane-change/front-nice', 'roundabout/nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
     );
@@ -163,7 +163,7 @@ fn jitter_is_scaled_to_the_vehicles() {
 
 /// The results that a plan keeps about a road equal those that a single scenario computes.
 #[test]
-fn runs_on_a_known_road_equal_those_of_the_scenario_itself() {
+fn plan_runs_with_a_cached_road_equal_single_runs() {
     let plan = sound(
         "scenario = ['roundabout', 't-junction', 'narrow-passage', 'left-turn', 'on-ramp', 'all-way-stop', 'overtaking']\nsamples = 2\n\
          jitter = { position_m = 0.1, speed_mps = 0.1 }\n",
@@ -179,7 +179,7 @@ fn runs_on_a_known_road_equal_those_of_the_scenario_itself() {
 }
 
 #[test]
-fn families_and_patterns_stand_for_scenarios() {
+fn families_and_patterns_in_a_plan_select_scenarios() {
     let names = |entry: &str| -> Vec<String> {
         let plan = sound(&format!("scenario = ['{entry}']\n"));
         plan.names()[0].iter().map(|name| (*name).to_owned()).collect()
@@ -190,7 +190,7 @@ fn families_and_patterns_stand_for_scenarios() {
 }
 
 #[test]
-fn the_plans_in_the_binary_are_sound() {
+fn the_embedded_plans_are_valid() {
     for name in embedded_plans() {
         let plan = SweepPlan::load(name, Some(1)).unwrap_or_else(|error| panic!("{name}: {:?}", error.faults()));
         let last = plan.point(plan.run_count() - 1);
@@ -201,7 +201,7 @@ fn the_plans_in_the_binary_are_sound() {
 
 /// An entry of a list below a table is named as on the command line, whether the path is quoted or not.
 #[test]
-fn paths_lead_through_lists_below_tables() {
+fn paths_in_a_plan_may_name_entries_of_nested_lists() {
     for path in ["building.zone.office.heating_limit_kw", "'building.zone.office.heating_limit_kw'"] {
         let text = format!("scenario = ['building/office-and-flat']\n[set]\n{path} = 5.5\nbuilding.step_s = 900.0\n");
         let plan = SweepPlan::from_text("plan.toml", &text, Path::new("")).expect("sound");

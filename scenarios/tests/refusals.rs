@@ -98,7 +98,7 @@ fn at_most_20_errors_are_shown() {
 }
 
 #[test]
-fn long_lines_are_cut_around_the_error() {
+fn long_lines_are_shortened_around_the_error() {
     let long = format!("# {}\nshows = [{}nan]", "a".repeat(5000), "0.5, ".repeat(2000));
     let error = from_text("bad.toml", &long, &[]).expect_err("not a text");
     let text = rendered(&error, 100);

@@ -30,7 +30,7 @@ fn remarks(scenario: &Scenario) -> Vec<String> {
 }
 
 #[test]
-fn a_scale_scales_what_is_not_stated() {
+fn a_scale_changes_only_values_that_are_not_stated() {
     let scenario = with_car("scale = 16", "weights = { y = 0.5 }\nlimits = { speed_max_mps = 7 }");
     assert_eq!((scenario.step_s, scenario.duration_s, scenario.road.lane_width_m()), (0.4, 48.0, 16.0 * 0.37));
     let car = &scenario.vehicles[0];
@@ -40,14 +40,14 @@ fn a_scale_scales_what_is_not_stated() {
 }
 
 #[test]
-fn tenth_scale_is_the_default() {
+fn the_default_scale_is_one_tenth() {
     let (stated, unstated) = (with_car("scale = 'tenth'", "start.speed_mps = 1"), with_car("", "start.speed_mps = 1"));
     assert_eq!(stated.vehicles, unstated.vehicles);
     assert_eq!((stated.step_s, stated.duration_s, stated.road), (unstated.step_s, unstated.duration_s, unstated.road));
 }
 
 #[test]
-fn a_full_size_scenario_needs_no_numbers_of_its_vehicles() {
+fn a_full_size_scenario_need_not_state_vehicle_sizes() {
     let (by_scale, by_class) = (with_car("scale = 'full'", ""), with_car("[defaults]\nclass = 'car'", ""));
     let (one, other) = (&by_scale.vehicles[0], &by_class.vehicles[0]);
     assert_eq!((one.body, one.limits, one.safety), (other.body, other.limits, other.safety));
@@ -59,14 +59,14 @@ fn a_full_size_scenario_needs_no_numbers_of_its_vehicles() {
 }
 
 #[test]
-fn a_vehicle_of_another_class_keeps_its_own() {
+fn a_vehicle_of_another_class_keeps_the_values_of_its_class() {
     let scenario = with_car("[defaults]\nclass = 'car'\n[defaults.body]\nwidth_m = 1.7", "class = 'truck'");
     let body = scenario.vehicles[0].body;
     assert_eq!((body.front_m, body.width_m), (6.5, 1.7), "what `[defaults]` states holds for every class");
 }
 
 #[test]
-fn defaults_of_a_driver_are_for_drivers_of_its_kind() {
+fn driver_defaults_apply_only_to_drivers_of_that_kind() {
     let defaults = "[defaults.driver]\nkind = 'human'\nstyle = 'tough'\nreaction_s = 0.3";
     let human = |more: &str| match &with_car(defaults, &format!("start.speed_mps = 1\n{more}")).vehicles[0].driver {
         Driver::Human(settings) => *settings,
@@ -83,7 +83,7 @@ fn defaults_of_a_driver_are_for_drivers_of_its_kind() {
 }
 
 #[test]
-fn flags_reach_defaults() {
+fn flags_may_change_defaults() {
     let text = format!("{HEAD}[defaults]\nclass = 'car'\n{}", car(""));
     let changed = loaded(&text, &[set("defaults.class=van"), set("defaults.limits.speed_max_mps=20")]);
     assert_eq!((changed.vehicles[0].class, changed.vehicles[0].limits.speed_max_mps), (Some(VehicleClass::Van), 20.0));
@@ -98,7 +98,7 @@ fn a_fault_in_defaults_is_reported_once() {
 }
 
 #[test]
-fn idm_drivers_know_the_lanes_of_their_road() {
+fn idm_drivers_get_the_lanes_of_their_road() {
     let scenario = with_car("scale = 'full'\n[road]\nkind = 'lanes'\nlane_width_m = 3.5", "driver = { kind = 'idm' }");
     let Driver::Idm(settings) = &scenario.vehicles[0].driver else { panic!("another driver") };
     assert_eq!((settings.mobil.lane_width_m, settings.gap_m), (Some(3.5), 2.0));
@@ -112,7 +112,7 @@ fn idm_drivers_know_the_lanes_of_their_road() {
 }
 
 #[test]
-fn each_remark_names_its_place_and_what_would_work() {
+fn each_remark_names_its_place_and_a_remedy() {
     for (between, more, expected) in [
         (
             "[road]\nkind = 'lanes'\nlane_width_m = 3.5",
@@ -190,7 +190,7 @@ fn on_road(road: &str, start: &str, more: &str) -> String {
 
 /// If neither a scale nor a class nor a body is stated, the width of the lanes determines the size.
 #[test]
-fn the_width_of_lanes_chooses_the_size() {
+fn the_lane_width_determines_the_default_scale() {
     let size = |road: &str, start: &str, more: &str| {
         let scenario = loaded(&on_road(road, start, more), &[]);
         assert_eq!(remarks(&scenario), Vec::<String>::new(), "{road}");
@@ -217,7 +217,7 @@ fn the_width_of_lanes_chooses_the_size() {
 
 /// Stated keys go before the width of the lanes.
 #[test]
-fn a_scale_a_class_or_a_body_goes_before_the_width_of_lanes() {
+fn a_scale_class_or_body_takes_precedence_over_the_lane_width() {
     let wide = "[road]\nkind = 'lanes'\nlane_width_m = 3.5";
     for (between, more) in [
         (format!("scale = 'tenth'\n{wide}"), ""),
@@ -240,7 +240,7 @@ fn a_speed_out_of_limits_names_scale_and_class() {
 
 /// Only the narrowest lane of the route counts, from the start on.
 #[test]
-fn a_lane_that_is_narrower_than_the_car_is_found_on_its_way() {
+fn a_lane_narrower_than_the_car_is_found_along_its_route() {
     let first = |text: &str| {
         let error = from_text("size.toml", text, &[]).expect_err(text);
         let fault = &error.faults()[0];
@@ -271,7 +271,7 @@ fn a_lane_that_is_narrower_than_the_car_is_found_on_its_way() {
 
 /// A lorry sweeps more than the width of these turns, a car does not.
 #[test]
-fn a_turn_without_room_for_a_body_is_remarked_on() {
+fn a_turn_too_tight_for_a_body_causes_a_remark() {
     for (road, from, to) in [
         ("t-junction", "west-in", "south-out"),
         ("crossing", "west-in", "south-out"),
@@ -288,7 +288,7 @@ fn a_turn_without_room_for_a_body_is_remarked_on() {
 }
 
 #[test]
-fn angles_are_degrees() {
+fn angles_in_files_are_degrees() {
     let scenario = with_car("", "start.speed_mps = 1\nlimits.steering_max_deg = 30");
     assert_eq!(scenario.vehicles[0].limits.steering_max_rad, 30.0_f64.to_radians());
     assert_eq!(remarks(&scenario), Vec::<String>::new());
@@ -298,7 +298,7 @@ fn angles_are_degrees() {
 }
 
 #[test]
-fn drivers_that_do_not_look_ahead_need_no_longer_plans() {
+fn drivers_without_lookahead_get_no_remark_on_short_plans() {
     let said = |driver: &str| {
         let scenario = with_car("scale = 'full'\nhorizon_steps = 10", &format!("start.speed_mps = 32\n{driver}"));
         remarks(&scenario).iter().any(|remark| remark.contains("to stop from"))

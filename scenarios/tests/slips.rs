@@ -44,7 +44,7 @@ fn a_vehicle_that_a_variant_states_twice_is_refused() {
 }
 
 #[test]
-fn a_word_in_capitals_gets_its_spelling_as_help() {
+fn a_word_in_capitals_gets_its_correct_spelling_as_help() {
     let fault = only(&format!("{VARIANT}[[vehicle]]\nname = \"front\"\ndriver = {{ kind = \"IDM\" }}\n"), &[]);
     assert_eq!(hint(&fault), "did you mean `idm`?");
     let by_flag = only(VARIANT, &["vehicle.front.driver.style=\"TOUGH\""]);
@@ -52,7 +52,7 @@ fn a_word_in_capitals_gets_its_spelling_as_help() {
 }
 
 #[test]
-fn an_overlap_is_blamed_on_what_moved_a_vehicle() {
+fn an_overlap_error_points_at_the_change_that_moved_a_vehicle() {
     // The ego comes first in the file that is extended, so that the overlap is found at the other's start.
     let moved = format!("{VARIANT}[[vehicle]]\nname = \"ego\"\nstart = {{ x_m = 0.0, y_m = 0.555 }}\n");
     let all = faults(&moved, &[]);
@@ -68,7 +68,7 @@ fn an_overlap_is_blamed_on_what_moved_a_vehicle() {
 }
 
 #[test]
-fn scaled_numbers_are_short_in_messages() {
+fn scaled_numbers_in_messages_are_short() {
     let text = "title = \"a\"\nshows = \"b\"\nscale = 3.0\nvehicle = [{ name = \"ego\", \
                 start = { x_m = 0.0, y_m = 0.5, speed_mps = 99.0 } }]\n";
     let said: String = faults(text, &[]).iter().map(|fault| format!("{} {}\n", fault.message(), hint(fault))).collect();
@@ -79,7 +79,7 @@ fn scaled_numbers_are_short_in_messages() {
 
 /// One bracket where a list wants two: at the header with one, whichever comes first.
 #[test]
-fn one_bracket_instead_of_two_is_named_as_the_cause() {
+fn a_single_bracket_in_place_of_two_is_named_as_the_cause() {
     for (vehicles, line, message) in [
         ("[vehicle]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here for the second time"),
         ("[vehicle]\nname = 'a'\n[[vehicle]]\nname = 'b'\n", 3, "`[vehicle]` stands here beside `[[vehicle]]`"),
@@ -215,7 +215,7 @@ fn a_network_of_lanes_is_built_and_written_out() {
 
 /// A text and the same values in code describe the same scenario, and a file that was read may be changed in code.
 #[test]
-fn code_and_text_mean_the_same() {
+fn a_scenario_made_in_code_equals_its_text() {
     let text = "title = 'A'\nshows = 'B'\nroad = { kind = 'crossing' }\n[[vehicle]]\nname = 'ego'\nclass = 'van'\n\
                 start = { lane = 'west-in', along_m = 20, speed_mps = 8 }\nlimits.speed_max_mps = 12.0\ngoal.lane = 'east-out'";
     let mut ego = VehicleConfig::new("ego", StartConfig::in_lane("west-in", 20.0, 8.0));

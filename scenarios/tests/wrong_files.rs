@@ -38,7 +38,7 @@ before_s = 4.0
 "#;
 
 #[test]
-fn missing_files() {
+fn missing_files_are_reported_with_help() {
     let mut errors = Catalogue::default();
     errors.add("no_such_name", load("lane-change/front-nicer", &[]), 100);
     errors.add("no_such_name_near", load("something-else-entirely", &[]), 100);
@@ -48,7 +48,7 @@ fn missing_files() {
 }
 
 #[test]
-fn unreadable_files() {
+fn unreadable_files_are_reported_with_the_reason() {
     let mut errors = Catalogue::default();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("a writable folder");
@@ -70,7 +70,7 @@ fn unreadable_files() {
 }
 
 #[test]
-fn chains_of_files() {
+fn errors_in_chains_of_extended_files_are_located() {
     let mut errors = Catalogue::default();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a writable folder");
@@ -93,7 +93,7 @@ const SECRET: &str = "root:x:0:0:root:/root:/bin/bash\nalice:$6$secret:1000:1000
 
 /// A scenario may name any file, and its user may not be its author: errors show no text of a file of another kind.
 #[test]
-fn the_text_of_a_file_of_another_kind_is_not_shown() {
+fn errors_do_not_show_the_text_of_files_of_another_kind() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: &[u8]| {
         let path = folder.path().join(name);

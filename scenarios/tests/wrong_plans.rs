@@ -41,12 +41,12 @@ fn all_are_refused(of: impl Fn(Refusals) -> Vec<[String; 3]>) {
 }
 
 #[test]
-fn wrong_plans_are_refused_where_they_are_wrong() {
+fn faults_of_plans_are_refused_at_their_place() {
     all_are_refused(|plans| plans.wrong);
 }
 
 #[test]
-fn changes_and_samples_without_effect_are_refused_where_they_are_written() {
+fn changes_and_samples_without_effect_are_refused_at_their_place() {
     all_are_refused(|plans| plans.without_effect);
 }
 
@@ -84,7 +84,7 @@ fn refusal(plan: &SweepPlan) -> LoadError {
 
 /// Each fault is reported once, with the first run that has it and their number.
 #[test]
-fn drawn_values_that_break_a_scenario_are_named_once() {
+fn drawn_values_that_make_a_scenario_invalid_are_reported_once() {
     let plan = sound(
         "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'human']\nsamples = 50\n[vary]\n\
          vehicle.front.start.x_m = { normal = { mean = -0.35, sd = 2.0 } }\n",
@@ -129,7 +129,7 @@ fn faults_of_the_first_sample_state_how_many_runs_have_them() {
 
 /// A start that is moved onto another vehicle is blamed on the plan's own change of the starts.
 #[test]
-fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
+fn jitter_that_makes_a_scenario_invalid_is_reported_with_seed_and_sample() {
     let plan = sound(
         "scenario = ['lane-change/front-nice']\nseed = 10\njitter = { position_m = 5.0, speed_mps = 0.1 }\nsamples = 200\n\
          set = { horizon_steps = 20 }\n[vary]\nvehicle.ego.start.speed_mps = { uniform = [1.0, 1.1] }\n",
@@ -166,7 +166,7 @@ fn a_counterfactual_that_sets_the_seed_is_refused_in_a_plan() {
 
 /// Another number of samples changes no place, and is found however the plan writes its own.
 #[test]
-fn another_number_of_samples_changes_only_this_number() {
+fn the_samples_flag_changes_only_the_number_of_samples() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let path = folder.path().join("plan.toml");
     let name = path.to_str().expect("a path");

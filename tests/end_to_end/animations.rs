@@ -14,7 +14,7 @@ fn run(folder: &Path, more: &[&str]) -> Outcome {
 
 /// The endings and how the files begin.
 #[test]
-fn every_format_is_written_whole() {
+fn every_animation_format_is_written_completely() {
     let folder = scratch("animate-formats");
     for (file, begins) in [("a/b/run.gif", &b"GIF89a"[..]), ("run.webp", b"RIFF"), ("run.PNG", b"\x89PNG")] {
         let outcome = run(&folder, &["--no-record", "--animate", file]);
@@ -27,7 +27,7 @@ fn every_format_is_written_whole() {
 }
 
 #[test]
-fn drawing_changes_neither_the_run_nor_the_bytes_of_the_next() {
+fn drawing_an_animation_does_not_change_the_run() {
     let folder = scratch("animate-same");
     let digest = |more: &[&str]| run(&folder, more).json()["digest"].clone();
     let plain = digest(&["--no-record", "--json"]);
@@ -54,7 +54,7 @@ fn an_unknown_ending_is_refused_with_the_list() {
 /// Without the program the other endings are named; with it, it is given every picture.
 #[cfg(unix)]
 #[test]
-fn films_are_made_by_ffmpeg() {
+fn mp4_animations_are_made_by_ffmpeg() {
     use std::os::unix::fs::PermissionsExt;
 
     let folder = scratch("animate-film");
@@ -82,7 +82,7 @@ fn films_are_made_by_ffmpeg() {
 }
 
 #[test]
-fn no_animation_takes_the_place_of_an_input_or_of_another_output() {
+fn an_animation_never_overwrites_an_input_or_another_output() {
     let folder = scratch("animate-overwrites");
     let text = "extends = 'lane-change/front-nice'\ntitle = 'Mine'\nduration_s = 4.0\n";
     fs::write(folder.join("mine.toml"), text).expect("writes");
@@ -104,7 +104,7 @@ fn no_animation_takes_the_place_of_an_input_or_of_another_output() {
 }
 
 #[test]
-fn an_animation_that_cannot_be_written_is_exit_code_3_before_anything_is_run() {
+fn an_unwritable_animation_exits_with_code_3_before_any_run() {
     let folder = scratch("animate-unwritable");
     fs::write(folder.join("file"), "mine").expect("writes");
     fs::create_dir(folder.join("folder.gif")).expect("makes");
@@ -118,7 +118,7 @@ fn an_animation_that_cannot_be_written_is_exit_code_3_before_anything_is_run() {
 }
 
 #[test]
-fn a_suite_animates_what_failed_and_nothing_else() {
+fn a_suite_animates_only_failed_scenarios() {
     let folder = scratch("animate-failures");
     fs::create_dir(folder.join("mine")).expect("makes");
     fs::write(folder.join("mine/good.toml"), "extends = 'lane-change/front-nice'\ntitle = 'Good'\n").expect("writes");

@@ -159,7 +159,7 @@ fn read(path: &Path) -> String {
 }
 
 #[test]
-fn every_crate_has_its_arrows() {
+fn every_crate_has_stated_dependencies() {
     let mut crates: Vec<&str> = ARROWS.iter().map(|(folder, _)| *folder).collect();
     let mut members = members();
     crates.sort_unstable();
@@ -168,7 +168,7 @@ fn every_crate_has_its_arrows() {
 }
 
 #[test]
-fn arrows_point_one_way() {
+fn crate_dependencies_match_the_architecture() {
     for (name, allowed) in ARROWS {
         for dependency in dependencies(&manifest(&root().join(name))) {
             if let Some(other) = crate_folder(&dependency) {
@@ -179,7 +179,7 @@ fn arrows_point_one_way() {
 }
 
 #[test]
-fn every_engine_has_one_owner() {
+fn every_engine_is_a_dependency_of_one_crate() {
     for member in members() {
         for dependency in dependencies(&manifest(&root().join(&member))) {
             let mut owners = OWNERS.iter().filter(|(library, _)| dependency.starts_with(library)).peekable();
@@ -213,7 +213,7 @@ fn inside_a_crate_only_one_folder_names_an_engine() {
 }
 
 #[test]
-fn nouns_know_no_cost_terms_no_certificate_and_no_optimiser() {
+fn basic_types_do_not_depend_on_cost_terms_certificates_or_the_optimiser() {
     for (noun, allowed) in NOUNS {
         let text = read(&root().join(noun));
         let code: String = text.lines().filter_map(|line| line.split("//").next()).collect();
@@ -240,7 +240,7 @@ fn has_word(line: &str, word: &str) -> bool {
 }
 
 #[test]
-fn files_are_short() {
+fn source_files_keep_the_line_limit() {
     for file in all_rust_files() {
         let lines = read(&file).lines().count();
         assert!(lines <= FILE_LINES, "{}: {lines} lines, more than {FILE_LINES}", file.display());
@@ -261,7 +261,7 @@ fn a_module_with_parts_is_a_folder() {
 
 /// Formatted code ends a function with a brace below its first line.
 #[test]
-fn functions_are_short() {
+fn functions_keep_the_line_limit() {
     for file in all_rust_files() {
         let text = read(&file);
         let lines: Vec<&str> = text.lines().collect();
@@ -291,7 +291,7 @@ fn begins_function(line: &str) -> bool {
 }
 
 #[test]
-fn functions_are_found_whatever_stands_before_them() {
+fn the_line_count_finds_functions_with_any_qualifiers() {
     let before = ["", "pub ", "pub(crate) ", "pub(super) ", "pub(in crate::plot) ", "    "];
     for (visibility, kind) in before.iter().flat_map(|visibility| {
         ["", "const ", "unsafe ", "async ", "const unsafe ", "extern \"C\" ", "unsafe extern \"C\" "]
@@ -330,7 +330,7 @@ fn packages_with_features(tree: &[&str]) -> BTreeSet<String> {
 
 /// Lints are set once, in the workspace. A crate that does not inherit them would be checked with the defaults only.
 #[test]
-fn every_crate_takes_the_lints_of_the_workspace() {
+fn every_crate_inherits_the_lints_of_the_workspace() {
     for member in members() {
         let manifest = manifest(&root().join(&member));
         assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true), "{member}");
@@ -350,7 +350,7 @@ fn names_variant(line: &str, enumeration: &str) -> bool {
 /// Planners and controllers declare which of their quantities are recorded, reported and measured. So the code that shows
 /// these quantities names no planner, no controller, and no variant of `Driver` or `Controller`. Comments and tests may.
 #[test]
-fn recorder_report_and_measures_name_no_planner_and_no_controller() {
+fn recorder_report_and_measures_do_not_name_planners_or_controllers() {
     let kinds = interplay_scenarios::Registry::standard().driver_kinds();
     let controllers = interplay_scenarios::Registry::standard().controller_kinds();
     assert!(kinds.contains(&"negotiation") && controllers.contains(&"pid"), "{kinds:?}, {controllers:?}");

@@ -32,7 +32,7 @@ fn every_authored_scenario_passes_without_collision_or_plan_failure() {
 
 /// The planners are separated by what they do: who negotiates merges ahead, who does not merges between, no sooner.
 #[test]
-fn the_conservative_planner_merges_between_and_fails_the_expectation() {
+fn a_conservative_ego_merges_between_and_fails_the_expectation() {
     let folder = scratch("conservative");
     let arguments = ["run", "lane-change/front-nice", "--planner", "conservative", "--no-record", "--json"];
     let outcome = interplay(&folder, &arguments);
@@ -49,7 +49,7 @@ fn the_conservative_planner_merges_between_and_fails_the_expectation() {
 
 /// In every family the ego goes first in the nice scenario because it negotiates: the conservative planner has another order.
 #[test]
-fn others_do_not_yield_to_an_ego_that_does_not_ask() {
+fn other_vehicles_do_not_yield_to_an_ego_that_does_not_ask() {
     let folder = scratch("does-not-ask");
     for name in ["intersection/nice", "lane-keeping/nice", "ramp-merge/nice"] {
         let order = |planner: &str| {
@@ -97,7 +97,7 @@ const CONSERVATIVE: &str = "vehicle.ego.driver={ kind = 'conservative' }";
 const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
 
 #[test]
-fn unsuited_drivers_break_their_expectations() {
+fn unsuited_drivers_fail_the_stated_expectations() {
     UNSUITED.par_iter().for_each(|(name, change, expected): &(&str, &str, &[&str])| {
         let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
         let report = film(name, scenario).report;

@@ -18,7 +18,7 @@ fn digest(folder: &Path, scenario: &str) -> Value {
 }
 
 #[test]
-fn a_new_scenario_is_sound_and_runs_like_its_origin() {
+fn a_new_scenario_is_valid_and_runs_like_its_original() {
     let folder = scratch("new");
     for (origin, name) in [("lane-change/front-nice", "mine.toml"), ("building/four-room-pid", "house.toml")] {
         let outcome = interplay(&folder, &["new", name, "--from", origin]);
@@ -36,7 +36,7 @@ fn a_new_scenario_is_sound_and_runs_like_its_origin() {
 }
 
 #[test]
-fn new_overwrites_nothing_and_leaves_nothing_behind_when_it_fails() {
+fn new_never_overwrites_files_and_leaves_none_when_it_fails() {
     let folder = scratch("new-refused");
     let cases: [(&[&str], &str); 3] = [
         (&["new", "mine.toml"], "exists already"),
@@ -54,7 +54,7 @@ fn new_overwrites_nothing_and_leaves_nothing_behind_when_it_fails() {
 }
 
 #[test]
-fn the_schema_is_printed_as_it_is_obeyed_and_shipped_files_name_it() {
+fn the_schema_command_prints_the_checked_schema_that_shipped_files_name() {
     assert_eq!(interplay(&scratch("schema"), &["schema"]).json(), schema());
     let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/files");
     for file in embedded() {
@@ -116,7 +116,7 @@ fn viewer(folder: &Path, version: &str) {
 
 #[cfg(unix)]
 #[test]
-fn view_opens_a_recording_in_the_viewer_of_its_version_or_says_how_to_get_it() {
+fn view_opens_the_matching_viewer_or_explains_its_installation() {
     let folder = scratch("view");
     let made =
         interplay(&folder, &["run", "--set", "duration_s=0.2", "--set", "expect.completes=[]", "--record", "my.rrd"]);

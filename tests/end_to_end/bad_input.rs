@@ -60,7 +60,7 @@ fn one_message(outcome: &Outcome, pieces: &[&str]) {
 }
 
 #[test]
-fn the_file_that_the_others_spoil_is_sound() {
+fn the_reference_file_of_the_bad_inputs_is_valid() {
     let folder = scratch("sound");
     fs::write(folder.join("my.toml"), SOUND).expect("a scratch file can be written");
     assert_eq!(interplay(&folder, &["run", "my.toml", "--no-record"]).code, Some(0));
@@ -86,7 +86,7 @@ fn a_misspelt_scenario_is_refused_with_a_suggestion() {
 }
 
 #[test]
-fn a_text_for_a_number_is_refused() {
+fn a_text_in_place_of_a_number_is_refused() {
     let outcome = run_spoilt("nan", "speed_mps = 1.0", "speed_mps = nan");
     refused(&outcome, &["my.toml:12:47", "`vehicle.ego.start.speed_mps` must be a finite number"]);
 }
@@ -131,7 +131,7 @@ fn random_bytes_are_refused() {
 }
 
 #[test]
-fn a_bad_path_of_a_change_is_refused() {
+fn a_wrong_path_in_set_is_refused() {
     let folder = scratch("bad-set");
     let set = |change: &str| interplay(&folder, &["run", "--no-record", "--set", change]);
     refused(&set("vehicle.ego.gaol.lane=1"), &["--set", "unknown key `gaol`", "did you mean `goal`"]);
@@ -164,7 +164,7 @@ fn bad_arguments_are_refused() {
 }
 
 #[test]
-fn check_goes_on_after_an_error() {
+fn check_continues_after_an_invalid_file() {
     let folder = scratch("check");
     fs::write(folder.join("a.toml"), SOUND.replace("speed_mps", "speed")).expect("a scratch file can be written");
     fs::write(folder.join("b.toml"), SOUND).expect("a scratch file can be written");

@@ -201,7 +201,7 @@ fn every_scenario_in_the_documents_is_used_there() {
 
 /// The excerpt of an error message in the authoring guide is what the command says.
 #[test]
-fn the_error_in_the_authoring_guide_is_the_command_s() {
+fn the_error_quoted_in_the_authoring_guide_is_what_check_prints() {
     let text = fs::read_to_string(root().join("docs/guide/authoring.md")).expect("the guide");
     let folder = scratch("book-error");
     let blocks = blocks(&text);
@@ -217,7 +217,7 @@ fn the_error_in_the_authoring_guide_is_the_command_s() {
 
 /// Commands that the documents quote exist, and so do the flags beside them.
 #[test]
-fn quoted_commands_and_flags_exist() {
+fn commands_and_flags_quoted_in_documents_exist() {
     let folder = scratch("book-help");
     let all = interplay(&folder, &["--help"]).stdout;
     for (name, text) in documents() {
@@ -235,7 +235,7 @@ fn quoted_commands_and_flags_exist() {
 }
 
 #[test]
-fn links_lead_somewhere_and_the_summary_lists_every_page() {
+fn links_in_the_book_work_and_the_summary_lists_every_page() {
     let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the summary");
     for (name, text) in documents() {
         let folder = root().join(&name).parent().expect("below the root").to_owned();
@@ -295,7 +295,7 @@ fn the_list_of_scenarios_is_complete() {
 
 /// The page of all keys is what the schema says, and its links lead to headings. `INTERPLAY_BLESS=1` writes it anew.
 #[test]
-fn the_reference_of_keys_is_the_schema_s() {
+fn the_reference_of_keys_matches_the_schema() {
     let page = interplay_scenarios::key_reference();
     let path = root().join("docs/reference/reference.md");
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
@@ -354,7 +354,7 @@ fn gather(folder: &Path, into: &mut String) {
 /// The workflow for users is what the page shows, is YAML, and what it runs of Interplay runs.
 #[cfg(unix)]
 #[test]
-fn the_workflow_for_users_is_sound() {
+fn the_example_workflow_for_users_is_valid() {
     let text = fs::read_to_string(root().join("assets/ci/interplay.yml")).expect("the workflow");
     let page = fs::read_to_string(root().join("docs/guide/ci.md")).expect("the page");
     let shown = blocks(&page).into_iter().find(|(language, _)| *language == "yaml").expect("it is shown").1;

@@ -71,7 +71,7 @@ fn costs(report: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn the_report_of_a_building_has_the_keys_of_the_contract() {
+fn the_report_of_a_building_has_the_documented_keys() {
     let report =
         interplay(&scratch("building-report"), &["run", "building/four-room-ilc", "--no-record", "--json"]).json();
     for key in ["vehicles", "collisions", "order", "min_gap_m", "smallest_gap", "right_of_way", "phase_digests"] {
@@ -105,7 +105,7 @@ fn controllers_that_do_not_learn_fail_the_expectations_of_learning() {
 
 /// When every day is the same, plain learning converges: the cost falls every day.
 #[test]
-fn costs_never_rise_when_all_days_are_the_same() {
+fn learning_costs_never_rise_on_identical_days() {
     let folder = scratch("building-same-days");
     let same = "extends = 'building/four-room-ilc'\niterations = 8\n[weather]\nkind = 'synthetic'\nforecast.kind = 'exact'\n\
         climate = { day_deviation_k = 0, amplitude_deviation_k = 0, storm_probability = 0, noise_deviation_k = 0 }\n\
@@ -154,7 +154,7 @@ fn golden_digests_of_buildings() {
 }
 
 #[test]
-fn the_seed_decides_the_days_and_the_process_does_not() {
+fn days_of_a_building_depend_on_the_seed_and_not_on_the_process() {
     let digest = |seed: &str| {
         let arguments = ["run", "building/four-room-pid", "--no-record", "--json", "--seed", seed];
         interplay(&scratch(&format!("building-seed-{seed}")), &arguments).json()["digest"].clone()
@@ -167,7 +167,7 @@ fn the_seed_decides_the_days_and_the_process_does_not() {
 /// Heat brought in, warmed by people and flowing through walls is what the temperatures say, at every step: the frames
 /// alone give the next temperature of the exact model.
 #[test]
-fn frames_hold_the_day_from_midnight_to_midnight() {
+fn frames_of_a_building_cover_each_day_from_midnight_to_midnight() {
     let film = film("building/four-room-ilc", authored("building/four-room-ilc", &[]));
     assert_eq!(film.frames.len(), 480);
     let steps: Vec<_> = film.frames.iter().map(|frame| frame.building.as_ref().expect("a step")).collect();
@@ -202,7 +202,7 @@ fn vehicles_and_a_building_run_side_by_side() {
 }
 
 #[test]
-fn a_building_is_recorded() {
+fn a_run_of_a_building_writes_a_recording() {
     let folder = scratch("building-recorded");
     let outcome = interplay(&folder, &["run", "building/four-room-ilc", "--set", "iterations=3"]);
     let said = &outcome.stderr;
@@ -215,12 +215,12 @@ fn a_building_is_recorded() {
 }
 
 #[test]
-fn the_building_that_the_others_spoil_is_sound() {
+fn the_reference_file_of_the_spoilt_buildings_is_valid() {
     assert_eq!(run_text("building-sound", SOUND, &[]).code, Some(0));
 }
 
 #[test]
-fn zones_apart_are_allowed_and_said() {
+fn unconnected_zones_are_allowed_with_a_note() {
     let apart = SOUND.replace(r#"["office", "store"]"#, r#"["store", "ambient"]"#);
     let outcome = run_text("building-apart", &apart, &[]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -233,7 +233,7 @@ fn zones_apart_are_allowed_and_said() {
 }
 
 #[test]
-fn spoilt_buildings_are_refused_where_they_are_spoilt() {
+fn spoilt_buildings_are_refused_at_the_spoilt_line() {
     let wrong_unit = SOUND.replace("1800.0", "1800.0\nmethod = \"euler\"").replace("31.25", "0.5208");
     refused(&run_text("building-unit", &wrong_unit, &[]), &["my.toml:8", "the largest stable step is", "K/kW"]);
     let cases = [
@@ -272,7 +272,7 @@ fn spoilt_buildings_are_refused_where_they_are_spoilt() {
 
 /// A week of weather, two lines of it spoilt in turn.
 #[test]
-fn weather_files_are_read_beside_the_scenario_and_refused_at_their_line() {
+fn weather_files_are_found_relative_to_the_scenario_and_their_faults_located() {
     let folder = scratch("building-epw");
     let july = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/weather/tropical-july.epw"));
     let july = july.expect("the authored weather");
@@ -332,7 +332,7 @@ fn identification_recovers_a_known_truth() {
 }
 
 #[test]
-fn identification_prints_a_table_and_draws_plots() {
+fn identify_prints_a_table_and_draws_plots() {
     let folder = classroom("identify-plots");
     let outcome = interplay(&folder, &["identify", "room.csv", "--out", "plots/new"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -352,7 +352,7 @@ fn identification_prints_a_table_and_draws_plots() {
 }
 
 #[test]
-fn spoilt_telemetry_is_refused_where_it_is_spoilt() {
+fn spoilt_telemetry_is_refused_at_the_spoilt_line() {
     let folder = classroom("identify-spoilt");
     let table = fs::read_to_string(folder.join("room.csv")).expect("it was written");
     let mapping = fs::read_to_string(folder.join("room.toml")).expect("it was written");

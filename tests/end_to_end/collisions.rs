@@ -41,7 +41,7 @@ fn gap_m(film: &Film, time_s: f64) -> f64 {
 }
 
 #[test]
-fn a_collision_has_a_time_parties_and_an_impulse() {
+fn a_reported_collision_has_a_time_two_vehicles_and_an_impulse() {
     for free_m in [0.1, 0.2, 0.33] {
         let film = film("collision", scenario(&unavoidable(free_m)));
         let [collision] = film.report.collisions.as_slice() else { panic!("{:?}", film.report.collisions) };
@@ -89,7 +89,7 @@ fn a_car_that_can_stop_does_not_collide() {
 
 /// Side by side with 5 mm between them, at the same speed: near, but without contact.
 #[test]
-fn near_is_not_a_collision() {
+fn vehicles_five_millimetres_apart_do_not_collide() {
     let text = r#"
         title = "Side by side"
         shows = "No collision"
@@ -155,7 +155,7 @@ pub fn distance(first: (&Body, &State), second: (&Body, &State)) -> f64 {
 }
 
 #[test]
-fn distances_in_closed_form() {
+fn distances_of_rectangles_match_closed_forms() {
     let body = Body::default();
     let at = |x_m: f64, y_m: f64, heading_rad: f64| State { x_m, y_m, heading_rad, speed_mps: 0.0 };
     let far = |a: State, b: State| distance((&body, &a), (&body, &b));

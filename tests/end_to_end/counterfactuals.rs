@@ -59,7 +59,7 @@ fn a_counterfactual_is_judged_beside_the_run() {
 }
 
 #[test]
-fn a_counterfactual_that_fails_is_exit_code_1() {
+fn a_failed_counterfactual_exits_with_code_1() {
     let folder = scratch("counterfactual-failed");
     let wrong = "order_differs = false\nlater = [{ vehicle = 'ego', by_s = 9.0 }]\n\
         earlier = [{ vehicle = 'ego', by_s = 0.1 }]\nbreaks = []\norder = ['ego', 'crossing']";
@@ -82,7 +82,7 @@ fn a_counterfactual_that_fails_is_exit_code_1() {
 
 /// Flags change both runs; counterfactuals that they make impossible are left out, which the output says.
 #[test]
-fn flags_hold_for_counterfactuals_too() {
+fn flags_also_apply_to_counterfactuals() {
     let folder = scratch("counterfactual-flags");
     write(&folder, "my.toml", "order_differs = true");
     let report = run_file(&folder, &["--set", "vehicle.crossing.driver.style=\"tough\"", "--json"]).json();
@@ -100,7 +100,7 @@ fn flags_hold_for_counterfactuals_too() {
 
 /// Counterfactuals are claims about the file's own planner: with another one they are not judged, and one line says so.
 #[test]
-fn another_planner_leaves_counterfactuals_out() {
+fn counterfactuals_are_not_judged_with_another_planner() {
     let folder = scratch("counterfactual-planner");
     write(&folder, "my.toml", "order_differs = true");
     assert_eq!(run_file(&folder, &["--json"]).json()["counterfactuals"].as_array().map(Vec::len), Some(1));
@@ -162,7 +162,7 @@ fn a_suite_judges_counterfactuals() {
 
 /// The page and the recording say what became of the counterfactuals.
 #[test]
-fn page_and_recording_have_a_line_for_each() {
+fn report_page_and_recording_list_every_counterfactual() {
     let folder = scratch("counterfactual-page");
     write(&folder, "my.toml", TRUE);
     let outcome = interplay(&folder, &["run", "my.toml", "--report", "page"]);
@@ -175,7 +175,7 @@ fn page_and_recording_have_a_line_for_each() {
 
 /// Bit for bit, with and without counterfactuals: they run elsewhere.
 #[test]
-fn counterfactuals_leave_the_run_alone() {
+fn counterfactuals_do_not_change_the_scenarios_own_run() {
     let scenario = load("intersection/nice", &[]).expect("authored");
     let alone = run("nice", &scenario, Vec::new()).expect("a run");
     let beside = run_with_counterfactuals("nice", &scenario, Vec::new()).expect("a run");
@@ -185,7 +185,7 @@ fn counterfactuals_leave_the_run_alone() {
 
 /// `breaks` names expectations as reports do.
 #[test]
-fn the_names_of_expectations_are_those_of_reports() {
+fn expectation_names_match_those_in_reports() {
     for film in FILMS.iter() {
         let mut judged: Vec<&str> = film.report.expectations.iter().map(|one| one.what.as_str()).collect();
         judged.sort_unstable();
@@ -232,7 +232,7 @@ fn why_says_what_the_order_depends_on() {
 /// What decides at the beginning decides no more when the vehicles have passed each other; and a change from the first tick on is the
 /// change of the whole run.
 #[test]
-fn why_at_a_moment_says_what_decided_then() {
+fn why_at_a_time_finds_what_decides_from_then_on() {
     let folder = scratch("why-at");
     let why = |more: &[&str]| interplay(&folder, &[&["why", "intersection/nice", "--json"], more].concat()).json();
     let (whole, first, late) = (why(&[]), why(&["--at", "0"]), why(&["--at", "3.95"]));
@@ -280,7 +280,7 @@ fn why_switches_off_every_mechanism() {
 }
 
 #[test]
-fn why_refuses_what_it_cannot_change() {
+fn why_refuses_buildings_and_unknown_scenarios() {
     let folder = scratch("why-refuses");
     let building = interplay(&folder, &["why", "building/four-room-pid"]);
     assert_eq!((building.code, building.stdout.as_str()), (Some(2), ""), "{building:?}");

@@ -48,7 +48,7 @@ fn golden_digests() {
 /// A scenario that is written to a file runs like the scenario, on parallel lanes, curves and networks, at both sizes, and in a
 /// building.
 #[test]
-fn a_scenario_that_was_written_out_runs_the_same() {
+fn a_written_scenario_gives_the_same_run() {
     let driving = ["duration_s=2", "expect.completes=[]", "counterfactual=[]"];
     let cases = [
         ("lane-change/front-nice", driving),
@@ -68,7 +68,7 @@ fn a_scenario_that_was_written_out_runs_the_same() {
 }
 
 #[test]
-fn a_difference_names_the_tick_and_the_phase() {
+fn a_difference_between_runs_names_its_tick_and_phase() {
     let golden = |ticks: &[&str]| json!({ "phases": ["sense", "plan", "act"], "ticks": ticks });
     let wanted = golden(&["1 2 3", "4 5 6"]);
     assert_eq!(difference(&wanted, &golden(&["1 2 3", "4 0 0"])), "first differs at tick 1, in plan");
@@ -80,7 +80,7 @@ fn a_difference_names_the_tick_and_the_phase() {
 /// A human that changes its mind half-way is found out: in the tick in which it happens, in the phase Plan. The digests
 /// of the whole runs could not tell: they all differ.
 #[test]
-fn a_changed_decision_is_found_in_its_tick_and_in_the_phase_plan() {
+fn a_changed_decision_is_located_by_tick_and_phase_plan() {
     let run = |changes: &[&str]| {
         let short = ["duration_s=1", "expect.completes=[]"];
         film("mind", authored("lane-change/front-nice", &[&short[..], changes].concat()))
@@ -98,7 +98,7 @@ fn a_changed_decision_is_found_in_its_tick_and_in_the_phase_plan() {
 }
 
 #[test]
-fn another_process_gives_the_same_run() {
+fn a_run_in_another_process_is_identical() {
     let folder = scratch("another-process");
     for film in FILMS.iter().filter(|film| embedded().iter().any(|file| file.name == film.name())) {
         let report = interplay(&folder, &["run", film.name(), "--no-record", "--json"]).json();
@@ -116,7 +116,7 @@ fn recording_does_not_change_the_run() {
 }
 
 #[test]
-fn worlds_side_by_side_do_not_disturb_one_another() {
+fn parallel_worlds_do_not_affect_each_other() {
     let scenario = || authored("lane-change/front-nice", &["duration_s=2"]);
     let alone = film("alone", scenario());
     (0..4).into_par_iter().for_each(|_| {
@@ -126,7 +126,7 @@ fn worlds_side_by_side_do_not_disturb_one_another() {
 }
 
 #[test]
-fn the_seed_decides_the_random_starts() {
+fn random_starts_are_a_function_of_the_seed() {
     let digest = |seed: u64| {
         let seed = format!("seed={seed}");
         let changes = ["start_jitter.position_m=0.05", "duration_s=1.5", &seed];

@@ -35,7 +35,7 @@ fn block(text: &str, language: &str, piece: &str) -> String {
 }
 
 #[test]
-fn the_readme_opens_with_how_to_run_and_how_to_test() {
+fn the_readme_begins_with_the_run_and_test_commands() {
     let readme = document("README.md");
     let blocks = blocks(&readme);
     let sh = |command: &str| ("sh".to_owned(), command.to_owned());
@@ -121,7 +121,7 @@ fn the_readme_names_scenarios_that_exist() {
 
 /// Paths that the documents speak of exist.
 #[test]
-fn the_documents_speak_of_files_that_exist() {
+fn files_that_the_documents_mention_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut names =
         ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"].map(str::to_owned).to_vec();
@@ -156,7 +156,7 @@ fn is_path(word: &str) -> bool {
 
 /// Workflows and issue forms are YAML, and the programs of this repository that workflows and the `justfile` start are there.
 #[test]
-fn workflows_are_yaml_and_start_what_exists() {
+fn workflows_are_valid_yaml_and_run_existing_programs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut started = document("justfile");
     let mut count = 0;
@@ -189,7 +189,7 @@ fn workflows_are_yaml_and_start_what_exists() {
 
 /// The description of the architecture is short enough to read.
 #[test]
-fn the_architecture_is_described_on_few_pages() {
+fn the_architecture_document_keeps_its_length_limit() {
     let words = document("ARCHITECTURE.md").split_whitespace().count();
     assert!((1_000..=2_500).contains(&words), "{words} words");
 }
@@ -197,7 +197,7 @@ fn the_architecture_is_described_on_few_pages() {
 /// The check of subjects accepts imperatives and refuses what is longer, or begins with another word.
 #[cfg(unix)]
 #[test]
-fn subjects_of_commits_are_imperative_and_short() {
+fn commit_subjects_are_imperative_and_short() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/check-subjects.sh");
     let accepts = |subject: &str| {
         let input = format!("printf '%s\\n' \"$1\" | {} -", script.display());

@@ -39,7 +39,7 @@ fn compare(path: &PathBuf, found: &BTreeSet<String>, remedy: &str) {
 }
 
 #[test]
-fn animations_show_what_their_scenarios_do_today() {
+fn animations_in_documents_match_the_present_runs() {
     let folder = root().join("docs/gallery");
     let line = |entry: &crate::gallery::Entry| {
         let picture = digest(&fs::read(folder.join(&entry.file)).expect("an animation"));
@@ -102,7 +102,7 @@ fn all_masked<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
 
 #[cfg(unix)]
 #[test]
-fn quoted_output_is_what_the_command_says() {
+fn quoted_output_matches_what_the_command_prints() {
     let mut count = 0;
     for (name, text) in documents() {
         for Marked { command, lines, before } in marked(&text, "output of") {
@@ -122,7 +122,7 @@ fn quoted_output_is_what_the_command_says() {
 
 #[test]
 #[expect(clippy::print_stderr, reason = "the output of the test names the tables that are old")]
-fn tables_are_those_that_were_made() {
+fn tables_in_documents_match_their_generated_versions() {
     let path = root().join("docs/made.txt");
     let written = fs::read_to_string(&path).unwrap_or_default();
     let versions: BTreeMap<&str, &str> = written.lines().filter_map(|line| line.rsplit_once(" by ")).collect();
@@ -143,7 +143,7 @@ fn tables_are_those_that_were_made() {
 }
 
 #[test]
-fn a_changed_number_a_changed_picture_and_a_changed_line_are_found() {
+fn changed_numbers_pictures_and_lines_of_documents_are_detected() {
     let text = "# Page\n\n<!-- made by: cargo x -->\n| a | b |\n|---|---|\n| 1 | 2 |\n\nText.\n";
     let changed = text.replace("| 2 |", "| 3 |");
     let table = |text: &str| digest(marked(text, "made by")[0].lines.join("\n").as_bytes());

@@ -74,7 +74,7 @@ fn assert_feasible(states: &[[f64; 6]], step_s: f64) {
 
 /// Roads and planning problem stay as they are written, obstacles are those that were driven, and the ego's motion is feasible.
 #[test]
-fn an_imported_scenario_is_exported_as_it_was_driven() {
+fn an_imported_scenario_is_exported_with_the_driven_motion() {
     let folder = scratch("export-imported");
     let source = case("motorway.xml");
     run(&folder, &source.to_string_lossy(), &["--planner", "human", "--trajectories", "driven.csv"]);
@@ -121,7 +121,7 @@ fn authored_scenarios_become_commonroad_scenarios() {
 
 /// A vehicle that has not entered the road yet has no row and no state.
 #[test]
-fn a_vehicle_is_written_from_its_entry_on() {
+fn an_entering_vehicle_is_exported_from_its_entry_on() {
     let folder = scratch("export-later");
     run(&folder, "people/high-street", &["--set", "duration_s=10.0", "--trajectories", "driven.csv"]);
     let table = columns(&folder.join("driven.csv"));
@@ -134,7 +134,7 @@ fn a_vehicle_is_written_from_its_entry_on() {
 }
 
 #[test]
-fn an_export_takes_the_place_of_no_input() {
+fn an_export_never_overwrites_an_input() {
     let folder = scratch("export-unharmed");
     let source = folder.join("source.xml");
     fs::copy(case("motorway.xml"), &source).expect("copied");

@@ -48,7 +48,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
 }
 
 #[test]
-fn after_failed_plans_the_vehicle_continues_then_brakes_and_reports_it() {
+fn after_failed_plans_the_vehicle_continues_then_brakes_and_reports_failures() {
     let (frames, failed) = run_with_failures();
     assert_eq!(failed, SPOILT.len());
     assert!(SPOILT.len() > HORIZON, "long enough for both fallbacks");
@@ -105,7 +105,7 @@ fn with_deadline(overrides: &[&str]) -> (String, usize, Option<usize>) {
 }
 
 #[test]
-fn a_late_plan_fails_by_its_work_where_the_deadline_is_enforced() {
+fn with_an_enforced_deadline_a_plan_with_too_much_work_fails() {
     let without = with_deadline(&[]);
     assert_eq!((without.1, without.2), (0, None));
     let reported = with_deadline(&["real_time.plan_budget_ms=0.1"]);

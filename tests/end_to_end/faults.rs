@@ -20,11 +20,11 @@ fn loops(commands: &[&str]) {
 }
 
 #[test]
-fn a_full_disk_leaves_old_or_whole_files_and_exit_code_3() {
+fn a_full_disk_leaves_complete_files_and_exits_with_code_3() {
     loops(&["run", "suite --junit", "new"]);
 }
 
 #[test]
-fn an_interrupted_sweep_goes_on() {
+fn an_interrupted_sweep_can_be_continued() {
     loops(&["sweep"]);
 }

@@ -74,7 +74,7 @@ fn assert_self_contained(folder: &Path) {
 }
 
 #[test]
-fn every_figure_is_made_as_svg_as_png_and_on_the_page() {
+fn every_figure_is_written_as_svg_and_png_and_shown_on_the_page() {
     let (folder, outcome) = &*ALL;
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
     let listed = interplay(&scratch("figures-list"), &["reproduce", "--list"]).stdout;
@@ -93,7 +93,7 @@ fn every_figure_is_made_as_svg_as_png_and_on_the_page() {
 
 /// The commands that a page names are commands: they run, and give the numbers that are on it.
 #[test]
-fn a_command_on_the_page_makes_the_same_run_again() {
+fn commands_on_the_figure_page_repeat_the_runs() {
     let html = page(&ALL.0);
     let section = html.split("<section id=\"fig-6.2\">").nth(1).expect("it is there");
     let commands = section.split("<pre>").nth(1).and_then(|rest| rest.split("</pre>").next()).expect("commands");
@@ -106,7 +106,7 @@ fn a_command_on_the_page_makes_the_same_run_again() {
 }
 
 #[test]
-fn one_figure_is_made_alone_and_mistakes_are_answered() {
+fn single_figures_are_made_and_unknown_names_get_suggestions() {
     let folder = scratch("figures-one");
     let outcome = interplay(&folder, &["reproduce", "8.1", "Table 8.3"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -122,7 +122,7 @@ fn one_figure_is_made_alone_and_mistakes_are_answered() {
 }
 
 #[test]
-fn a_report_of_any_run_is_a_page_with_its_recording_beside_it() {
+fn a_report_page_of_a_run_is_written_with_its_recording() {
     let folder = scratch("report-page");
     for (name, pictures) in [("ramp-merge/nice", 3), ("building/four-room-ilc", 4)] {
         let outcome = interplay(&folder, &["run", name, "--report", name, "--seed", "1"]);

@@ -28,7 +28,7 @@ fn export(folder: &Path, more: &[&str]) -> Outcome {
 }
 
 #[test]
-fn an_fmu_has_description_library_and_resources_and_is_the_same_again() {
+fn an_fmu_is_complete_and_its_export_reproducible() {
     let folder = scratch("fmu");
     let outcome = export(&folder, &["--reference", "rooms.csv"]);
     assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(0), ""), "{outcome:?}");
@@ -68,7 +68,7 @@ fn exported(folder: &Path, more: &[&str]) -> (String, String, Vec<u8>) {
 }
 
 #[test]
-fn both_versions_of_the_standard_have_the_same_resources() {
+fn both_fmi_versions_contain_the_same_resources() {
     let folder = scratch("fmu-versions");
     let (two, three) = (exported(&folder, &["--fmi", "2.0"]), exported(&folder, &["--fmi", "3.0"]));
     assert_eq!(two.2, three.2);
@@ -91,7 +91,7 @@ fn both_versions_of_the_standard_have_the_same_resources() {
 }
 
 #[test]
-fn a_failed_export_names_the_reason_and_writes_nothing() {
+fn a_failed_fmu_export_gives_the_reason_and_writes_no_file() {
     let folder = scratch("fmu-refused");
     let plant = "building.plant={ kind = \"socket\", address = \"localhost:1\" }";
     let refused: [(&str, &[&str], &str); 5] = [

@@ -109,7 +109,7 @@ fn the_same_network_behind_a_socket_gives_the_same_run() {
 /// The temperatures of walls are not measured. Their estimate starts at rest, which is wrong here by many kelvins, and converges within
 /// days: then the model predicts the day to the last digits, since forecast and model are exact.
 #[test]
-fn the_estimate_of_walls_comes_to_the_truth() {
+fn estimated_wall_temperatures_converge_to_the_true_ones() {
     let name = "../assets/telemetry/cabin-scenario.toml";
     let keys = ["least_bias", "greatest_bias", "scatter", "shift_h", "meeting_probability", "noise_kw"];
     let changes = keys.map(|key| format!("occupancy.deviation.{key}=0"));
@@ -182,7 +182,7 @@ fn spoilt(test: &str, at_step: u64, last: impl Fn(&Value) -> Option<String> + Se
 }
 
 #[test]
-fn a_plant_that_answers_wrongly_ends_the_run_with_an_error() {
+fn a_plant_with_a_wrong_answer_ends_the_run_with_an_error() {
     let day = "the run ended on day 2";
     let step = "step 53 (step 5 of day 2)";
     spoilt("plant-nan", 53, |message| Some(state(message, "[27,NaN,27,27]")), &[day, step, "NaN"]);
@@ -245,7 +245,7 @@ fn a_plant_that_is_silent_absent_or_of_another_version_is_an_error() {
 }
 
 #[test]
-fn a_wrong_address_is_located_before_anything_runs() {
+fn a_wrong_plant_address_is_located_before_any_run() {
     for (address, said) in
         [("localhost", "no port"), ("localhost:99999", "from 1 to 65535"), ("a b:1", "neither a name")]
     {

@@ -83,7 +83,7 @@ fn every_fork_ends_alike(name: &str, scenario: &Scenario, count: usize) -> usize
 
 /// All authored scenarios: every family, curved roads and networks, buildings in the middle of a day, a building and vehicles.
 #[test]
-fn authored_scenarios_go_on_from_any_moment() {
+fn authored_scenarios_resume_from_any_time() {
     let count = |name: &str| if name.starts_with("building") { 1 } else { 3 };
     let forks: usize = embedded()
         .par_iter()
@@ -98,7 +98,7 @@ fn authored_scenarios_go_on_from_any_moment() {
 
 /// Every planner, with all that it remembers; drivers who infer plans behind sensors with errors and delay; tyres; a contact.
 #[test]
-fn every_planner_sensor_and_plant_goes_on_from_any_moment() {
+fn every_planner_sensor_and_plant_resumes_from_any_time() {
     const PLANNERS: [&str; 10] = [
         "human",
         "idm",
@@ -137,7 +137,7 @@ fn every_planner_sensor_and_plant_goes_on_from_any_moment() {
 
 /// Bodies that touch do not begin to touch again: the run is copied at every tick around the contact.
 #[test]
-fn a_contact_in_progress_goes_on() {
+fn a_contact_in_progress_continues_after_resuming() {
     for plant in ["kinematic", "dynamic"] {
         let plant = format!("plant={{ kind = \"{plant}\" }}");
         let scenario = authored("crash/side-impact", &[&plant, "expect={}", "counterfactual=[]"]);
@@ -161,7 +161,7 @@ fn a_contact_in_progress_goes_on() {
 
 /// To look changes nothing, and twice shows the same; with a sensor that draws errors and remembers tracks.
 #[test]
-fn to_observe_has_no_side_effect() {
+fn observing_a_world_has_no_side_effect() {
     let sensing = "vehicle.ego.sensing={ delay_s = 0.2, position_sd_m = 0.02, drop_rate = 0.3 }";
     let changes = [sensing, "vehicle.ego.driver={ kind = \"conservative\", prediction = \"inferred\" }", "expect={}"];
     let scenario = authored("lane-change/front-nice", &[&changes[..], &["counterfactual=[]", "duration_s=5"]].concat());
@@ -186,7 +186,7 @@ fn to_observe_has_no_side_effect() {
 
 /// A run from outside with the inputs that a planner gave is the planner's own run, as far as the plant is concerned.
 #[test]
-fn a_vehicle_is_driven_from_outside() {
+fn a_caller_can_drive_a_vehicle() {
     let own = film("own", authored("lane-change/front-nice", &["counterfactual=[]", "expect={}"]));
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}"];
     let scenario = authored("lane-change/front-nice", &changes);
@@ -210,7 +210,7 @@ fn a_vehicle_is_driven_from_outside() {
 
 /// The prediction of a vehicle that hands in an input alone is constant velocity.
 #[test]
-fn an_input_alone_is_expected_to_be_followed_by_constant_velocity() {
+fn after_a_single_input_others_expect_constant_velocity() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}"];
     let mut simulation = Simulation::new(&authored("lane-change/front-nice", &changes)).expect("a world");
     let braking = Input { acceleration_mps2: -0.5, steering_rad: 0.0 };
@@ -256,7 +256,7 @@ fn a_run_ends_early_and_rewinds() {
 
 /// A building ends early in the middle of its first day.
 #[test]
-fn a_building_ends_early() {
+fn a_run_of_a_building_may_end_early() {
     let mut simulation = Simulation::new(&authored("building/four-room-pid", &[])).expect("a building");
     for _ in 0..30 {
         simulation.step().expect("the run can go on");
@@ -268,7 +268,7 @@ fn a_building_ends_early() {
 
 /// Worlds can be moved to other threads.
 #[test]
-fn a_simulation_is_sent_to_another_thread() {
+fn a_simulation_can_move_to_another_thread() {
     fn is_send<T: Send>() {}
     is_send::<Simulation>();
     is_send::<Snapshot>();
@@ -276,7 +276,7 @@ fn a_simulation_is_sent_to_another_thread() {
 
 /// A snapshot as text is read back to the same state, inputs from outside included; a damaged snapshot or one of another version is refused.
 #[test]
-fn a_snapshot_is_written_and_read() {
+fn a_snapshot_is_written_as_text_and_read_back() {
     let changes = ["vehicle.ego.driver={ kind = \"external\" }", "counterfactual=[]", "expect={}", "duration_s=4"];
     let mut simulation = Simulation::new(&authored("lane-change/front-nice", &changes)).expect("a world");
     let horizon = simulation.scenario().horizon_steps;

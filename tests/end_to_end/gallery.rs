@@ -65,7 +65,7 @@ fn every_family_driver_and_controller_has_an_animation() {
 }
 
 #[test]
-fn every_animation_is_there_is_made_and_is_shown() {
+fn every_gallery_animation_exists_is_generated_and_is_shown() {
     let folder = docs().join("gallery");
     let script = read(&folder.join("make.sh"));
     let shown: BTreeSet<String> = entries().into_iter().map(|entry| entry.file).collect();

@@ -114,7 +114,7 @@ fn an_identified_house_runs_under_any_controller() {
 }
 
 #[test]
-fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
+fn identify_overwrites_no_file_and_omits_unknown_values() {
     let folder = house("identify-no-scenario");
     let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "house.toml"]);
     assert_eq!(outcome.code, Some(2), "{outcome:?}");
@@ -179,7 +179,7 @@ fn table() -> String {
 
 /// `INTERPLAY_BLESS=1` writes it anew.
 #[test]
-fn the_table_is_what_the_scenario_gives() {
+fn the_sample_table_matches_the_run_of_its_scenario() {
     let (path, simulated) = (folder().join("cabin.csv"), table());
     if std::env::var_os("INTERPLAY_BLESS").is_some() {
         fs::write(&path, &simulated).expect("the table can be written");
@@ -191,7 +191,7 @@ fn the_table_is_what_the_scenario_gives() {
 }
 
 #[test]
-fn the_cabin_is_found_in_its_telemetry() {
+fn the_parameters_of_the_cabin_are_identified_from_its_telemetry() {
     let table = folder().join("cabin.csv").display().to_string();
     let outcome = interplay(&scratch("sample-cabin"), &["identify", &table, "--json"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -209,7 +209,7 @@ fn the_cabin_is_found_in_its_telemetry() {
 
 /// What the book warns of: without the column of the appliances the walls seem better than they are.
 #[test]
-fn unmapped_heat_makes_the_estimated_walls_better() {
+fn unmapped_heat_makes_walls_appear_better_insulated() {
     let scratch = scratch("sample-telemetry");
     let mapping = fs::read_to_string(folder().join("cabin.toml")).expect("the mapping");
     let less: Vec<&str> = mapping.lines().filter(|line| !line.contains("appliances_kw")).collect();

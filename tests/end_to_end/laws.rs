@@ -6,7 +6,7 @@ use interplay_simulation::frame::Origin;
 use crate::film::{FILMS, kinematic};
 
 #[test]
-fn every_tick_has_a_frame_with_every_vehicle() {
+fn every_tick_has_a_frame_of_every_vehicle() {
     for film in FILMS.iter() {
         assert_eq!(film.frames.len(), film.scenario.tick_count(), "{}", film.name());
         for (tick, frame) in film.frames.iter().enumerate() {
@@ -19,7 +19,7 @@ fn every_tick_has_a_frame_with_every_vehicle() {
 }
 
 #[test]
-fn vehicles_begin_where_the_scenario_says() {
+fn vehicles_start_where_the_scenario_states() {
     for film in FILMS.iter() {
         let starts: Vec<State> = film.frames[0].vehicles.iter().map(|vehicle| vehicle.state).collect();
         assert_eq!(starts, film.scenario.starts(), "{}", film.name());
@@ -70,7 +70,7 @@ fn inputs_and_speeds_stay_within_the_limits() {
 
 /// The first input of a plan is applied; planners keep to the limits, so that no input is clamped.
 #[test]
-fn planned_inputs_are_applied() {
+fn the_first_input_of_each_plan_is_applied() {
     for film in FILMS.iter() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for vehicle in frame.vehicles.iter().filter(|vehicle| vehicle.origin == Origin::Planned) {
@@ -86,7 +86,7 @@ fn planned_inputs_are_applied() {
 
 /// A plan starts at the state in which it was made, is as long as the horizon, and obeys the bicycle.
 #[test]
-fn plans_are_motions_of_the_vehicle() {
+fn plans_satisfy_the_dynamics_of_their_vehicle() {
     for film in FILMS.iter() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {

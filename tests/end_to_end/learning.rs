@@ -25,7 +25,7 @@ fn later(report: &Value, key: &str) -> f64 {
 }
 
 #[test]
-fn an_exchange_is_reported_with_rounds_messages_and_the_centralised_optimum() {
+fn the_report_of_an_exchange_has_rounds_messages_and_centralised_optimum() {
     let report = report("learn-exchange", "building/distributed", &[]);
     let days = days(&report);
     assert!(days[0].get("exchange").is_none(), "nothing is planned before there was a day");
@@ -84,7 +84,7 @@ fn weaker_settings_fail_the_expectations_of_the_designs() {
 /// The plan fails every day; the inputs of the day before are planned again (`building/tests/iterative.rs`), which is an event, is
 /// counted and can be expected; the run continues.
 #[test]
-fn a_day_without_a_plan_is_an_event_and_the_run_goes_on() {
+fn a_day_without_a_plan_is_logged_and_the_run_continues() {
     let changes =
         ["controller.uncertainty.common_kw=1e6", "controller.uncertainty.common_correlation=1", "iterations=3"];
     let film = film("building/iterative-warm-nights", authored("building/iterative-warm-nights", &changes));
@@ -105,7 +105,7 @@ fn a_day_without_a_plan_is_an_event_and_the_run_goes_on() {
 
 /// A covariance that is numerically none, and a price that leaves zones without a best answer.
 #[test]
-fn designs_that_cannot_be_made_say_why() {
+fn infeasible_controller_designs_give_a_reason() {
     let cases: [(&str, &[&str], &str); 2] = [
         (
             "building/iterative-warm-nights",
@@ -127,7 +127,7 @@ fn designs_that_cannot_be_made_say_why() {
 
 /// Designs that are certain to fail are refused before the run.
 #[test]
-fn designs_that_are_known_to_fail_are_refused_at_load() {
+fn controller_designs_that_must_fail_are_refused_on_loading() {
     let cases = [
         ("building/hundred-zones", "controller.kind=iterative", "use the distributed one"),
         ("building/concurrent-uncertain", "controller.gamma_2=3.0", "no feedback gets below 3.40"),
@@ -142,7 +142,7 @@ fn designs_that_are_known_to_fail_are_refused_at_load() {
 }
 
 #[test]
-fn inputs_stay_within_their_limits_and_rooms_are_cooled_ahead() {
+fn learning_controllers_keep_input_limits_and_precool_rooms() {
     let learners = ["iterative", "concurrent", "distributed", "fixed"];
     // Of the largest buildings the expectations in their files say as much, and they take long.
     let small = |name: &str| !name.ends_with("-hundred");

@@ -169,7 +169,7 @@ fn is_enforced(version: &str) -> bool {
 
 #[test]
 #[expect(clippy::print_stderr, reason = "the table is what the test shows")]
-fn lines_of_rust_keep_to_the_budget() {
+fn lines_of_rust_stay_within_the_budget() {
     let table = counted();
     let sums = sums(&table);
     let total: usize = sums.iter().sum();
@@ -202,7 +202,7 @@ fn every_line_has_a_crate_and_a_kind() {
 }
 
 #[test]
-fn code_for_tests_is_told_from_the_product() {
+fn test_code_is_distinguished_from_product_code() {
     let cases: [(&str, usize, &[&str]); 7] = [
         ("fn f() {}\n\n#[cfg(test)]\nmod tests {\n    fn g() {}\n}\n", 4, &[]),
         ("#[cfg(test)]\nmod tests;\nfn f() {}\n", 2, &["tests"]),

@@ -4,7 +4,8 @@
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
 //! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
-//! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`]
+//! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`],
+//!   [`causality`], [`seen_streets`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
@@ -23,6 +24,7 @@ mod authoring;
 mod bad_input;
 mod book;
 mod building;
+mod causality;
 mod collisions;
 mod command;
 mod conduct;
@@ -58,6 +60,7 @@ mod recorded;
 mod recordings;
 mod replacements;
 mod replay;
+mod seen_streets;
 mod similarity;
 mod street_contents;
 mod streets;

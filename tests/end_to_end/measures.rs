@@ -48,7 +48,7 @@ fn the_gap_is_the_distance_between_the_rectangles() {
 
 /// Along a road, the order is that of the last positions; at an intersection, that in which vehicles crossed.
 #[test]
-fn the_order_is_that_of_the_road_or_of_the_crossing() {
+fn the_passing_order_follows_the_road_or_the_crossing() {
     for film in FILMS.iter().filter(|film| film.report.collisions.is_empty()) {
         let places = film.report.vehicles.iter().enumerate().map(|(index, vehicle)| {
             let place = match film.scenario.road {
@@ -120,7 +120,7 @@ fn reached(film: &Film, index: usize) -> Option<usize> {
 }
 
 #[test]
-fn vehicles_complete_when_they_reach_their_lane_or_have_crossed() {
+fn vehicles_complete_their_task_in_their_lane_or_beyond_the_crossing() {
     for film in FILMS.iter() {
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let at = format!("{}: {}", film.name(), vehicle.name);
@@ -140,7 +140,7 @@ fn vehicles_complete_when_they_reach_their_lane_or_have_crossed() {
 }
 
 #[test]
-fn speeds_and_comfort_are_those_of_the_frames() {
+fn reported_speeds_and_comfort_match_the_frames() {
     for film in FILMS.iter() {
         let moments = moments(film);
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {

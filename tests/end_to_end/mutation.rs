@@ -27,7 +27,7 @@ fn judged(name: &str, scenario: &Scenario) -> Vec<CounterfactualReport> {
 }
 
 #[test]
-fn authored_counterfactuals_do_as_they_claim() {
+fn authored_counterfactuals_meet_their_expectations() {
     let carriers = carriers();
     assert!(carriers.len() >= 2, "{} scenarios have counterfactuals", carriers.len());
     let wrong = carriers.par_iter().flat_map_iter(|(name, scenario)| {
@@ -47,7 +47,7 @@ fn authored_counterfactuals_do_as_they_claim() {
 /// conservative one, the planner's own mechanism causes it. The file must have the counterfactuals that show it; the test above
 /// runs them.
 #[test]
-fn figures_carry_the_counterfactuals_that_prove_them() {
+fn scenarios_of_figures_state_counterfactuals_that_support_them() {
     let mut figures = 0;
     for file in embedded() {
         let scenario = load(file.name, &[]).expect("authored");

@@ -19,7 +19,7 @@ fn has_keys(object: &Value, keys: &str) {
 }
 
 #[test]
-fn the_report_has_the_keys_of_the_contract() {
+fn the_report_of_a_run_has_the_documented_keys() {
     let arguments = ["run", "--set", "duration_s=2", "--no-record", "--json", "--seed", "5"];
     let outcome = interplay(&scratch("json-report"), &arguments);
     let report = outcome.json();
@@ -63,7 +63,7 @@ fn the_report_has_the_keys_of_the_contract() {
 
 /// Times are rounded: not 0.30000000000000004.
 #[test]
-fn times_are_round() {
+fn times_in_reports_are_rounded() {
     let folder = scratch("times");
     let changes = ["run", "--no-record", "--set", "duration_s=0.3", "--set", "expect.completes=[]"];
     let outcome = interplay(&folder, &[&changes[..], &["--json"]].concat());
@@ -73,7 +73,7 @@ fn times_are_round() {
 
 /// Two seconds are too short to change lane: the code says so, and the document is still whole.
 #[test]
-fn a_failed_expectation_is_exit_code_1() {
+fn a_failed_expectation_exits_with_code_1() {
     let arguments = ["run", "--set", "duration_s=2", "--no-record", "--json"];
     let outcome = interplay(&scratch("failed"), &arguments);
     assert_eq!((outcome.code, &outcome.json()["passed"]), (Some(1), &Value::Bool(false)));
@@ -90,7 +90,7 @@ fn results_go_to_stdout_and_the_rest_to_stderr() {
 }
 
 #[test]
-fn what_is_piped_has_no_colour_and_no_color_is_honoured() {
+fn piped_output_has_no_colour_and_no_color_is_respected() {
     let folder = scratch("colour");
     let complaint = |variables: &[(&str, &str)]| -> Outcome {
         let mut command = command(&folder, &["run", "nowhere"]);
@@ -137,7 +137,7 @@ fn check_accepts_every_authored_scenario_as_a_file() {
 }
 
 #[test]
-fn every_help_has_an_example() {
+fn every_help_text_has_an_example() {
     let folder = scratch("help");
     for subcommand in ["run", "list", "check", "suite", "why"] {
         let outcome = interplay(&folder, &[subcommand, "--help"]);
@@ -149,7 +149,7 @@ fn every_help_has_an_example() {
 
 /// As in `interplay list | head -0`.
 #[test]
-fn a_closed_pipe_is_not_an_error() {
+fn a_closed_output_pipe_is_not_an_error() {
     let folder = scratch("closed-pipe");
     let mut child = command(&folder, &["list", "--json"])
         .stdout(Stdio::piped())

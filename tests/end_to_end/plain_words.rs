@@ -86,7 +86,7 @@ fn grown(found: &BTreeMap<String, usize>, listed: &BTreeMap<String, usize>) -> V
 
 #[test]
 #[expect(clippy::print_stderr, reason = "a test that skips says so")]
-fn refused_words_only_become_fewer() {
+fn the_count_of_refused_words_never_grows() {
     let files = tracked_files();
     if files.is_empty() {
         eprintln!("skipped: Git lists no files here");
@@ -129,7 +129,7 @@ fn released_parts_of_the_changelog_are_not_checked() {
 }
 
 #[test]
-fn a_count_that_grows_is_found_and_one_that_falls_is_not() {
+fn a_growing_count_of_refused_words_is_reported_and_a_falling_one_is_not() {
     let of = |entries: &[(&str, usize)]| -> BTreeMap<String, usize> {
         entries.iter().map(|(path, count)| ((*path).to_owned(), *count)).collect()
     };

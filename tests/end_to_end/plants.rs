@@ -74,7 +74,7 @@ fn table(figures: &[(&Film, Film)]) -> String {
 }
 
 #[test]
-fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
+fn the_page_lists_figures_that_keep_their_outcome_with_tyre_dynamics() {
     let figures = figures();
     let kept = figures.iter().filter(|(own, tyres)| is_kept(&own.report, &tyres.report)).count();
     assert!(16 * kept >= KEPT_OF_16 * figures.len(), "only {kept} of {}", figures.len());
@@ -93,7 +93,7 @@ fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
 /// No vehicle leaves an endless road by more than a third of its width, even one that plans with another model and reaches the edge;
 /// and inputs stay within the limits.
 #[test]
-fn on_tyres_vehicles_stay_on_their_road() {
+fn vehicles_with_tyre_dynamics_stay_on_their_road() {
     for name in ["lane-change/front-nice", "intersection/tough", "lane-keeping/tough"] {
         let film = film(name, authored(name, &[DYNAMIC]));
         for frame in &film.frames {

@@ -18,7 +18,7 @@ fn python() -> Table {
 }
 
 #[test]
-fn nothing_else_needs_python() {
+fn no_other_crate_depends_on_python() {
     let workspace = manifest(root());
     let excluded = workspace["workspace"]["exclude"].as_array().expect("a list");
     assert!(excluded.iter().any(|folder| folder.as_str() == Some("python")));
@@ -30,7 +30,7 @@ fn nothing_else_needs_python() {
 }
 
 #[test]
-fn it_has_the_version_and_the_profile_of_the_workspace() {
+fn the_python_package_has_the_version_and_profile_of_the_workspace() {
     let (workspace, python) = (manifest(root()), python());
     assert_eq!(python["package"]["version"], workspace["workspace"]["package"]["version"]);
     assert_eq!(python["package"]["rust-version"], workspace["workspace"]["package"]["rust-version"]);
@@ -52,7 +52,7 @@ fn locked(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
 
 /// A scenario runs the same code from Python as from the command: each library that both use has the same version.
 #[test]
-fn its_lock_file_agrees_with_that_of_the_workspace() {
+fn the_lock_file_of_the_python_package_agrees_with_the_workspace() {
     let (workspace, python) = (locked("."), locked("python"));
     for engine in ["clarabel", "nalgebra", "libm", "bevy_ecs", "rapier2d", "parry2d", "rand_chacha", "rustfft"] {
         assert!(python.contains_key(engine), "{engine}");
@@ -65,7 +65,7 @@ fn its_lock_file_agrees_with_that_of_the_workspace() {
 }
 
 #[test]
-fn its_python_files_are_short() {
+fn files_of_the_python_package_keep_the_line_limit() {
     let mut folders = vec![root().join("python")];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).expect("a folder") {

@@ -56,7 +56,7 @@ fn a_recorded_vehicle_is_where_its_record_says_at_every_tick() {
 
 /// The others see it brake when it does, and expect it to keep its speed: they cannot know what comes.
 #[test]
-fn others_do_not_know_the_future_of_a_record() {
+fn other_drivers_do_not_know_the_future_of_a_record() {
     let film = film("record", scenario(""));
     for frame in film.frames.iter().filter(|frame| frame.plans) {
         let front = &frame.vehicles[1];
@@ -94,7 +94,7 @@ fn network(origin: [f64; 2]) -> String {
 
 /// In coordinates of UTM a scenario has the same report as at the origin, bit for bit, as far as its numbers can be written exactly.
 #[test]
-fn a_scenario_far_away_has_the_same_report() {
+fn a_scenario_far_from_the_origin_has_the_same_report() {
     let load = |origin| {
         from_text("far.toml", &network(origin), &[]).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
     };
@@ -135,7 +135,7 @@ fn scenarios_of_commonroad_are_imported_and_run() {
 
 /// A recorded car would drive into one that stands where it was free when it was recorded. With `hands_over` it does not, and says why.
 #[test]
-fn a_record_is_left_where_it_would_lead_into_another_vehicle() {
+fn a_driver_takes_over_before_a_record_leads_into_another_vehicle() {
     let run = |more: &str| {
         let text = format!(
             "title = \"In its way\"\nshows = \"A vehicle stands in the way of a recorded car\"\nduration_s = 12.0\n\

@@ -23,7 +23,7 @@ fn short(folder: &Path, more: &[&str]) -> String {
 }
 
 #[test]
-fn a_recording_is_made_where_the_scenario_s_name_says() {
+fn a_recording_is_written_under_the_name_of_its_scenario() {
     let folder = scratch("default-recording");
     let said = short(&folder, &[]);
     assert!(said.starts_with("recorded to recordings/lane-change/front-tough.rrd; to open it: "), "{said}");
@@ -34,7 +34,7 @@ fn a_recording_is_made_where_the_scenario_s_name_says() {
 }
 
 #[test]
-fn a_recording_is_made_where_the_flag_says_and_replaces_what_was_there() {
+fn a_recording_is_written_to_the_path_of_the_flag_and_replaces_a_file() {
     let folder = scratch("named-recording");
     fs::write(folder.join("my.rrd"), "an old one").expect("a scratch file can be written");
     short(&folder, &["--record", "my.rrd"]);
@@ -65,7 +65,7 @@ fn a_recording_never_leaves_its_folder() {
 
 /// A recording shows the command that repeats it.
 #[test]
-fn a_recording_says_how_to_repeat_it() {
+fn a_recording_contains_the_command_that_repeats_it() {
     let folder = scratch("repeat");
     short(&folder, &["--seed", "77", "--record", "my.rrd"]);
     let bytes = fs::read(folder.join("my.rrd")).expect("there is a recording");
@@ -75,7 +75,7 @@ fn a_recording_says_how_to_repeat_it() {
 }
 
 #[test]
-fn no_record_leaves_nothing() {
+fn no_record_writes_no_recording() {
     let folder = scratch("no-record");
     assert_eq!(short(&folder, &["--no-record"]), "");
     assert!(contents(&folder).is_empty());
@@ -97,7 +97,7 @@ fn a_run_that_is_killed_leaves_no_recording() {
 
 /// A run of 12 s takes about 1 MB; a building of a hundred rooms, of which every zone is drawn, less than 3 MB for ten days.
 #[test]
-fn recordings_are_small() {
+fn recordings_keep_their_size_limit() {
     let folder = scratch("recording-size");
     for (name, most_bytes) in [("lane-change/front-nice", 2_000_000), ("building/hundred-zones", 5_000_000)] {
         interplay(&folder, &["run", name, "--record", "size.rrd"]);

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use interplay_planners::perception::sensing::Sensor;
 use interplay_planners::prediction::{steadily_along, without_plans};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -33,6 +34,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
         is_obstacle: vehicle.obstacle.is_some(),
+        indicator: None,
         rules: now.rules.clone(),
         urgency: now.urgency,
     })
@@ -63,7 +65,8 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let mut others = agents.to_vec();
     let ego = others.remove(index);
     let goal = goal(scenario, vehicle);
-    let scene = Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others };
+    let (step_s, horizon) = (scenario.step_s, scenario.horizon_steps);
+    let scene = Scene { tick, step_s, horizon, knowledge: Knowledge::Plans, ego, goal, others };
     if vehicle.driver.knows_plans() { scene } else { without_plans(scene) }
 }
 
@@ -77,7 +80,7 @@ fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
 }
 
 #[test]
-fn fresh_planners_given_the_same_scenes_decide_the_same() {
+fn new_planners_make_the_same_decisions_in_the_same_scenes() {
     for film in FILMS.iter() {
         let mut planners: Vec<Planner> = film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
         let mut sensors: Vec<Option<Sensor>> =
@@ -141,7 +144,7 @@ fn the_prediction_of_a_planner_is_its_last_plan() {
 
 /// Among vehicles that do not plan first, the order in which they are listed gives no advantage.
 #[test]
-fn two_planners_meet_on_equal_terms() {
+fn the_listed_order_of_two_planners_gives_no_advantage() {
     let changes = ["duration_s=3", "vehicle.front.driver.kind=\"conservative\"", "expect.completes=[]"];
     let mut scenario = authored("lane-change/front-nice", &changes);
     scenario.vehicles.retain(|vehicle| vehicle.name != "rear");
@@ -180,7 +183,7 @@ fn a_played_run_repeats_with_the_same_digest() {
 
 /// A front driver that yields is not asked again; the ego waits for one that does not yield.
 #[test]
-fn negotiation_answers_the_person_in_the_other_car() {
+fn negotiation_reacts_to_a_person_in_the_other_car() {
     let folder = scratch("played-front");
     let order = |acceleration: &str| {
         let line = format!(

@@ -124,7 +124,7 @@ const MAX_DRIFT_OF_RULES: f64 = 1e-10;
 const MAX_UNFINISHED_DRIFT: f64 = 1e-2;
 
 #[test]
-fn twins_of_another_size_move_alike() {
+fn scaled_copies_of_a_scenario_move_alike() {
     let families = ["lanes", "intersection", "ramp-merge"];
     let takes = families.iter().flat_map(|family| DRIVERS.iter().map(move |driver| (*family, *driver)));
     let takes: Vec<(&str, &str)> = takes.filter(|take| *take != NOT_COMPARED).collect();
@@ -148,7 +148,7 @@ fn twins_of_another_size_move_alike() {
 
 /// Drivers that follow rules have no tolerances: to rounding, they move alike.
 #[test]
-fn twins_without_an_optimiser_move_alike_to_rounding() {
+fn scaled_copies_without_an_optimiser_move_alike_up_to_rounding() {
     for family in ["lanes", "ramp-merge"] {
         let of_size = |scale: f64| {
             let mut scenario = twin(family, "kind = 'idm'", scale);

@@ -41,7 +41,7 @@ fn passes_s(film: &Film, name: &str, x_m: f64) -> f64 {
 }
 
 #[test]
-fn a_street_with_everything_is_driven_lawfully() {
+fn a_street_with_all_contents_is_driven_lawfully() {
     let film = high_street(&[]);
     assert!(film.report.collisions.is_empty() && film.report.deadlocks.is_empty(), "{:?}", film.report.deadlocks);
     for vehicle in &film.report.vehicles {
@@ -63,7 +63,7 @@ fn a_street_with_everything_is_driven_lawfully() {
 
 /// The ego waits for lights that are on, and does not wait for lights that are off.
 #[test]
-fn the_light_is_what_the_ego_waits_for() {
+fn the_ego_waits_for_the_traffic_light() {
     let lit = high_street(&[]);
     let off = "phases=[{ colour = \"off\", duration_s = 1 }]";
     let [main, side] = ["main", "side"].map(|name| format!("light.{name}.{off}"));
@@ -78,7 +78,7 @@ fn the_light_is_what_the_ego_waits_for() {
 
 /// An obstacle has the outline that it states: the time of contact is that of its circle, and beside its polygon nothing is touched.
 #[test]
-fn contacts_are_those_of_the_outline() {
+fn contacts_with_obstacles_are_those_of_their_outline() {
     let street = |obstacle: &str| {
         two_way(&format!(
             "[[vehicle]]\nname = \"ego\"\nstart = {{ lane = \"east\", along_m = 50.0, speed_mps = 10.0 }}\n\
@@ -145,7 +145,7 @@ fn vehicles_enter_and_leave_at_their_times() {
 
 /// A pedestrian waits at the kerb where cars have priority, and goes first on a zebra crossing.
 #[test]
-fn people_on_foot_wait_at_the_kerb_or_go_first() {
+fn pedestrians_wait_at_the_kerb_or_go_first() {
     let street = |crossing: &str| {
         let text = format!(
             "title = \"Kerb\"\nshows = \"A pedestrian crosses\"\nduration_s = 25.0\ndefaults = {{ class = \"car\" }}\n[road]\nkind = \"network\"\n\

@@ -58,7 +58,7 @@ fn assert_passes_the_van(film: &Film, what: &str) {
 }
 
 #[test]
-fn a_standing_van_on_an_empty_street_is_passed() {
+fn drivers_pass_a_standing_van_on_an_empty_street() {
     for driver in ["tough", "normal", "nice"] {
         let driver = format!("vehicle.ego.driver={{ kind = \"human\", style = \"{driver}\" }}");
         assert_passes_the_van(&driven("d-mini", &[&driver]), &driver);
@@ -70,7 +70,7 @@ fn a_standing_van_on_an_empty_street_is_passed() {
 
 /// With an oncoming car the driver waits first.
 #[test]
-fn a_standing_van_is_passed_behind_an_oncoming_car() {
+fn drivers_pass_a_standing_van_after_an_oncoming_car() {
     for kind in ["human", "idm", "negotiation"] {
         let film = driven("d-parked", &[&planner(kind)]);
         assert_passes_the_van(&film, kind);
@@ -103,7 +103,7 @@ fn no_planner_races_a_road_user_with_priority() {
 }
 
 #[test]
-fn a_speed_limit_is_kept() {
+fn drivers_keep_a_speed_limit() {
     for kind in ["human", "idm", "conservative", "negotiation", "game", "nash", "bayesian", "contingency"] {
         let film = driven("e-limit", &[&planner(kind)]);
         let max_mps = metric(&film, "ego", "max_speed_mps");
@@ -127,7 +127,7 @@ fn a_negotiator_with_priority_drives_on() {
 
 /// Right before left, also when the one with priority has stopped first.
 #[test]
-fn three_cars_at_a_crossing_without_signs_go_in_order() {
+fn three_cars_at_a_crossing_without_signs_follow_right_before_left() {
     for style in ["tough", "assertive", "normal", "considerate", "nice"] {
         let film = driven("right-before-left-three", &[&format!("defaults.driver.style=\"{style}\"")]);
         assert_untouched(&film, style);
@@ -136,7 +136,7 @@ fn three_cars_at_a_crossing_without_signs_go_in_order() {
 }
 
 #[test]
-fn road_users_with_priority_are_not_touched() {
+fn drivers_do_not_touch_road_users_with_priority() {
     let untouched = [
         ("nash-roundabout-tough", None),
         ("tee-13", Some("bayesian")),
@@ -159,7 +159,7 @@ fn road_users_with_priority_are_not_touched() {
 }
 
 #[test]
-fn a_ring_is_entered_in_the_first_gap() {
+fn drivers_enter_a_roundabout_in_the_first_gap() {
     let film = driven("ring1-0", &[&planner("bayesian")]);
     assert_untouched(&film, "ring1-0");
     assert!(vehicle(&film, "ego").completed_s.is_some(), "it arrives");
@@ -168,7 +168,7 @@ fn a_ring_is_entered_in_the_first_gap() {
 /// A driver that has just yielded may be nice.
 #[test]
 #[ignore = "not reached: the weights that it is taken for end at 16"]
-fn a_driver_who_yields_may_be_nice() {
+fn a_driver_that_has_yielded_is_believed_to_be_possibly_nice() {
     let film = driven("belief-nice-taken-for-tough", &[]);
     let [belief] = film.report.vehicles[0].beliefs.as_slice() else { panic!("one other vehicle") };
     assert!(belief.may_be.contains(&"nice"), "{belief:?}");

@@ -26,7 +26,7 @@ fn names(reports: &Value) -> Vec<&str> {
 }
 
 #[test]
-fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
+fn a_suite_without_arguments_runs_every_embedded_scenario_unchanged() {
     let folder = scratch("suite-all");
     let outcome = interplay(&folder, &["suite", "--json"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""), "{outcome:?}");
@@ -47,7 +47,7 @@ fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
 }
 
 #[test]
-fn the_number_of_jobs_changes_nothing() {
+fn the_number_of_jobs_does_not_change_the_results_of_a_suite() {
     let folder = scratch("suite-jobs");
     for name in ["c.toml", "a.toml", "b.toml"] {
         short(&folder, name, "");
@@ -61,7 +61,7 @@ fn the_number_of_jobs_changes_nothing() {
 }
 
 #[test]
-fn one_failed_expectation_fails_the_suite_and_is_named() {
+fn a_failed_expectation_fails_the_suite_and_is_named() {
     let folder = scratch("suite-failed");
     short(&folder, "sub/good.toml", "");
     short(&folder, "sub/bad.toml", "min_gap_m = 9");
@@ -82,7 +82,7 @@ fn one_failed_expectation_fails_the_suite_and_is_named() {
 
 /// No scenario runs if one of them is wrong.
 #[test]
-fn all_bad_files_are_reported_and_nothing_runs() {
+fn a_suite_reports_all_invalid_files_and_runs_nothing() {
     let folder = scratch("suite-bad");
     short(&folder, "good.toml", "");
     fs::write(folder.join("one.toml"), "title = 3\n").expect("a file can be written");
@@ -98,7 +98,7 @@ fn all_bad_files_are_reported_and_nothing_runs() {
 }
 
 #[test]
-fn results_that_cannot_be_written_are_exit_code_3() {
+fn unwritable_suite_results_exit_with_code_3() {
     let folder = scratch("suite-unwritable");
     short(&folder, "good.toml", "");
     let outcome = interplay(&folder, &["suite", "good.toml", "--junit", "good.toml/results.xml"]);

@@ -6,7 +6,7 @@ use crate::command::{interplay, scratch};
 
 /// Samples that differ in the seed only are accepted where the seed changes the run, and refused where it does not.
 #[test]
-fn samples_are_refused_where_the_seed_changes_nothing() {
+fn samples_are_refused_if_the_seed_has_no_effect() {
     let folder = scratch("sweep-equal-samples");
     let no_deviation = "{ least_bias = 0.0, greatest_bias = 0.0, scatter = 0.0, shift_h = 0.0, meeting_probability = 0.0, noise_kw = 0.0 }";
     let same_people =
@@ -40,7 +40,7 @@ fn samples_are_refused_where_the_seed_changes_nothing() {
 /// A path is relative to the folder of the plan that states it, and in a flag to the current folder; the message about
 /// a missing file states which.
 #[test]
-fn paths_of_weather_are_relative_to_what_states_them() {
+fn paths_of_weather_are_relative_to_the_stating_file() {
     let folder = scratch("sweep-weather");
     let below = folder.join("plans");
     fs::create_dir(&below).expect("a folder");
@@ -78,7 +78,7 @@ fn paths_of_weather_are_relative_to_what_states_them() {
 
 /// A run is made anew when what it reads of a file is another than before, be the file stated by a scenario or by a plan.
 #[test]
-fn another_file_of_the_same_name_is_another_run() {
+fn different_files_with_the_same_name_are_different_runs() {
     let folder = scratch("sweep-named-files");
     let weather = include_str!("../../scenarios/weather/tropical-july.epw");
     let prices = |price: f64| {
@@ -104,7 +104,7 @@ fn another_file_of_the_same_name_is_another_run() {
 }
 
 #[test]
-fn faults_of_the_first_sample_are_counted_and_flags_are_blamed_for_their_samples() {
+fn faults_of_samples_are_counted_and_attributed_to_their_flags() {
     let folder = scratch("sweep-first-sample");
     let of_all = "samples = 3\n[vary]\nvehicle.front.start.x_m = [-1.65]\nvehicle.ego.start.speed_mps = { uniform = [1.0, 1.1] }\n";
     for (more, arguments, words) in

@@ -56,7 +56,7 @@ fn threads_and_shards_do_not_change_the_rows() {
 
 /// Two files that say the same have a row each, and a shard under the name of another is refused.
 #[test]
-fn scenarios_that_are_the_same_are_counted_each() {
+fn identical_scenario_files_have_separate_rows() {
     let folder = scratch("sweep-same");
     for name in ["a", "b"] {
         let file = format!("{name}.toml");
@@ -127,20 +127,20 @@ fn kill_at(name: &str, moments: impl Iterator<Item = Moment>) {
 
 #[cfg(unix)]
 #[test]
-fn a_killed_sweep_goes_on_and_has_the_same_rows() {
+fn a_killed_sweep_continues_and_gives_the_same_rows() {
     kill_at("sweep-killed", [1, 7, 16].map(Moment::Rows).into_iter());
 }
 
 #[cfg(unix)]
 #[test]
 #[ignore = "takes a minute: 20 moments"]
-fn a_sweep_killed_at_any_of_20_moments_has_the_same_rows() {
+fn a_sweep_killed_at_any_of_20_times_gives_the_same_rows() {
     // Steps of the golden ratio are spread evenly and never repeat.
     kill_at("sweep-killed-20", (1..=20).map(|index| Moment::Millis((f64::from(index) * 618.034) as u64 % 1500)));
 }
 
 #[test]
-fn a_bigger_sweep_reuses_the_rows_of_a_smaller_one() {
+fn a_larger_sweep_reuses_the_rows_of_a_smaller_one() {
     let folder = scratch("sweep-bigger");
     plan(&folder);
     assert_eq!(interplay(&folder, &["sweep", "plan.toml", "--out", "out", "--samples", "1"]).code, Some(0));
@@ -213,7 +213,7 @@ fn scenarios_are_compared_with_their_counterfactuals() {
 
 /// What a row says of braking is what the report of a run says.
 #[test]
-fn hard_braking_is_a_share_of_what_a_vehicle_is_capable_of() {
+fn hard_braking_in_sweeps_is_relative_to_the_braking_limit() {
     let folder = scratch("sweep-braking");
     let mut found = Vec::new();
     for limit in ["-1.0", "-6.0"] {
@@ -263,7 +263,7 @@ fn bills_and_electricity_of_buildings_are_compared() {
 }
 
 #[test]
-fn two_sweeps_of_one_version_do_not_differ() {
+fn two_sweeps_by_one_version_do_not_differ() {
     let folder = scratch("sweep-versions");
     plan(&folder);
     for out in ["before", "after"] {
@@ -276,7 +276,7 @@ fn two_sweeps_of_one_version_do_not_differ() {
 
 /// What flags cannot say names the flag.
 #[test]
-fn wrong_flags_are_refused_by_their_names() {
+fn wrong_sweep_flags_are_refused_by_name() {
     let folder = scratch("sweep-wrong-flags");
     for (arguments, words) in [
         (&["--set", "seed=4", "--starts", "3"][..], &["follows from", "\"seed\" = 4 # --set"][..]),
@@ -302,7 +302,7 @@ fn wrong_flags_are_refused_by_their_names() {
 }
 
 #[test]
-fn wrong_plans_are_refused_before_anything_is_run_or_written() {
+fn wrong_plans_are_refused_before_any_run_or_file() {
     let folder = scratch("sweep-wrong");
     let write = |text: &str| fs::write(folder.join("plan.toml"), text).expect("a scratch file");
     for (text, arguments, words) in [

@@ -47,7 +47,7 @@ fn of_pair(film: &Film, name: &str) -> Option<PairGap> {
 
 /// The gap is the smallest of all pairs, and the named pair has it at the named time.
 #[test]
-fn the_smallest_gap_is_that_of_the_closest_pair() {
+fn the_smallest_gap_is_reported_for_the_closest_pair() {
     for film in kinematic() {
         let (pairs, gap) = (pairs(film), of_pair(film, "smallest_gap_m").expect("there are others"));
         let smallest_m =
@@ -97,7 +97,7 @@ fn time_to_collision_s(shapes: [[Point; 4]; 2], velocity_mps: Point) -> Option<f
 }
 
 #[test]
-fn the_time_to_collision_is_that_of_rectangles_which_do_not_turn() {
+fn the_time_to_collision_assumes_constant_headings() {
     let mut closed_in = 0;
     for film in FILMS.iter() {
         let (moments, step_s) = (moments(film), film.scenario.step_s);
@@ -175,7 +175,7 @@ fn off_road_m(film: &Film, index: usize) -> f64 {
 }
 
 #[test]
-fn off_road_is_the_farthest_corner_beyond_the_edge() {
+fn the_off_road_distance_is_that_of_the_farthest_corner() {
     // A goal right at the edge: half of the vehicle would be beside the road, and what it wants outweighs that. And a bend that
     // is too fast for a slippery road.
     let goal = ["duration_s=4", "vehicle.ego.goal={ y_m = 0.74 }", "vehicle.ego.weights.y=1e5"];
@@ -201,7 +201,7 @@ fn off_road_is_the_farthest_corner_beyond_the_edge() {
 
 /// Of two roads of the width `w` at the angle `γ`, the zone begins `w/2 (1 + |cos γ|)/|sin γ|` before the middle.
 #[test]
-fn right_of_way_follows_from_the_fronts() {
+fn reported_right_of_way_follows_from_the_front_bumpers() {
     let mut judged = 0;
     for film in FILMS.iter() {
         // Routes of networks are tested beside the measure.
@@ -242,7 +242,7 @@ fn right_of_way_follows_from_the_fronts() {
 
 /// All vehicles drive on one lane with a limit of 1.2 m/s, and the two humans want 1.25 m/s.
 #[test]
-fn vehicles_that_exceed_a_limit_are_named() {
+fn vehicles_that_exceed_a_speed_limit_are_named() {
     let line = CentreLine::from_pieces([-10.0, 0.37], 0.0, &[Piece::Straight { length_m: 100.0 }]).expect("a piece");
     let mut lane = Lane::new("main", line, 0.74);
     lane.speed_limit_mps = Some(1.2);
@@ -318,7 +318,7 @@ fn a_failed_expectation_names_the_vehicles_and_the_time() {
 
 /// The rectangle of 0.4 m × 0.19 m behind another one, and beside it.
 #[test]
-fn times_of_rectangles_in_closed_form() {
+fn times_to_collision_of_rectangles_match_closed_forms() {
     let body = Body::default();
     let at = |x_m: f64, y_m: f64| corners(&body, &State { x_m, y_m, heading_rad: 0.0, speed_mps: 0.0 });
     let is = |found: Option<f64>, wanted: f64| found.is_some_and(|found| (found - wanted).abs() < 1e-12);

@@ -24,7 +24,7 @@ pub(crate) fn columns(path: &Path) -> BTreeMap<String, Vec<String>> {
 }
 
 #[test]
-fn every_vehicle_has_a_row_at_every_tick_and_moves_as_its_row_says() {
+fn every_vehicle_has_a_correct_row_at_every_tick() {
     let folder = scratch("trajectories-csv");
     let outcome = run(&folder, &["--trajectories", "new/run.csv"]);
     assert!(outcome.stderr.contains("trajectories in new/run.csv"), "{}", outcome.stderr);
@@ -49,7 +49,7 @@ fn every_vehicle_has_a_row_at_every_tick_and_moves_as_its_row_says() {
 }
 
 #[test]
-fn tables_change_neither_the_run_nor_take_the_place_of_anything() {
+fn writing_tables_changes_no_run_and_overwrites_no_file() {
     let folder = scratch("trajectories-unharmed");
     let digest = |more: &[&str]| run(&folder, more).json()["digest"].clone();
     let plain = digest(&["--json"]);
@@ -77,7 +77,7 @@ fn tables_change_neither_the_run_nor_take_the_place_of_anything() {
 }
 
 #[test]
-fn a_sweep_keeps_a_table_of_each_run_by_its_key() {
+fn a_sweep_writes_a_table_of_each_run_named_by_its_key() {
     let folder = scratch("trajectories-sweep");
     let plan = "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'conservative']\nset = { duration_s = 2.0, expect = {} }\n";
     fs::write(folder.join("plan.toml"), plan).expect("writes");

@@ -13,7 +13,7 @@ fn scenario(title: &str) -> String {
 /// A build server with a full disk must not see success.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_result_that_cannot_be_written_is_exit_code_3() {
+fn an_unwritable_result_exits_with_code_3() {
     let folder = scratch("full-disk");
     for words in [
         &["list"][..],
@@ -33,7 +33,7 @@ fn a_result_that_cannot_be_written_is_exit_code_3() {
 }
 
 #[test]
-fn no_output_takes_the_place_of_the_scenario() {
+fn no_output_overwrites_the_scenario() {
     let folder = scratch("overwritten");
     let text = scenario("Mine");
     fs::write(folder.join("mine.toml"), &text).expect("writes");
@@ -53,7 +53,7 @@ fn no_output_takes_the_place_of_the_scenario() {
 
 /// The weather file of a scenario is protected as its scenario file is, whether a flag or the scenario names it.
 #[test]
-fn no_output_takes_the_place_of_the_weather() {
+fn no_output_overwrites_the_weather() {
     let folder = scratch("overwritten-weather");
     let weather = include_str!("../../scenarios/weather/tropical-july.epw");
     let names = |file: &str| {
@@ -79,7 +79,7 @@ fn no_output_takes_the_place_of_the_weather() {
 }
 
 #[test]
-fn no_output_takes_the_place_of_another() {
+fn no_output_overwrites_another_output() {
     let folder = scratch("twice-the-same-name");
     fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
     for words in [["--record", "page/index.html"], ["--animate", "page/picture.gif"]] {
@@ -92,7 +92,7 @@ fn no_output_takes_the_place_of_another() {
 
 /// A comparison reads the rows of a sweep, and must not write its page over them, or over any other file that is not a page.
 #[test]
-fn no_comparison_takes_the_place_of_rows() {
+fn no_comparison_overwrites_rows() {
     let folder = scratch("overwritten-rows");
     fs::create_dir(folder.join("rows")).expect("makes");
     for file in ["rows/runs.parquet", "rows/comparison.html"] {
@@ -110,7 +110,7 @@ fn no_comparison_takes_the_place_of_rows() {
 
 /// Titles, names of counterfactuals and the like are shown on terminals.
 #[test]
-fn a_title_that_a_terminal_would_obey_is_refused() {
+fn a_title_with_control_characters_is_refused() {
     let folder = scratch("obeyed-titles");
     for (written, code) in
         [("\\u001b[31mred", "U+001B"), ("\\u0007", "U+0007"), ("\\u009b31m", "U+009B"), ("\\u202egnp", "U+202E")]
@@ -124,7 +124,7 @@ fn a_title_that_a_terminal_would_obey_is_refused() {
 }
 
 #[test]
-fn pages_that_interplay_did_not_write_are_not_replaced() {
+fn report_pages_by_other_programs_are_not_replaced() {
     let folder = scratch("foreign-page");
     fs::write(folder.join("index.html"), "<h1>My home page</h1>").expect("writes");
     for words in [&["run", "--set", "duration_s=4", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {
@@ -143,7 +143,7 @@ fn pages_that_interplay_did_not_write_are_not_replaced() {
 /// Reading these would wait for ever, or never end.
 #[cfg(target_os = "linux")]
 #[test]
-fn pipes_and_devices_are_refused_at_once() {
+fn pipes_and_devices_as_inputs_are_refused_without_blocking() {
     let folder = scratch("devices");
     let made = std::process::Command::new("mkfifo").arg(folder.join("pipe.toml")).status().expect("mkfifo");
     assert!(made.success());
@@ -160,7 +160,7 @@ fn pipes_and_devices_are_refused_at_once() {
 
 /// A title may hold what clears a terminal or names its window.
 #[test]
-fn a_terminal_is_shown_texts_and_obeys_none() {
+fn texts_with_control_characters_are_escaped_for_a_terminal() {
     let folder = scratch("escapes");
     fs::write(folder.join("bold.toml"), scenario("\\u001b[2J\\u001b]0;owned\\u0007")).expect("writes");
     let outcome = interplay(&folder, &["run", "bold.toml", "--no-record"]);
@@ -171,7 +171,7 @@ fn a_terminal_is_shown_texts_and_obeys_none() {
 
 /// The recorder drew a dash for every metre of road.
 #[test]
-fn a_start_beyond_every_road_is_refused() {
+fn a_start_far_beyond_the_road_is_refused() {
     let outcome = interplay(&scratch("far"), &["run", "lane-change/front-tough", "--set", "vehicle.ego.start.x_m=1e9"]);
     assert_eq!(outcome.code, Some(2));
     assert!(outcome.stderr.contains("must be at most 100000"), "{}", outcome.stderr);
@@ -216,7 +216,7 @@ fn a_lane_wider_than_any_road_is_refused() {
 /// The name of the file stands in a comment, which was two lines.
 #[cfg(unix)]
 #[test]
-fn a_new_file_is_sound_whatever_it_is_called() {
+fn a_new_file_is_valid_with_any_file_name() {
     let folder = scratch("newline");
     let outcome = interplay(&folder, &["new", "two\nlines.toml"]);
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
@@ -227,7 +227,7 @@ fn a_new_file_is_sound_whatever_it_is_called() {
 /// The message was "there is no scenario" although the file exists.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_file_whose_name_is_not_utf_8_is_named_as_the_reason() {
+fn a_file_name_that_is_not_utf_8_is_reported() {
     use std::os::unix::ffi::OsStrExt;
     let folder = scratch("not-utf-8");
     fs::write(folder.join(std::ffi::OsStr::from_bytes(b"m\xffne.toml")), scenario("Mine")).expect("writes");
@@ -241,7 +241,7 @@ fn a_file_whose_name_is_not_utf_8_is_named_as_the_reason() {
 
 /// A folder in the place of the output, and a file in the place of its folder.
 #[test]
-fn an_output_that_cannot_be_written_is_exit_code_3_of_every_command() {
+fn unwritable_outputs_exit_with_code_3_in_every_command() {
     let folder = scratch("unwritable-output");
     fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
     fs::write(folder.join("file"), "mine").expect("writes");

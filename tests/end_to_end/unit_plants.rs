@@ -35,7 +35,7 @@ fn prepared(name: &str) -> std::path::PathBuf {
 }
 
 #[test]
-fn our_own_unit_as_the_building_is_our_own_building() {
+fn an_fmu_exported_by_interplay_behaves_like_its_building() {
     let folder = prepared("unit-as-plant");
     let [network, unit] = ["room.toml", "unit.toml"].map(|file| {
         let outcome = run(&folder, file, &[]);
@@ -53,7 +53,7 @@ fn our_own_unit_as_the_building_is_our_own_building() {
 }
 
 #[test]
-fn a_unit_that_cannot_run_ends_the_run_with_a_reason() {
+fn an_fmu_that_cannot_run_ends_the_run_with_a_reason() {
     let folder = prepared("unit-that-fails");
     let missing = run(&folder, "unit.toml", &["--set", "building.plant.fmu='rom.fmu'"]);
     assert_eq!(missing.code, Some(2), "{missing:?}");

@@ -74,13 +74,12 @@ enum Command {
     Man(man::Man),
 }
 
-/// Reads the arguments and does what they say, with what Interplay has.
+/// Runs the command with the arguments of this process and the kinds that Interplay provides.
 pub fn main() -> ExitCode {
     main_with(Registry::standard())
 }
 
-/// The same with the kinds of drivers and the metrics of a registry: the whole command for a crate with drivers or metrics of its
-/// own.
+/// Runs the command with the kinds of drivers and the metrics of a registry: the whole command for a crate that adds its own.
 pub fn main_with(registry: &Registry) -> ExitCode {
     process::limits::writing_too_much_is_an_error();
     let ending = process::limits::on_a_thread_of_its_own(|| exit_code(registry, std::env::args_os()));
@@ -92,8 +91,8 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         .into()
 }
 
-/// Does what arguments say, the first of which is the program's name, with what a registry has: the whole command inside another program.
-/// Returns the exit code.
+/// Runs the command inside another program, with a registry and these arguments, of which the first is the program's
+/// name. Returns the exit code.
 pub fn exit_code(registry: &Registry, arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let ending = match registry.clone().with_own_metrics() {
         Ok(registry) => run_command(&registry, arguments),

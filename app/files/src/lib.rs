@@ -132,7 +132,7 @@ mod tests {
 
     /// A file that is abandoned leaves nothing behind, and neither do the folders created for it.
     #[test]
-    fn an_abandoned_file_leaves_nothing_behind() {
+    fn an_abandoned_file_leaves_no_trace_on_disk() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a/b/run.rrd");
         {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// A file that is being written. It vanishes if it is dropped before it has its path.
+/// A file that is being written. It is deleted if it is dropped before it is moved to its path.
 #[derive(Debug)]
 pub struct WholeFile {
     target: PathBuf,
@@ -33,7 +33,7 @@ impl WholeFile {
             return Ok(WholeFile { target: target.to_owned(), file: Unplaced::Unnamed(file?) });
         }
         let mut builder = parts();
-        // With the permissions of any new file.
+        // Temporary files are private by default; this one gets the permissions of any new file.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         Ok(WholeFile {
@@ -65,7 +65,7 @@ impl WholeFile {
             #[cfg(target_os = "linux")]
             Unplaced::Unnamed(file) => match link(&file, &self.target) {
                 Err(error) if replaces && error.kind() == io::ErrorKind::AlreadyExists => {
-                    // No system call links an unnamed file to a name that is taken, so it gets a temporary name for one call.
+                    // No system call replaces an existing file by an unnamed one, so the file briefly gets a temporary name.
                     let named = parts().make_in(folder, |name| link(&file, name))?;
                     named.into_temp_path().persist(&self.target).map_err(|error| error.error)?;
                 }
@@ -124,7 +124,7 @@ fn parts() -> tempfile::Builder<'static, 'static> {
 fn unnamed_in(folder: &Path) -> Option<io::Result<File>> {
     use rustix::fs::{Mode, OFlags};
     use rustix::io::Errno;
-    // An unnamed file is named through this folder.
+    // An unnamed file gets its name through this folder.
     if !Path::new("/proc/self/fd").exists() {
         return None;
     }
@@ -178,7 +178,7 @@ impl NewFolders {
 
 impl Drop for NewFolders {
     fn drop(&mut self) {
-        // A folder that cannot be removed was never created, or another process uses it by now.
+        // A folder that cannot be removed was never created, or another process now uses it.
         for folder in &self.0 {
             let _ = fs::remove_dir(folder);
         }

@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn uris_are_folders() {
+    fn file_uris_are_converted_to_folder_paths() {
         for (uri, path) in [
             ("file:///tmp/a%20b/resources", "/tmp/a b/resources"),
             ("file:/tmp/resources/", "/tmp/resources/"),

@@ -1,4 +1,4 @@
-//! Errors of exports.
+//! Errors of the export of a building as an FMU.
 
 use interplay_building::discretise::ModelError;
 use interplay_building::network::NetworkError;

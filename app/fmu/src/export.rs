@@ -1,4 +1,4 @@
-//! From a scenario to the bytes of an FMU.
+//! Exports the building of a scenario as the bytes of an FMU.
 
 use std::env::consts::{ARCH, OS};
 

@@ -84,7 +84,7 @@ pub(crate) fn archive(files: &[(String, &[u8])]) -> Vec<u8> {
         directory.extend(0x0201_4b50_u32.to_le_bytes());
         directory.extend(MADE_BY.to_le_bytes());
         directory.extend(&entry);
-        // Comment, disk, internal attributes.
+        // The fields for the comment, the disk number and the internal attributes.
         directory.extend([0; 6]);
         directory.extend(PERMISSIONS.to_le_bytes());
         directory.extend(start.to_le_bytes());
@@ -93,13 +93,13 @@ pub(crate) fn archive(files: &[(String, &[u8])]) -> Vec<u8> {
     let (count, start, size) = (files.len() as u16, bytes.len() as u32, directory.len() as u32);
     bytes.extend(directory);
     bytes.extend(0x0605_4b50_u32.to_le_bytes());
-    // This disk, and that of the directory.
+    // The number of this disk, and of the disk with the directory.
     bytes.extend([0; 4]);
     bytes.extend(count.to_le_bytes());
     bytes.extend(count.to_le_bytes());
     bytes.extend(size.to_le_bytes());
     bytes.extend(start.to_le_bytes());
-    // Comment.
+    // The length of the comment.
     bytes.extend([0; 2]);
     bytes
 }

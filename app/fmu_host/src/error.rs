@@ -1,4 +1,4 @@
-//! Errors of a unit.
+//! Errors of a functional mock-up unit and of the process that runs it.
 
 use std::io;
 use std::path::PathBuf;

@@ -144,7 +144,7 @@ impl Host {
 
 impl Drop for Host {
     fn drop(&mut self) {
-        // Without its input the process ends by itself, but a unit that hangs does not.
+        // The process ends by itself when its input is closed, unless the unit hangs.
         self.input = None;
         self.kill();
     }
@@ -186,7 +186,7 @@ impl LastLine {
         let (reading, open) = mpsc::channel();
         let last = Arc::clone(&line);
         thread::spawn(move || {
-            // Dropped when the thread ends.
+            // This sender is dropped when the thread ends.
             let _reading: mpsc::Sender<()> = reading;
             // Units in other languages may write encodings other than UTF-8.
             for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {

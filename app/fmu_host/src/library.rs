@@ -54,7 +54,7 @@ unsafe extern "C" fn log(
     // SAFETY: messages are zero-terminated texts (FMI 2.0.4, section 2.1.5).
     let mut text = unsafe { CStr::from_ptr(message) };
     if text == ONE_TEXT && !first.is_null() {
-        // SAFETY: the format promises a zero-terminated text.
+        // SAFETY: this format guarantees that the argument is a zero-terminated text.
         text = unsafe { CStr::from_ptr(first) };
     }
     if let Ok(mut last) = LAST_MESSAGE.lock() {
@@ -76,7 +76,7 @@ impl Instance {
     /// # Errors
     /// The error of the loader or the unit.
     pub fn new(path: &Path, guid: &str, resources: &str) -> Result<Self, String> {
-        // SAFETY: the library's initialisers run, as a user who states an FMU intends; this process does nothing else.
+        // SAFETY: loading runs the initialisers of the library, as a user who names an FMU intends; this process does nothing else.
         let library = unsafe { Loaded::new(path) }.map_err(|error| format!("its library cannot be loaded: {error}"))?;
         let callbacks = Box::new(Callbacks {
             logger: log,

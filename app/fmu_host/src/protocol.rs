@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A request of the parent. References are those of the description.
+/// A request of the parent process. It names variables by the references of the unit's description.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "call", rename_all = "kebab-case")]
 pub enum Request {

@@ -65,6 +65,7 @@ impl Unit {
         &self.description
     }
 
+    /// The path of the unit's library.
     pub fn library(&self) -> PathBuf {
         self.folder.path().join(SYSTEM).join(format!("{}.{ENDING}", self.description.library))
     }

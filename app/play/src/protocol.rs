@@ -199,7 +199,7 @@ impl Menu {
         Menu { families }
     }
 
-    /// The scenario after one, and its first seat; after the last, the first.
+    /// The scenario after the named one, and its first seat. The first scenario follows the last.
     pub fn after(&self, name: &str) -> Option<(String, String)> {
         let all: Vec<&MenuScenario> = self.families.iter().flat_map(|family| &family.scenarios).collect();
         let next = all.iter().position(|entry| entry.name == name).map_or(0, |place| (place + 1) % all.len());

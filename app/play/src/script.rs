@@ -12,6 +12,7 @@ use crate::session::{Controls, Session, SessionError};
 
 const MAX_LINES: usize = 1_000_000;
 
+/// A message of a page, with the tick at which it arrives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptLine {
     /// Number of ticks before the message.
@@ -65,8 +66,8 @@ pub fn read_script(file: &str, text: &str) -> Result<Vec<ScriptLine>, ScriptErro
     Ok(lines)
 }
 
-/// Plays a script in a seat, to the end of the scenario or of the script. The ticks of lines count all ticks that were made, also
-/// after a rewind.
+/// Plays a script in a seat, to the end of the scenario or of the script. The ticks of lines count every simulated
+/// tick, including those that a rewind discards.
 ///
 /// # Errors
 /// [`SessionError`] if the simulation fails, or if a message is refused.
@@ -101,9 +102,15 @@ pub fn play_script(session: &mut Session, seat: &str, lines: &[ScriptLine]) -> R
 /// # Errors
 /// The error of the operating system.
 pub fn save_played(session: &Session, folder: &Path) -> io::Result<PathBuf> {
-    let path = free_name(folder, session.name());
-    write_played(session, &path)?;
-    Ok(path)
+    let text = session.played().to_file().to_toml();
+    loop {
+        let path = free_name(folder, session.name());
+        match interplay_files::write_new(&path, text.as_bytes()) {
+            // Another server has taken the name in the meantime.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            written => return written.map(|()| path),
+        }
+    }
 }
 
 /// Writes the played run to a file, atomically.
@@ -121,11 +128,17 @@ fn free_name(folder: &Path, scenario: &str) -> PathBuf {
         stem.chars().map(|letter| if letter.is_alphanumeric() || letter == '-' { letter } else { '-' }).collect();
     let name = plain.trim_matches('-');
     let named = |number: u64| folder.join(format!("{name}-{number}.toml"));
-    (1..).map(named).find(|path| !path.exists()).unwrap_or_else(|| named(0))
+    (1..).map(named).find(|path| path.symlink_metadata().is_err()).unwrap_or_else(|| named(0))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+    use std::sync::Barrier;
+    use std::thread;
+
+    use interplay_scenarios::load;
+
     use super::*;
 
     #[test]
@@ -144,5 +157,23 @@ mod tests {
             assert!(error.contains(part), "{error}");
         }
         assert!(read_script("a", "{\"tick\": 2, \"type\": \"end\"}\n{\"tick\": 1, \"type\": \"end\"}").is_err());
+    }
+
+    #[test]
+    fn runs_that_are_saved_at_the_same_time_have_a_file_each() {
+        const COUNT: usize = 8;
+        let folder = tempfile::tempdir().expect("a folder");
+        let scenario = load("lane-change/front-nice", &[]).expect("an authored scenario");
+        let together = Barrier::new(COUNT);
+        let save_one = || {
+            let session = Session::new("lane-change/front-nice", &scenario, &["ego"]).expect("a session");
+            together.wait();
+            save_played(&session, folder.path()).expect("saved")
+        };
+        let paths: BTreeSet<PathBuf> = thread::scope(|scope| {
+            let saving: Vec<_> = (0..COUNT).map(|_| scope.spawn(save_one)).collect();
+            saving.into_iter().map(|thread| thread.join().expect("it ends")).collect()
+        });
+        assert_eq!(paths.len(), COUNT);
     }
 }

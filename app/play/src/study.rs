@@ -35,13 +35,14 @@ pub enum StudyError {
     TooMany(usize),
 }
 
-/// The runs that each person drives, before the folder is opened.
+/// The runs that each participant of a study drives, before the folder of its results is opened.
 pub struct PlannedStudy {
     plan: SweepPlan,
     trials: Vec<Trial>,
     minutes: f64,
 }
 
+/// A study in progress: participants drive the runs of a plan, and each finished run becomes a row of the results.
 pub struct Study {
     planned: PlannedStudy,
     rows: PeopleRows,
@@ -148,7 +149,7 @@ impl Study {
         Ok(Some((point.scenario, scenario, trial.seat.clone())))
     }
 
-    /// Adds a finished run as a row.
+    /// Adds a finished run to the results, as a row.
     ///
     /// # Errors
     /// [`SweepError`] if the row cannot be written.

@@ -59,7 +59,7 @@ impl BodyStyle {
 
 /// The size of a vehicle as a multiple of one at 1/10 scale.
 ///
-/// A body with stated lengths may not say its scale. One that is longer than any lorry at 1/10 scale is of full size.
+/// A body with stated lengths may not state its scale. A body longer than any lorry at 1/10 scale has full size.
 pub fn scale(body: &Body) -> f64 {
     let is_large = body.front_m + body.rear_m > MAX_SCALE_MODEL_M;
     if body.scale == 1.0 && is_large { FULL_SIZE_SCALE } else { body.scale }
@@ -107,7 +107,7 @@ pub fn rectangle([rear, front, right, left]: BodyArea) -> [[f64; 2]; 4] {
     [[rear, right], [front, right], [front, left], [rear, left]]
 }
 
-/// The point ahead and to the left of the mass centre \[m\] that lies at shares of a body.
+/// The position of a point of a body, given as shares of its length and width: ahead and to the left of the mass centre \[m\].
 pub fn place_on(body: &Body, [along, across]: [f64; 2]) -> [f64; 2] {
     let Body { front_m, rear_m, width_m, .. } = *body;
     [0.5 * (front_m - rear_m) + 0.5 * along * (front_m + rear_m), 0.5 * across * width_m]
@@ -172,7 +172,7 @@ pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
     let body = |radius| part(&rectangle([-1.0, 1.0, -1.0, 1.0]), radius, BodyPaint::Own);
     match style {
         BodyStyle::Car => {
-            // Windows all around a roof.
+            // The windows surround the roof.
             let (rear, front) = (-0.62, 0.42);
             let windows =
                 [[rear, -0.6], [rear, 0.6], [front - 0.06, 0.84], [front, 0.7], [front, -0.7], [front - 0.06, -0.84]];

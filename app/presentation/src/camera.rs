@@ -43,7 +43,7 @@ pub struct CameraView {
 }
 
 impl CameraView {
-    /// The place of a position \[px\].
+    /// The pixel at which a position of the world is drawn \[px\].
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let right = (self.px_per_m * (x - self.centre_m[0])) + 0.5 * self.size_px[0];
         [right, 0.5 * self.size_px[1] - self.px_per_m * (y - self.centre_m[1])]
@@ -98,7 +98,7 @@ pub fn views(scenario: &Scenario, moments: &[CameraFrame], format: &ViewFormat) 
         smooth(&logarithms, SMOOTHING_S[1] / format.step_s).into_iter().map(libm::exp).collect()
     };
     let middles = [0, 1].map(|axis| smooth(&middles(&shown, axis), SMOOTHING_S[0] / format.step_s));
-    // Not higher than the tallest content.
+    // The picture is not higher than its tallest content.
     let tallest = shown.iter().zip(&scales).map(|([low, high], scale)| scale * (high[1] - low[1])).fold(0.0, f64::max);
     let height_px = 2.0 * (0.5 * tallest.clamp(format.height_px[0], height_px)).ceil();
     let view = |index: usize| CameraView {

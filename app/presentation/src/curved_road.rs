@@ -1,4 +1,4 @@
-//! The lines of a road that turns, as points of the world.
+//! The lines of a curved road, in world coordinates.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ const POINT_DISTANCE_LANES: f64 = 0.2;
 /// Most points of a line.
 const MAX_POINTS: f64 = 4000.0;
 
-/// A line of points of the world \[m\].
+/// A line as points in world coordinates \[m\].
 pub type WorldLine = Vec<[f64; 2]>;
 
 /// The lines of a curved road.
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_are_beside_each_other_and_the_ending_lane_closes() {
+    fn edge_points_of_a_curve_pair_up_and_narrow_where_a_lane_ends() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
         let [right, left] = curved.edges([0.0, 125.0]);
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_divides_a_single_lane_and_straight_roads_have_no_curve() {
+    fn a_single_lane_has_no_dividing_line_and_a_straight_road_no_curve() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
         let route = road.route(Branch::Main).expect("not a network");

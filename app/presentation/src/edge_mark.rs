@@ -45,7 +45,8 @@ pub fn edge_marks(scenario: &Scenario, view: &CameraView, states: &[State], ment
         let (from, to) = (view.place(ego.position()), view.place(states[index].position()));
         let away = [to[0] - from[0], to[1] - from[1]];
         let length = libm::hypot(away[0], away[1]).max(1e-9);
-        // The share of the way to the vehicle at which the inset edge is reached; an ego beyond that edge is on it.
+        // The share of the line from the ego to the vehicle at which this axis reaches the inset edge; 0 if the ego is
+        // already beyond that edge.
         let share = |axis: usize| {
             let edge = if away[axis] > 0.0 { view.size_px[axis] - INSET_PX } else { INSET_PX };
             if away[axis] == 0.0 { 1.0 } else { ((edge - from[axis]) / away[axis]).clamp(0.0, 1.0) }

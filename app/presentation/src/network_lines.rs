@@ -1,4 +1,4 @@
-//! The lines of a network of lanes, as points of the world.
+//! The lines of a network of lanes, in world coordinates.
 
 use std::collections::BTreeMap;
 
@@ -175,10 +175,10 @@ impl<'a> NetworkLines<'a> {
                 };
             }
         }
-        // The asphalt reaches a shoulder beyond every lane. No line is drawn where the shoulder of another lane is beside the edge.
+        // The asphalt extends beyond every lane by a shoulder. No line is drawn where the edge lies beside the shoulder of another lane.
         let shoulder_m = SHOULDER_LANES * lane.width.value(along_m);
         let beyond = edge_position(lane, side, along_m, shared_m - shoulder_m);
-        // Where one lane joins another, an edge may be inside the other lane while a place beyond it is outside both.
+        // Where one lane joins another, an edge may lie inside the other lane although the point beyond the edge lies outside both.
         let inside_m = INSIDE_RATIO * lane.width.value(along_m);
         let is_inside = (0..self.lanes.len()).any(|other| {
             other != number && (self.holds(other, beyond, -shoulder_m) || self.holds(other, at, inside_m))
@@ -233,7 +233,7 @@ impl<'a> NetworkLines<'a> {
     }
 }
 
-/// Least and greatest coordinates of the parts of their routes that vehicles cover at their wanted speeds \[m\].
+/// Least and greatest coordinates of the part of the road that the vehicles cover if each drives at its wanted speed \[m\].
 pub fn expected_bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
     let places = scenario.vehicles.iter().flat_map(|vehicle| {
         let (route, speed_mps) =
@@ -307,7 +307,7 @@ mod tests {
 
     /// Beside the acceleration lane the line is dashed, and before and after it the edge is solid.
     #[test]
-    fn a_lane_that_begins_and_ends_beside_another_divides_it_there() {
+    fn a_dividing_line_is_drawn_along_a_shorter_adjacent_lane() {
         let scenario = scenario("kind = 'on-ramp'\nlane_count = 1", "ramp");
         let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
         let dashes_m = length_m(&lines.dashes(0.5));
@@ -323,7 +323,7 @@ mod tests {
 
     /// No line is inside a junction, and each lane that must wait has a stop or yield line.
     #[test]
-    fn junctions_are_free_of_lines() {
+    fn no_lane_lines_are_drawn_inside_junctions() {
         let scenario = scenario("kind = 'all-way-stop'", "west-in");
         let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
         assert_eq!(lines.stop_lines().len(), 4);

@@ -32,7 +32,7 @@ pub struct Section {
     pub files: Vec<(String, String)>,
 }
 
-/// Whether what was expected of a part came true.
+/// Whether the expectations of a section held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SectionStatus {
     #[default]
@@ -171,7 +171,7 @@ fn table_markup(table: &TextTable) -> Markup {
 fn inline(svg: &str, alt: &str, id: &str) -> Markup {
     let svg = svg.trim_start_matches(|c| c != '<').replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
     let small = width(&svg).is_some_and(|width| width < 1000);
-    // The opening tag of an element without content has all attributes.
+    // An element without content consists of its opening tag, which has all attributes.
     let opening = html! { svg id=(id) class=[small.then_some("small")] role="img" aria-label=(alt); }.into_string();
     PreEscaped(svg.replacen("<svg", opening.trim_end_matches('>'), 1))
 }

@@ -24,15 +24,15 @@ pub struct NamedColour {
 
 /// The ego.
 pub const ORANGE: NamedColour = NamedColour { rgb: [0xE6, 0x9F, 0x00], word: "orange" };
-/// The first of the others.
+/// The first of the other vehicles.
 pub const BLUE: NamedColour = NamedColour { rgb: [0x04, 0x75, 0xF2], word: "blue" };
-/// The second of the others.
+/// The second of the other vehicles.
 pub const GREEN: NamedColour = NamedColour { rgb: [0x00, 0x84, 0x68], word: "green" };
-/// The third of the others.
+/// The third of the other vehicles.
 pub const PURPLE: NamedColour = NamedColour { rgb: [0xB4, 0x76, 0xA9], word: "purple" };
-/// The fourth of the others.
+/// The fourth of the other vehicles.
 pub const SKY: NamedColour = NamedColour { rgb: [0x7C, 0xB8, 0xEA], word: "sky blue" };
-/// The fifth of the others.
+/// The fifth of the other vehicles.
 pub const OLIVE: NamedColour = NamedColour { rgb: [0x9D, 0x9F, 0x71], word: "olive" };
 /// Limits and failures, such as a fallback plan. No vehicle has this colour.
 pub const VERMILLION: NamedColour = NamedColour { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
@@ -42,7 +42,7 @@ pub const OTHERS: [NamedColour; 5] = [BLUE, GREEN, PURPLE, SKY, OLIVE];
 
 pub const OBSTACLE: NamedColour = NamedColour { rgb: [0x9A, 0x9E, 0xA4], word: "grey" };
 
-/// One of many vehicles that no picture names.
+/// A vehicle of a crowd that no picture names.
 pub const UNNAMED: Colour = [0xC8, 0xCB, 0xCF];
 
 /// The surface of footpaths.
@@ -55,7 +55,7 @@ pub const ASPHALT: Colour = [0x4B, 0x4F, 0x56];
 pub const VERGE: Colour = [0xCD, 0xD3, 0xB8];
 /// The stones between a road and its verge.
 pub const KERB: Colour = [0x9A, 0x9C, 0x9A];
-/// Beside the road.
+/// The ground beside the road.
 pub const GRASS: Colour = [0xB9, 0xCB, 0xA4];
 /// Lines on the road.
 pub const PAINT: Colour = [0xEC, 0xEC, 0xE6];
@@ -76,7 +76,7 @@ pub const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 /// Distance from the wanted temperature at which the colour scale of rooms ends \[K\].
 pub const COLOUR_RANGE_K: f64 = 5.0;
 
-/// From blue (cold) over grey to red (warm), dark enough for white letters; `share` is from −1 to 1.
+/// Colour between blue (cold), grey and red (warm), dark enough for white letters; `share` is from −1 to 1.
 pub fn temperature_colour(share: f64) -> Colour {
     const COLD: [f64; 3] = [30.0, 90.0, 190.0];
     const MIDDLE: [f64; 3] = [95.0, 100.0, 95.0];
@@ -99,7 +99,7 @@ pub fn vehicle_colours(scenario: &Scenario) -> Vec<NamedColour> {
         .collect()
 }
 
-/// A colour as style sheets write it.
+/// A colour in the notation of CSS.
 pub fn css([red, green, blue]: Colour) -> String {
     format!("#{red:02X}{green:02X}{blue:02X}")
 }
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_follow_the_wanted_temperature_or_the_usual_one() {
+    fn room_colours_are_relative_to_the_wanted_or_usual_temperature() {
         let zone = |reference_c| ZoneFrame {
             temperature_c: 21.0,
             next_c: 21.0,

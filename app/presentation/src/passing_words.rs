@@ -1,4 +1,4 @@
-//! How vehicles pass each other, in words. Left and right are only meaningful on one road.
+//! Words for how vehicles pass each other. Left and right are only meaningful on one road.
 
 use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route, State};
 use interplay_scenarios::Scenario;
@@ -15,9 +15,9 @@ const DIRECTION_SAMPLES: usize = 64;
 /// Vehicles whose initial directions differ by more than this are oncoming \[rad\].
 const ONCOMING_RAD: f64 = 2.5;
 
-/// How a vehicle (its index) passes another one, without the subject; `None` if [`has_words`] is false.
+/// The sentence, without its subject, for how a vehicle (its index) passes another one; `None` if [`has_words`] is false.
 ///
-/// An oncoming vehicle or a crossing pedestrian is not followed or led: one of both goes before the other.
+// An oncoming vehicle or a crossing pedestrian is not followed or led: one of the two goes first.
 pub fn passing_sentence(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> Option<String> {
     let sentence = || match meeting_verb(scenario, vehicle, passing) {
         Some(verb) => format!("{verb} {}", passing.of),
@@ -129,7 +129,7 @@ mod tests {
 
     /// Ahead of and behind an oncoming vehicle mean to go before it and to give way to it.
     #[test]
-    fn the_words_for_oncoming_vehicles_are_of_right_of_way() {
+    fn passing_an_oncoming_vehicle_is_described_as_right_of_way() {
         let scenario = load("overtaking/oncoming", &[]).expect("embedded");
         let said = |of: &str, side| {
             passing_sentence(&scenario, scenario.ego_index(), &PlannedPassing { of: of.to_owned(), side })
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_have_words_on_one_road_and_not_where_routes_turn() {
+    fn passing_sides_are_described_unless_routes_turn() {
         let said = |name: &str, position| {
             let scenario = load(name, &[]).expect("embedded");
             let other = usize::from(scenario.ego_index() == 0);

@@ -1,4 +1,4 @@
-//! What vehicles request of each other by their proposals, and the answers, in words.
+//! The requests that vehicles make of each other by their proposals, and the answers, in words.
 
 use interplay_planners::{Plan, PlanEvent, PlanEventKind, Proposal};
 use interplay_scenarios::Scenario;
@@ -24,8 +24,8 @@ const MIN_REQUEST_WIDTHS: f64 = 0.5;
 
 /// The open requests of all vehicles.
 ///
-/// A vehicle that follows a proposal is then expected to move as proposed, so a request stays open once it was made, until one
-/// of both vehicles has reached its goal.
+/// A vehicle that follows a proposal is then expected to move as proposed, so a request stays open once it was made,
+/// until one of the two vehicles has reached its goal.
 #[derive(Clone, Debug, Default)]
 pub struct Requests {
     /// For each vehicle: the vehicles that it addresses without interruption, each with whether it requests a change of motion.
@@ -119,7 +119,7 @@ mod tests {
 
     /// The request stays open, and has an answer, as long as the crossing vehicle is asked to wait.
     #[test]
-    fn a_vehicle_that_yields_was_requested_to() {
+    fn a_request_stays_open_while_the_other_vehicle_is_asked_to_wait() {
         let said = sentences("intersection/nice");
         assert!(said.iter().all(|words| words.starts_with("asks crossing to take the dotted way")), "{said:?}");
         assert!(said.last().is_some_and(|words| words.contains("accepts")), "{said:?}");

@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_say_what_one_may_do() {
+    fn road_marks_show_permitted_turns_stops_and_lane_changes() {
         let crossing = shapes("left-turn/nice");
         assert!(crossing.arrows.iter().any(|(.., ways)| ways.left && ways.straight), "a choice of ways");
         assert!(!shapes("all-way-stop/four").stop_lines.is_empty());
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_lines_keep_their_form_with_few_points() {
+    fn simplified_lines_keep_their_shape_with_few_points() {
         let arc: Vec<[f64; 2]> = (0..=400).map(|i| libm::sincos(f64::from(i) / 400.0)).map(|(x, y)| [x, y]).collect();
         let few = simplified(&arc, 1e-3);
         assert!(few.len() > 5 && few.len() < 40, "{}", few.len());
@@ -376,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn dashes_do_not_depend_on_where_the_picture_begins() {
+    fn dash_positions_do_not_depend_on_the_picture_extent() {
         let all = dashes([-10.0, 10.0], 0.8);
         let some = dashes([-3.1, 4.0], 0.8);
         assert!(some.iter().all(|dash| all.contains(dash)) && some.len() > 3);

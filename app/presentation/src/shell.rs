@@ -18,7 +18,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Whether a program of that name is in a folder of the path.
+/// Whether a program with this name is in a folder of `PATH`.
 pub fn is_on_path(program: &str) -> bool {
     let is_program = |file: PathBuf| file.is_file() || file.with_extension("exe").is_file();
     let folders = env::var_os("PATH").unwrap_or_default();
@@ -32,13 +32,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn plain_words_stay_as_they_are() {
+    fn words_without_special_characters_are_not_quoted() {
         assert_eq!(line(["run", "a/b.toml", "--set", "x.y=1.5"]), "run a/b.toml --set x.y=1.5");
         assert_eq!(line(["--set", r#"title="It's""#, ""]), r#"--set 'title="It'\''s"' ''"#);
     }
 
     #[test]
-    fn a_shell_reads_the_words_again() {
+    fn a_shell_splits_a_quoted_line_into_the_same_words() {
         let words = ["a b", "it's", "$HOME `ls` \\ \"q\"", "*?[x]~#!&|;<>(){}", "", "line\nbreak", "Größe=ü", "-x"];
         let script = format!("for word in {}; do printf '%s\\0' \"$word\"; done", line(words));
         let output = Command::new("sh").args(["-c", &script]).output().expect("there is a shell");

@@ -134,7 +134,7 @@ pub fn shown_extent(scenario: &Scenario, moment: &CameraFrame, largest: &Largest
     if kept.len() > 1 {
         return shown;
     }
-    // No further vehicle fits: extend as far as possible toward the next one.
+    // If no further vehicle fits, the extent grows as far as possible toward the next one.
     let largest_m = if partners.is_empty() { largest.usual_m } else { largest.spoken_of_m };
     let is_coming = |next: usize| {
         let is_near = away_m(next) < NEAR_WIDTHS * largest_m[0];
@@ -201,7 +201,8 @@ const MAX_LABELLED: usize = 8;
 /// Vehicles of a crowd are described within this distance from the ego, in lengths of their bodies.
 const NEAR_LENGTHS: f64 = 30.0;
 
-/// For each vehicle whether a recording has its plans, numbers and words at a tick: always, but in a crowd only near the ego.
+/// For each vehicle, whether a recording contains its plans, numbers and words at a tick: always, except that in a
+/// crowd only vehicles near the ego have them.
 pub fn described(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     let ego = frame.vehicles.get(scenario.ego_index());
     let is_near = |(vehicle, stated): (&VehicleFrame, &Vehicle)| {
@@ -216,7 +217,7 @@ pub fn described(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     frame.vehicles.iter().zip(&scenario.vehicles).map(is_near).collect()
 }
 
-/// For each vehicle whether it has a label: the ego and the vehicles nearest to it.
+/// For each vehicle, whether it has a label: the ego and the vehicles nearest to it have one.
 pub fn labelled(scenario: &Scenario, frame: &Frame) -> Vec<bool> {
     let mut near = nearest_vehicles(scenario, frame);
     near.truncate(MAX_LABELLED);

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use interplay_planners::road::network::{Lane, LaneNeighbour, LightColour, LightCycle, RoadNetwork, RouteLeg};
+use interplay_planners::scene::IndicatorSide;
 use interplay_planners::{Route, State};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::VehicleFrame;
@@ -18,25 +19,21 @@ const TURN_AHEAD_LANES: f64 = 5.0;
 /// Time before crossing the line from which a lane change is indicated \[s\], at 1/10 scale: 3 s of a real car.
 const LANE_CHANGE_AHEAD_S: f64 = 1.0;
 
-/// The side on which a vehicle indicates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IndicatorSide {
-    /// The vehicle moves to the left.
-    Left,
-    /// The vehicle moves to the right.
-    Right,
-}
-
 /// Whether an acceleration lights the brake lights.
 pub fn is_braking(acceleration_mps2: f64) -> bool {
     acceleration_mps2 < BRAKING_MPS2
 }
 
-/// The side on which a vehicle indicates, if its plan changes the lane or turns on a network.
+/// The side on which a vehicle indicates, if it changes the lane or turns on a network. Among people the change of lane is part of their
+/// state; in other files, where plans are told, it is that of the plan.
 pub fn indicator_side(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<IndicatorSide> {
     let states = &seen.plan.trajectory.states;
     let ahead = (LANE_CHANGE_AHEAD_S * vehicle.body.time_ratio() / scenario.step_s).ceil() as usize;
-    let to_another_lane = lane_change(scenario, vehicle, &states[..states.len().min(ahead + 1)]);
+    if !vehicle.tells_plan() && seen.indicator.is_some() {
+        return seen.indicator;
+    }
+    let told = if vehicle.tells_plan() { &states[..states.len().min(ahead + 1)] } else { &[] };
+    let to_another_lane = lane_change(scenario, vehicle, told);
     let along_m = vehicle.route.along(seen.state.position());
     let leftward = to_another_lane.or_else(|| turned_rad(scenario, &vehicle.route, along_m))?;
     Some(if leftward > 0.0 { IndicatorSide::Left } else { IndicatorSide::Right })
@@ -106,7 +103,7 @@ fn on_network(network: &RoadNetwork, states: &[State]) -> Option<f64> {
         let beside: &Option<LaneNeighbour> = if off > 0.0 { &lane.left } else { &lane.right };
         let holds = |neighbour: &LaneNeighbour| network.lane(&neighbour.lane).is_some_and(|lane| contains(lane, state));
         if off.abs() > 0.5 + OVER_THE_LINE_LANES && beside.as_ref().is_some_and(holds) {
-            // In a lane that is driven against its direction, the left of the lane is the right of the vehicle.
+            // In a lane that is driven against its direction, its left is the right of the vehicle.
             return Some(off.copysign(off * libm::cos(state.heading_rad - point.heading_rad)));
         }
     }

@@ -1,4 +1,4 @@
-//! Why recordings give no result.
+//! Errors of recordings that cannot be evaluated.
 
 use std::io;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Recorded traffic beside the drivers of Interplay.
+//! Recorded traffic compared with the drivers of Interplay.
 //!
 //! ```text
 //! files -> joined traffic (`traffic`) -> starts in the frame of a lane (`start`) -> predictions (`models`) -> measures (`measure`)

@@ -65,7 +65,7 @@ fn drive_every_way(road: &str, lane: &str, speeds_mps: &[f64]) -> usize {
 
 /// At speeds below, at and above the limit of the road from which it comes.
 #[test]
-fn idm_stays_on_its_road_in_every_turn_of_every_short_form() {
+fn an_idm_driver_stays_on_the_road_in_every_turn_of_every_junction() {
     let speeds_mps = [8.0, 10.0, 12.0, 13.9, 18.0];
     assert_eq!(drive_every_way("kind = 't-junction'", "west-in", &speeds_mps), 6);
     assert_eq!(drive_every_way("kind = 't-junction'\nturning_lanes = true", "west-in", &speeds_mps), 8);
@@ -79,7 +79,7 @@ fn idm_stays_on_its_road_in_every_turn_of_every_short_form() {
 
 /// Roads of pieces have no speed limits; the tyres limit the speed.
 #[test]
-fn idm_stays_on_its_road_in_a_curve() {
+fn an_idm_driver_stays_on_the_road_in_a_curve() {
     let pieces = "pieces = [{ straight_m = 80 }, { turn_deg = 90, radius_m = 20 }, { turn_deg = -90, radius_m = 15 }]";
     for (lane, speed_mps) in [("0", 8.0), ("0", 14.0), ("1", 14.0), ("0", 20.0), ("1", 20.0)] {
         let road = format!("kind = 'curve'\nlane_width_m = 3.5\n{pieces}");

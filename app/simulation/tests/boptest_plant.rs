@@ -156,7 +156,7 @@ fn run(config: BoptestPlantConfig) -> Result<Report, String> {
 }
 
 #[test]
-fn heat_becomes_inputs_and_measurements_become_indicators() {
+fn a_boptest_run_sends_heat_and_computes_the_indicators() {
     let (url, asked) = server(sound);
     let building = run(config(url)).expect("a run").building.expect("a building");
     let benchmark = building.benchmark.expect("indicators");
@@ -185,7 +185,7 @@ fn heat_becomes_inputs_and_measurements_become_indicators() {
 }
 
 #[test]
-fn forecasts_prices_and_bounds_come_from_the_case() {
+fn a_boptest_case_provides_forecasts_prices_and_comfort_bounds() {
     let (url, _) = server(sound);
     let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };
     let mut scenario = scenario(BoptestPlantConfig { forecast: Some(forecast), ..config(url) });
@@ -211,7 +211,7 @@ fn forecasts_prices_and_bounds_come_from_the_case() {
 }
 
 #[test]
-fn learning_and_economic_designs_run_on_the_case() {
+fn learning_and_economic_controllers_run_on_a_boptest_case() {
     for kind in ["economic-mpc", "model-predictive", "iterative", "concurrent"] {
         let (url, _) = server(sound);
         let forecast = BoptestForecast { zones: vec!["1".to_owned()], ..BoptestForecast::default() };

@@ -65,7 +65,7 @@ fn perfect_foresight_has_no_regret() {
 
 /// The digest of each part changes with its inputs, and with no later part.
 #[test]
-fn digests_identify_the_part_that_differs() {
+fn building_digests_identify_the_part_that_differs() {
     let digests = |changes: &[&str]| filmed("building/four-room-pid", changes).0.digests;
     let (one, two) = (digests(&["iterations=1"]), digests(&["iterations=2"]));
     assert_ne!(one.disturbance, one.control);

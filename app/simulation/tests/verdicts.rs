@@ -35,7 +35,7 @@ fn holds_up_to(name: &str, changes: &[String], path: &str, what: &str, got: f64,
 const DRIVE: &str = "intersection/nice";
 
 #[test]
-fn bounds_of_a_drive_hold_up_to_the_measured_value() {
+fn bounds_on_a_drive_hold_exactly_up_to_the_measured_value() {
     let plain = report(DRIVE, &[]);
     let ego = plain.vehicle("ego").expect("an ego");
     let gap_m = plain.min_gap_m().expect("two vehicles");
@@ -70,7 +70,7 @@ fn bounds_of_a_drive_hold_up_to_the_measured_value() {
 }
 
 #[test]
-fn orders_and_contacts_are_judged() {
+fn expectations_on_passing_orders_and_contacts_are_judged() {
     let verdict = |name: &str, change: &str, what: &str| judged(name, &[change.to_owned()], what).passed;
     let order = report(DRIVE, &[]).order;
     let reversed: Vec<&String> = order.iter().rev().collect();
@@ -126,7 +126,7 @@ const BUILDING: &str = "building/distributed";
 
 /// The worst of the days that count is judged.
 #[test]
-fn bounds_of_a_building_hold_up_to_the_worst_day() {
+fn bounds_on_a_building_hold_exactly_up_to_its_worst_day() {
     let changes = ["iterations=3".to_owned(), "expect.building.after_iterations=1".to_owned()];
     let plain = report(BUILDING, &changes).building.expect("a building");
     let days = &plain.iterations[1..];
@@ -169,7 +169,7 @@ fn bounds_of_a_building_hold_up_to_the_worst_day() {
 
 /// A zone is judged by its own figures, on the days that count.
 #[test]
-fn bounds_of_a_zone_hold_up_to_the_worst_day() {
+fn bounds_on_a_zone_hold_exactly_up_to_its_worst_day() {
     let changes = ["iterations=3".to_owned(), "expect.building.after_iterations=1".to_owned()];
     let plain = report(BUILDING, &changes).building.expect("a building");
     let zone = &plain.zone_figures[1];

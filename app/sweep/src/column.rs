@@ -87,7 +87,7 @@ const TASK: [TrafficColumn; 17] = [
         json!(run.report.collisions.iter().map(|contact| contact.impulse_ns).max_by(f64::total_cmp))
     }),
     ("order", Text, |run| json!(run.report.order.join(" "))),
-    // In the order, or on a network one more than the conflict zones in which another went first.
+    // The position in the passing order; on a network, one more than the number of conflict zones in which another vehicle went first.
     ("ego_place", Count, |run| match run.scenario.network {
         Some(_) => json!(1 + run.goes_second().count()),
         None => json!(run.report.order.iter().position(|name| *name == run.ego.name).map_or(0, |index| index + 1)),
@@ -162,7 +162,7 @@ impl EgoRun<'_> {
         !self.ego.keeps_rules || (is_on_road && number("rules_broken") == 0.0 && number("deadlocks") == 0.0)
     }
 
-    /// The values of all columns about vehicles, by their names.
+    /// The values of all columns about vehicles, each with its name.
     pub fn values(&self) -> impl Iterator<Item = (String, Json)> {
         let fixed = TASK.iter().chain(&PLANS).map(|(name, _, value)| ((*name).to_owned(), value(self)));
         let of_run_and_ego = self.report.metrics.0.iter().chain(&self.ego.metrics.0);

@@ -7,7 +7,7 @@ use interplay_scenarios::LoadError;
 use interplay_tables::TableError;
 use thiserror::Error;
 
-/// Why a sweep, a merge or a comparison gave up.
+/// Why a sweep, a merge or a comparison failed.
 #[derive(Debug, Error)]
 pub enum SweepError {
     /// Runs of the plan are refused; nothing was run.
@@ -52,7 +52,7 @@ pub enum SweepError {
 }
 
 impl SweepError {
-    /// Whether the input is at fault, and not the machine.
+    /// Whether the input causes the error, and not the machine.
     pub fn is_bad_input(&self) -> bool {
         matches!(
             self,

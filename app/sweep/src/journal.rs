@@ -193,7 +193,7 @@ impl JournalIndex {
             text.clear();
             let length = reader.read_until(b'\n', &mut text).map_err(&failed)?;
             if text.last() != Some(&b'\n') {
-                // The end, or a torn line, or one that is being written.
+                // This is the end, a torn line, or a line that is being written.
                 return Ok(());
             }
             if text.len() > 1 {

@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_with_a_flipped_bit_is_never_sound() {
+    fn a_journal_line_with_a_flipped_bit_fails_its_checksum() {
         let line = line_of("{\"key\":1,\"smallest_gap_m\":0.25}").into_bytes();
         assert_eq!(judged(&line), JournalLine::Sound);
         for bit in 0..8 * (line.len() - 1) {

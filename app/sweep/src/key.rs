@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keys_read_back_exactly_and_depend_on_the_boundaries_of_parts() {
+    fn run_keys_read_back_exactly_and_depend_on_part_boundaries() {
         let key = RunKey::of_parts(&["ab", "c"]);
         assert_eq!(key.to_string().parse(), Ok(key));
         assert_ne!(key, RunKey::of_parts(&["a", "bc"]));

@@ -53,13 +53,13 @@ impl PeopleRows {
         Ok(PeopleRows { folder: folder.to_owned(), journal, participants: participants as u32 })
     }
 
-    /// The number of the next person, from 1.
+    /// Assigns the number of the next participant, counted from 1.
     pub fn begin_participant(&mut self) -> u32 {
         self.participants += 1;
         self.participants
     }
 
-    /// Makes the row of a run by repeating the played run, and writes the table of the folder again.
+    /// Repeats a played run to make its row, and rewrites the table of the folder.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -83,7 +83,7 @@ fn measured(plan: &SweepPlan, run: &PersonRun<'_>) -> Result<SweepRow, SweepErro
         point.planner = PERSON.to_owned();
     } else {
         point.style = PERSON.to_owned();
-        // Pairs of two planners belong to one person.
+        // The sample number identifies the person, so that comparisons pair the runs of one person.
         point.sample += number * plan.run_count();
     }
     let row = measured_run(key, &point, run.played, None)?;

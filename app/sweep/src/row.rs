@@ -65,8 +65,8 @@ impl SweepRow {
         SweepRow { scenario, family, style, planner, sample, seed, inputs: inputs.into_iter().collect(), ..self }
     }
 
-    /// Whether the run deserves a closer look: it has no result, or the ego did not complete its task without contact; without vehicles,
-    /// an expectation failed.
+    /// Whether the run failed: it has no result, or the ego did not complete its task without
+    /// contact; without vehicles, an expectation failed.
     pub fn is_failure(&self) -> bool {
         self.result.as_ref().is_none_or(|result| match &result.traffic {
             Some(traffic) => traffic.get("success") != Some(&Json::Bool(true)),

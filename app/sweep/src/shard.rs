@@ -48,10 +48,10 @@ pub enum ShardError {
 }
 
 impl Shard {
-    /// All runs.
+    /// The shard that contains all runs.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
-    /// Number `index`, from 1, of `count`.
+    /// The shard number `index`, from 1, of `count`.
     ///
     /// # Errors
     /// [`ShardError::Beyond`].
@@ -92,7 +92,7 @@ impl Shard {
         }
     }
 
-    /// Whether a run belongs to it.
+    /// Whether a run belongs to this shard.
     pub fn holds(self, key: RunKey) -> bool {
         key.number() % u128::from(self.count) == u128::from(self.index - 1)
     }

@@ -26,10 +26,10 @@ pub(crate) const PLAN_FILE: &str = "plan.toml";
 pub(crate) const PLAN_NOTE: &str = "interplay.plan";
 pub(crate) const SHARD_NOTE: &str = "interplay.shard";
 
-/// Keeps a recording of a run that deserves a closer look. Called from several threads.
+/// Keeps a recording of a failed run. Called from several threads.
 pub type KeepRecording<'a> = &'a (dyn Fn(&SweepRow, &Scenario) -> Result<(), String> + Sync);
 
-/// How a plan is run.
+/// How a plan is executed.
 pub struct SweepOptions<'a> {
     /// The folder of journals and results; it is created if it does not exist.
     pub folder: &'a Path,

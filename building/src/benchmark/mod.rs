@@ -64,7 +64,7 @@ impl Indicators {
         })
     }
 
-    /// Mean share of a control step that the controller took (`time_rat`): the mean of `control_s` over `step_s`, both \[s\]; none
+    /// Mean share of a control step that the controller took (`time_rat`): the mean of `control_s` over `step_s`, both \[s\]; `None`
     /// before the first decision.
     pub fn computational_time_ratio(control_s: &[f64], step_s: f64) -> Option<f64> {
         (!control_s.is_empty()).then(|| control_s.iter().sum::<f64>() / control_s.len() as f64 / step_s)
@@ -135,7 +135,7 @@ fn peak(times_s: &[f64], values: impl Fn(usize) -> f64) -> Option<f64> {
     peak
 }
 
-/// What carries the energy of a power signal.
+/// The carrier of the energy of a power signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// Electricity (`ElectricPower`).
@@ -161,7 +161,7 @@ pub struct PowerSignal {
     pub emission_kg_per_kwh: Vec<f64>,
 }
 
-/// The temperature of a zone and the band in which it is comfortable, at each time \[°C\]; kelvin serve as well.
+/// The temperature of a zone and its comfort band at each time, all in °C or all in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThermalZone {
     /// Operative or air temperature.
@@ -207,7 +207,7 @@ pub struct MeasuredRun {
     pub water: Vec<Water>,
 }
 
-/// Measurements of which no indicators can be computed.
+/// Why indicators cannot be computed from measurements.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeasurementError {
     /// There are fewer than two times, so an integral is not defined.
@@ -251,7 +251,7 @@ pub enum MeasurementError {
 }
 
 impl MeasuredRun {
-    /// Refuses measurements of which no indicators can be computed.
+    /// Refuses measurements from which indicators cannot be computed.
     ///
     /// # Errors
     /// [`MeasurementError`], of the first fault.

@@ -1,4 +1,4 @@
-//! Which day of a run is a working day, part of a weekend, or a holiday.
+//! Determines whether a day of a run is a working day, a weekend day or a holiday.
 
 use jiff::civil::{Date, Weekday as CivilWeekday};
 use schemars::JsonSchema;
@@ -53,7 +53,7 @@ const WEEK: [Weekday; 7] = [
     Weekday::Sunday,
 ];
 
-/// The weekday of a day, or that it is a holiday.
+/// The kind of a day: its weekday, or a holiday.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DayKind {
     /// A weekday that is not a holiday.
@@ -70,7 +70,7 @@ pub struct RunDays {
     holidays: Vec<usize>,
 }
 
-/// A date of the calendar that cannot be read or is missing.
+/// Why the date of a calendar cannot be used: it is unreadable or missing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CalendarError {
@@ -93,7 +93,7 @@ impl Weekday {
         WEEK.into_iter().find(|weekday| format!("{weekday:?}").eq_ignore_ascii_case(word))
     }
 
-    /// The weekday of a midnight, in days since noon of the 1st of January 2000, a Saturday.
+    /// The weekday of the day that begins at a midnight, given in days since noon of 1 January 2000, a Saturday.
     pub fn of_local_days(local_days: f64) -> Self {
         let since_monday = (local_days + 0.5).round() + 5.0;
         WEEK[since_monday.rem_euclid(WEEK.len() as f64) as usize]
@@ -178,7 +178,7 @@ impl Calendar {
     }
 }
 
-/// The midnight at the start of a date, in days since noon of the 1st of January 2000, on the clocks of the place.
+/// The midnight at the start of a date, in days since noon of 1 January 2000, on local clocks.
 pub fn local_days(date: Date) -> f64 {
     days_since_2000(i32::from(date.year()), date.month(), date.day())
 }
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_date_the_weather_file_says_the_weekday() {
+    fn without_a_date_the_weather_file_determines_the_weekday() {
         let days = calendar(None, &[]).days(Weekday::named(" SUNDAY ")).expect("no dates");
         assert_eq!([days.kind(0), days.kind(1)], [Weekday::Sunday, Weekday::Monday].map(DayKind::Plain));
         assert_eq!(calendar(None, &[]).days(None), Ok(RunDays::default()));

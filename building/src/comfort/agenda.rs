@@ -49,7 +49,7 @@ impl Agenda {
         Self { tariff: Some(tariff), ..self }
     }
 
-    /// The targets of day `day`, counted from zero; with those of the next day if days differ.
+    /// The targets of day `day`, counted from zero. If days differ, they include the targets of the next day.
     pub fn of_day(&self, day: usize) -> Targets {
         let mut targets = self.alone(day);
         let bounded = self.bounds.is_some();
@@ -59,7 +59,7 @@ impl Agenda {
         targets
     }
 
-    /// The currency of prices; none without a tariff.
+    /// The currency of prices; `None` without a tariff.
     pub fn currency(&self) -> Option<&str> {
         self.tariff.as_ref().map(|tariff| tariff.currency.as_str())
     }
@@ -126,8 +126,8 @@ const DAY_S: f64 = 86_400.0;
 
 /// The lowest and the highest comfortable temperature of each zone over a run.
 ///
-/// A zone counts as occupied where its bounds are closest together: there it has a wanted temperature and a band that reaches down to the
-/// lower bound. At other times it is free, or wanted at `other_c` of the setpoints.
+/// A zone counts as occupied where its bounds are closest together: there it has a wanted temperature and a band that reaches down
+/// to the lower bound. At other times its temperature is free, or the setting `other_c` of the setpoints states it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComfortBounds {
     /// How long each value holds \[s\].

@@ -60,7 +60,7 @@ impl Default for Setpoints {
     }
 }
 
-/// Setpoints that are out of range, or do not fit a building.
+/// Why setpoints are refused: a value is out of range, or they do not fit the building.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SetpointsError {
     /// The number of wanted temperatures is neither 1 nor that of the zones.
@@ -156,8 +156,8 @@ impl Targets {
         self.reference_c.len() / self.zones.max(1)
     }
 
-    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` is
-    /// an index of stacked quantities.
+    /// Amount by which a temperature is beyond the comfort band \[K\]; 0 within the band, and while the zone is not
+    /// occupied. `i` is an index of stacked quantities.
     ///
     /// # Panics
     /// When `i` is out of range.
@@ -198,8 +198,8 @@ impl Targets {
         self.row(t).map(|i| self.occupied[i].then_some(self.band_k[i])).collect()
     }
 
-    /// The same targets where the outdoor temperature of each step is `outdoor_c`: with a heat pump, heat counts more where the
-    /// COP is low.
+    /// The same targets at the outdoor temperature `outdoor_c` of each step: with a heat pump, the cost of heat rises
+    /// where the COP is low.
     #[must_use]
     pub fn under(&self, outdoor_c: &[f64]) -> Cow<'_, Self> {
         if self.supply.heat_pump.is_none() {
@@ -208,7 +208,7 @@ impl Targets {
         let mut targets = self.clone();
         targets.supply.outdoor_c = outdoor_c.to_vec();
         for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
-            // Without weights of prices the COP does not count either.
+            // Without price weights, the COP has no effect either.
             let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones))
             else {
                 break;
@@ -219,8 +219,8 @@ impl Targets {
         Cow::Owned(targets)
     }
 
-    /// The targets of the `steps` steps from step `t` of the day on: after midnight those of tomorrow, which begin again as
-    /// often as needed.
+    /// The targets of the next `steps` steps, from step `t` of the day on. After midnight they are those of tomorrow,
+    /// repeated as often as needed.
     #[must_use]
     pub fn ahead(&self, t: usize, steps: usize) -> Self {
         let tomorrow = self.tomorrow.as_deref().unwrap_or(self);

@@ -1,4 +1,4 @@
-//! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
+//! A controller that knows the disturbances of the day in advance. It is the reference for the cost of the other controllers.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,17 +1,17 @@
-//! Learning from neighbours, and when it converges (section 5.2, corrected).
+//! Learning from neighbours, and the conditions under which it converges (section 5.2, corrected).
 //!
-//! A zone's cooperative error adds how much worse it fares than its neighbours (5.1):
+//! A zone's cooperative error is its own error plus the differences from the errors of its neighbours (5.1):
 //!
 //! ```text
 //! e_i = E_i + Σ_j∈N(i) (E_i − E_j)           e = Ω E,   Ω = I + the Laplacian of the graph of zones
 //! U_k+1 = U_k + L Ω E_k + C (E_k+1 − …)      E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k    on days that are all the same
 //! ```
 //!
-//! The dissertation calls Ω the adjacency matrix with ones on the diagonal. That has a negative eigenvalue wherever two neighbours of a
-//! zone are not neighbours of each other, and then any uniform L > 0 diverges. It also equates spectral radius, largest singular
-//! value and diagonal. The radius of the block lower triangular matrix is that of its diagonal blocks,
-//! max_t ρ(I − B diag(L_i(t,t)) Ω), and decides the end; the largest singular value decides whether errors grow on the way, and may
-//! be far above one when the radius is below.
+//! The dissertation calls Ω the adjacency matrix with ones on the diagonal. That matrix has a negative eigenvalue if
+//! two neighbours of a zone are not neighbours of each other, and then any uniform L > 0 diverges. The dissertation
+//! also equates spectral radius, largest singular value and diagonal. The radius of the block lower triangular matrix
+//! is that of its diagonal blocks, max_t ρ(I − B diag(L_i(t,t)) Ω), and decides whether the errors vanish in the end;
+//! the largest singular value decides whether they grow before, and may be far above one when the radius is below.
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -36,7 +36,8 @@ pub enum LearnedErrors {
 }
 
 impl LearnedErrors {
-    /// What is learned from stacked errors \[K\]. An error without a weight does not count, and 0 is learned in its place.
+    /// The errors from which each zone learns, given all errors, stacked \[K\]. An error without a weight is left out,
+    /// and its zone learns 0.
     pub fn combine(self, lifted: &Lifted, errors_k: &[Option<f64>]) -> Vec<f64> {
         let n = lifted.zones();
         let mut out: Vec<f64> = errors_k.iter().map(|error_k| error_k.unwrap_or(0.0)).collect();
@@ -105,8 +106,8 @@ impl LearningLaw {
         Self(vec![law; zones])
     }
 
-    /// The smallest law that turns yesterday's cooperative errors into the change of the feedforward: row by row,
-    /// L(t, ·) = v(t) e(·)ᵀ / ‖e‖² over the errors up to e(t + 1) (eq. 5.3).
+    /// The smallest law that maps yesterday's cooperative errors to the change of the feedforward: row by row, L(t, ·)
+    /// = v(t) e(·)ᵀ / ‖e‖² over the errors up to e(t + 1) (eq. 5.3).
     pub fn recovered(zones: usize, change_kw: &[f64], cooperative_k: &[f64]) -> Self {
         let steps = change_kw.len() / zones;
         let law = |i: usize| {

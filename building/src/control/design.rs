@@ -32,7 +32,7 @@ pub struct Design {
     pub exchange: Option<Exchange>,
 }
 
-/// How zones that send messages to their neighbours agreed on a plan.
+/// The exchange of messages in which zones agreed on a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exchange {
     /// Cost J before the first round and after each.

@@ -1,4 +1,4 @@
-//! The disturbance that is expected, corrected by what was measured on earlier days.
+//! The expected disturbance, corrected by measurements of earlier days.
 //!
 //! After day k, the temperatures T_k and inputs U_k determine the disturbance D_k, expressed as zone heat:
 //!

@@ -184,12 +184,12 @@ pub enum ControlError {
 }
 
 impl ControlError {
-    /// Whether the controller had a plan nevertheless.
+    /// Whether the controller had a plan in spite of the error.
     pub fn has_plan(&self) -> bool {
         matches!(self, Self::AlternatingInputs { .. })
     }
 
-    /// What a controller did instead, after the words "day 2" or "this day".
+    /// What the controller did instead of planning, after the words "day 2" or "this day".
     pub fn consequence(&self) -> &'static str {
         match self {
             Self::StepWithoutPlan { .. } => "followed an older plan for some steps",

@@ -87,7 +87,7 @@ impl Disturbance {
     }
 }
 
-/// The settings of one kind of controller, with all that is known of such a controller before its first day.
+/// The settings of one kind of controller, and everything about such a controller that is known before its first day.
 pub trait ControllerKind: fmt::Debug + Send + Sync {
     /// The word for this kind in a scenario file.
     fn kind(&self) -> &'static str;

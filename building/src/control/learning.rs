@@ -7,9 +7,9 @@
 //! U_k      = U_ff,k + C E_k                         C a PID controller per zone
 //! ```
 //!
-//! Ω is the identity, or makes a zone learn from its neighbours as well ([`LearnedErrors`]). P-type is l_d = 0. The error e(t+1)
-//! is the first that u(t) influences. With a forecast, the expected change from yesterday to today is compensated; D̂ is the zone
-//! heat that has the effect of the forecast, G⁻¹ T_free. Where the temperature is free, nothing is learned.
+//! Ω is the identity, or combines the errors of neighbouring zones ([`LearnedErrors`]). P-type means l_d = 0. The error e(t+1) is the
+//! first that u(t) influences. With a forecast, the expected change from yesterday to today is compensated; D̂ is the zone heat that has
+//! the effect of the forecast, G⁻¹ T_free. While the temperature is free, nothing is learned.
 //!
 //! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − G L Ω) E_k. [`LearningSettings::convergence`]
 //! analyses I − G L Ω: its spectral radius decides whether the errors vanish in the end, its largest singular value whether

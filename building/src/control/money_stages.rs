@@ -1,13 +1,12 @@
-//! What heat costs in money and which temperatures are comfortable, stage by stage: the problem of the economic controller and of the
-//! optimum of a whole run.
+//! The price of heat and the comfort band, stage by stage: the problem of the economic controller and of the optimum of a whole run.
 //!
 //! ```text
 //! minimise    Σ h (price + emission price · emissions) (u⁺/COP_heating + u⁻/COP_cooling) + c h Σ s + ϖ p + terminal value
 //! subject to  |r − T| ≤ band − margin + s  while occupied,   0 ≤ u⁺ ≤ heating limit,   0 ≤ u⁻ ≤ cooling limit
 //! ```
 //!
-//! Where electricity has a negative price, heating and cooling at once would pay in the problem but not in reality. There the way that
-//! the weather suggests keeps its price, and the other one has the opposite price.
+//! If electricity has a negative price, simultaneous heating and cooling would pay in this problem but not in reality.
+//! In such a stage, the mode that suits the weather keeps its price, and the other mode has the opposite price.
 
 use crate::comfort::Targets;
 use crate::discretise::Model;

@@ -6,10 +6,10 @@
 //!             |u| ≤ limit,   |r − T| ≤ band + s while occupied,   s ≥ 0
 //! ```
 //!
-//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day. The cost of a
-//! controller beyond it is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
-//! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
-//! problem sparse: eliminated, it would be a dense one in G.
+//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day. The
+//! regret of a controller is its cost minus this cost. With forecast disturbances it is the day-ahead plan, to which
+//! the designs of chapters 3 to 5 reduce as printed. The states are variables (those of y, so that the rows have no
+//! constants), which keeps the problem sparse; eliminating them would make it dense in G.
 
 use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables};
 

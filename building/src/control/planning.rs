@@ -23,12 +23,12 @@ impl From<&DayOptimum> for DayPlan {
 }
 
 impl DayPlan {
-    /// û(t).
+    /// The planned heat û(t) of each zone.
     pub fn heat_at(&self, step: usize, zones: usize) -> &[f64] {
         &self.heat_kw[step * zones..(step + 1) * zones]
     }
 
-    /// T̂(t) − T(t), which is e(t) − ê(t); none at t = 0.
+    /// The deviation T̂(t) − T(t), which is e(t) − ê(t); `None` at t = 0.
     pub fn deviation_k(&self, step: usize, temperatures_c: &[f64]) -> Option<Vec<f64>> {
         let n = temperatures_c.len();
         let before = step.checked_sub(1)?;
@@ -46,7 +46,7 @@ pub(super) struct PlanHistory {
 }
 
 impl PlanHistory {
-    /// The plan of today; none before the first day has ended.
+    /// The plan of today; `None` before the first day has ended.
     pub fn plan(&self) -> Option<&DayPlan> {
         self.plan.as_ref()
     }
@@ -61,7 +61,7 @@ impl PlanHistory {
         &self.design
     }
 
-    /// Adopts the plan of a design; if it failed, the inputs and temperatures of yesterday (Remark 1 of chapter 3).
+    /// Adopts the plan of a design; if the design failed, adopts the inputs and temperatures of yesterday (Remark 1 of chapter 3).
     pub fn start_day(&mut self, outcome: Result<(Option<DayPlan>, Design), ControlError>) {
         let fallbacks = self.design.fallbacks;
         match outcome {

@@ -1,4 +1,5 @@
-//! What a linear map does in the long run and at most, from products with it alone: for maps that are too large to write down.
+//! The spectral radius and the largest singular value of a linear map, from its products with vectors: for maps that
+//! are too large to store.
 
 use crate::staged::dense::dot;
 

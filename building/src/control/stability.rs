@@ -99,7 +99,7 @@ pub(super) struct Certificate {
 }
 
 impl Certificate {
-    /// Declares F and S, of an order; `free` says which entries of F are unknowns.
+    /// Declares the unknown matrices F and S of order `order`; `free` says which entries of F are unknowns.
     pub fn new(program: &mut Program, order: usize, free: impl Fn(usize, usize) -> bool) -> Self {
         let places = || (0..order).flat_map(|j| (0..order).map(move |i| (i, j)));
         let unknown = program.variables("F", places().filter(|&(i, j)| free(i, j)).count());
@@ -119,7 +119,7 @@ impl Certificate {
         self.s.at(high * (high + 1) / 2 + low)
     }
 
-    /// The inequality with decay rate r = `decay` and `margin` I to spare; `moved` gives AF − BM entry by entry.
+    /// Adds the inequality with decay rate r = `decay` and a margin of `margin` I; `moved` gives AF − BM entry by entry.
     pub fn inequality(
         &self,
         program: &mut Program,
@@ -146,7 +146,7 @@ impl Certificate {
         }
     }
 
-    /// S ⪰ least I.
+    /// Adds the constraint S ⪰ `least` I.
     pub fn positive(&self, program: &mut Program, least: f64) {
         let block = program.semidefinite("S", self.order);
         for (i, j, weight) in triangle(self.order) {
@@ -155,7 +155,7 @@ impl Certificate {
         }
     }
 
-    /// tr S = order: the inequality is homogeneous, and its size has to be chosen.
+    /// Adds the constraint tr S = order, because the inequality is homogeneous and its scale is arbitrary.
     pub fn unit_trace(&self, program: &mut Program) {
         let block = program.equal("size of S");
         program.row(block, (0..self.order).map(|i| (self.s(i, i), 1.0)), self.order as f64);

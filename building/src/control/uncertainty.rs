@@ -138,7 +138,7 @@ impl Uncertainty {
         for (step_kw, busy) in error_kw.chunks_exact(targets.zones).zip(busy(targets)) {
             let mean = step_kw.iter().sum::<f64>() / n;
             let place = if busy { 1 } else { 2 };
-            // With a single zone, its own part and the common one cannot be separated.
+            // With a single zone, the zone's own part cannot be separated from the common one.
             let own = if n > 1.0 {
                 step_kw.iter().map(|kw| (kw - mean) * (kw - mean)).sum::<f64>() / (n - 1.0)
             } else {

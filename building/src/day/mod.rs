@@ -8,13 +8,13 @@
 //! end of the day  Day::learn    the controller gets the record
 //! ```
 //!
-//! The application calls these functions from its phases, [`run_day`] calls them in one go; no other loop exists.
+//! The application calls these functions from its phases, and [`run_day`] calls them in sequence; no other loop exists.
 //!
 //! # When a controller fails
 //!
-//! A design that finds no plan for a day is not an error: its controller repeats the day before, and says why
-//! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] when the controller
-//! cannot work with this building or this day at all. The run then ends with that error, and no temperature moves any more.
+//! If a design finds no plan for a day, this is not an error: its controller repeats the previous day and gives the reason
+//! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] if the controller cannot work with
+//! this building or this day at all. The run then ends with that error, and no temperature changes any more.
 
 mod key_figures;
 mod surroundings;
@@ -30,8 +30,8 @@ use crate::comfort::Targets;
 use crate::control::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::discretise::Model;
 
-/// The largest number of inputs of a day (zones times steps) for which its regret is computed: its optimum takes time in the
-/// cube of it where the model is dense.
+/// The largest number of inputs of a day (zones times steps) for which its regret is computed: where the model is
+/// dense, the optimum takes time proportional to the cube of that number.
 pub const MAX_REGRET_INPUTS: usize = 500;
 
 /// A day in progress.
@@ -69,7 +69,7 @@ impl Day {
         Self { initial_c, forecast, actual, record, outlook: None, expected_targets: None }
     }
 
-    /// The same day with a forecast of the day after.
+    /// The same day with a forecast of the next day.
     #[must_use]
     pub fn before(self, outlook: Option<Disturbance>) -> Self {
         Self { outlook, ..self }
@@ -115,7 +115,7 @@ impl Day {
         Heat { requested_kw, applied_kw }
     }
 
-    /// Heat from people, sun and machines in step `step`, one number for each node that gets any, zones first \[kW\].
+    /// Heat from people, sun and machines in step `step` \[kW\], zones first: one number for each node that can receive any.
     pub fn gains_kw(&self, plant: &Model, step: usize) -> &[f64] {
         let count = plant.network().gain_count();
         &self.actual.gains_kw[step * count..(step + 1) * count]

@@ -28,7 +28,8 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Weather and people of a building without recorded gains. Windows are dark where the weather does not say where the sun stands.
+    /// Weather and people of a building without recorded gains. Windows receive no sun if the weather does not state
+    /// the position of the sun.
     pub fn new(
         weather: Weather,
         (forecast, forecast_seed): (Forecast, u64),
@@ -41,8 +42,8 @@ impl Surroundings {
         Self { weather, forecast, forecast_seed, people, planes_w_per_m2, recorded: RecordedGains::default() }
     }
 
-    /// What is forecast at the midnight before day `day`, counted from zero. People are forecast as scheduled for the day. The sun is
-    /// forecast without error, except by [`Forecast::Persistence`], which repeats the day before.
+    /// The disturbance that is forecast at the midnight before day `day`, counted from zero. The forecast of people is their
+    /// schedule. The forecast of the sun has no error, except under [`Forecast::Persistence`], which repeats the day before.
     pub fn forecast(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
         let Self { weather, forecast, forecast_seed, people, .. } = self;
         let step_s = model.step_s();
@@ -60,8 +61,8 @@ impl Surroundings {
         }
     }
 
-    /// What is forecast for day `day + 1` at the midnight before day `day`: the error of the outdoor temperature goes on as it began. `None`
-    /// where the weather ends before.
+    /// The disturbance that is forecast for day `day + 1` at the midnight before day `day`; the error of the outdoor
+    /// temperature continues from the first day. `None` if the weather ends before.
     pub fn outlook(&self, model: &Model, steps: usize, day: usize) -> Option<Disturbance> {
         let (step_s, from_s) = (model.step_s(), (day + 1) as f64 * DAY_S);
         let scheduled_kw = self.people.scheduled_kw(day + 1, step_s, steps);

@@ -1,4 +1,4 @@
-//! The optimum of a whole run: perfect foresight of all its days, the true model, and the end that the run had.
+//! The optimum of a whole run, with perfect foresight of all its days, the true model, and the final temperatures of the run.
 //!
 //! ```text
 //! cost     minimise Σ W_e (r − T)² + W_u u²                       (3.2), over all days
@@ -6,9 +6,9 @@
 //! both     x(t+1) = A x(t) + B u(t) + d(t),   x(N) = the temperatures at which the run ended
 //! ```
 //!
-//! No controller that ends at these temperatures is cheaper, whatever it knows; that of a single day
-//! ([`crate::control::optimum()`]) leaves the building as it likes, so that a controller which looks further can be cheaper than a
-//! row of such days. Both are problems of stages ([`crate::staged`]): their time is linear in the length of the run.
+//! No controller that ends at these temperatures is cheaper, whatever it knows. The optimum of a single day
+//! ([`crate::control::optimum()`]) leaves the building in any final state, so a controller that looks further ahead can be cheaper
+//! than a sequence of such days. Both are problems of stages ([`crate::staged`]): their time is linear in the length of the run.
 
 use crate::comfort::Targets;
 use crate::control::{ControlError, Disturbance, money_stages};
@@ -28,7 +28,7 @@ const DISCOMFORT_PRICES: f64 = 100.0;
 /// Cost of a kelvin by which the end differs, as a multiple of what it could save.
 const END_FACTOR: f64 = 20.0;
 
-/// What happened on the days of a run, as far as its optimum depends on it.
+/// The history of a run, as far as its optimum depends on it.
 #[derive(Clone, Debug, Default)]
 pub struct RunHistory {
     initial_c: Vec<f64>,
@@ -62,7 +62,7 @@ impl RunHistory {
         self.end_c = end_c.to_vec();
     }
 
-    /// Whether the optimum takes at most some seconds.
+    /// Whether the optimum takes only a few seconds.
     pub fn is_small(&self) -> bool {
         let steps: usize = self.days.iter().map(|(targets, _)| targets.steps()).sum();
         OPERATIONS_PER_CUBE * (self.initial_c.len() as f64).powi(3).max(100.0) * steps as f64 <= MAX_OPERATIONS
@@ -108,7 +108,7 @@ impl RunHistory {
         Ok(self.outcome(model, &targets, &inputs, &solution))
     }
 
-    /// The least money that the run costs without discomfort, or with the least that is possible.
+    /// The least money that the run costs without discomfort, or with the least discomfort that is possible.
     ///
     /// # Errors
     /// [`ControlError`] if the problem is malformed or not solved.

@@ -1,4 +1,4 @@
-//! From the network to steps of time (eq. 2.16).
+//! The network in discrete time (eq. 2.16).
 //!
 //! Heat and outdoor temperature are held constant for a step h, so the temperatures move by a linear function of the net
 //! heat into each node at the start of the step,
@@ -48,7 +48,7 @@ pub enum Discretisation {
     Euler,
 }
 
-/// How the matrices of the exact discretisation are represented.
+/// The representation of the matrices of the exact discretisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// As matrices.
@@ -57,7 +57,7 @@ pub enum Form {
     Series,
 }
 
-/// Why a network cannot be discretised with a step.
+/// Why a network cannot be discretised with a time step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// The step is not a positive duration.
@@ -153,12 +153,12 @@ impl Model {
         self.step_s
     }
 
-    /// A method of discretisation in time.
+    /// The method of discretisation in time.
     pub fn method(&self) -> Discretisation {
         self.method
     }
 
-    /// Moves the temperatures by one step.
+    /// Advances the temperatures by one step.
     ///
     /// `temperatures_c` has one number per node (zones first), `heat_kw` from equipment (negative when cooling) one per zone, and
     /// `gains_kw` from people, sun and machines one for each of the first [`Network::gain_count`] nodes. Inputs are held for the
@@ -242,7 +242,7 @@ impl Model {
         matrix
     }
 
-    /// Eigenvalues of A, ascending. It takes time in the cube of the number of nodes.
+    /// Eigenvalues of A, ascending. Takes time proportional to the cube of the number of nodes.
     pub fn eigenvalues(&self) -> Vec<f64> {
         let rates_per_s = spectrum::rates_per_s(&self.network);
         let eigenvalue = |rate_per_s: f64| match self.method {
@@ -258,8 +258,8 @@ impl Model {
 }
 
 impl Network {
-    /// Time constants of all modes, descending \[s\]; infinite for heat that cannot leave. It takes time in the cube of
-    /// the number of nodes.
+    /// Time constants of all modes, descending \[s\]; infinite for heat that cannot leave. Takes time proportional to
+    /// the cube of the number of nodes.
     pub fn time_constants_s(&self) -> Vec<f64> {
         spectrum::rates_per_s(self).into_iter().map(|rate_per_s| 1.0 / rate_per_s).collect()
     }
@@ -305,7 +305,7 @@ impl Gain {
 
     /// f(C⁻¹L)·C⁻¹ as a series, without a matrix; `f` must be analytic around \[0, ∞).
     fn series(network: &Network, f: impl Fn(f64) -> f64) -> Self {
-        // A network without any conductance has the spectrum {0}; any interval will do.
+        // A network without any conductance has the spectrum {0}; then any interval is valid.
         let bound_per_s = rate_bound_per_s(network).max(f64::MIN_POSITIVE.sqrt());
         let coefficients = chebyshev(|x| f(0.5 * bound_per_s * (x + 1.0)));
         Self::Series(ChebyshevSeries { coefficients, inverse_root: inverse_root(network), bound_per_s })
@@ -385,7 +385,7 @@ fn chebyshev(f: impl Fn(f64) -> f64) -> Vec<f64> {
 /// Coefficients of the interpolating polynomial in the zeros of T_m.
 fn interpolated(f: impl Fn(f64) -> f64, points: usize) -> Vec<f64> {
     let m = points as f64;
-    // cos(kπ/2m) for all k that the sums need.
+    // The cosines cos(kπ/2m) for all k that the sums need.
     let cosines: Vec<f64> = (0..4 * points).map(|k| libm::cos(PI * k as f64 / (2.0 * m))).collect();
     let values: Vec<f64> = (0..points).map(|j| f(cosines[2 * j + 1])).collect();
     let coefficient = |k: usize| {

@@ -40,7 +40,7 @@ impl Spectrum {
                 out.column_mut(j).axpy(scale, &mode, 1.0);
             }
         }
-        // Exactly symmetric, whatever the order of the roundings.
+        // Copying makes the matrix exactly symmetric, whatever the order of the roundings.
         out.fill_upper_triangle_with_lower_triangle();
         out
     }

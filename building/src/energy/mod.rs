@@ -1,12 +1,12 @@
-//! What heat takes in electricity and costs in money: tariffs, and heat pumps whose efficiency depends on the weather.
+//! The electricity and the money that heat costs: tariffs, and heat pumps whose efficiency depends on the weather.
 //!
 //! ```text
 //! electric power  P = |u| / COP(T₀)                     money  Σ price · P · h
 //! W_u(t)         = W_u · price(t) / mean price · mean COP / COP(T₀(t))
 //! ```
 //!
-//! The second line is how controllers count it: the quadratic cost of heat in (3.2) is larger in an hour in which heat is
-//! expensive. The problem stays convex, and a constant price and COP leave it as it is.
+//! Controllers use the second line: the quadratic cost of heat in (3.2) is larger in an hour in which heat is
+//! expensive. The problem stays convex, and a constant price and COP do not change it.
 
 mod heat_pump;
 mod tariff;

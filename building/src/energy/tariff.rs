@@ -70,7 +70,7 @@ impl Default for Tariff {
     }
 }
 
-/// A tariff without a price to compare others with.
+/// Why a tariff is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct TariffError {
@@ -111,12 +111,12 @@ impl Tariff {
         self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
-    /// How many days the prices are.
+    /// The number of days that the prices cover.
     pub fn days(&self) -> f64 {
         self.prices_per_kwh.len() as f64 * self.interval_s / DAY_S
     }
 
-    /// Refuses prices that would begin anew in the middle of a day of a run of `days` days.
+    /// Refuses prices that, in a run of `days` days, would start again in the middle of a day.
     pub fn check_days(&self, days: usize) -> Result<(), TariffError> {
         let count = self.prices_per_kwh.len();
         if count == 0 || is_whole(self.days()) || is_whole(1.0 / self.days()) || self.days() >= days as f64 {
@@ -133,7 +133,7 @@ impl Tariff {
         Err(TariffError { key: "prices_per_kwh".into(), problem })
     }
 
-    /// Whether one day has other prices or emissions than the next.
+    /// Whether prices or emissions differ between days.
     pub fn days_differ(&self) -> bool {
         let has_prices = !self.prices_per_kwh.is_empty();
         (has_prices && !is_whole(1.0 / self.days())) || 24 % self.emissions_kg_per_kwh.len().max(1) != 0
@@ -198,7 +198,7 @@ pub struct EnergySupply {
 }
 
 impl EnergySupply {
-    /// Electric power that takes `heat_kw` out of a zone or brings it in \[kW\].
+    /// Electric power of the equipment that adds `heat_kw` to a zone or, if negative, removes it \[kW\].
     pub fn electric_kw(&self, step: usize, heat_kw: f64) -> f64 {
         match (&self.heat_pump, self.outdoor_c.get(step)) {
             (Some(heat_pump), Some(outdoor_c)) => heat_kw.abs() / heat_pump.cop(heat_kw > 0.0, *outdoor_c),
@@ -206,7 +206,7 @@ impl EnergySupply {
         }
     }
 
-    /// What `electric_kwh` cost in a step \[currency\]; none without a tariff.
+    /// The cost of `electric_kwh` in a step \[currency\]; `None` without a tariff.
     pub fn money(&self, step: usize, electric_kwh: f64) -> Option<f64> {
         Some(self.price_per_kwh.as_ref()?.get(step)? * electric_kwh)
     }

@@ -1,4 +1,4 @@
-//! From the coefficients of a sampled model to the rates of the continuous network.
+//! Converts the coefficients of a sampled model to the rates of the continuous network.
 //!
 //! Let M be the matrix of the losses in a step by eq. 2.3, T(t+1) = (I − M) T(t) + …: T_s Σ_k b_ik on the diagonal
 //! (with T_s a_i ṁ c_p of the supply air), −T_s b_ij beside it. A continuous network with rates A and inputs that are held

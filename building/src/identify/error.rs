@@ -2,7 +2,7 @@
 
 use interplay_common::setting::SettingError;
 
-/// Why an identification is not possible.
+/// Why an identification cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
     /// A setting is out of range.

@@ -41,7 +41,7 @@ pub(super) fn estimate(
 ) -> Result<Estimate, IdentifyError> {
     match settings.method {
         Estimator::Semiparametric => semiparametric(telemetry, model, segments, settings),
-        // The method of state space has an estimator of its own, for all zones together.
+        // The method `state-space` has its own estimator for all zones together.
         Estimator::PredictionError | Estimator::StateSpace => prediction_error(telemetry, model, segments, settings),
     }
 }
@@ -60,7 +60,7 @@ fn semiparametric(
     }
     let likelihood = LogLikelihood::new(&regression);
     let unconstrained = likelihood.maximum();
-    // What the smoother leaves of a disturbance is correlated over about two bandwidths.
+    // The residual of a disturbance after the smoother is correlated over about two bandwidths.
     let lags = libm::ceil(2.0 * bandwidth) as usize;
     let covariance =
         robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
@@ -85,7 +85,7 @@ fn prediction_error(
     let mut kept: Vec<usize> = (0..count).collect();
     let free = fit(&kept)?;
     let mut current = free.regression.clone();
-    // The most negative, by its column's length, is held at zero until none is negative.
+    // The most negative coefficient, scaled by the length of its column, is fixed at zero until none is negative.
     let effect = |index: usize, value: f64| value * column_length(&regression.columns[index]);
     loop {
         let negative = kept.iter().enumerate().filter(|(at, _)| current[*at] < 0.0);

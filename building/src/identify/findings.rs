@@ -1,4 +1,4 @@
-//! From estimates and residual models to a report.
+//! Makes a report from estimates and residual models.
 
 use std::ops::Range;
 

@@ -67,7 +67,8 @@ impl LogLikelihood {
         let count = self.scale.len();
         let mut free: Vec<usize> = Vec::new();
         let mut current = vec![0.0; count];
-        // Each round frees the coefficient that gains most. The method ends by itself; the limit guards against rounding.
+        // Each round frees the coefficient that improves the likelihood most. The method terminates by itself; the
+        // limit guards against rounding.
         for _ in 0..3 * count {
             let gradient = self.gradient(&current);
             let held = (0..count).filter(|index| !free.contains(index));
@@ -85,7 +86,8 @@ impl LogLikelihood {
     fn towards_maximum(&self, mut current: Vec<f64>, free: &mut Vec<usize>) -> Vec<f64> {
         loop {
             let target = self.newton_step(&current, free);
-            // How far towards the target a coefficient stays at least zero, and which meets zero first.
+            // The largest step towards the target that keeps every coefficient at least zero, and the coefficient that
+            // reaches zero first.
             let fraction = |i: usize| current[i] / (current[i] - target[i]);
             let negative = free.iter().copied().filter(|&i| target[i] < 0.0);
             let Some(first) = negative.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))) else {
@@ -103,7 +105,7 @@ impl LogLikelihood {
     /// ∇l with respect to the scaled coefficients.
     fn gradient(&self, coefficients: &[f64]) -> DVector<f64> {
         let scaled = DVector::from_fn(coefficients.len(), |i, _| scaled(coefficients[i], self.scale[i]));
-        // A matrix times a vector, unlike a product of matrices, rounds alike everywhere.
+        // Unlike a product of matrices, a product with a vector rounds in the same way on every processor.
         &self.moment - &self.gram * scaled
     }
 }

@@ -70,7 +70,7 @@ impl Physical<'_> {
         self.estimate.covariance[(index, index)].sqrt()
     }
 
-    /// What the coefficients mean.
+    /// The physical quantities that follow from the coefficients.
     pub fn quantities(&self) -> Vec<Quantity> {
         let mut quantities = vec![self.capacity()];
         for (index, coefficient) in self.coefficients.iter().enumerate() {
@@ -223,7 +223,7 @@ fn fieller((n, d): (f64, f64), (var_n, var_d, between): (f64, f64, f64)) -> (Opt
     if d > 0.0 && a > 0.0 {
         (Some(((b - root) / a).max(0.0)), Some(((b + root) / a).max(0.0)))
     } else {
-        // d may be zero, so n/d has no upper bound. Below, n is surely above zero only if c is positive.
+        // d may be zero, so n/d has no upper bound. A lower bound exists only if c and n are positive.
         let low = if c > 0.0 && n > 0.0 { n_over_largest_d(b, root, c) } else { 0.0 };
         (Some(low), None)
     }

@@ -52,7 +52,7 @@ enum Term {
 }
 
 impl ZoneModel {
-    /// The terms for which there is telemetry.
+    /// The zone model with a term for each measured quantity.
     pub fn new(telemetry: &Telemetry, zone: usize) -> Self {
         let measured = &telemetry.zones[zone];
         let mut terms: Vec<_> = telemetry.neighbours(zone).into_iter().map(Term::Wall).collect();
@@ -61,6 +61,7 @@ impl ZoneModel {
         Self { zone, terms }
     }
 
+    /// The coefficients of the model, in order.
     pub fn coefficients(&self, telemetry: &Telemetry) -> Vec<Coefficient> {
         let name = |term: &Term| match *term {
             Term::Wall(neighbour) => Coefficient::Wall { to: telemetry.name(neighbour).into() },
@@ -146,7 +147,7 @@ impl Regression {
         regression
     }
 
-    /// What is left of the target: target − Σ column · coefficient.
+    /// The residuals: target − Σ column · coefficient.
     pub fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut rest = self.target.clone();
         for (column, coefficient) in self.columns.iter().zip(coefficients) {
@@ -195,7 +196,7 @@ pub(super) struct ResidualSeries {
 }
 
 impl ResidualModel {
-    /// Fits the model to what `coefficients` leave on `segments`.
+    /// Fits the model to the residuals of `coefficients` on `segments`.
     ///
     /// # Errors
     /// [`IdentifyError`] when there are too few rows.

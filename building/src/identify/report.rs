@@ -1,4 +1,4 @@
-//! What an identification found, ready for a table, a plot or JSON.
+//! The results of an identification, ready for a table, a plot or JSON.
 
 use schemars::JsonSchema;
 use serde::Serialize;

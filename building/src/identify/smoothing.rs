@@ -39,7 +39,7 @@ fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
 fn line_at(series: &[f64], centre: usize, weights: &[f64]) -> f64 {
     let reach = weights.len() - 1;
     let (first, last) = (centre.saturating_sub(reach), (centre + reach).min(series.len() - 1));
-    // Moments of the distances, and of the values about the centre's own.
+    // Moments of the distances, and of the values relative to that of the centre.
     let (mut s0, mut s1, mut s2, mut m0, mut m1) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for index in first..=last {
         let weight = weights[index.abs_diff(centre)];
@@ -52,7 +52,7 @@ fn line_at(series: &[f64], centre: usize, weights: &[f64]) -> f64 {
         m1 += weight * distance * value;
     }
     let determinant = s0 * s2 - s1 * s1;
-    // With hardly any weight beside the centre the smooth is the series.
+    // If almost all weight is at the centre, the smoothed value is the value itself.
     if determinant <= 1e-12 * s0 * s0 { series[centre] } else { series[centre] + (s2 * m0 - s1 * m1) / determinant }
 }
 

@@ -161,7 +161,7 @@ impl Thermostat {
             self.set_c = self.usual_c + libm::floor(choice) - 1.5;
         }
         self.on = if self.on { temperature_c >= self.set_c - 0.3 } else { temperature_c > self.set_c + 0.3 };
-        // Drawn in any case, so that one room's state does not shift another's chance.
+        // The number is drawn even if it is not used, so that the state of one room does not change the random numbers of another.
         let power_kw = 1.4 * random.normal(1.0, 0.2);
         if self.on { -power_kw } else { 0.0 }
     }

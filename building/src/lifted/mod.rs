@@ -8,10 +8,9 @@
 //! h_k = E Aᵏ⁻¹ B              E picks the zones among the nodes
 //! ```
 //!
-//! The dissertation writes T = G(U + D) + T_in. Here T_free = T_in + G D is the temperature without equipment: heat that enters
-//! through a wall with a capacity of its own is not equal to any heat input of the moment, so D is not asked for. Going
-//! back, G⁻¹(T − T_free) is the equipment heat that explains measured temperatures, and the difference to the known one
-//! is the disturbance as if it were all zone heat.
+//! The dissertation writes T = G(U + D) + T_in. Here T_free = T_in + G D is the temperature without equipment: heat that enters through a
+//! wall with a heat capacity does not equal any heat input at that time, so D is not needed. Conversely, G⁻¹(T − T_free) is the equipment
+//! heat that explains measured temperatures, and its difference from the known heat is the disturbance, expressed as zone heat.
 //!
 //! [`Lifted::dense`] writes G down, for networks of a few zones. Everything else works by simulation, forwards for G and
 //! backwards for Gᵀ (A = I − B L with symmetric B and L, so Aᵀ = I − L B), and costs as much as a simulation of the
@@ -124,8 +123,8 @@ impl Lifted {
         stacked
     }
 
-    /// G⁻¹ y, for a stacked y: the inputs that lead from rest to these temperatures. G is always invertible, because a
-    /// zone answers to its own input within a step.
+    /// The solution G⁻¹ y, for a stacked y: the inputs that lead from rest to these temperatures. G is always
+    /// invertible, because a zone responds to its own input within a step.
     ///
     /// # Panics
     /// When `y` has not n·N numbers.

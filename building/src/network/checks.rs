@@ -88,7 +88,7 @@ pub struct PowerLimits {
 }
 
 impl PowerLimits {
-    /// Equipment that cools as strongly as it heats; one number per zone \[kW\].
+    /// Limits of equipment that cools as strongly as it heats; one number per zone \[kW\].
     pub fn symmetric(limits_kw: &[f64]) -> Self {
         Self { heating_kw: limits_kw.to_vec(), cooling_kw: limits_kw.to_vec() }
     }

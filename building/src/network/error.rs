@@ -85,7 +85,7 @@ pub enum NetworkError {
 }
 
 impl NetworkError {
-    /// The zone or wall at fault; none if the error concerns the building as a whole.
+    /// The zone or wall at fault; `None` if the error concerns the building as a whole.
     pub fn part(&self) -> Option<Part> {
         match self {
             Self::NoZones | Self::Believed(_) => None,
@@ -109,7 +109,7 @@ impl NetworkError {
     }
 }
 
-/// A property of a network that is allowed, and may not be what its author meant.
+/// A property of a network that is allowed, but may be a mistake of its author.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remark {
     /// Heat put into these zones never leaves the building.

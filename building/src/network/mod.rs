@@ -130,7 +130,8 @@ impl Network {
         self.capacities_kj_per_k.len()
     }
 
-    /// How many nodes get heat of people, machines or sun: the zones, or all nodes where the sun falls on a wall that stores heat.
+    /// Number of nodes that receive heat from people, machines or sun: the zones, or all nodes if the sun falls on a
+    /// wall that stores heat.
     pub fn gain_count(&self) -> usize {
         if self.openings.any_from(self.zone_count) { self.node_count() } else { self.zone_count }
     }

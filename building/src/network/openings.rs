@@ -18,7 +18,7 @@ pub(super) struct Openings {
 }
 
 impl Openings {
-    /// Adds the openings of the next node.
+    /// Adds the windows and the horizontal aperture of the next node.
     pub fn push(&mut self, horizontal_m2: f64, windows: &[Window]) {
         let node = self.horizontal_m2.len();
         self.horizontal_m2.push(horizontal_m2);
@@ -33,7 +33,7 @@ impl Openings {
         }
     }
 
-    /// Whether the sun falls on one of the nodes from this one on.
+    /// Whether the sun falls on the node `first` or on a later one.
     pub fn any_from(&self, first: usize) -> bool {
         self.horizontal_m2[first..].iter().any(|aperture_m2| *aperture_m2 > 0.0)
             || self.windows.iter().any(|(node, ..)| *node >= first)
@@ -41,12 +41,12 @@ impl Openings {
 }
 
 impl Network {
-    /// Whether the sun warms anything.
+    /// Whether the sun heats any node.
     pub fn has_sun(&self) -> bool {
         self.openings.any_from(0)
     }
 
-    /// The planes of its windows, each once: what `Network::sun_gains_kw` needs the radiation on.
+    /// The distinct planes of the windows. `Network::sun_gains_kw` needs the radiation on each.
     pub fn window_planes(&self) -> &[Plane] {
         &self.openings.planes
     }

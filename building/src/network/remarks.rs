@@ -1,4 +1,4 @@
-//! Remarks on a network that is allowed and may not be what was meant.
+//! Remarks on allowed properties of a network that may be mistakes.
 
 use interplay_common::setting;
 use schemars::JsonSchema;
@@ -13,8 +13,7 @@ const FAST_S: f64 = 600.0;
 const SLOW_S: f64 = 90.0 * 86_400.0;
 
 impl Network {
-    /// Remarks on what is allowed and may not have been meant: separate groups, heat that cannot leave, implausible
-    /// time constants.
+    /// Remarks on allowed properties that may be mistakes: separate groups, heat that cannot leave, implausible time constants.
     pub fn remarks(&self) -> Vec<Remark> {
         let groups = self.groups();
         let named = |group: &[usize]| {

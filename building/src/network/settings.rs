@@ -1,4 +1,4 @@
-//! What a scenario file says about a building: zones and walls, with units in the names.
+//! Zones and walls as a scenario file states them, with units in the names.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

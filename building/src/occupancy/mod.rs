@@ -1,4 +1,4 @@
-//! Heat from people and what they switch on: as scheduled, and as it turns out.
+//! Heat from people and their appliances, as scheduled and as it actually occurs.
 //!
 //! A zone follows a schedule that rises around the start of work, dips at lunch and falls around its end, times the zone's
 //! peak. Reality deviates from it. One deviation can be learned: the schedule is wrong by the same share every day (bias).
@@ -140,7 +140,7 @@ struct Meeting {
 }
 
 impl Occupancy {
-    /// Whether people of different seeds may differ.
+    /// Whether people depend on the seed.
     pub fn depends_on_seed(&self) -> bool {
         self.least_peak_kw != self.greatest_peak_kw || self.deviation != Deviation::NONE
     }
@@ -169,15 +169,15 @@ impl Occupancy {
 }
 
 impl People {
-    /// The same people, but those of zones with schedules of their own, who come and go by them. Reality deviates from a
-    /// schedule as from the common hours, but for the peak, which the schedule states.
+    /// The same people, except that those of zones with their own schedules come and go by these. Their deviations are
+    /// as before, except for the peak, which the schedule states.
     #[must_use]
     pub fn following(self, timetable: Timetable) -> Self {
         Self { timetable, ..self }
     }
 
-    /// Scheduled heat of a day's steps from midnight \[kW\], stacked time-major (entry t·n + i is zone i in step t); the
-    /// middle of each step counts. It is the same every day but in zones with schedules.
+    /// Scheduled heat of a day's steps from midnight \[kW\], stacked time-major (entry t·n + i is zone i in step t),
+    /// taken at the middle of each step. Only zones with schedules differ from day to day.
     pub fn scheduled_kw(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let Occupancy { from_h, to_h, base_kw, .. } = self.occupancy;
         let mut stacked = Vec::with_capacity(steps * self.peaks_kw.len());
@@ -194,8 +194,8 @@ impl People {
         stacked
     }
 
-    /// Real heat of a day's steps from midnight \[kW\], stacked likewise. Days are independent of one another and of the
-    /// step.
+    /// Real heat of a day's steps from midnight \[kW\], stacked in the same way. Days are independent of one another
+    /// and of the length of a step.
     pub fn actual_kw(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let days: Vec<Day> = (0..self.peaks_kw.len()).map(|zone| self.day(zone, day)).collect();
         let mut stacked = Vec::with_capacity(steps * days.len());
@@ -332,7 +332,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_record_takes_the_place_of_people_or_adds_to_them() {
+    fn recorded_heat_replaces_scheduled_people_or_adds_to_them() {
         let heat_kw = HeldSeries { first_s: 0.0, interval_s: 3600.0, cyclic: true, values: vec![3.0, 5.0] };
         let record =
             |beside_people| ZoneRecord { zone: 1, heat_kw: heat_kw.clone(), beside_people, is_forecast: false };

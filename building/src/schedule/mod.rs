@@ -1,4 +1,4 @@
-//! Schedules of zones: when people are in a zone, how warm it shall then be, and how much heat they bring, by weekday.
+//! Schedules of zones by weekday: when people are in a zone, the wanted temperature at those times, and the heat that people bring.
 //!
 //! A zone that is named in a [`ZoneSchedule`] follows its schedules alone. A zone that is named in none follows the
 //! common setpoints and the common occupancy.
@@ -84,7 +84,7 @@ impl Timetable {
         self.schedules.is_empty()
     }
 
-    /// Whether some zone has other hours on one kind of day than on another.
+    /// Whether the hours of a zone differ between kinds of days.
     pub fn days_differ(&self) -> bool {
         self.zones.iter().flatten().any(|own| own.iter().any(|schedule| schedule != &own[0]))
     }

@@ -12,7 +12,7 @@ pub(crate) struct ClockTime {
 }
 
 impl ClockTime {
-    /// The time that a text states, with its offset from UTC if it has one.
+    /// The time that a text states, with its offset from UTC, if stated.
     pub fn stated(parsed: &BrokenDownTime) -> Option<Self> {
         let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
         Some(Self { elapsed_s: seconds_since_1970(parsed.to_datetime().ok()?) - offset_s, offset_s })
@@ -55,8 +55,8 @@ impl NamedZone {
         TimeZoneDatabase::bundled().available().map(|name| name.to_string()).collect()
     }
 
-    /// By how much clocks of the place were ahead of Greenwich when they showed this \[s\]; `None` where they never did, since they were
-    /// put forward. Of an hour that came twice it is the first, unless that was over `after_s` seconds (of UTC, since 1970).
+    /// The offset of the zone's clocks from UTC when they showed this time \[s\]; `None` if they skipped it when they were put forward.
+    /// For an hour that occurs twice, the first occurrence is taken, unless it is before `after_s` (seconds of UTC since 1970).
     pub fn offset_s(&self, shown: DateTime, after_s: Option<f64>) -> Option<f64> {
         let seconds = |offset: Offset| f64::from(offset.seconds());
         match self.0.to_ambiguous_timestamp(shown).offset() {
@@ -109,7 +109,7 @@ pub(super) struct RowTime {
 }
 
 impl TimeForm {
-    /// The form that the title of a column of times promises.
+    /// The form of time that the title of a column announces.
     pub fn of(title: &str) -> Self {
         match title.to_ascii_lowercase().as_str() {
             "hour" | "hours" | "hour_h" | "time_h" => Self::Elapsed(3600.0),
@@ -118,7 +118,7 @@ impl TimeForm {
         }
     }
 
-    /// What the times must look like, in words.
+    /// The expected form of the times, in words.
     pub fn wanted(self) -> &'static str {
         match self {
             Self::Elapsed(3600.0) => "hours since the first midnight, as in 0.25",
@@ -129,7 +129,7 @@ impl TimeForm {
         }
     }
 
-    /// The moment that a cell states.
+    /// The time that a cell states.
     pub fn read(self, text: &str) -> Option<RowTime> {
         match self {
             Self::Elapsed(unit_s) => {
@@ -156,7 +156,7 @@ mod tests {
     const FORMAT: &str = "%Y-%m-%dT%H:%M:%S%z";
 
     #[test]
-    fn an_offset_is_written_in_three_ways() {
+    fn utc_offsets_are_read_in_three_notations() {
         for (offset, seconds) in [("Z", 0), ("+0200", 7200), ("+02:00", 7200), ("-05:30", -19_800)] {
             let time = parsed(FORMAT, &format!("2026-07-06T00:15:00{offset}")).expect("a time");
             assert_eq!(time.offset().map(|offset| offset.seconds()), Some(seconds), "{offset}");
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_format_that_lacks_only_the_offset_is_found() {
+    fn a_time_format_that_lacks_only_the_offset_is_suggested() {
         let found = |text| format_with_offset("%Y-%m-%d %H:%M", text);
         assert_eq!(found("2026-07-06 00:15Z").as_deref(), Some("%Y-%m-%d %H:%M%z"));
         assert_eq!(found("2026-07-06 00:15 +0200").as_deref(), Some("%Y-%m-%d %H:%M %z"));
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn clocks_are_put_forward_and_back() {
+    fn offsets_of_a_time_zone_are_correct_around_clock_changes() {
         let zurich = NamedZone::find("Europe/Zurich").expect("a zone");
         let at = |month: i8, day: i8, hour: i8| DateTime::constant(2026, month, day, hour, 30, 0, 0);
         assert_eq!(zurich.offset_s(at(1, 1, 12), None), Some(3600.0));

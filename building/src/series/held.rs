@@ -1,4 +1,4 @@
-//! A series of which each value holds until the next.
+//! A series whose values each hold until the next one.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ impl HeldSeries {
     /// When there are no values.
     pub fn mean(&self, from_s: f64, to_s: f64) -> f64 {
         assert!(!self.values.is_empty(), "a series needs a value");
-        // Rounding must not make a step that ends where a value does reach into the next.
+        // Because of rounding, a step that ends with a value must not reach into the next value.
         const TOLERANCE: f64 = 1e-9;
         let (from, to) = ((from_s - self.first_s) / self.interval_s, (to_s - self.first_s) / self.interval_s);
         let (first, last) = ((from + TOLERANCE).floor(), (to - TOLERANCE).ceil() - 1.0);
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_gets_the_mean_of_the_values_that_hold_in_it() {
+    fn a_step_gets_the_mean_of_the_held_values_during_it() {
         let series = series(false);
         assert_eq!(series.mean(0.0, 900.0), 1.0);
         assert_eq!(series.mean(900.0, 1200.0), 2.0);
@@ -91,14 +91,14 @@ mod tests {
     }
 
     #[test]
-    fn a_cyclic_series_goes_on() {
+    fn a_cyclic_series_repeats_beyond_its_ends() {
         assert_eq!(series(true).mean(3600.0, 4500.0), 1.0);
         assert_eq!(series(true).mean(-900.0, 0.0), 4.0);
         assert_eq!(series(true).mean(2700.0, 4500.0), 2.5);
     }
 
     #[test]
-    fn gaps_are_filled_linearly_and_ends_by_their_neighbour() {
+    fn gaps_are_interpolated_and_missing_ends_take_the_nearest_value() {
         const NONE: f64 = f64::NAN;
         let filled = |values: &[f64]| {
             let mut filled = values.to_vec();

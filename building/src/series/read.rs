@@ -42,7 +42,7 @@ pub struct SeriesColumn {
     pub values: Vec<f64>,
 }
 
-/// A table of series that cannot be read.
+/// Why a table of series cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct SeriesError {
@@ -113,7 +113,7 @@ impl SeriesTable {
         self.columns.iter().map(|column| column.title.as_str()).collect()
     }
 
-    /// The line of the first value of a series that is missing.
+    /// The line of the first missing value of a series.
     pub fn missing_line(&self, column: &SeriesColumn) -> Option<usize> {
         column.values.iter().position(|value| value.is_nan()).map(|row| self.lines[row])
     }

@@ -1,7 +1,7 @@
 //! Products and factors of small dense matrices, with sums in a fixed order.
 //!
-//! All of them are one kernel: columns of a target take up multiples of the columns of a source, four by four. Without
-//! fused multiplication the result is the same on every machine.
+//! All of them use one kernel: columns of a target accumulate multiples of the columns of a source, four at a time.
+//! Without fused multiplication, the result is the same on every machine.
 
 use nalgebra::DMatrix;
 

@@ -1,5 +1,5 @@
-//! The predictor-corrector method. All iterates keep all rows, so that only complementarity and the gradient of the Lagrangian are
-//! left to reduce.
+//! The predictor-corrector method. All iterates are primal feasible, so only complementarity and the gradient of the
+//! Lagrangian remain to be reduced.
 
 use super::pairs::{Direction, Groups, Pairs, PerRow};
 use super::program::{Peak, PlanStage, StagedError, StagedProgram, StagedSolution};
@@ -28,7 +28,7 @@ struct Iterate<'a> {
     groups: Groups,
 }
 
-/// Solves a problem until the cost is certain to `tolerance` of itself.
+/// Solves a problem until the relative error of its cost is certainly below `tolerance`.
 pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
     program.check()?;
     let mut iterate = Iterate::start(program);
@@ -263,7 +263,7 @@ impl<'a> Iterate<'a> {
         let mut p = 0.0;
         if let (Some((by_v, by_x)), Some(peak)) = (peak, self.program.peak) {
             let m = self.program.inputs.len();
-            // Σ θ κᵀΔv over the stages.
+            // The sum Σ θ κᵀΔv over the stages.
             let weighed = |v: &[f64]| -> f64 {
                 let stages = self.program.stages.iter().zip(&curvature.power).zip(v.chunks_exact(m));
                 stages
@@ -307,7 +307,7 @@ fn cost_scale(program: &StagedProgram) -> f64 {
             scale += stage.linear[j].abs() * reach + stage.quadratic[j] * reach * reach;
         }
     }
-    // Where heat costs next to nothing, discomfort says what is much.
+    // If heat costs almost nothing, the cost of discomfort determines the scale.
     let discomfort: f64 = program.stages.iter().flat_map(|stage| &stage.soft).map(|soft| soft.linear).sum();
     scale.max(LEAST_SCALE_SHARE * discomfort).max(1e-9)
 }

@@ -48,19 +48,19 @@ impl Groups {
         self.all().iter().map(|pairs| pairs.w.len()).sum()
     }
 
-    /// Σ w z.
+    /// The complementarity gap Σ w z.
     pub fn gap(&self) -> f64 {
         self.all().iter().map(|pairs| pairs.w.iter().zip(&pairs.z).map(|(w, z)| w * z).sum::<f64>()).sum()
     }
 
-    /// Multipliers with which all products w z are `mu`.
+    /// Sets the multipliers such that every product w z is `mu`.
     pub fn centre(&mut self, mu: f64) {
         for pairs in self.all_mut() {
             pairs.z = pairs.w.iter().map(|w| mu / w).collect();
         }
     }
 
-    /// How slacks change along a direction.
+    /// The changes of the slacks along a direction.
     pub fn slack_steps(program: &StagedProgram, direction: &Direction) -> PerRow {
         let (n, m) = (program.initial_c.len(), program.inputs.len());
         let mut soft = Vec::with_capacity(direction.s.len());
@@ -79,7 +79,7 @@ impl Groups {
         [direction.v.clone(), upper, soft, direction.s.clone(), power, peak]
     }
 
-    /// How multipliers change, so that with the slack steps the products w z come to `target`, to first order.
+    /// The changes of the multipliers with which, to first order, the products w z reach their target for these changes of the slacks.
     pub fn multiplier_steps(&self, slack_steps: &PerRow, zeta: &PerRow) -> PerRow {
         let groups = self.all();
         std::array::from_fn(|g| {
@@ -108,7 +108,7 @@ impl Groups {
             .fold(1.0, f64::min)
     }
 
-    /// Σ w z after a step.
+    /// The complementarity gap Σ w z after a step.
     pub fn gap_after(&self, alpha: f64, slack_steps: &PerRow, multiplier_steps: &PerRow) -> f64 {
         let mut gap = 0.0;
         for (g, Pairs { w, z }) in self.all().into_iter().enumerate() {
@@ -119,7 +119,7 @@ impl Groups {
         gap
     }
 
-    /// Takes a step.
+    /// Moves slacks and multipliers by a step.
     pub fn advance(&mut self, alpha: f64, slack_steps: &PerRow, multiplier_steps: &PerRow) {
         for (g, pairs) in self.all_mut().into_iter().enumerate() {
             pairs.w.iter_mut().zip(&slack_steps[g]).for_each(|(w, step)| *w += alpha * step);

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::dense::{add_product, product};
 use crate::discretise::Model;
 
-/// A soft bound of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
+/// A soft bound on the temperature of a node: `sign · x ≤ bound + s` at the cost `linear s + ½ quadratic s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftBound {
     /// The node.
@@ -43,7 +43,7 @@ pub struct PlanStage {
     pub power: Vec<f64>,
 }
 
-/// The highest power of all stages, which has a price.
+/// The highest power over all stages, which has a price.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Cost of a kilowatt.
@@ -67,7 +67,7 @@ pub struct StagedProgram {
     pub peak: Option<Peak>,
 }
 
-/// An optimal point.
+/// An optimal solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagedSolution {
     /// Inputs, stage by stage \[kW\].
@@ -175,7 +175,7 @@ pub struct HeatInput {
     pub sign: f64,
 }
 
-/// How temperatures move over a stage: `x⁺ = x + B (M v − L x) + d`, where M brings inputs into their zones.
+/// The change of temperatures over a stage: `x⁺ = x + B (M v − L x) + d`, where M assigns inputs to their zones.
 #[derive(Clone, Debug)]
 pub struct StageMap {
     /// Steps of the model over which inputs are held.
@@ -195,7 +195,7 @@ impl StageMap {
         let laplacian: Vec<Vec<(usize, f64)>> = (0..nodes)
             .map(|j| (0..nodes).map(|i| (i, laplacian[(i, j)])).filter(|(_, value)| *value != 0.0).collect())
             .collect();
-        // B of k steps is that of one, and what k − 1 steps have left of B.
+        // The gain B of k steps is that of one step, plus the part of B that remains after k − 1 further steps.
         let mut gain = one.clone();
         for _ in 1..span {
             let mut conducted = DMatrix::zeros(nodes, nodes);

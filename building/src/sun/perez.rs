@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn direct_and_diffuse_radiation_add_up_to_the_global_one() {
+    fn direct_and_diffuse_radiation_add_up_to_global_radiation() {
         for (zenith_deg, global) in [(10.0_f64, 900.0), (60.0, 120.0), (86.0, 30.0), (88.0, 10.0), (95.0, 3.0)] {
             let sun = SunPosition { zenith_rad: zenith_deg.to_radians(), azimuth_rad: 0.0, distance_au: 1.0 };
             let SplitRadiation { direct_normal_w_per_m2, diffuse_w_per_m2 } = split_global(&sun, global);

@@ -1,4 +1,4 @@
-//! Where the sun stands.
+//! The position of the sun.
 //!
 //! J. Meeus, *Astronomical Algorithms*, 2nd edition, 1998, chapters 12, 22 and 25 (the solar coordinates of low accuracy), with the
 //! largest perturbations by planets and the moon of his *Astronomical Formulae for Calculators*, 1979, chapter 18, and the
@@ -38,7 +38,7 @@ pub struct SunPosition {
     pub distance_au: f64,
 }
 
-/// The midnight (UTC) at the start of a day of the Gregorian calendar, in days since noon (UTC) of the 1st of January 2000.
+/// The midnight (UTC) at the start of a day of the Gregorian calendar, in days since noon (UTC) of 1 January 2000.
 pub fn days_since_2000(year: i32, month: i8, day: i8) -> f64 {
     // Fliegel and Van Flandern, Communications of the ACM 11 (10), 1968.
     let (year, month, day) = (i64::from(year), i64::from(month), i64::from(day));
@@ -59,7 +59,7 @@ struct Equatorial {
 }
 
 impl Site {
-    /// Where the sun stands at a moment of universal time, in days since noon of the 1st of January 2000.
+    /// The position of the sun at a universal time, in days since noon of 1 January 2000.
     pub fn sun(&self, utc_days: f64) -> SunPosition {
         let Equatorial { right_ascension_rad, declination_rad, sidereal_rad, distance_au } = equatorial(utc_days);
         let hour_rad = sidereal_rad + self.longitude_deg.to_radians() - right_ascension_rad;
@@ -133,7 +133,7 @@ pub struct SkyRadiation {
     pub global_w_per_m2: f64,
 }
 
-/// A flat surface: where it faces, and what lies before it.
+/// A flat surface: its orientation, and the ground in front of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// Direction that it faces, clockwise from north \[°\]: 180 is south.
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn days_are_counted_from_noon_of_2000() {
+    fn days_are_counted_from_noon_of_1_january_2000() {
         assert_eq!(days_since_2000(2000, 1, 1), -0.5);
         assert_eq!(days_since_2000(2000, 3, 1) - days_since_2000(2000, 2, 28), 2.0);
         assert_eq!(days_since_2000(2026, 1, 1) - days_since_2000(2025, 1, 1), 365.0);
@@ -181,7 +181,7 @@ mod tests {
 
     /// The example of Reda and Andreas (2004): Golden, 17 October 2003, 12:30:30 local time, seven hours behind Greenwich.
     #[test]
-    fn the_published_example_is_met() {
+    fn the_sun_position_matches_the_published_example() {
         let site = Site { latitude_deg: 39.742476, longitude_deg: -105.1786, elevation_m: 1830.14 };
         let moment = days_since_2000(2003, 10, 17) + (19.0 + 30.5 / 60.0) / 24.0;
         let sun = site.sun(moment);

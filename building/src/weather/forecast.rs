@@ -72,7 +72,7 @@ impl ErrorLevel {
 }
 
 impl ErrorModel {
-    /// Errors at the full hours of a horizon, that of its start first \[K\].
+    /// Forecast errors at the full hours of a horizon, beginning with its start \[K\].
     pub fn errors_k(&self, seed: u64, day: usize, hours: usize) -> Vec<f64> {
         let mut random = Random::new(seed, day as u64);
         let mut error_k = random.normal(self.first_mean_k, self.first_deviation_k);

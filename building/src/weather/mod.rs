@@ -1,5 +1,4 @@
-//! Weather: what it is ([`Weather`]), where it comes from ([`epw`] files, or the synthetic [`Climate`]), and how well it is
-//! known beforehand ([`Forecast`]).
+//! Weather ([`Weather`]), its sources ([`epw`] files, or the synthetic [`Climate`]), and its forecasts ([`Forecast`]).
 //!
 //! Time is in seconds from midnight at the start of the first day. A file states values at the end of each interval; here
 //! all quantities are functions of time.
@@ -28,7 +27,7 @@ pub struct Weather {
 }
 
 impl Weather {
-    /// Whether the weather is known until a time: a series that is not cyclic ends.
+    /// Whether the weather is known up to this time: a series that is not cyclic ends.
     pub fn covers(&self, time_s: f64) -> bool {
         [&self.ambient_c, &self.sun_w_per_m2].iter().all(|series| series.cyclic || time_s <= series.end_s())
     }

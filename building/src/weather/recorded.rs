@@ -1,4 +1,4 @@
-//! Weather of a table: recorded somewhere, or made by another program.
+//! Weather from a table, recorded or made by another program.
 
 use interplay_common::spelling::suggestion;
 use schemars::JsonSchema;
@@ -92,7 +92,7 @@ pub fn default_bridge_gaps_h() -> f64 {
     6.0
 }
 
-/// The span of a table that a run takes.
+/// The time span of a run within a table of weather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSpan {
     /// Midnight at the start of the first day, after that of the table's first \[s\].
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_read_as_instants_or_means_as_stated() {
+    fn weather_rows_are_read_as_instants_or_means_as_stated() {
         let table = SeriesTable::parse(&text()).expect("a table");
         let at = |rows: RowMeaning, hours: f64| {
             let read = RecordedWeather { rows, ..settings() }.read(&table, &span(DAY_S, 1.0)).expect("weather");

@@ -1,4 +1,4 @@
-//! A quantity known at equal intervals of time, linear in between.
+//! A quantity at equal intervals of time, interpolated linearly.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub struct TimeSeries {
 }
 
 impl TimeSeries {
-    /// The value at a time, interpolated linearly. Outside of a series that is not cyclic it is that at the nearer end.
+    /// The value at a time, interpolated linearly. Beyond the ends of a series that is not cyclic, the value at the nearer end holds.
     ///
     /// # Panics
     /// When there are no values.
@@ -37,7 +37,7 @@ impl TimeSeries {
         self.values[before] + part * (self.values[after] - self.values[before])
     }
 
-    /// When the last value holds no longer: an interval after its time \[s\].
+    /// The time until which the last value holds: one interval after its own time \[s\].
     pub fn end_s(&self) -> f64 {
         self.first_s + self.values.len() as f64 * self.interval_s
     }
@@ -48,7 +48,7 @@ impl TimeSeries {
     }
 }
 
-/// The place under the sun where global radiation was measured, and its parts if they were measured.
+/// The site where global radiation was measured, and its direct and diffuse parts if they were measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
     /// The place.
@@ -71,8 +71,8 @@ impl Sky {
 }
 
 impl Weather {
-    /// Radiation on a plane over time \[W/m²\], at the times of the global radiation, with the sun where it stands at each of
-    /// them; `None` where the sky is not known.
+    /// Radiation on a plane over time \[W/m²\], at the times of the global radiation and with the position of the sun
+    /// at each of them; `None` if the site of the measurement is unknown.
     pub fn on_plane_w_per_m2(&self, plane: &Plane) -> Option<TimeSeries> {
         let sky = self.sky.as_ref()?;
         let radiation = |(index, (days, global)): (usize, (&f64, &f64))| {
@@ -87,7 +87,7 @@ impl Weather {
         Some(TimeSeries { values: moments.map(radiation).collect(), ..self.sun_w_per_m2.clone() })
     }
 
-    /// The same weather, its times counted from `start_s` on.
+    /// The same weather with times counted from `start_s`.
     #[must_use]
     pub fn from_s(self, start_s: f64) -> Self {
         let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };

@@ -80,7 +80,7 @@ fn side(upper: bool) -> u8 {
 
 proptest! {
     #[test]
-    fn gemm(a in matrix(3, 5), b in matrix(5, 4), c in matrix(3, 4), ta: bool, tb: bool, beta in prop_oneof![Just(0.0), -1.0..1.0]) {
+    fn gemm_matches_nalgebra(a in matrix(3, 5), b in matrix(5, 4), c in matrix(3, 4), ta: bool, tb: bool, beta in prop_oneof![Just(0.0), -1.0..1.0]) {
         let (alpha, sizes) = (0.7, [3 as c_int, 4, 5]);
         let (sa, lda) = stored(&if ta { a.transpose() } else { a.clone() });
         let (sb, ldb) = stored(&if tb { b.transpose() } else { b.clone() });
@@ -95,7 +95,7 @@ proptest! {
     }
 
     #[test]
-    fn gemv(a in matrix(3, 5), x in matrix(5, 1), y in matrix(3, 1), transposed: bool) {
+    fn gemv_matches_nalgebra(a in matrix(3, 5), x in matrix(5, 1), y in matrix(3, 1), transposed: bool) {
         let (alpha, beta, two, one) = (-1.5, 0.5, 2 as c_int, 1 as c_int);
         let (sa, lda) = stored(&if transposed { a.transpose() } else { a.clone() });
         let (m, n) = if transposed { (5, 3) } else { (3, 5) };
@@ -110,7 +110,7 @@ proptest! {
     }
 
     #[test]
-    fn symv(a in matrix(4, 4), x in matrix(4, 1), y in matrix(4, 1), upper: bool) {
+    fn symv_matches_nalgebra(a in matrix(4, 4), x in matrix(4, 1), y in matrix(4, 1), upper: bool) {
         let (alpha, beta, one, n) = (2.0, -0.5, 1 as c_int, 4 as c_int);
         let symmetric = &a + a.transpose();
         let (sa, lda) = stored(&triangle_of(&symmetric, upper));
@@ -123,7 +123,7 @@ proptest! {
     }
 
     #[test]
-    fn syrk_and_syr2k(a in matrix(4, 3), b in matrix(4, 3), c in matrix(4, 4), upper: bool, transposed: bool) {
+    fn syrk_and_syr2k_match_nalgebra(a in matrix(4, 3), b in matrix(4, 3), c in matrix(4, 4), upper: bool, transposed: bool) {
         let (alpha, beta, n, k) = (0.5, -2.0, 4 as c_int, 3 as c_int);
         let symmetric = &c + c.transpose();
         let form = |m: &DMatrix<f64>| stored(&if transposed { m.transpose() } else { m.clone() });
@@ -144,7 +144,7 @@ proptest! {
     }
 
     #[test]
-    fn potrf_and_potrs(root in matrix(5, 5), b in matrix(5, 2), upper: bool) {
+    fn potrf_and_potrs_factor_and_solve(root in matrix(5, 5), b in matrix(5, 2), upper: bool) {
         let a = &root * root.transpose() + DMatrix::identity(5, 5);
         let (mut sa, lda) = stored(&triangle_of(&a, upper));
         let (mut sb, ldb) = stored(&b);
@@ -162,7 +162,7 @@ proptest! {
     }
 
     #[test]
-    fn gesv(a in matrix(5, 5), b in matrix(5, 2)) {
+    fn gesv_solves_linear_systems(a in matrix(5, 5), b in matrix(5, 2)) {
         prop_assume!(a.clone().svd(false, false).singular_values.min() > 0.05);
         let ((mut sa, lda), (mut sb, ldb)) = (stored(&a), stored(&b));
         let (n, columns, mut info, mut pivots) = (5 as c_int, 2 as c_int, -9, [0 as c_int; 5]);
@@ -176,7 +176,7 @@ proptest! {
     }
 
     #[test]
-    fn singular_values(entries in matrix(6, 4), wide: bool, deficient: bool, divide: bool) {
+    fn singular_values_match_nalgebra(entries in matrix(6, 4), wide: bool, deficient: bool, divide: bool) {
         let mut a = entries;
         if deficient {
             let copy = a.column(0).clone_owned();
@@ -210,7 +210,7 @@ proptest! {
     }
 
     #[test]
-    fn eigenvalues(entries in matrix(5, 5), upper: bool, low_rank: bool) {
+    fn eigenvalues_and_eigenvectors_decompose_the_matrix(entries in matrix(5, 5), upper: bool, low_rank: bool) {
         let a = if low_rank {
             let thin = entries.columns(0, 2).into_owned();
             &thin * thin.transpose()

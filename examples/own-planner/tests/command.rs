@@ -31,7 +31,7 @@ fn report(folder: &Path, words: &[&str], code: i32) -> Value {
 const SCENARIO: &str = "extends = 'lane-change/front-nice'\n";
 
 #[test]
-fn it_drives_a_scenario_of_ours_to_its_goal_behind_the_front_driver() {
+fn a_custom_planner_reaches_its_goal_behind_the_front_driver() {
     let folder = tempdir().expect("a folder");
     let run = ["run", "lane-change/front-nice", "--planner", "gap-acceptance"];
     // The scenario expects what negotiation does: the ego ahead of both.
@@ -44,7 +44,7 @@ fn it_drives_a_scenario_of_ours_to_its_goal_behind_the_front_driver() {
 }
 
 #[test]
-fn its_table_is_checked_like_ours() {
+fn settings_of_a_custom_planner_are_checked_like_built_in_ones() {
     let folder = tempdir().expect("a folder");
     let check = |driver: &str| {
         let file = format!("{SCENARIO}[[vehicle]]\nname = 'ego'\ndriver = {{ {driver} }}\n");
@@ -69,7 +69,7 @@ fn its_table_is_checked_like_ours() {
 }
 
 #[test]
-fn it_is_compared_beside_ours() {
+fn a_custom_planner_is_compared_with_built_in_planners() {
     let folder = tempdir().expect("a folder");
     let planners = ["--planner", "gap-acceptance", "--planner", "conservative", "--planner", "negotiation"];
     let sweep = [&["sweep", "--scenario", "lane-change/front-nice", "--starts", "4", "--out", "rows"], &planners[..]];
@@ -83,7 +83,7 @@ fn it_is_compared_beside_ours() {
 }
 
 #[test]
-fn a_counterfactual_names_it_and_why_changes_its_drivers() {
+fn counterfactuals_and_why_accept_a_custom_planner() {
     let folder = tempdir().expect("a folder");
     let claim = "[[counterfactual]]\nname = 'gaps'\nplanner = 'gap-acceptance'\n[counterfactual.expect]\norder_differs = true\n";
     std::fs::write(folder.path().join("claim.toml"), format!("{SCENARIO}{claim}")).expect("a file");
@@ -120,7 +120,7 @@ impl Drive for Lost {
 }
 
 #[test]
-fn a_driver_without_a_plan_drives_the_fallback() {
+fn a_custom_planner_without_a_plan_drives_the_fallback() {
     let registry = Registry::default().with_driver::<Lost>().expect("a new word");
     let changes = [Override::Planner("lost".to_owned()), Override::Set("duration_s=2".to_owned())];
     let scenario = registry.load("lane-change/front-nice", &changes).expect("sound");
@@ -129,14 +129,14 @@ fn a_driver_without_a_plan_drives_the_fallback() {
 }
 
 #[test]
-fn a_word_stands_for_one_kind() {
+fn registering_a_kind_twice_is_refused() {
     let twice = Registry::default().with_driver::<GapAcceptance>().and_then(Registry::with_driver::<GapAcceptance>);
     assert_eq!(twice.err(), Some(RegistryError::KindTaken("gap-acceptance")));
 }
 
 /// The metric of this crate is in the report, may be bound, and is in the comparison.
 #[test]
-fn its_metric_is_treated_like_ours() {
+fn a_custom_metric_is_reported_judged_and_compared() {
     let folder = tempdir().expect("a folder");
     let bound = "expect.metric=[{ name = 'waiting_share', vehicle = 'ego', at_most = 0.5 }]";
     let report = report(folder.path(), &["run", "lane-change/front-nice", "--set", bound], 0);

@@ -18,7 +18,7 @@ fn registry() -> Registry {
 }
 
 #[test]
-fn a_scenario_names_its_road_and_is_written_back() {
+fn a_scenario_with_a_custom_road_form_runs_and_is_written_back() {
     let registry = registry();
     let scenario = registry.from_text("street.toml", STREET, &[]).expect("sound");
     assert_eq!(scenario.road.lane_width_m(), 3.5, "the size of real cars");
@@ -33,7 +33,7 @@ fn a_scenario_names_its_road_and_is_written_back() {
 }
 
 #[test]
-fn a_scenario_has_its_obstacle_in_its_usual_size() {
+fn a_custom_obstacle_kind_has_its_usual_size() {
     let registry = registry().with_obstacle(BOLLARD).expect("a new word");
     let text = format!("{STREET}[[obstacle]]\nname = 'post'\nkind = 'bollard'\nlane = 'through'\nalong_m = 90.0\n");
     let scenario = registry.from_text("street.toml", &text, &[]).expect("sound");
@@ -49,7 +49,7 @@ fn a_scenario_has_its_obstacle_in_its_usual_size() {
 }
 
 #[test]
-fn the_command_runs_a_building_with_its_controller() {
+fn the_command_runs_a_building_with_a_custom_controller() {
     let folder = tempdir().expect("a folder");
     let program = env!("CARGO_BIN_EXE_own-planner");
     let set = "controller={ kind = 'proportional', gain_kw_per_k = 2.0 }";
@@ -62,7 +62,7 @@ fn the_command_runs_a_building_with_its_controller() {
 }
 
 #[test]
-fn an_agent_sees_by_its_observation() {
+fn an_agent_receives_a_custom_observation() {
     let observations = vec![AgentView::Foreign(ForeignView::new(Headway))];
     let settings = EnvironmentSettings { observations, ..EnvironmentSettings::default() };
     let scenario = load("lane-change/front-nice", &[]).expect("authored");

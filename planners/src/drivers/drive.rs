@@ -53,6 +53,11 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         self.prediction() != Some(Prediction::Inferred)
     }
 
+    /// How late a driver of this kind observes the motion of the others, where it knows no plans \[s\].
+    fn reaction_s(&self) -> f64 {
+        0.0
+    }
+
     /// Whether its plans branch: then its [`InferredFutures`] has what each of the others may do.
     fn branches(&self) -> bool {
         false
@@ -73,6 +78,12 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// drivers that decide from outside, drive as they do.
     fn may_be_refused(&self) -> bool {
         !self.goes_first() && !self.is_driven_from_outside()
+    }
+
+    /// Whether it decides for itself where it drives, so that its plan is refused where it gives away the last way out although the driver
+    /// sees what comes. Scripts, records, walkers and inputs from outside are not.
+    fn is_vetoed(&self) -> bool {
+        self.prediction().is_some() && !self.is_driven_from_outside()
     }
 
     /// Whether its inputs are handed in from outside, by the caller of the simulation.

@@ -73,14 +73,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slow_leader_is_not_run_into() {
+    fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let moment = behind(30.0, 5.0);
         let motion = CarFollowing::literature().predict(&moment);
         assert!(motion.along_m[STEPS] < 30.0 + 25.0, "{}", motion.along_m[STEPS]);
     }
 
     #[test]
-    fn a_lag_keeps_the_present_acceleration_for_a_while() {
+    fn an_idm_prediction_with_lag_keeps_the_present_acceleration_at_first() {
         let moment = TrafficMoment { acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
         let at_1_s = |lag_s| {
             CarFollowing { lag_s, wanted_above_mps: Some(0.0), ..CarFollowing::literature() }.predict(&moment).along_m

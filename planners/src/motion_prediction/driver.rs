@@ -1,16 +1,18 @@
-//! Our human driver as a prediction: one plan of it, made on the straightened lane.
+//! The human driver model as a prediction: one of its plans, made on the straightened lane.
 //!
-//! The plan is that of [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and those
-//! beside it are straight in the frame of the prediction. The vehicles in the way and beside it are expected to keep their speed. A
-//! driver in traffic wants about the speed that it has: what it would want on a free road cannot be seen.
+//! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and its
+//! neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to keep their speed. A driver in
+//! traffic is assumed to want about its present speed, because the speed that it would choose on a free road cannot be observed.
 
 use std::sync::Arc;
 
 use super::car_following::CarFollowing;
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
 use crate::drivers::human::{self, Human};
+use crate::perception::SeenMotion;
 use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
+use crate::scene::Knowledge;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::{Agent, Body, ComfortLimits, Corridor, Drive, Goal, Input, Limits, Route, SafetyEllipse, Scene, State};
 
@@ -33,7 +35,7 @@ const TRACKING: [f64; 4] = [0.0, 0.01, 0.5, 0.1];
 /// Weight of changes of the steering angle.
 const STEERING_CHANGE: f64 = 0.1;
 
-/// Our human driver, as a prediction of a vehicle in traffic.
+/// The human driver model of Interplay, as a prediction of a vehicle in traffic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedDriver {
     /// The driver.
@@ -57,7 +59,7 @@ pub struct PredictedDriver {
 }
 
 impl PredictedDriver {
-    /// A real car's driver as scenarios have it.
+    /// The driver of a real car with the usual settings of scenarios.
     pub fn usual() -> PredictedDriver {
         PredictedDriver {
             settings: human::Settings { style: Some(human::Style::Normal), ..human::Settings::default() },
@@ -88,9 +90,18 @@ impl PredictedDriver {
         PredictedMotion { along_m: travelled_m(states), across_m }
     }
 
+    /// Where any driver expects the vehicle who sees it behind the vehicle ahead.
+    pub(super) fn predict_seen(&self, moment: &TrafficMoment) -> PredictedMotion {
+        let Scene { ego, others, .. } = PredictedDriver { lateral: None, ..self.clone() }.scene(moment);
+        let leader = others.iter().find(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
+        let motion = SeenMotion { vehicle: &ego, leader }.expected(STEPS, STEP_S);
+        let across_m = motion.states.iter().map(|state| state.y_m).collect();
+        PredictedMotion { along_m: travelled_m(&motion.states), across_m }
+    }
+
     /// The moment as the driver sees it.
     fn scene(&self, moment: &TrafficMoment) -> Scene {
-        // A vehicle beside the road at the start is on a road that reaches there.
+        // If the vehicle starts beside the road, the road is widened to include it.
         let reach_m = [-1.0, 1.0].map(|side| side * moment.across_m + 0.5 * moment.width_m + EDGE_M);
         let [right_m, left_m] = [0, 1].map(|side| moment.road_m[side].max(reach_m[side]));
         let corridor = Corridor { heading_rad: 0.0, right_m: -right_m, left_m, end: None };
@@ -117,7 +128,7 @@ impl PredictedDriver {
             comfort: [self.acceleration_change, STEERING_CHANGE],
             safety: SafetyEllipse { along_m: SAFETY_M[0], across_m: SAFETY_M[1] },
         };
-        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, ego, goal, others }
+        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal, others }
     }
 
     /// Whom the driver looks at: the nearest ahead in its lane, and those beside it.
@@ -174,6 +185,7 @@ impl PredictedDriver {
             shared_goal: None,
             can_be_asked: true,
             is_obstacle: false,
+            indicator: None,
             rules: RoadRules::default(),
             urgency: 1.0,
         }
@@ -203,14 +215,14 @@ pub(super) fn predict(moment: &TrafficMoment, decay: Option<[f64; 2]>, lateral: 
             let passed_s = decay_s * (1.0 - libm::exp(-time_s / decay_s));
             moment.trusted_acceleration_mps2(half_noise_mps) * decay_s * (time_s - passed_s)
         });
-        // Who stands does not drive backwards.
+        // A standing vehicle does not drive backwards.
         farthest_m = farthest_m.max(moment.speed_mps * time_s + gained_m);
         along_m.push(farthest_m);
     }
     PredictedMotion { along_m, across_m: lateral.places_m(moment) }
 }
 
-/// A model of how a vehicle goes on.
+/// A model that predicts the motion of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionModel {
     /// Speed and lateral place are kept.
@@ -228,10 +240,12 @@ pub enum MotionModel {
     CarFollowing(CarFollowing),
     /// Our human driver.
     Driver(PredictedDriver),
+    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::perception::SeenMotion)).
+    Seen,
 }
 
 impl MotionModel {
-    /// Where the model expects the vehicle.
+    /// Predicts the motion of the vehicle.
     pub fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
         match self {
             MotionModel::ConstantVelocity => predict(moment, None, LateralMotion::Kept),
@@ -240,6 +254,7 @@ impl MotionModel {
             }
             MotionModel::CarFollowing(model) => model.predict(moment),
             MotionModel::Driver(model) => model.predict(moment),
+            MotionModel::Seen => PredictedDriver::usual().predict_seen(moment),
         }
     }
 }
@@ -250,20 +265,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn on_a_free_road_the_speed_is_kept() {
+    fn a_predicted_driver_keeps_its_speed_on_a_free_road() {
         let moment = TrafficMoment { others: Vec::new(), ..behind(1.0, 1.0) };
         let motion = PredictedDriver::usual().predict(&moment);
         assert!((motion.along_m[STEPS] - 100.0).abs() < 0.01, "{}", motion.along_m[STEPS]);
     }
 
     #[test]
-    fn a_slow_leader_is_not_run_into() {
+    fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let motion = PredictedDriver::usual().predict(&behind(30.0, 10.0));
         assert!(motion.along_m[STEPS] < 30.0 + 50.0, "{}", motion.along_m[STEPS]);
     }
 
     #[test]
-    fn a_vehicle_that_keeps_its_line_is_not_predicted_to_the_middle_of_the_lane() {
+    fn a_vehicle_off_the_lane_centre_is_predicted_to_keep_its_lateral_position() {
         let moment = TrafficMoment { across_m: 0.8, ..behind(200.0, 20.0) };
         let across_m =
             |lateral| PredictedDriver { lateral, ..PredictedDriver::usual() }.predict(&moment).across_m[STEPS];

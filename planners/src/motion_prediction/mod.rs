@@ -1,17 +1,18 @@
-//! Predictions of one vehicle of real traffic from what is known of it and of the vehicles around it at a moment.
+//! Predictions of one vehicle in real traffic, from its state and those of the vehicles around it at one time.
 //!
-//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across it from the lane's
-//! middle, positive to the left. It holds no plan, and nothing that was seen later: each other vehicle is expected to keep its speed
-//! along its lane. A [`MotionModel`] answers with places at steps of [`STEP_S`].
+//! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across
+//! it from the lane's middle, positive to the left. It contains no plans and no later observations: each other vehicle
+//! is expected to keep its speed along its lane. A [`MotionModel`] returns positions at steps of [`STEP_S`].
 //!
 //! | model | along the lane | across it |
 //! |---|---|---|
 //! | constant velocity | `s = v t` | the lateral place is kept |
 //! | decaying acceleration | `s = v t + a τ (t − τ (1 − e^{−t/τ}))` | as stated |
 //! | IDM | Treiber, Hennecke and Helbing (2000), with or without a lag | as stated |
+//! | seen | what drivers expect who know no plans (`SeenMotion`) | as seen |
 //! | human | one plan of our human driver | as planned, or as stated |
 //!
-//! "As stated" is [`LateralMotion`]: the lane's place is kept, or the present lateral speed decays.
+//! "As stated" refers to [`LateralMotion`]: the lateral position is kept, or the present lateral speed decays.
 
 mod car_following;
 mod driver;
@@ -19,12 +20,12 @@ mod driver;
 pub use car_following::CarFollowing;
 pub use driver::{MotionModel, PredictedDriver};
 
-/// Time between two places of a prediction \[s\].
+/// Time between two positions of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
 /// Number of steps of a prediction, which reaches 5 s.
 pub const STEPS: usize = 25;
 
-/// What is known of a vehicle and those around it at a moment.
+/// The observed state of a vehicle and of the vehicles around it at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrafficMoment {
     /// Its speed along the lane \[m/s\].
@@ -52,7 +53,7 @@ pub struct TrafficMoment {
     pub others: Vec<NearbyVehicle>,
 }
 
-/// Another vehicle at that moment.
+/// Another vehicle at that time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NearbyVehicle {
     /// How far its middle is ahead along the lane \[m\].
@@ -68,7 +69,7 @@ pub struct NearbyVehicle {
 }
 
 impl TrafficMoment {
-    /// The others in the lane ahead, the nearest first.
+    /// The vehicles ahead in the same lane, the nearest first.
     pub fn leaders(&self) -> Vec<NearbyVehicle> {
         let mut ahead: Vec<NearbyVehicle> =
             self.others.iter().copied().filter(|it| it.ahead_m > 0.0 && self.is_in_way(it)).collect();
@@ -87,13 +88,13 @@ impl TrafficMoment {
         self.acceleration_mps2 / (1.0 + ratio * ratio)
     }
 
-    /// The gap between bumpers to a vehicle ahead \[m\].
+    /// The gap to a vehicle ahead, from bumper to bumper \[m\].
     pub fn gap_m(&self, leader: &NearbyVehicle) -> f64 {
         leader.ahead_m - 0.5 * (leader.length_m + self.length_m)
     }
 }
 
-/// Where a vehicle is expected: a place at each of [`STEPS`]` + 1` times, the first of them the present.
+/// The predicted motion of a vehicle: its position at each of [`STEPS`]` + 1` times, of which the first is the present.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PredictedMotion {
     /// How far along the lane it has come \[m\].
@@ -102,7 +103,7 @@ pub struct PredictedMotion {
     pub across_m: Vec<f64>,
 }
 
-/// How the place across the lane goes on.
+/// The prediction of the lateral position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum LateralMotion {
     /// The place is kept.
@@ -152,7 +153,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn constant_velocity_keeps_speed_and_place() {
+    fn constant_velocity_keeps_speed_and_lateral_position() {
         let moment =
             TrafficMoment { across_m: 0.4, lateral_speed_mps: 1.0, acceleration_mps2: -2.0, ..behind(5.0, 3.0) };
         let motion = MotionModel::ConstantVelocity.predict(&moment);
@@ -161,7 +162,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn an_acceleration_and_a_lateral_speed_decay() {
+    fn predicted_accelerations_and_lateral_speeds_decay() {
         let moment = TrafficMoment { lateral_speed_mps: 1.0, acceleration_mps2: 1.0, ..behind(500.0, 20.0) };
         let model = MotionModel::DecayingAcceleration {
             time_s: 1.0,
@@ -175,7 +176,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_vehicle_that_brakes_to_a_stop_stands() {
+    fn a_predicted_vehicle_that_brakes_to_a_stop_does_not_reverse() {
         let moment = TrafficMoment { speed_mps: 1.0, acceleration_mps2: -3.0, ..behind(500.0, 20.0) };
         let model =
             MotionModel::DecayingAcceleration { time_s: 2.0, half_noise_mps: 1.0, lateral: LateralMotion::Kept };
@@ -190,7 +191,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_nearest_ahead_in_the_lane_leads() {
+    fn the_nearest_vehicle_ahead_in_the_lane_is_the_leader() {
         let mut moment = behind(30.0, 10.0);
         moment.others.push(NearbyVehicle { ahead_m: 10.0, across_m: 3.5, width_m: 1.8, ..NearbyVehicle::default() });
         moment.others.push(NearbyVehicle { ahead_m: -10.0, width_m: 1.8, ..NearbyVehicle::default() });

@@ -1,4 +1,4 @@
-//! A driver at work: what every kind of driver has around it.
+//! A driver with its surroundings, which are the same for every kind of driver: inference, certificate and deadline.
 
 use std::borrow::Cow;
 
@@ -6,14 +6,15 @@ use crate::drivers::Driver;
 use crate::drivers::drive::{Drive, DriverKind};
 use crate::perception::belief::{self, DriverBeliefs};
 use crate::perception::sensing::SensedScene;
-use crate::plan::certificate::{refused, violations, within_touch};
+use crate::plan::certificate::{refused, refused_by_motion, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::Statistics;
-use crate::{Plan, PlanError, Scene};
+use crate::{Plan, PlanError, PlanViolation, Scene};
 
-/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
+/// A driver in operation: it infers the plans that the driver does not know, checks each plan and its deadline, and
+/// logs homotopy classes.
 ///
 /// It is the same for all kinds of drivers, and knows them only through [`DriverKind`] and [`Drive`].
 #[derive(Debug)]
@@ -26,26 +27,29 @@ pub struct Planner {
     homotopy_log: HomotopyLog,
     /// What its certificates take for where the others will be.
     prediction: Prediction,
-    /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
+    /// Whether a plan may be refused of a driver who knows plans. Those who go first are what the others have to live with, and drive as they
+    /// do.
     may_be_refused: bool,
+    /// Whether a plan may be refused of a driver who sees the motion of the others only.
+    is_vetoed: bool,
     /// When a plan is too late; never by default.
     deadline: Option<PlanDeadline>,
 }
 
 impl Driver {
-    /// A planner with this driver that has not planned yet; where it infers plans, with the default settings.
+    /// A planner with this driver that has not planned yet. If it infers plans, it does so with the default settings.
     pub fn planner(&self) -> Planner {
         self.planner_believing(&belief::Settings::default())
     }
 
-    /// As [`Driver::planner`], with settings for how it infers plans.
+    /// As [`Driver::planner`], with settings for the inference of plans.
     pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
         Planner::new(&**self, inference)
     }
 }
 
 impl Planner {
-    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it knows none.
+    /// A planner with a driver of this kind that has not planned yet. `inference` sets how it infers plans that it does not know.
     pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
         Planner {
             driver: kind.driver(),
@@ -54,23 +58,23 @@ impl Planner {
             homotopy_log: HomotopyLog::default(),
             prediction: kind.prediction().unwrap_or_default(),
             may_be_refused: kind.may_be_refused(),
+            is_vetoed: kind.is_vetoed(),
             deadline: None,
         }
     }
 
-    /// The same planner, whose plans have this deadline, or none.
+    /// The same planner with this deadline for its plans, or with none.
     pub fn with_deadline(self, deadline: Option<PlanDeadline>) -> Self {
         Planner { deadline, ..self }
     }
 
-    /// Another driver takes over. What follows from the kind of the former one stays: what the driver knows, and whether its plans
-    /// may be refused.
+    /// Replaces the driver. Properties of the former driver's kind remain: what the driver knows, and whether its plans may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
         self.driver = driver;
     }
 
-    /// The settings of the driver change, or its kind. It remembers the same where the kind stays, and its beliefs in any case;
-    /// otherwise it begins anew. `inference` says how it infers plans from now on, where it knows none.
+    /// Changes the settings of the driver, or its kind. A driver of the same kind keeps its memory, one of another kind
+    /// starts anew; beliefs are kept in both cases. `inference` sets how the planner infers plans from now on.
     pub fn change(&mut self, kind: &dyn DriverKind, inference: &belief::Settings) {
         let beliefs = self.beliefs.take().or_else(|| Some(Box::new(DriverBeliefs::new(*inference))));
         self.driver = self.driver.with_settings(kind).unwrap_or_else(|| kind.driver());
@@ -78,9 +82,10 @@ impl Planner {
         self.branches = kind.branches();
         self.prediction = kind.prediction().unwrap_or_default();
         self.may_be_refused = kind.may_be_refused();
+        self.is_vetoed = kind.is_vetoed();
     }
 
-    /// A copy that remembers the same; `None` if its driver cannot be copied.
+    /// A copy with the same memory; `None` if the driver cannot be copied.
     pub fn fork(&self) -> Option<Self> {
         Some(Planner {
             driver: self.driver.fork()?,
@@ -90,8 +95,8 @@ impl Planner {
         })
     }
 
-    /// Plans the next move in a scene that shows all vehicles as they are. A vehicle that can neither reach this one nor be reached by it
-    /// within the horizon has no part in the plan.
+    /// Plans the next move in a scene that shows all vehicles as they are. Vehicles that cannot meet this one within
+    /// the horizon are left out.
     ///
     /// # Errors
     /// [`PlanError`] if no plan was found; the caller falls back.
@@ -103,7 +108,7 @@ impl Planner {
         }
     }
 
-    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver knows no plans.
+    /// Plans the next move in a sensed scene, with inferred predictions where the driver knows no plans.
     ///
     /// # Errors
     /// As [`Planner::plan`].
@@ -126,7 +131,7 @@ impl Planner {
 
     /// The scene as the driver expects it, with those at least whom the plan touches in it.
     fn expected_to_touch<'a>(&self, scene: &'a Scene, plan: &Plan) -> Cow<'a, Scene> {
-        if self.prediction != Prediction::ConstantVelocity {
+        if self.prediction != Prediction::ConstantVelocity || scene.knowledge.is_of_motion() {
             return Cow::Borrowed(scene);
         }
         let others = within_touch(scene, &plan.trajectory);
@@ -138,21 +143,28 @@ impl Planner {
         let mut plan = self.driver.plan(scene, inferred_futures)?;
         self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         plan.violations = violations(&self.expected_to_touch(scene, &plan), &plan.trajectory);
-        let may_be_refused = self.may_be_refused && !plan.violations.is_empty();
-        let refused = may_be_refused
-            .then(|| refused(&self.prediction.applied_to(scene), &plan.trajectory, &plan.violations))
-            .flatten();
-        if let Some(violation) = refused {
-            return Err(PlanError::Refused(violation.clone()));
+        if let Some(violation) = self.refused(scene, &plan) {
+            return Err(PlanError::Refused(violation));
         }
         if plan.problem.is_some() {
             self.homotopy_log.note(scene, &mut plan);
         }
         Ok(plan)
     }
+
+    /// The violation for which a plan is refused.
+    fn refused(&self, scene: &Scene, plan: &Plan) -> Option<PlanViolation> {
+        let Plan { trajectory, violations, .. } = plan;
+        if scene.knowledge.is_of_motion() {
+            return self.is_vetoed.then(|| refused_by_motion(scene, trajectory, violations)).flatten();
+        }
+        let may_be_refused = self.may_be_refused && !violations.is_empty();
+        let refused = may_be_refused.then(|| refused(&self.prediction.applied_to(scene), trajectory, violations));
+        refused.flatten().cloned()
+    }
 }
 
-/// The most work that a plan may take. Its vehicle drives on without a plan that took more.
+/// The most work that a plan may take. A plan that took more is discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanDeadline {
     most_work: usize,
@@ -163,12 +175,12 @@ impl PlanDeadline {
     /// `docs/evidence/benchmarks.md`.
     const WORK_PER_MS: f64 = 50.0;
 
-    /// The deadline after this time \[ms\], by what it stands for; at least one unit of work.
+    /// The deadline after this time \[ms\], converted to the work that the reference machine does in it; at least one unit of work.
     pub fn after_ms(budget_ms: f64) -> Self {
         PlanDeadline { most_work: (budget_ms * PlanDeadline::WORK_PER_MS).round().max(1.0) as usize }
     }
 
-    /// Whether the work behind a plan ended in time.
+    /// Checks that the work behind a plan stayed within the deadline.
     ///
     /// # Errors
     /// [`PlanError::Late`] if it did not.
@@ -183,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plan_is_late_above_the_work_that_its_time_stands_for() {
+    fn a_plan_is_late_if_it_takes_more_work_than_its_deadline() {
         let done = |work| Statistics { inner_iterations: work, ..Statistics::default() };
         let deadline = PlanDeadline::after_ms(2.0);
         assert_eq!(deadline.check(&done(100)), Ok(()));

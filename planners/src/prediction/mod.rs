@@ -65,6 +65,17 @@ pub fn without_plans(scene: Scene) -> Scene {
     Scene { others: others.collect(), ..scene }
 }
 
+/// Half width of the spread of an observed position along the road, of real vehicles \[m\].
+const SPREAD_M: f64 = 0.25;
+/// Half width of the spread of an acceleration \[m/s²\].
+const SPREAD_MPS2: f64 = 0.5;
+
+/// The half width of the spread of the place along the road of a vehicle of which only the motion is seen, after some time \[m\]:
+/// `σ₀ + σ_a t²/2`.
+pub(crate) fn spread_m(vehicle: &Agent, time_s: f64) -> f64 {
+    SPREAD_M * vehicle.body.real_ratio() + 0.5 * SPREAD_MPS2 * time_s * time_s
+}
+
 /// The motion of a vehicle that keeps its present heading and speed.
 pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {
     Trajectory {
@@ -162,5 +173,12 @@ mod tests {
         let speed: f64 = 0.55 + inputs.iter().map(|input| 0.1 * input.acceleration_mps2).sum::<f64>();
         assert!(speed.abs() < 1e-12);
         assert!((inputs[5].acceleration_mps2 + 0.5).abs() < 1e-9 && inputs[6].acceleration_mps2.abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_spread_grows_with_the_square_of_time() {
+        let vehicle = crate::fixture::real_car(0.0, 20.0);
+        let [now, later] = [0.0, 2.0].map(|time_s| spread_m(&vehicle, time_s));
+        assert!((later - now - 1.0).abs() < 1e-12);
     }
 }

@@ -29,7 +29,7 @@ pub(crate) fn steer_over_step(agent: &Agent, state: &State, lateral_m: f64, step
 /// Curvatures are compared over at least this distance \[m\].
 const MIN_STEP_M: f64 = 1e-3;
 
-fn geometry(agent: &Agent, state: &State) -> SteeringGeometry {
+pub(crate) fn geometry(agent: &Agent, state: &State) -> SteeringGeometry {
     SteeringGeometry {
         rear_axle_m: agent.body.rear_axle_m,
         wheelbase_m: agent.body.wheelbase_m(),

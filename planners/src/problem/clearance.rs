@@ -4,6 +4,7 @@
 //! (`docs/guide/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
 //! ahead or behind.
 
+use crate::prediction;
 use crate::road::network::ConflictKind;
 use crate::scene::relation::Relation;
 use crate::trajectory::Penalty;
@@ -12,28 +13,30 @@ use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Route, SafetyEllipse, Scene, Trajectory};
 
 /// Gap between bumpers at standstill, for 1/10 scale cars \[m\].
-const STANDSTILL_GAP_M: f64 = 0.35;
+pub(crate) const STANDSTILL_GAP_M: f64 = 0.35;
 /// A driver of safety weight 0 keeps this share of the usual time gap, and a nice one this one.
 const GAP_SHARES: [f64; 2] = [0.6, 1.4];
 /// The weight of a nice driver, up to which shares grow with the logarithm.
 const NICE_WEIGHT: f64 = 50.0;
 /// Smallest share of the usual time gap to which a driver approaches by choice.
-const FIRM_SHARE: f64 = 0.45;
+pub(super) const FIRM_SHARE: f64 = 0.45;
 /// The least gap ahead or behind for a change of lane, as a share of the usual time gap: 1 s.
 const ACCEPTED_SHARE: f64 = 0.85;
 /// A planner keeps this share of the usual time gap besides its safety ellipse.
-const PLANNER_SHARE: f64 = 0.7;
+pub(super) const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
-const OPENING: f64 = 0.1;
+pub(super) const OPENING: f64 = 0.1;
+/// The spread of an expected place counts up to this time, of real vehicles \[s\].
+const SPREAD_S: f64 = 3.0;
 /// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
-const ASIDE_M: f64 = 0.04;
+pub(super) const ASIDE_M: f64 = 0.04;
 /// A vehicle beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
 const BEYOND_LINE_M: f64 = 0.03;
 
 /// The share of the usual time gap that a driver keeps, by its safety weight.
-fn share_of(weight: f64) -> f64 {
+pub(crate) fn share_of(weight: f64) -> f64 {
     let [tough, nice] = GAP_SHARES;
     let politeness = (libm::log1p(weight) / libm::log1p(NICE_WEIGHT)).min(1.0);
     tough + (nice - tough) * politeness
@@ -165,9 +168,15 @@ impl Scene {
         let speed_mps = if lead_m < 0.0 { other.state.speed_mps } else { ego.state.speed_mps };
         let wanted_m = PLANNER_SHARE * comfort.time_gap_s * speed_mps;
         let now_m = (lead_m - self.goal.safety.along_m).max(0.0);
+        // Of a vehicle of which only the motion is seen, the place is uncertain.
+        let spread_m = |stage: usize| {
+            let is_spread = self.knowledge.is_of_motion() && !is_in_lane;
+            let time_s = (self.step_s * (stage + 1) as f64).min(SPREAD_S * ego.body.real_ratio().sqrt());
+            if is_spread { prediction::spread_m(other, time_s) } else { 0.0 }
+        };
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
-            if is_in_lane { wanted_m.min(now_m + opened_m) } else { wanted_m }
+            if is_in_lane { wanted_m.min(now_m + opened_m) } else { wanted_m + spread_m(stage) }
         };
         let longer = |(stage, ellipse): (usize, &OrientedEllipse)| {
             let SafetyEllipse { along_m, across_m } = ellipse.shape();

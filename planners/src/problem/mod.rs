@@ -3,6 +3,7 @@
 //! [`JointVehicle`] and [`joint_problem`] do so for several vehicles that decide together.
 
 pub(crate) mod clearance;
+mod following;
 mod joint;
 pub(crate) mod permitted_speed;
 mod stage_bounds;
@@ -39,13 +40,13 @@ impl Agent {
         Some(RoadEdge { vehicle, body: self.body, route: Arc::clone(lane), penalty })
     }
 
-    /// A line that its front stays before, as number `vehicle` of a trajectory problem.
-    pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64) -> StopLine {
+    /// A line that its front stays before, given at `t = 1…N`, as number `vehicle` of a trajectory problem.
+    pub(crate) fn stop_line(&self, vehicle: usize, lines_m: Vec<f64>) -> StopLine {
         StopLine {
             vehicle,
             front_m: self.body.front_m,
             route: Arc::clone(&self.route),
-            line_m,
+            lines_m,
             // A driver does not leave the road in order to stay before a line.
             penalty: if self.rules.are_kept { Penalty::road_edge(self.body.scale) } else { Penalty::ROAD_EDGE },
         }
@@ -80,22 +81,34 @@ impl Scene {
         let line = rules
             .stop_line_m
             .filter(|_| rules.are_kept)
-            .map(|line_m| Term::StopLine(self.ego.stop_line(vehicle, line_m)));
+            .map(|line_m| Term::StopLine(self.ego.stop_line(vehicle, vec![line_m; self.horizon])));
+        let followed = rules.follows.as_ref();
+        let behind = followed.map(|followed| Term::StopLine(self.ego.stop_line(vehicle, followed.lines_m.clone())));
         let terms = [comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))];
-        terms.into_iter().chain(line).chain(self.ego.lane_lines(vehicle).map(Term::RoadEdge)).collect()
+        terms.into_iter().chain(line).chain(behind).chain(self.ego.lane_lines(vehicle).map(Term::RoadEdge)).collect()
     }
 
     /// What the planning vehicle pays for deviations from a goal: in Frenet coordinates where its road is curved.
     fn tracking(&self, vehicle: usize, goal: &Goal) -> Term {
         let route = &self.ego.route;
         if route.straight().is_some() {
-            let targets = vec![goal.target; self.horizon];
+            let mut targets = vec![goal.target; self.horizon];
+            for (target, speed_mps) in targets.iter_mut().zip(self.following_speeds_mps()) {
+                target.speed_mps = target.speed_mps.min(*speed_mps);
+            }
             return Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets });
         }
         let wanted = route.locate(goal.target.position(), None);
         let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
         let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
-        let permitted_mps = self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, self.horizon, self.step_s);
+        let mut permitted_mps =
+            self.ego.up_to_its_line(permitted_mps, goal.target.speed_mps, self.horizon, self.step_s);
+        if !self.following_speeds_mps().is_empty() {
+            permitted_mps.resize(self.horizon, f64::INFINITY);
+        }
+        for (permitted_mps, speed_mps) in permitted_mps.iter_mut().zip(self.following_speeds_mps()) {
+            *permitted_mps = permitted_mps.min(*speed_mps);
+        }
         Term::FrenetTracking(FrenetTracking {
             vehicle,
             weights: goal.tracking,

@@ -64,7 +64,7 @@ impl Agent {
     }
 
     /// With what it brakes for a speed limit or a line \[m/s²\].
-    fn comfortable_braking_mps2(&self) -> f64 {
+    pub(super) fn comfortable_braking_mps2(&self) -> f64 {
         let strongest_mps2 = COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs();
         let borne_mps2 = self.limits.comfort.map(|comfort| BORNE_BRAKING_SHARE * comfort.braking_mps2);
         borne_mps2.map_or(strongest_mps2, |borne_mps2| borne_mps2.min(strongest_mps2))

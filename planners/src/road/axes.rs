@@ -1,6 +1,6 @@
-//! Axes turned against those of the world: along a road and across it.
+//! Axes along and across a road, rotated against those of the world.
 
-/// Orthogonal axes, the first in some direction and the second to its left.
+/// Orthogonal axes: the first along a direction, the second to its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
     cos: f64,
@@ -26,17 +26,18 @@ impl Axes {
         }
     }
 
-    /// A vector of the world, as its components along and across.
+    /// The components of a world vector along and across.
     pub fn components(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.cos * x + self.sin * y, -self.sin * x + self.cos * y]
     }
 
-    /// The vector of the world that has these components.
+    /// The world vector with these components along and across.
     pub fn vector(&self, [along, across]: [f64; 2]) -> [f64; 2] {
         [self.cos * along - self.sin * across, self.sin * along + self.cos * across]
     }
 
-    /// The symmetric matrix of the world that is (along, mixed, across) in these axes: its entries xx, xy, yy.
+    /// Rotates a symmetric matrix, given by its entries (along, mixed, across) in these axes, into the world; returns
+    /// its entries xx, xy, yy.
     pub fn matrix(&self, [along, mixed, across]: [f64; 3]) -> [f64; 3] {
         let Axes { cos, sin } = *self;
         [
@@ -46,7 +47,8 @@ impl Axes {
         ]
     }
 
-    /// The entries (along, mixed, across) of a symmetric matrix of the world, given by xx, xy, yy.
+    /// Rotates a symmetric matrix of the world, given by its entries xx, xy, yy, into these axes; returns its entries
+    /// (along, mixed, across).
     pub fn entries(&self, matrix: [f64; 3]) -> [f64; 3] {
         Axes { cos: self.cos, sin: -self.sin }.matrix(matrix)
     }
@@ -58,7 +60,7 @@ mod tests {
 
     /// A quadratic form has the same value in either coordinates, and both ways lead back.
     #[test]
-    fn turning_changes_coordinates_and_nothing_else() {
+    fn rotating_axes_changes_only_coordinates() {
         for heading_rad in [0.0, 0.7, -2.1, std::f64::consts::FRAC_PI_2, std::f64::consts::PI] {
             let (axes, own, vector) = (Axes::along(heading_rad), [0.3, -0.2, 4.0], [1.3, -0.4]);
             let form = |[xx, xy, yy]: [f64; 3], [x, y]: [f64; 2]| xx * x * x + 2.0 * xy * x * y + yy * y * y;
@@ -70,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn right_angles_are_exact() {
+    fn axes_at_right_angles_are_exact() {
         let quarter = Axes::along(std::f64::consts::FRAC_PI_2);
         assert_eq!(quarter.matrix([0.1, 0.0, 4.0]), [4.0, 0.0, 0.1]);
         assert_eq!(quarter.components([2.0, 3.0]), [3.0, -2.0]);

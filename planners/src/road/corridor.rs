@@ -1,7 +1,7 @@
-//! The strip of road that a vehicle may use, and how far its corners are from its edges.
+//! The strip of road that a vehicle may use, and the distances of its corners to the edges.
 //!
-//! Eq. 6.7 bounds the `y` of the four corners, which fits only a road along x. Here a [`Corridor`] has a heading `ψ`
-//! of its own, and the bounded quantity is the lateral coordinate `n = −x sin ψ + y cos ψ` of a corner.
+//! Eq. 6.7 bounds the `y` of the four corners, which is valid only for a road along x. Here a [`Corridor`] has its own
+//! heading `ψ`, and the bounded quantity is the lateral coordinate `n = −x sin ψ + y cos ψ` of a corner.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -68,8 +68,8 @@ impl Corridor {
         self.end.map_or([self.right_m, 0.0, 0.0], |end| end.edge(self.right_m, front_m))
     }
 
-    /// How far each of the four corners is inside its edge (eq. 6.7 in the road's frame): the two right corners from
-    /// the right edge, the two left ones from the left edge, in the order of [`Body::local_corners`]; negative outside \[m\].
+    /// The distance of each of the four corners to its edge \[m\], negative outside (eq. 6.7 in the frame of the road): of the two
+    /// right corners to the right edge, and of the two left ones to the left edge, in the order of [`Body::local_corners`].
     pub fn clearances(&self, body: &Body, state: &State) -> [PoseExpansion; 4] {
         let mut clearances = [PoseExpansion::default(); 4];
         self.write_clearances(body, state, &mut clearances);
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_that_ends_leaves_no_room_past_its_end() {
+    fn a_lane_has_no_room_past_its_end() {
         let corridor = Corridor { heading_rad: 0.0, ..ramp() };
         let (body, lane) = (Body::default(), State { x_m: 1.0, y_m: 0.085, heading_rad: 0.0, speed_mps: 1.0 });
         assert!(corridor.contains(&body, &lane, 0.0));

@@ -21,7 +21,7 @@ enum Form {
     Stretches(Arc<[Stretch]>),
 }
 
-/// A polynomial of degree 5 between two knots; monotone.
+/// A monotone polynomial of degree 5 between two knots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Arc length at the first knot \[m\].
@@ -32,7 +32,7 @@ pub struct Stretch {
     pub coefficients: [f64; 6],
 }
 
-/// Why knots are no [`Profile`]. Knots are counted from 0.
+/// Why knots do not define a [`Profile`]. Knots are counted from 0.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum ProfileError {
     /// There are no knots.
@@ -69,8 +69,8 @@ impl Profile {
         Profile(Form::Constant(value))
     }
 
-    /// A right edge at `edge_m` that moves to the left where the rightmost lane ends, as
-    /// [`Corridor::right_edge_m`](crate::Corridor::right_edge_m) says, bit for bit \[m\].
+    /// A right edge at `edge_m` that moves to the left where the rightmost lane ends, equal to
+    /// [`Corridor::right_edge_m`](crate::Corridor::right_edge_m) bit for bit \[m\].
     pub fn lane_end(edge_m: f64, end: LaneEnd) -> Profile {
         Profile(Form::LaneEnd { edge_m, end })
     }
@@ -118,7 +118,7 @@ impl Profile {
         if knots.iter().all(|[_, value]| value == first) {
             return Ok(Profile::constant(*first));
         }
-        // Knots inside of a constant part are left out: with fewer knots a search is faster.
+        // Knots inside a constant part are removed: with fewer knots a search is faster.
         let is_needed = |i: &usize| {
             *i == 0 || *i + 1 == knots.len() || knots[i - 1][1] != knots[*i][1] || knots[i + 1][1] != knots[*i][1]
         };
@@ -196,7 +196,7 @@ impl Profile {
         }
     }
 
-    /// The end of a lane, for an edge that moves there.
+    /// The lane end at which this edge moves, if any.
     pub fn end(&self) -> Option<LaneEnd> {
         match &self.0 {
             Form::LaneEnd { end, .. } => Some(*end),
@@ -204,7 +204,7 @@ impl Profile {
         }
     }
 
-    /// The value at an arc length \[m\], as if no lane ended.
+    /// The value at an arc length \[m\], ignoring any lane end.
     pub fn value_before_end(&self, along_m: f64) -> f64 {
         match &self.0 {
             Form::LaneEnd { edge_m, .. } => *edge_m,
@@ -278,7 +278,7 @@ mod tests {
     use crate::{Body, Corridor, State};
 
     #[test]
-    fn a_lane_end_equals_the_corridor_bit_for_bit() {
+    fn the_profile_of_a_lane_end_equals_the_corridor_bit_for_bit() {
         let end = LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 };
         let corridor = Corridor { heading_rad: 0.0, right_m: -0.1, left_m: 0.9, end: Some(end) };
         let (profile, body) = (Profile::lane_end(-0.1, end), Body::default());
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn between_knots_a_profile_is_monotone_and_a_straight_one_stays_straight() {
+    fn profiles_are_monotone_between_knots_and_keep_straight_lines() {
         let knots = [[0.0, 0.0], [1.0, 0.1], [2.0, 4.0], [3.0, 4.1], [4.0, 1.0], [5.0, 1.0]];
         for profile in [Profile::steps(&knots), Profile::through(&knots)].map(|profile| profile.expect("sound knots")) {
             for pair in knots.windows(2) {
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_profile_is_refused() {
+    fn invalid_profiles_are_refused() {
         assert_eq!(Profile::steps(&[]), Err(ProfileError::NoKnots));
         assert_eq!(Profile::through(&[[0.0, f64::NAN]]), Err(ProfileError::NotFinite { knot: 0 }));
         let back = [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]];
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn stretches_make_the_same_profile() {
+    fn a_profile_rebuilt_from_its_polynomials_is_the_same_profile() {
         let knots = [[1.0, 3.0], [4.0, 3.0], [6.0, 5.0], [7.0, 2.0], [9.0, 1.0], [12.0, 0.5]];
         for profile in [Profile::steps(&knots), Profile::through(&knots)].map(|profile| profile.expect("sound knots")) {
             assert_eq!(Profile::from_stretches(profile.stretches()), Ok(profile));

@@ -23,7 +23,7 @@ const SIDE_SIN: f64 = 0.5;
 
 /// What is remembered, by the names of vehicles.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Arrivals(BTreeMap<String, Memory>);
+pub(crate) struct Arrivals(BTreeMap<String, Memory>);
 
 /// What is remembered of one vehicle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,18 +75,6 @@ impl Arrivals {
         self.0.get(&agent.name).and_then(|known| known.stood_at_m).is_some_and(|stood_m| stood_m >= line_m)
     }
 
-    /// Whether the first of two vehicles came to its line before the second came to its own; none unless both have. Of two who came at
-    /// once it is the one to the right of the other, and of two who come from opposite sides the one of [`Arrivals::turn`].
-    pub(super) fn came_before(&self, [first, second]: [&Agent; 2]) -> Option<bool> {
-        let [(tick, heading_rad), (their_tick, their_heading_rad)] = [self.turn(first)?, self.turn(second)?];
-        let side = libm::sin(heading_rad - their_heading_rad);
-        Some(match tick.cmp(&their_tick) {
-            Ordering::Equal if side.abs() > SIDE_SIN => side > 0.0,
-            Ordering::Equal => heading_rad < their_heading_rad,
-            unequal => unequal == Ordering::Less,
-        })
-    }
-
     /// When a vehicle came to its line, and the direction in which it came, counter-clockwise from the x axis \[rad\]: an order of all
     /// who wait. None for a vehicle that is not at its line.
     pub(super) fn turn(&self, agent: &Agent) -> Option<(usize, f64)> {
@@ -98,6 +86,18 @@ impl Arrivals {
     fn arrival(&self, agent: &Agent) -> Option<Arrival> {
         self.0.get(&agent.name)?.arrival
     }
+}
+
+/// Whether the first of two vehicles came to its line before the second came to its own, by their turns; none unless both have. Of two who
+/// came at once it is the one to the right of the other, and of two who come from opposite sides the one of [`Arrivals::turn`].
+pub(super) fn came_before([first, second]: [Option<(usize, f64)>; 2]) -> Option<bool> {
+    let [(tick, heading_rad), (their_tick, their_heading_rad)] = [first?, second?];
+    let side = libm::sin(heading_rad - their_heading_rad);
+    Some(match tick.cmp(&their_tick) {
+        Ordering::Equal if side.abs() > SIDE_SIN => side > 0.0,
+        Ordering::Equal => heading_rad < their_heading_rad,
+        unequal => unequal == Ordering::Less,
+    })
 }
 
 impl Memory {

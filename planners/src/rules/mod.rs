@@ -26,7 +26,7 @@ pub(crate) mod right_of_way;
 pub(crate) mod urgency;
 mod waiting;
 
-use arrivals::Arrivals;
+pub(crate) use arrivals::Arrivals;
 pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
@@ -47,19 +47,43 @@ pub struct RuleBook {
 }
 
 impl RuleBook {
-    /// What is asked of each of some road users, in their order. To be called once a tick.
-    pub(crate) fn judge(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) -> Vec<RoadRules> {
-        if !users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network()) {
+    /// Notes which vehicles have arrived where. To be called once a tick.
+    pub(crate) fn note(&mut self, tick: usize, step_s: f64, users: &[Obliged<'_>]) {
+        if are_judged(users) {
+            self.arrivals.note_all(tick, step_s, users);
+        }
+    }
+
+    /// What is asked of each of some road users, in their order.
+    pub(crate) fn judge(&self, tick: usize, step_s: f64, users: &[Obliged<'_>]) -> Vec<RoadRules> {
+        if !are_judged(users) {
             return users.iter().map(beside_no_network).collect();
         }
-        self.arrivals.note_all(tick, step_s, users);
         let time_s = tick as f64 * step_s;
-        let lights_m: Vec<Option<f64>> = users.iter().map(|user| lights::line_m(user.agent, time_s)).collect();
-        let mut holds: Vec<Vec<Hold>> = (0..users.len()).map(|vehicle| self.holds(users, vehicle, &lights_m)).collect();
-        let turns: Vec<_> = users.iter().map(|user| self.arrivals.turn(user.agent)).collect();
+        let mut order = Order::of(&self.arrivals, users, time_s);
+        waiting::release(&mut order.holds, &order.turns);
+        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| asked(&self.arrivals, user, users, holds, time_s);
+        users.iter().zip(&order.holds).map(asked).collect()
+    }
+
+    /// What is asked of one road user, number `vehicle` of `users`, who observed the others some time ago and knows its own present:
+    /// `order` is the order that it observed, of the others as they are expected to be now. The lights are those of `seen_s` \[s\].
+    pub(crate) fn judge_one(&self, order: &Order, users: &[Obliged<'_>], vehicle: usize, seen_s: f64) -> RoadRules {
+        let user = &users[vehicle];
+        if !user.keeps_rules || !user.agent.route.is_in_network() {
+            return beside_no_network(user);
+        }
+        let Order { arrivals, mut lights_m, mut holds, mut turns } = order.clone();
+        lights_m[vehicle] = lights::line_m(user.agent, seen_s);
+        turns[vehicle] = self.arrivals.turn(user.agent);
+        holds[vehicle] = held([&self.arrivals, &arrivals], users, vehicle, &lights_m);
         waiting::release(&mut holds, &turns);
-        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| self.asked(user, users, holds, time_s);
-        users.iter().zip(&holds).map(asked).collect()
+        asked(&self.arrivals, user, users, &holds[vehicle], seen_s)
+    }
+
+    /// What has been noted of arrivals so far.
+    pub(crate) fn arrivals(&self) -> &Arrivals {
+        &self.arrivals
     }
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
@@ -79,62 +103,88 @@ impl RuleBook {
             None => {}
         }
     }
+}
 
-    /// All vehicles that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop.
-    fn holds(&self, users: &[Obliged<'_>], vehicle: usize, lights_m: &[Option<f64>]) -> Vec<Hold> {
-        let ego = &users[vehicle].agent;
-        if !ego.route.is_in_network() {
-            return Vec::new();
-        }
-        let wanted_mps = users[vehicle].wanted_mps;
-        let mut found = Vec::new();
-        for (by, other) in users.iter().enumerate().filter(|(by, _)| *by != vehicle) {
-            for conflict in ego.route.conflicts_with(&other.agent.route) {
-                // Who has to stop at a light before the conflict does not come.
-                if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
-                    continue;
-                }
-                let arrived = Arrived {
-                    own: self.arrivals.has_arrived(ego),
-                    their: self.arrivals.has_arrived(other.agent),
-                    they_came_first: self.arrivals.came_before([other.agent, ego]),
-                    they_are_ready: self.arrivals.is_ready(other),
-                    they_win_ties: false,
-                };
-                let before_m = conflict.own_line_m - stopping_distance_m(ego);
-                let pair = Pair::new([ego, other.agent], conflict, wanted_mps, is_standing(other.agent));
-                if can_stop(ego, before_m) && pair.holds(arrived) {
-                    found.push(Hold { by, line_m: conflict.own_line_m });
-                }
+/// Whether the rules of a network are kept by any vehicle.
+fn are_judged(users: &[Obliged<'_>]) -> bool {
+    users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network())
+}
+
+/// Which vehicles have to wait for which, before circles are broken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Order {
+    arrivals: Arrivals,
+    /// The lights at which each has to stop \[m\].
+    lights_m: Vec<Option<f64>>,
+    holds: Vec<Vec<Hold>>,
+    turns: Vec<Option<(usize, f64)>>,
+}
+
+impl Order {
+    /// The order of some road users at a time, with what is known of their arrivals \[s\].
+    pub(crate) fn of(arrivals: &Arrivals, users: &[Obliged<'_>], time_s: f64) -> Order {
+        let lights_m: Vec<Option<f64>> = users.iter().map(|user| lights::line_m(user.agent, time_s)).collect();
+        let held = |vehicle: usize| held([arrivals; 2], users, vehicle, &lights_m);
+        let holds = (0..users.len()).map(held).collect();
+        let turns = users.iter().map(|user| arrivals.turn(user.agent)).collect();
+        Order { arrivals: arrivals.clone(), lights_m, holds, turns }
+    }
+}
+
+/// All vehicles that a vehicle has to wait for, judged in pairs; `lights_m` are the lights at which each has to stop. What is known of
+/// its own arrival and of those of the others may be of different times.
+fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lights_m: &[Option<f64>]) -> Vec<Hold> {
+    let ego = &users[vehicle].agent;
+    if !ego.route.is_in_network() {
+        return Vec::new();
+    }
+    let wanted_mps = users[vehicle].wanted_mps;
+    let mut found = Vec::new();
+    for (by, other) in users.iter().enumerate().filter(|(by, _)| *by != vehicle) {
+        for conflict in ego.route.conflicts_with(&other.agent.route) {
+            // Who has to stop at a light before the conflict does not come.
+            if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
+                continue;
+            }
+            let arrived = Arrived {
+                own: own.has_arrived(ego),
+                their: their.has_arrived(other.agent),
+                they_came_first: arrivals::came_before([their.turn(other.agent), own.turn(ego)]),
+                they_are_ready: their.is_ready(other),
+                they_win_ties: false,
+            };
+            let before_m = conflict.own_line_m - stopping_distance_m(ego);
+            let pair = Pair::new([ego, other.agent], conflict, wanted_mps, is_standing(other.agent));
+            if can_stop(ego, before_m) && pair.holds(arrived) {
+                found.push(Hold { by, line_m: conflict.own_line_m });
             }
         }
-        found
     }
+    found
+}
 
-    /// What is asked of a vehicle that is held by others.
-    fn asked(&self, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
-        let ego = &user.agent;
-        if !user.keeps_rules || !ego.route.is_in_network() {
-            return beside_no_network(user);
-        }
-        let before_m = stopping_distance_m(ego);
-        let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
-        let signs =
-            signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !self.arrivals.has_stood_at(ego, *line_m));
-        let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
-        let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
-        let nearest_m = lines.min_by(f64::total_cmp);
-        let mut waits_for: Vec<String> = Vec::new();
-        for hold in holds.iter().filter(|hold| Some(hold.line_m) == nearest_m) {
-            let name = &users[hold.by].agent.name;
-            if !waits_for.contains(name) {
-                waits_for.push(name.clone());
-            }
-        }
-        let stays_in_lane = lane::stays_in_lane(user, users);
-        let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
-        RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, passes: None, waits_for }
+/// What is asked of a vehicle that is held by others.
+fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
+    let ego = &user.agent;
+    if !user.keeps_rules || !ego.route.is_in_network() {
+        return beside_no_network(user);
     }
+    let before_m = stopping_distance_m(ego);
+    let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
+    let signs = signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !arrivals.has_stood_at(ego, *line_m));
+    let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
+    let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
+    let nearest_m = lines.min_by(f64::total_cmp);
+    let mut waits_for: Vec<String> = Vec::new();
+    for hold in holds.iter().filter(|hold| Some(hold.line_m) == nearest_m) {
+        let name = &users[hold.by].agent.name;
+        if !waits_for.contains(name) {
+            waits_for.push(name.clone());
+        }
+    }
+    let stays_in_lane = lane::stays_in_lane(user, users);
+    let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
+    RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, waits_for, ..RoadRules::default() }
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.

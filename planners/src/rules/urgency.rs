@@ -2,11 +2,12 @@
 
 use crate::plan::certificate::touches_ahead;
 use crate::prediction::steering::{admissible, roll_out, steer};
+use crate::problem::clearance::STANDSTILL_GAP_M;
 use crate::{Agent, Input, Scene, Trajectory};
 
 /// A driver who must brake does so by this much harder than is just enough.
 const RESERVE: f64 = 1.15;
-/// It stops this many lengths of its body behind a vehicle.
+/// It stops this many lengths of its body behind a vehicle whose plan it knows.
 const STANDSTILL_LENGTHS: f64 = 0.15;
 /// Ratio to the comfortable braking above which a vehicle brakes as hard as it can.
 const MOST: f64 = 10.0;
@@ -22,7 +23,12 @@ impl Scene {
         let ego = &self.ego;
         let Some(comfort) = ego.limits.comfort else { return 1.0 };
         let leaders = self.others.iter().filter(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
-        let behind = leaders.map(|leader| braking_behind(ego, leader, comfort.braking_mps2));
+        let standstill_m = if self.knowledge.is_of_motion() {
+            STANDSTILL_GAP_M * ego.body.scale
+        } else {
+            STANDSTILL_LENGTHS * (ego.body.front_m + ego.body.rear_m)
+        };
+        let behind = leaders.map(|leader| braking_behind(ego, leader, standstill_m, comfort.braking_mps2));
         let line = ego.rules.stop_line_m.map(|line_m| {
             let room_m = line_m - ego.route.along(ego.state.position()) - ego.body.front_m;
             braking_within(ego.state.speed_mps, room_m)
@@ -54,8 +60,7 @@ impl Scene {
 }
 
 /// The braking with which a vehicle stops behind a leader that brakes to a stop \[m/s²\].
-fn braking_behind(ego: &Agent, leader: &Agent, comfortable_mps2: f64) -> f64 {
-    let own_m = STANDSTILL_LENGTHS * (ego.body.front_m + ego.body.rear_m);
+fn braking_behind(ego: &Agent, leader: &Agent, own_m: f64, comfortable_mps2: f64) -> f64 {
     let gap_m = ego.lead_of(leader) - ego.body.front_m - leader.body.rear_m - own_m;
     let their_mps2 = comfortable_mps2.max(-leader.previous_input.acceleration_mps2);
     let their_way_m = leader.state.speed_mps * leader.state.speed_mps / (2.0 * their_mps2);

@@ -1,14 +1,17 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
 pub mod driver_estimate;
+mod indicator;
 pub mod inferred_futures;
 pub(crate) mod input_record;
+pub mod knowledge;
 pub(crate) mod record;
 pub(crate) mod relation;
 pub(crate) mod road_rules;
 pub mod trigger;
 
 pub use input_record::InputRecord;
+pub use knowledge::Knowledge;
 
 use std::sync::Arc;
 
@@ -31,7 +34,7 @@ pub struct Agent {
     pub limits: Limits,
     /// The route that it follows.
     pub route: Arc<Route>,
-    /// Predicted motion, beginning at `state`: its current plan where that is known, else constant velocity.
+    /// Predicted motion, beginning at `state`: its current plan where that is known, else what its motion leads one to expect.
     pub prediction: Arc<Trajectory>,
     /// Its goal, if it publishes one, as vehicles do that cooperate.
     pub shared_goal: Option<Goal>,
@@ -39,10 +42,21 @@ pub struct Agent {
     pub can_be_asked: bool,
     /// Whether it has no driver: a parked car, a cone, a wall. Its body lies along the road.
     pub is_obstacle: bool,
+    /// The side on which it indicates; `None` if it does not.
+    pub indicator: Option<IndicatorSide>,
     /// What the rules of the road ask of it now; nothing before they are judged.
     pub rules: RoadRules,
     /// How many times harder than is comfortable it has to brake now; 1 where comfort is enough, and before that is judged.
     pub urgency: f64,
+}
+
+/// The side on which a vehicle indicates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndicatorSide {
+    /// The vehicle moves to the left.
+    Left,
+    /// The vehicle moves to the right.
+    Right,
 }
 
 /// The goal of a vehicle: a desired state, and the weights of its costs.
@@ -67,6 +81,8 @@ pub struct Scene {
     pub step_s: f64,
     /// Number of steps `N` of the plan.
     pub horizon: usize,
+    /// What the driver knows of the others.
+    pub knowledge: Knowledge,
     /// The planning vehicle.
     pub ego: Agent,
     /// The goal of the planning vehicle.

@@ -28,6 +28,17 @@ pub struct Obstacle {
     pub reach_m: [f64; 2],
 }
 
+/// A vehicle ahead behind which another one stays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Followed {
+    /// The vehicle.
+    pub name: String,
+    /// How far along its own route the front of the follower may come at `t = 1…N` \[m\].
+    pub lines_m: Vec<f64>,
+    /// The speeds at `t = 1…N` with which the follower comes up to it in comfort; infinite where it is too far away to count \[m/s\].
+    pub speeds_mps: Vec<f64>,
+}
+
 /// What the rules of the road ask of a vehicle now.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadRules {
@@ -39,6 +50,8 @@ pub struct RoadRules {
     pub stop_line_m: Option<f64>,
     /// What stands in its lane and is passed now; there is room.
     pub passes: Option<Obstacle>,
+    /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.
+    pub follows: Option<Followed>,
     /// Whom it waits for there; empty where a sign alone holds it.
     pub waits_for: Vec<String>,
 }

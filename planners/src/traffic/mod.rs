@@ -25,6 +25,7 @@
 mod committed;
 mod limits;
 mod neighbours;
+mod observation;
 mod planning_order;
 mod presence;
 mod road_user;
@@ -37,14 +38,17 @@ use std::sync::Arc;
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 pub use neighbours::Neighbours;
+pub use observation::Observations;
 pub use planning_order::planning_order;
 pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
 
 use crate::prediction::without_plans;
 use crate::rules::{Obliged, RoadRules, RuleBook};
+use crate::scene::Knowledge;
 use crate::trajectory::Statistics;
 use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
+use observation::{MadeOf, View};
 
 /// All road users at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -61,6 +65,8 @@ pub struct Traffic {
     pub rule_book: RuleBook,
     /// Who is near whom; before they are found, all count as near.
     pub near: Neighbours,
+    /// What drivers see who do not know plans.
+    pub observations: Observations,
 }
 
 /// What one vehicle decided in a tick.
@@ -117,17 +123,10 @@ impl Traffic {
     pub fn predict(&mut self) {
         self.find_neighbours();
         let Traffic { tick, horizon, step_s, .. } = *self;
-        let present = || self.road_users.iter().filter(|user| !user.is_absent());
-        let obliged = present().map(|user| Obliged {
-            agent: &user.agent,
-            wanted_mps: user.goal.target.speed_mps,
-            lateral_goal_m: user.agent.route.across(user.goal.target.position()),
-            keeps_rules: user.keeps_rules,
-        });
-        let rules = self.rule_book.judge(tick, step_s, &obliged.collect::<Vec<_>>());
-        for (user, rules) in self.road_users.iter_mut().filter(|user| !user.is_absent()).zip(rules) {
-            user.agent.rules = rules;
-        }
+        let present = self.road_users.iter().filter(|user| !user.is_absent());
+        self.rule_book.note(tick, step_s, &present.map(RoadUser::obliged).collect::<Vec<_>>());
+        self.observe();
+        self.judge();
         for RoadUser { agent, committed, .. } in &mut self.road_users {
             agent.prediction = Arc::new(committed.prediction(agent, horizon, step_s));
         }
@@ -136,31 +135,128 @@ impl Traffic {
             if presence.is_absent() || (!keeps_rules && agent.limits.comfort.is_none()) {
                 continue;
             }
-            let (keeps_rules, mut scene) = (*keeps_rules, self.moment(vehicle));
+            let (keeps_rules, observes) = (*keeps_rules, self.road_users[vehicle].observes());
+            let mut scene = if observes { self.scene(vehicle) } else { self.moment(vehicle) };
             if keeps_rules {
                 self.rule_book.hold_behind_obstacle(&mut scene);
+            }
+            if observes && self.road_users[vehicle].decides {
+                scene.ego.rules.follows = scene.kept_behind();
             }
             let urgency = scene.urgency();
             self.road_users[vehicle].agent = Agent { urgency, ..scene.ego };
         }
     }
 
-    /// The moment as one vehicle sees it: with the plans of the others if it knows them.
+    /// Makes the observation of this tick and the views of those who see the motion of the others only.
+    fn observe(&mut self) {
+        let present = || self.road_users.iter().filter(|user| !user.is_absent());
+        let observers = present().filter(|user| user.observes());
+        let mut late: Vec<usize> = observers.map(|user| user.late_steps(self.step_s)).collect();
+        late.sort_unstable();
+        late.dedup();
+        let Some(latest) = late.last().copied() else {
+            self.observations = Observations::default();
+            return;
+        };
+        let seen = present().map(|user| Obliged::as_seen(&user.agent, user.keeps_rules)).collect::<Vec<_>>();
+        let mut asked = self.rule_book.judge(self.tick, self.step_s, &seen).into_iter();
+        let rules = self
+            .road_users
+            .iter()
+            .map(|user| if user.is_absent() { RoadRules::default() } else { asked.next().unwrap_or_default() });
+        let made_of = self.made_of();
+        let observation = made_of.observation(rules.collect(), latest, self.rule_book.arrivals().clone());
+        let mut observations = std::mem::take(&mut self.observations);
+        observations.note(observation, &late, &self.made_of());
+        self.observations = observations;
+    }
+
+    fn made_of(&self) -> MadeOf<'_> {
+        let Traffic { tick, step_s, horizon, ref road_users, ref near, .. } = *self;
+        MadeOf { tick, step_s, horizon, road_users, near }
+    }
+
+    /// Writes into every agent what the rules of the road ask of it: by the present of all, or, of one who sees the motion of the others
+    /// only, by its own present and what it sees.
+    fn judge(&mut self) {
+        let Traffic { tick, step_s, .. } = *self;
+        let is_present = |user: &RoadUser| !user.is_absent();
+        let mut rules: Vec<Option<RoadRules>> = vec![None; self.road_users.len()];
+        if self.road_users.iter().any(|user| is_present(user) && !user.observes()) {
+            let present = || self.road_users.iter().filter(|user| is_present(user));
+            let obliged: Vec<Obliged<'_>> = present().map(RoadUser::obliged).collect();
+            let rows = self.road_users.iter().enumerate().filter(|(_, user)| is_present(user)).map(|(row, _)| row);
+            for (row, asked) in rows.zip(self.rule_book.judge(tick, step_s, &obliged)) {
+                rules[row] = Some(asked).filter(|_| !self.road_users[row].observes());
+            }
+        }
+        for row in 0..self.road_users.len() {
+            rules[row] = rules[row].take().or_else(|| self.asked_of_observer(row));
+        }
+        for (user, rules) in self.road_users.iter_mut().zip(rules) {
+            user.agent.rules = rules.unwrap_or(std::mem::take(&mut user.agent.rules));
+        }
+    }
+
+    /// What the rules ask of one who sees the motion of the others only.
+    fn asked_of_observer(&self, row: usize) -> Option<RoadRules> {
+        let (view, made_of) = (self.view(row)?, self.made_of());
+        let own = self.road_users[row].obliged();
+        let place = view.rows.iter().position(|other| *other == row)?;
+        let seen = view.rows.iter().filter_map(|other| made_of.obliged(*other, &view.agents));
+        let users: Vec<Obliged<'_>> =
+            seen.enumerate().map(|(index, user)| if index == place { own } else { user }).collect();
+        Some(self.rule_book.judge_one(&view.order, &users, place, view.seen_s))
+    }
+
+    /// What a vehicle on the road sees that observes the motion of the others only; none of another one.
+    fn view(&self, row: usize) -> Option<&View> {
+        let user = &self.road_users[row];
+        (user.observes() && !user.is_absent())
+            .then(|| self.observations.view_of(user.late_steps(self.step_s)))
+            .flatten()
+    }
+
+    /// The moment as one vehicle sees it: with the plans of those that tell them if it knows plans.
     pub fn scene(&self, vehicle: usize) -> Scene {
-        let scene = self.moment(vehicle);
-        if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
+        let user = &self.road_users[vehicle];
+        let Some(view) = self.view(vehicle) else {
+            let moment = self.moment(vehicle);
+            return if user.knows_plans { self.without_untold(moment) } else { without_plans(moment) };
+        };
+        let near = view.near.near_to(&user.agent, vehicle, |other| view.agents[other].as_ref());
+        let others = near.into_iter().filter_map(|other| view.agents[other].clone()).collect();
+        let knowledge = Knowledge::Motion { late_steps: user.late_steps(self.step_s) };
+        Scene { others, knowledge, ..self.moment_of(vehicle, &[]) }
+    }
+
+    /// A moment without the plans of vehicles that do not tell them.
+    fn without_untold(&self, moment: Scene) -> Scene {
+        if self.road_users.iter().all(|user| user.tells_plan) {
+            return moment;
+        }
+        let tells = |name: &str| self.road_users.iter().any(|user| user.agent.name == name && user.tells_plan);
+        let told: Vec<bool> = moment.others.iter().map(|other| tells(&other.name)).collect();
+        let seen = without_plans(moment.clone());
+        let others = moment.others.into_iter().zip(seen.others).zip(told);
+        Scene { others: others.map(|((plan, seen), tells)| if tells { plan } else { seen }).collect(), ..seen }
     }
 
     /// The moment as it is around one vehicle, with the predictions as they stand of all who can matter to it within the horizon.
     pub fn moment(&self, vehicle: usize) -> Scene {
-        let others = self.near.of(vehicle, &self.road_users);
+        self.moment_of(vehicle, &self.near.of(vehicle, &self.road_users))
+    }
+
+    fn moment_of(&self, vehicle: usize, others: &[usize]) -> Scene {
         Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
+            knowledge: Knowledge::Plans,
             ego: self.road_users[vehicle].agent.clone(),
             goal: self.road_users[vehicle].goal,
-            others: others.into_iter().map(|other| self.road_users[other].agent.clone()).collect(),
+            others: others.iter().map(|other| self.road_users[*other].agent.clone()).collect(),
         }
     }
 
@@ -171,7 +267,18 @@ impl Traffic {
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         let order = planning_order(&self.road_users);
         let present = order.into_iter().filter(|vehicle| !self.road_users[*vehicle].is_absent()).collect::<Vec<_>>();
-        present.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
+        let decisions = present.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect();
+        self.indicate();
+        decisions
+    }
+
+    /// Vehicles whose plans are not told indicate a change of lane from the next tick on.
+    fn indicate(&mut self) {
+        let step_s = self.step_s;
+        for user in self.road_users.iter_mut().filter(|user| !user.tells_plan && !user.is_absent()) {
+            let plan = user.committed.trajectory.as_ref().filter(|_| user.decides);
+            user.agent.indicator = user.agent.indicates(plan.map(|plan| &**plan), step_s);
+        }
     }
 
     fn decide(&mut self, vehicle: usize, ask: impl FnOnce(usize, &Scene) -> Result<Plan, PlanError>) -> Decision {

@@ -25,12 +25,17 @@ pub struct Neighbours {
 impl Neighbours {
     /// Sorts the road users on the road into cells.
     pub fn find(road_users: &[RoadUser], horizon_s: f64) -> Neighbours {
-        let present = || road_users.iter().enumerate().filter(|(_, user)| !user.is_absent());
-        let reaches_m: Vec<f64> = road_users.iter().map(|user| reach_m(&user.agent, horizon_s)).collect();
+        Neighbours::of_agents(road_users.iter().map(|user| (!user.is_absent()).then_some(&user.agent)), horizon_s)
+    }
+
+    /// Sorts vehicles into cells; absent ones are none.
+    pub(super) fn of_agents<'a>(agents: impl Iterator<Item = Option<&'a Agent>> + Clone, horizon_s: f64) -> Neighbours {
+        let present = || agents.clone().enumerate().filter_map(|(index, agent)| Some((index, agent?)));
+        let reaches_m: Vec<f64> = agents.clone().map(|agent| agent.map_or(0.0, |it| reach_m(it, horizon_s))).collect();
         // Those who come towards each other meet within both reaches.
-        let farthest_m = present().map(|(index, user)| reaches_m[index] + margin_m(&user.agent)).fold(0.0, f64::max);
+        let farthest_m = present().map(|(index, agent)| reaches_m[index] + margin_m(agent)).fold(0.0, f64::max);
         let cell_m = 2.0 * farthest_m.max(1.0);
-        let mut cells: Vec<_> = present().map(|(index, user)| (cell_of(&user.agent.state, cell_m), index)).collect();
+        let mut cells: Vec<_> = present().map(|(index, agent)| (cell_of(&agent.state, cell_m), index)).collect();
         cells.sort_unstable();
         Neighbours { cell_m, cells, reaches_m }
     }
@@ -42,8 +47,19 @@ impl Neighbours {
             let present = road_users.iter().enumerate().filter(|(other, user)| *other != vehicle && !user.is_absent());
             return present.map(|(other, _)| other).collect();
         }
-        let is_near =
-            |other: &usize| can_matter(ego, self.reaches_m[vehicle], &road_users[*other].agent, self.reaches_m[*other]);
+        self.near_to(ego, vehicle, |other| Some(&road_users[other].agent))
+    }
+
+    /// The same of a vehicle that is not where it was when they were sorted, among agents as they were then.
+    pub(super) fn near_to<'a>(
+        &self,
+        ego: &Agent,
+        vehicle: usize,
+        agent: impl Fn(usize) -> Option<&'a Agent>,
+    ) -> Vec<usize> {
+        let is_near = |other: &usize| {
+            agent(*other).is_some_and(|it| can_matter(ego, self.reaches_m[vehicle], it, self.reaches_m[*other]))
+        };
         let [column, row] = cell_of(&ego.state, self.cell_m);
         let mut found = Vec::new();
         for x in column.saturating_sub(1)..=column.saturating_add(1) {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::committed::{CommittedPlan, Origin};
 use super::presence::{Presence, Stay};
+use crate::rules::Obliged;
 use crate::scene::record::Record;
 use crate::{Agent, Goal, Input, Plan};
 
@@ -16,8 +17,14 @@ pub struct RoadUser {
     pub goal: Goal,
     /// Whether it plans before, and publishes its plan to, those that do not.
     pub goes_first: bool,
-    /// Whether it knows the plans of the others.
+    /// Whether it knows the plans of the others that tell them; else it sees their motion only.
     pub knows_plans: bool,
+    /// Whether it tells its plan, its goal and its wishes to those that know plans.
+    pub tells_plan: bool,
+    /// How late it observes the motion of the others \[s\].
+    pub reaction_s: f64,
+    /// Whether it decides for itself where it drives: it does not follow a script, a record or inputs from outside.
+    pub decides: bool,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
@@ -44,6 +51,9 @@ impl RoadUser {
             goal,
             goes_first,
             knows_plans: true,
+            tells_plan: true,
+            reaction_s: 0.0,
+            decides: true,
             keeps_rules: false,
             is_crashed: false,
             presence: Presence::Present,
@@ -58,6 +68,26 @@ impl RoadUser {
     /// Whether it is not on the road now.
     pub fn is_absent(&self) -> bool {
         self.presence.is_absent()
+    }
+
+    /// Whether it sees only the motion of the others, as people do; the drivers of the dissertation who infer plans see states.
+    pub fn observes(&self) -> bool {
+        !self.knows_plans && self.agent.limits.comfort.is_some()
+    }
+
+    /// The vehicle as the rules see it that it keeps itself.
+    pub(super) fn obliged(&self) -> Obliged<'_> {
+        Obliged {
+            agent: &self.agent,
+            wanted_mps: self.goal.target.speed_mps,
+            lateral_goal_m: self.agent.route.across(self.goal.target.position()),
+            keeps_rules: self.keeps_rules,
+        }
+    }
+
+    /// How many steps late it observes the others.
+    pub(super) fn late_steps(&self, step_s: f64) -> usize {
+        (self.reaction_s / step_s).round().max(0.0) as usize
     }
 
     /// The first input of its plan.

@@ -67,7 +67,7 @@ pub struct DynamicsCurvature {
 }
 
 impl DynamicsCurvature {
-    /// These derivatives times a number.
+    /// These derivatives multiplied by a number.
     pub fn scaled(&self, share: f64) -> DynamicsCurvature {
         DynamicsCurvature {
             heading_heading: share * self.heading_heading,
@@ -258,7 +258,7 @@ mod tests {
         [[0.0, 0.0, 0.0, 0.8, 0.0, 0.0], [1.0, -2.0, 0.7, 1.3, -0.5, 0.6], [0.3, 0.1, -2.5, 0.2, 1.0, -0.9]];
 
     #[test]
-    fn the_step_is_the_printed_one() {
+    fn the_bicycle_step_is_the_printed_equation() {
         let (state, input) = split(POINTS[1]);
         let beta = (0.19 / 0.4 * 0.6_f64.tan()).atan();
         let next = model().step(&state, &input);
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn the_adjoint_is_the_transpose() {
+    fn the_adjoint_of_the_bicycle_step_is_its_transpose() {
         let (state, input) = split(POINTS[1]);
         let jacobian = model().jacobian(&state, &input);
         let (d, w, costate) = ([0.3, -0.1, 0.7, 0.2], [0.5, -0.4], [1.0, 2.0, -3.0, 0.5]);

@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn corners_turn_with_the_heading() {
+    fn corners_of_a_body_rotate_with_its_heading() {
         let body = Body::default();
         let state = State { x_m: 1.0, y_m: 2.0, heading_rad: std::f64::consts::FRAC_PI_2, speed_mps: 0.0 };
         let [front_right, ..] = body.corners(&state);

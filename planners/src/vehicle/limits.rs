@@ -1,4 +1,4 @@
-//! What a vehicle can do: bounds on its input and speed.
+//! Physical limits of a vehicle: bounds on its input and speed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The strongest acceleration in the direction of another one, or of a share of it: the strongest braking of a negative one \[m/s²\].
+    /// The strongest acceleration with the same sign as `direction` \[m/s²\]: the strongest braking for a negative value.
     pub fn strongest_mps2(&self, direction: f64) -> f64 {
         if direction < 0.0 { -self.acceleration_min_mps2 } else { self.acceleration_max_mps2 }
     }
@@ -55,7 +55,7 @@ impl Limits {
             .map_or(self.steering_max_rad, |most| self.steering_at_rad(body, speed_mps, most))
     }
 
-    /// The steering angle nearest to a wanted one that is reached within a time \[rad\].
+    /// The steering angle nearest to the wanted one that can be reached from the last one within a time \[rad\].
     pub fn steering_towards_rad(&self, last_rad: f64, wanted_rad: f64, elapsed_s: f64) -> f64 {
         let most_rad = self.steering_rate_max_radps.map_or(f64::INFINITY, |most| most * elapsed_s);
         wanted_rad.clamp(last_rad - most_rad, last_rad + most_rad)
@@ -149,7 +149,7 @@ mod tests {
     use crate::{Bicycle, Input, State};
 
     #[test]
-    fn wheels_turn_no_faster_than_they_can() {
+    fn the_steering_rate_is_limited() {
         let limits = Limits { steering_rate_max_radps: Some(0.4), ..Limits::default() };
         let after = |limits: Limits, wanted_rad: f64| limits.steering_towards_rad(0.1, wanted_rad, 0.1);
         assert!((after(limits, 0.5) - 0.14).abs() < 1e-12 && (after(limits, -0.5) - 0.06).abs() < 1e-12);
@@ -158,7 +158,7 @@ mod tests {
 
     /// At the largest steering angle of a speed, `|v θ′|` of the bicycle is the limit; where the limit says nothing, so does it.
     #[test]
-    fn the_largest_steering_angle_makes_the_largest_lateral_acceleration() {
+    fn the_largest_steering_angle_gives_the_largest_lateral_acceleration() {
         let (body, step_s) = (Body::default(), 1e-3);
         let limits = Limits { lateral_acceleration_max_mps2: Some(2.0), ..Limits::default() };
         for speed_mps in [1.0, 1.5, 3.0, 30.0] {

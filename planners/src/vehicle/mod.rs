@@ -1,4 +1,4 @@
-//! Facts about one vehicle: state and input, body, limits, the bicycle model.
+//! The data and the model of one vehicle: state and input, body, limits, the bicycle model.
 
 mod bicycle;
 mod body;

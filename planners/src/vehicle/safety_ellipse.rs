@@ -1,4 +1,4 @@
-//! The ellipse around a vehicle that others keep out of.
+//! The ellipse around a vehicle that other vehicles must not enter.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ends_of_the_axes_lie_on_the_ellipse() {
+    fn the_end_points_of_its_axes_lie_on_the_safety_ellipse() {
         let heading = 0.7;
         let ellipse = SafetyEllipse::default().oriented(heading);
         let (sin, cos) = libm::sincos(heading);

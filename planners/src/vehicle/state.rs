@@ -1,4 +1,4 @@
-//! The nouns of motion: a vehicle's state, its input, and a trajectory of both.
+//! The basic types of motion: a vehicle's state, its input, and a trajectory of both.
 //!
 //! All lengths are in metres, angles in radians counter-clockwise from the x axis, times in seconds.
 
@@ -44,17 +44,17 @@ impl State {
         self.to_array().iter().all(|value| value.is_finite())
     }
 
-    /// The state at a share of the way from this one to another, each component by itself.
+    /// The state at a share of the way from this state to another one, interpolated component by component.
     pub fn towards(&self, other: &State, share: f64) -> State {
         let (from, to) = (self.to_array(), other.to_array());
         State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
     }
 
-    /// Of two vehicles that touch, whether this one causes it: it moves towards the other, and at least as fast as the other
-    /// moves towards it.
+    /// Whether, of two vehicles that touch, this one causes the contact: it moves towards the other at least as fast as
+    /// the other moves towards it.
     pub fn drives_into(&self, other: &State) -> bool {
         let [ahead_x_m, ahead_y_m] = [other.x_m - self.x_m, other.y_m - self.y_m];
-        // Speeds along the line from here to the other, times its length; the other moves against it.
+        // Speeds along the line from this vehicle to the other, multiplied by its length; the other moves in the opposite direction.
         let along = |state: &State| {
             let (sin, cos) = libm::sincos(state.heading_rad);
             state.speed_mps * (cos * ahead_x_m + sin * ahead_y_m)
@@ -106,10 +106,9 @@ impl Trajectory {
         self.inputs.len()
     }
 
-    /// The same plan one step later: the first state is dropped and the last one moves on as it did in the last
-    /// step (straight-line extrapolation), with no further input.
+    /// The plan one step later: the first state is dropped, and the last one is extrapolated in a straight line, without further input.
     ///
-    /// A trajectory without steps is returned as it is.
+    /// A trajectory without steps is returned unchanged.
     pub fn shifted(&self) -> Trajectory {
         let [.., before, last] = self.states.as_slice() else { return self.clone() };
         let end = State { x_m: 2.0 * last.x_m - before.x_m, y_m: 2.0 * last.y_m - before.y_m, ..*last };
@@ -118,7 +117,7 @@ impl Trajectory {
         Trajectory { states, inputs }
     }
 
-    /// The inputs of the same plan one step later, the last one repeated: a guess for the next plan.
+    /// The inputs of the plan one step later, with the last one repeated: an initial guess for the next plan.
     pub fn later_inputs(&self) -> Vec<Input> {
         self.inputs.iter().skip(1).chain(self.inputs.last()).copied().collect()
     }
@@ -142,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_plan_shifted_is_the_same_line_one_step_on() {
+    fn shifting_a_straight_plan_continues_it_by_one_step() {
         let plan = straight(1.0, 5);
         let shifted = plan.shifted();
         assert_eq!(shifted.horizon(), 5);
@@ -152,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn squared_distance_leaves_out_the_last_state_and_is_symmetric() {
+    fn the_squared_distance_of_trajectories_is_symmetric_and_omits_the_last_state() {
         let (slow, fast) = (straight(1.0, 2), straight(2.0, 2));
         assert!((slow.squared_distance(&fast) - 0.01).abs() < 1e-12);
         assert_eq!(slow.squared_distance(&fast), fast.squared_distance(&slow));

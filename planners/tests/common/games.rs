@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use interplay_planners::drivers::conservative;
 use interplay_planners::problem::{self, JointVehicle};
+use interplay_planners::scene::Knowledge;
 use interplay_planners::trajectory::Problem;
 use interplay_planners::{Corridor, Driver, Route, Scene, State};
 
@@ -33,6 +34,7 @@ pub fn game(random: &mut SplitMix64, players: usize) -> (Scene, Vec<JointVehicle
         tick: 0,
         step_s: STEP_S,
         horizon: HORIZON,
+        knowledge: Knowledge::Plans,
         ego: players[0].agent.clone(),
         goal: players[0].goal,
         others: players[1..].iter().map(|player| player.agent.clone()).collect(),

@@ -217,7 +217,8 @@ impl Vehicle {
                 }
             }
             Term::StopLine(of) if of.vehicle == vehicle => {
-                self.stop_lines.push(Line { line_m: of.line_m, penalty: of.penalty.into() });
+                self.stop_lines
+                    .push(Line { line_m: of.lines_m.first().copied().unwrap_or_default(), penalty: of.penalty.into() });
             }
             Term::KeepOut(of) if of.vehicle == vehicle => self.keep_outs.push(Ellipse::new(of)),
             Term::DistanceCost(of) if of.vehicle == vehicle => self.distance_costs.push(Distance::new(of)),
@@ -271,7 +272,7 @@ impl Vehicle {
                 let in_road = |goal: &RoadGoal| Term::FrenetTracking(goal.tracking(vehicle, self.weights));
                 terms.push(self.road_goal.as_ref().map_or_else(|| self.tracking(vehicle, horizon), in_road));
                 terms.push(Term::RoadEdge(curve.edge(vehicle, body, &route)));
-                let stop_line = |line: &Line| Term::StopLine(curve.stop_line(vehicle, &body, &route, line));
+                let stop_line = |line: &Line| Term::StopLine(curve.stop_line(vehicle, &body, &route, line, horizon));
                 stop_lines.extend(self.stop_lines.iter().map(stop_line));
             }
         }

@@ -83,12 +83,12 @@ impl Curve {
     }
 
     /// A line before which a front stays.
-    pub fn stop_line(&self, vehicle: usize, body: &Body, route: &Arc<Route>, line: &Line) -> StopLine {
+    pub fn stop_line(&self, vehicle: usize, body: &Body, route: &Arc<Route>, line: &Line, horizon: usize) -> StopLine {
         StopLine {
             vehicle,
             front_m: body.front_m,
             route: Arc::clone(route),
-            line_m: line.line_m,
+            lines_m: vec![line.line_m; horizon],
             penalty: line.penalty.into(),
         }
     }

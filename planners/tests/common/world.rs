@@ -66,6 +66,7 @@ pub fn vehicle(
         shared_goal: None,
         can_be_asked: true,
         is_obstacle: false,
+        indicator: None,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
     };

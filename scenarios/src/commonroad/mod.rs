@@ -44,7 +44,7 @@ pub struct ImportOptions {
     pub replace: Vec<Replacement>,
 }
 
-/// A driver that takes the place of a record.
+/// A driver that replaces a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
     /// The id or the name of the vehicle; all vehicles without one.
@@ -105,7 +105,7 @@ fn imported(name: &str, text: &str, options: &ImportOptions) -> Result<Imported,
 }
 
 impl Imported {
-    /// The scenario with the records of its vehicles in a table beside it, which is called `table`; and the table, if there are any.
+    /// The scenario with the records of its vehicles in a separate table called `table`, and that table, if there are records.
     pub fn with_records_in(&self, table: &str) -> (ScenarioFile, Option<String>) {
         let mut file = self.file.clone();
         let mut rows = format!("{},{}\n", records::ID_COLUMN, records::COLUMNS.join(","));
@@ -137,7 +137,7 @@ impl Imported {
     }
 }
 
-/// Whether a file is a scenario of CommonRoad: XML with its outermost element. One that cannot be read is not.
+/// Whether a file is a scenario of CommonRoad: XML with its root element. An unreadable file is not.
 pub fn is_commonroad(path: &Path) -> bool {
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("xml")) {
         return false;

@@ -1,4 +1,4 @@
-//! The recorded traffic of a scenario of CommonRoad: lanelets and dynamic obstacles as they are, without a scenario of ours.
+//! The recorded traffic of a scenario of CommonRoad: its lanelets and dynamic obstacles, without conversion to a scenario of Interplay.
 
 use std::collections::BTreeMap;
 use std::path::Path;

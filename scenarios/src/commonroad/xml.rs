@@ -1,4 +1,4 @@
-//! XML as elements that know where they are written. This is the one file that names the parser.
+//! XML as elements with their places in the text. Only this file names the parser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_finite() {
+    fn xml_numbers_must_be_finite() {
         for (text, is_number) in
             [("1.5", true), (" -2e3\n", true), ("", false), ("NaN", false), ("inf", false), ("1e10", false)]
         {

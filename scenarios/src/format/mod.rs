@@ -1,5 +1,5 @@
-//! The file as written: what each table may state (the files here), the tree that a text is read into (`read`), the schema of the tree
-//! (`json_schema`), and which kinds of drivers, controllers and metrics a file may name (`registry`).
+//! The format of a scenario file: the keys of each table (the files here), the tree into which a text is read (`read`), the schema
+//! of the tree (`json_schema`), and the kinds of drivers, controllers and metrics that a file may name (`registry`).
 
 pub(crate) mod flow;
 pub(crate) mod json_schema;

@@ -29,12 +29,12 @@ pub struct Stated<Settings> {
 }
 
 impl<Settings> Stated<Settings> {
-    /// A table that states its `kind` and leaves all else at the defaults of that kind.
+    /// A table that states its `kind` and leaves all other keys at the defaults of that kind.
     pub fn kind(kind: &str) -> Self {
         Stated::default().with("kind", kind)
     }
 
-    /// The same table with one more key, or another value of it.
+    /// The table with this key and value added, or with the value of the key replaced.
     #[must_use]
     pub fn with(mut self, key: &str, value: impl Into<Json>) -> Self {
         self.keys.insert(key.to_owned(), value.into());
@@ -116,7 +116,7 @@ impl<Settings: JsonSchema> JsonSchema for Stated<Settings> {
 pub(crate) fn stated_by(value: &impl Serialize) -> Json {
     match toml::Value::try_from(value) {
         Ok(value) => from_toml(value),
-        // Whole numbers beyond those of TOML: such a table has no others.
+        // The table contains a whole number that TOML cannot represent. Such a table has no values that JSON cannot represent.
         Err(_) => serde_json::to_value(value).unwrap_or_default(),
     }
 }

@@ -139,6 +139,22 @@ vehicle_keys! {
         #[schemars(example = json!("kept"))]
         Option<RuleKeeping>
     };
+    /// Whether it publishes its plan, its goal and its wishes to those that know plans: it is *linked* to them. Other drivers see its motion
+    /// only, and so does everyone of a vehicle of people, for which this is false by default; in all other files it is true.
+    #[schemars(example = true)]
+    tells_plan: Option<bool> => tells_plan, for_all {
+        /// Whether vehicles publish their plans.
+        #[schemars(example = true)]
+        Option<bool>
+    };
+    /// Whether its driver receives the plans of vehicles that tell them, if its kind makes use of plans. Without, it sees the motion of the
+    /// others only, late by its reaction time: state, acceleration, indicator and route. False by default among people, else true.
+    #[schemars(example = false)]
+    knows_plans: Option<bool> => knows_plans, for_all {
+        /// Whether drivers receive the plans of vehicles that tell them.
+        #[schemars(example = false)]
+        Option<bool>
+    };
     /// When it enters the road; by default it is there from the start. It waits until there is room: no vehicle ahead is so near
     /// that it would have to brake at once \[s\].
     #[schemars(range(min = 0.0), example = 12.0)]

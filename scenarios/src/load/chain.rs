@@ -1,4 +1,4 @@
-//! A file and all that it extends, merged into one tree.
+//! Merges a file and all files that it extends into one tree.
 
 use crate::commonroad::{ImportOptions, Imported, import_file, is_commonroad};
 use crate::format::json_schema::SchemaNode;

@@ -1,4 +1,4 @@
-//! The files that a scenario is made of, and those in a folder.
+//! Lists the files of a scenario, and the scenarios of a folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ pub fn files(registry: &Registry, name_or_path: &str, overrides: &[Override]) ->
     }
     let Ok(mut tree) = load::tree(registry, name_or_path) else { return found };
     if let TomlValue::Table(root) = &mut tree.value {
-        // A wrong file is refused when the scenario is loaded.
+        // An invalid change is refused when the scenario is loaded.
         overrides.iter().for_each(|change| drop(change.apply(root, registry.complete())));
     }
     add_named(&tree, &mut found);
@@ -79,7 +79,7 @@ pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
             }
         }
     }
-    // By name: `distributed` before `distributed-hundred`.
+    // The files are sorted by name without extension: `distributed` comes before `distributed-hundred`.
     found.sort_by_key(|path| path.with_extension(""));
     Ok(found)
 }

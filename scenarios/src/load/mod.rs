@@ -1,4 +1,4 @@
-//! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
+//! Loads a [`Scenario`] by its name and checks it; the documentation of the crate describes the steps.
 
 mod chain;
 mod changed;

@@ -67,7 +67,7 @@ pub enum MetricComparison {
     Quantiles,
 }
 
-/// Which of two values is better; of flags, `false` is the lower one.
+/// Which of two values is better; of two flags, `false` is the lower value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
     /// The lower one.
@@ -97,35 +97,35 @@ impl MetricDeclaration {
         MetricDeclaration { of: MetricSubject::Run, ..Self::of_vehicle(name, kind, doc) }
     }
 
-    /// The same, summarised by `compare`.
+    /// The same metric, summarised by `compare`.
     #[must_use]
     pub const fn compared(self, comparison: MetricComparison) -> Self {
         MetricDeclaration { comparison: Some(comparison), ..self }
     }
 
-    /// The same, with a better direction.
+    /// The same metric, with a preferred direction.
     #[must_use]
     pub const fn better(self, better: Better) -> Self {
         MetricDeclaration { better: Some(better), ..self }
     }
 
-    /// The same, with a column for the others.
+    /// The same metric, with a column for the other vehicles.
     #[must_use]
     pub const fn with_others(self) -> Self {
         MetricDeclaration { others: true, ..self }
     }
 
-    /// Its unit, by the end of its name; `None` without a unit.
+    /// The unit of the metric, from the end of its name; `None` without a unit.
     pub fn unit(&self) -> Option<&'static str> {
         unit_of(self.name)
     }
 
-    /// Its name without the unit, such as `peak_braking`.
+    /// The name of the metric without its unit, such as `peak_braking`.
     pub fn quantity(&self) -> &'static str {
         quantity_of(self.name)
     }
 
-    /// The end of its name that stands for its unit, such as `mps2`; `value` without a unit.
+    /// The end of the metric's name that stands for its unit, such as `mps2`; `value` without a unit.
     pub fn unit_key(&self) -> &'static str {
         self.name.strip_prefix(self.quantity()).and_then(|rest| rest.strip_prefix('_')).unwrap_or("value")
     }
@@ -136,18 +136,18 @@ impl MetricDeclaration {
         [Some(self.name), self.report_key].into_iter().flatten().map(str::to_owned).chain(others).collect()
     }
 
-    /// The column of the worst value of the others.
+    /// The column of the worst value of the other vehicles.
     pub fn others_name(&self) -> String {
         format!("others_{}", self.name)
     }
 
-    /// Its key in comparisons.
+    /// The key of the metric in comparisons.
     pub fn compared_as(&self) -> &'static str {
         self.comparison_key.unwrap_or(self.name)
     }
 }
 
-/// A metric as this crate knows it: its declaration. The simulation downcasts the value to compute it.
+/// A metric as the scenario crate knows it: its declaration. The simulation downcasts the value to compute the metric.
 pub trait DeclaredMetric: Any + Debug + Send + Sync {
     /// Its declaration.
     fn declaration(&self) -> MetricDeclaration;

@@ -192,17 +192,17 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
-    /// How often each vehicle plans.
+    /// The number of plans that each vehicle makes.
     pub fn plan_count(&self) -> usize {
         self.tick_count().div_ceil(self.ticks_per_plan)
     }
 
-    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    /// Time between two plans, which is also the length of a stage of a plan \[s\].
     pub fn planning_period_s(&self) -> f64 {
         self.step_s * self.ticks_per_plan as f64
     }
 
-    /// How many days of the building are simulated; 0 without a building.
+    /// The number of simulated days of the building; 0 without a building.
     pub fn days(&self) -> usize {
         if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
     }
@@ -212,7 +212,7 @@ impl Scenario {
         self.controller.clone().unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
-    /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
+    /// The route along which positions on the whole road are measured: that of the main road, or on a network that of the ego.
     pub fn main_route(&self) -> Arc<Route> {
         let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
         let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
@@ -267,6 +267,10 @@ pub struct Vehicle {
     pub driver: Driver,
     /// Whether it keeps the rules of the road, if stated; otherwise its kind of driver decides.
     pub rules: Option<RuleKeeping>,
+    /// Whether it tells its plan to those that know plans; `None` if it does.
+    pub tells_plan: Option<bool>,
+    /// Whether it knows the plans of those that tell them, if its driver does; `None` if so.
+    pub knows_plans: Option<bool>,
     /// When it is on the road.
     pub stay: Stay,
     /// The obstacle that it is, if it has no driver.
@@ -278,6 +282,16 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
+    /// Whether its driver receives the plans of others: the vehicle is told of them, and the driver's kind makes use of them.
+    pub fn knows_plans(&self) -> bool {
+        self.knows_plans.unwrap_or(true) && self.driver.knows_plans()
+    }
+
+    /// Whether its plan, its goal and its wishes are told to drivers that know plans.
+    pub fn tells_plan(&self) -> bool {
+        self.tells_plan.unwrap_or(true)
+    }
+
     /// A vehicle without a name, with the defaults of 1/10 scale cars.
     pub(crate) fn new(start: State, route: Arc<Route>, driver: Driver) -> Vehicle {
         Vehicle {
@@ -294,6 +308,8 @@ impl Vehicle {
             safety: SafetyEllipse::default(),
             driver,
             rules: None,
+            tells_plan: None,
+            knows_plans: None,
             stay: Stay::default(),
             obstacle: None,
             sensing: None,
@@ -301,9 +317,8 @@ impl Vehicle {
         }
     }
 
-    /// The desired state of the vehicle: the lateral position of its goal (that of its start without one, and on a network the
-    /// middle of its route), along the road, at the desired speed. The coordinate along the road is that of the start; no
-    /// controller tracks it.
+    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (or of its start if it has
+    /// no goal; on a network, in the middle of its route). The coordinate along the road is that of the start; no controller tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
@@ -320,22 +335,22 @@ impl Vehicle {
 }
 
 impl Vehicle {
-    /// Its outline, if it is an obstacle.
+    /// The outline of an obstacle; `None` for other vehicles.
     pub fn outline(&self) -> Option<&Outline> {
         self.obstacle.as_ref().map(|obstacle| &obstacle.outline)
     }
 
-    /// Whether it keeps all rules of the road.
+    /// Whether the vehicle keeps all rules of the road.
     pub fn keeps_rules(&self) -> bool {
         self.rules == Some(RuleKeeping::Kept)
     }
 
-    /// Its planner, before its first plan.
+    /// The planner of the vehicle, before its first plan.
     pub fn planner(&self) -> Planner {
         self.driver.planner_believing(&self.inference.unwrap_or_default())
     }
 
-    /// Its sensor with the errors of a seed; `None` if it sees the exact states.
+    /// The sensor of the vehicle, with errors from a seed; `None` if it sees the exact states.
     pub fn sensor(&self, seed: u64) -> Option<Sensor> {
         self.sensing.map(|settings| Sensor::new(settings, seed))
     }

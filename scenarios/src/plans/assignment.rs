@@ -24,22 +24,22 @@ pub(super) struct Assignment<'a> {
 }
 
 impl<'a> Assignment<'a> {
-    /// The kind of driver of the ego.
+    /// Assigns the kind of driver of the ego.
     pub fn driver(kind: &'a TomlNode) -> Assignment<'a> {
         Assignment { path: None, value: Cow::Borrowed(kind), is_varied: false }
     }
 
-    /// A setting that all runs of an arm have.
+    /// Assigns a setting that all runs of an arm share.
     pub fn setting(path: &'a SettingPath, value: &'a TomlNode) -> Assignment<'a> {
         Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Borrowed(value), is_varied: false }
     }
 
-    /// A setting that varies, with its value in one run.
+    /// Assigns a varying setting its value in one run.
     pub fn varied(path: &'a SettingPath, value: TomlNode) -> Assignment<'a> {
         Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Owned(value), is_varied: true }
     }
 
-    /// The random change of the starts, stated at a place.
+    /// Assigns the random change of the starts, which is stated at a place of the plan.
     pub fn of_jitter(jitter: StartJitter, place: &Place) -> Vec<Assignment<'a>> {
         let amounts = [("start_jitter.position_m", jitter.position_m), ("start_jitter.speed_mps", jitter.speed_mps)];
         let assignment = |(path, amount)| {
@@ -62,7 +62,7 @@ impl<'a> Assignment<'a> {
         path.lay(root, &self.value, schema)
     }
 
-    /// Whether the setting is one of these or is below one, by the first key of its path.
+    /// Whether the setting is one of these or below one of them, by the first key of its path.
     pub fn is_below(&self, first_keys: &[&str]) -> bool {
         let written = self.path.as_ref().map(|path| path.written()).unwrap_or_default();
         first_keys.iter().any(|key| written.split('.').next() == Some(key))
@@ -82,7 +82,7 @@ impl<'a> Assignment<'a> {
         &self.value
     }
 
-    /// The place of the value.
+    /// The place in the plan at which the value is written.
     pub fn place(&self) -> &Place {
         &self.value.place
     }
@@ -98,7 +98,7 @@ impl<'a> Assignment<'a> {
         self.path.as_ref().is_none_or(|path| path.schema(schema).is_some())
     }
 
-    /// The assignment as it would be written, numbers to six digits.
+    /// The assignment as text, with numbers to six digits.
     pub fn written(&self) -> String {
         let path = self.path.as_ref().map_or_else(|| "planner".to_owned(), |path| path.written());
         let value = match self.value.value {
@@ -137,7 +137,7 @@ pub(super) fn path_of(path: &str, place: &Place) -> Result<SettingPath, Fault> {
 #[derive(Clone)]
 pub(super) struct Arm {
     pub name: String,
-    /// The kind of driver of the ego, if it is changed.
+    /// The kind of driver that the arm gives the ego, if any.
     kind: Option<TomlNode>,
     changes: Vec<(SettingPath, TomlNode)>,
     /// The factors that vary with it.
@@ -148,17 +148,17 @@ pub(super) struct Arm {
 const AS_WRITTEN: &str = "as-written";
 
 impl Arm {
-    /// The scenario as it is.
+    /// An arm that changes nothing: the scenario as its file states it.
     pub fn as_written() -> Arm {
         Arm { name: AS_WRITTEN.to_owned(), kind: None, changes: Vec::new(), factors: Vec::new() }
     }
 
-    /// An arm that changes settings and has factors of its own.
+    /// An arm that changes settings and has its own factors.
     pub fn changing(name: &str, changes: Vec<(SettingPath, TomlNode)>, factors: Vec<Factor>) -> Arm {
         Arm { name: name.to_owned(), kind: None, changes, factors }
     }
 
-    /// A planner: a kind of driver, or a table.
+    /// An arm that replaces the planner of the ego: by a kind of driver, or by a table.
     pub fn planner(node: &TomlNode, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         match &node.value {
             TomlValue::Table(table) => {
@@ -173,13 +173,13 @@ impl Arm {
         }
     }
 
-    /// A counterfactual of a scenario, under its name.
+    /// An arm that is a counterfactual of a scenario, under its name.
     pub fn counterfactual(table: &Table, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         let kind = table.get("planner").map(|entry| entry.node.clone());
         Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0), registry)? })
     }
 
-    /// Drivers of the others: a style of humans, a kind of driver, or a table.
+    /// An arm that replaces the drivers of the other vehicles: by a style of humans, a kind of driver, or a table.
     pub fn style(node: &TomlNode, settings: DrawSettings, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         if let TomlValue::Table(table) = &node.value {
             return Arm::stated(table, settings, registry);
@@ -215,18 +215,18 @@ impl Arm {
         Ok(Arm { name, kind: None, changes, factors })
     }
 
-    /// The settings that it changes.
+    /// The settings that the arm changes.
     pub fn settings(&self) -> &[(SettingPath, TomlNode)] {
         &self.changes
     }
 
-    /// Its changes: the driver of the ego, then its settings.
+    /// The changes of the arm: the driver of the ego, then its settings.
     pub fn assignments(&self) -> impl Iterator<Item = Assignment<'_>> {
         let kind = self.kind.iter().map(Assignment::driver);
         kind.chain(self.changes.iter().map(|(path, value)| Assignment::setting(path, value)))
     }
 
-    /// Its changes in words; different arms have different words.
+    /// The changes of the arm in words; different arms have different words.
     pub fn canonical(&self) -> String {
         let kind = self.kind.iter().map(|kind| format!("kind={}", kind.to_json()));
         let changes = self.changes.iter().map(|(path, value)| format!("{}={}", path.written(), value.to_json()));

@@ -188,7 +188,7 @@ fn range(place: Place, ends: &TomlNode, table: &Table, [from, to]: [f64; 2]) -> 
         }
         (None, Some(step), _) => match number(&step.node) {
             Some(width) if width > 0.0 && (to - from) / width < MAX_VALUES as f64 => {
-                // A step that divides the range, up to rounding, reaches its end.
+                // If the step divides the range, up to rounding, the last value is the end of the range.
                 let steps = ((to - from) / width + 1e-9).floor();
                 Ok(Values::Numbers(from, from + steps * width, steps as usize + 1))
             }
@@ -222,7 +222,7 @@ impl Factor {
         }
     }
 
-    /// Where the last word of its path is written.
+    /// The place at which the last word of its path is written.
     pub fn key(&self) -> &Place {
         self.path.places().last().unwrap_or(&self.place)
     }
@@ -244,7 +244,7 @@ impl Factor {
         }
     }
 
-    /// One of finitely many values.
+    /// The value with this index, for a factor with finitely many values.
     pub fn value(&self, index: usize) -> TomlNode {
         match &self.values {
             Values::List(items) => items[index].clone(),
@@ -257,7 +257,7 @@ impl Factor {
         }
     }
 
-    /// The value of a sample.
+    /// The value that is drawn for a sample.
     pub fn drawn(&self, sample: u64) -> TomlNode {
         let unit = self.draws.at(sample);
         if let Some(count) = self.count() {
@@ -272,14 +272,14 @@ impl Factor {
         self.node(TomlValue::Float(number))
     }
 
-    /// The extreme values; of a list all values, up to `limit`.
+    /// The extreme values; of a list, all values up to `limit`.
     pub fn extremes(&self, limit: usize) -> Vec<TomlNode> {
         let ends = |ends: [f64; 2]| ends.map(|end| self.node(TomlValue::Float(end))).to_vec();
         match &self.values {
             Values::List(items) => items.iter().take(limit).cloned().collect(),
             Values::Integers(_, _, count) | Values::Numbers(_, _, count) => vec![self.value(0), self.value(count - 1)],
             Values::Uniform(from, to) | Values::LogUniform(from, to) => ends([*from, *to]),
-            // Its tails are unbounded: every drawn value is checked.
+            // A normal distribution has no extremes; instead, every drawn value is checked.
             Values::Normal(mean, _) => vec![self.node(TomlValue::Float(*mean))],
         }
     }
@@ -302,12 +302,12 @@ pub(super) struct UnitDraws {
 const PERMUTATION_STREAM: u64 = u64::MAX;
 
 impl UnitDraws {
-    /// The numbers of a path under a plan's seed.
+    /// The random numbers of a path under the seed of a plan.
     pub fn new(seed: u64, path: &str, sampling: Sampling, samples: u64) -> UnitDraws {
         let seed = seed.wrapping_add(hash(path));
         let count = if sampling == Sampling::LatinHypercube { u32::try_from(samples).unwrap_or(u32::MAX) } else { 0 };
         let mut strata: Vec<u32> = (0..count).collect();
-        // Fisher and Yates.
+        // The Fisher-Yates shuffle.
         let mut random = Random::new(seed, PERMUTATION_STREAM);
         for last in (1..strata.len()).rev() {
             let other = random.uniform(0.0, (last + 1) as f64) as usize;
@@ -318,7 +318,7 @@ impl UnitDraws {
 
     /// The number of a sample, in the open interval (0, 1).
     pub fn at(&self, sample: u64) -> f64 {
-        // Half a step away from zero: a normal distribution has infinite quantiles at both ends.
+        // Adding half a step avoids zero: a normal distribution has infinite quantiles at both ends.
         let unit = Random::new(self.seed, sample).uniform(0.0, 1.0) + 0.5_f64.powi(54);
         let stratum = usize::try_from(sample).ok().and_then(|sample| self.strata.get(sample));
         let drawn = stratum.map_or(unit, |stratum| (f64::from(*stratum) + unit) / self.strata.len() as f64);
@@ -336,7 +336,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_part_of_a_latin_hypercube_has_one_sample() {
+    fn every_stratum_of_a_latin_hypercube_has_one_sample() {
         let draws = UnitDraws::new(1, "a.b", Sampling::LatinHypercube, 50);
         let mut parts: Vec<usize> = (0..50).map(|sample| (draws.at(sample) * 50.0) as usize).collect();
         assert!(parts.windows(2).any(|pair| pair[1] < pair[0]), "not in order");
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn more_samples_and_other_paths_change_nothing() {
+    fn drawn_numbers_do_not_depend_on_sample_count_or_other_paths() {
         let [few, many] = [10, 1000].map(|samples| UnitDraws::new(7, "a.b", Sampling::Random, samples));
         assert!((0..10).all(|sample| few.at(sample) == many.at(sample)));
         let other = UnitDraws::new(7, "a.c", Sampling::Random, 10);

@@ -1,4 +1,4 @@
-//! The scenarios that an entry of a plan stands for.
+//! The scenarios that an entry of a plan selects.
 
 use std::path::Path;
 
@@ -139,7 +139,7 @@ pub(super) fn replace(tree: &mut TomlNode, text: &str, samples: u64) -> String {
         }
         None => {
             root.insert(KEY.to_owned(), TomlEntry { key: whole, node });
-            // At the end it would belong to a table. A byte order mark stays first.
+            // The key is added at the beginning, because at the end it would belong to a table. A byte-order mark stays first.
             let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
             format!("{mark}{KEY} = {written} # --samples\n{rest}")
         }

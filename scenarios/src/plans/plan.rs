@@ -17,7 +17,7 @@ use crate::plans::plan_file::Sampling;
 use crate::resolve::placement::KnownRoads;
 use crate::text::error::{Fault, Place};
 
-/// A plan of many runs. They are numbered from 0, those of one sample next to each other.
+/// A plan of many runs. Runs are numbered from 0; runs of one sample have consecutive numbers.
 pub struct SweepPlan {
     pub(super) registry: Registry,
     pub(super) name: String,
@@ -94,7 +94,7 @@ pub(super) struct OtherValue {
 }
 
 impl SweepPlan {
-    /// The metrics of the registry that it was read with.
+    /// The metrics of the registry with which the plan was read.
     pub fn metrics(&self) -> &RegisteredMetrics {
         self.registry.metrics()
     }
@@ -109,7 +109,7 @@ impl SweepPlan {
         &self.text
     }
 
-    /// The number of its runs.
+    /// The number of runs of the plan.
     pub fn run_count(&self) -> u64 {
         self.count().unwrap_or(u64::MAX)
     }
@@ -139,12 +139,12 @@ impl SweepPlan {
         self.planners.get(place.planner).unwrap_or_else(own)
     }
 
-    /// The number of counterfactuals of scenarios that are run besides the planners.
+    /// The number of counterfactuals that are run in addition to the planners.
     pub fn counterfactual_count(&self) -> usize {
         self.scenarios.iter().map(|scenario| scenario.counterfactuals.len()).sum()
     }
 
-    /// The paths of all factors, sorted, each with whether all its values are numbers.
+    /// The paths of all factors, sorted, each with whether it is numeric.
     pub fn inputs(&self) -> Vec<(String, bool)> {
         let mut found = BTreeMap::new();
         for factor in self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors) {
@@ -232,12 +232,12 @@ impl SweepPlan {
         })
     }
 
-    /// The scenario of a run without the plan's changes, in words; different scenarios have different words.
+    /// The scenario of a run in words, without the plan's changes; different scenarios have different words.
     pub fn canonical_scenario(&self, point: &SweepPoint) -> &str {
         &self.scenarios[point.place.scenario].canonical
     }
 
-    /// The changes of a run, likewise.
+    /// The changes of a run in words; different changes have different words.
     pub fn canonical_changes(&self, point: &SweepPoint) -> String {
         let place = &point.place;
         let jitter = self.scenarios[place.scenario].jitter;

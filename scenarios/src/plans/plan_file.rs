@@ -1,4 +1,4 @@
-//! The keys of a plan of many runs, as its schema has them.
+//! The keys of a plan of many runs, as in its schema.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! From a text to a checked plan.
+//! Reads a text as a plan and checks it.
 
 use std::collections::BTreeMap;
 use std::path::Path;

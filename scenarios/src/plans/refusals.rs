@@ -1,4 +1,4 @@
-//! The faults of the runs of a plan, each once.
+//! Collects the faults of the runs of a plan, each fault once.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,9 +10,9 @@ use crate::text::error::{Fault, LoadError};
 /// The most values of a list that are checked as extremes; every value that is run is also checked.
 const MAX_LISTED: usize = 100;
 
-/// The faults of some runs of a plan: of each, the first run that has it and how many have it.
+/// The faults of some runs of a plan. Each fault is stored once, with its first run and the number of runs that have it.
 ///
-/// Faults of several runs are the same if their words are, apart from numbers.
+/// Faults of several runs count as the same if their texts are equal except for numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunRefusals(BTreeMap<FaultKey, Count>);
 
@@ -31,7 +31,7 @@ impl RunRefusals {
         self.0.is_empty()
     }
 
-    /// The faults of two disjoint sets of runs.
+    /// Combines the faults of two disjoint sets of runs.
     #[must_use]
     pub fn and(mut self, other: RunRefusals) -> RunRefusals {
         for (key, count) in other.0 {
@@ -54,7 +54,7 @@ impl SweepPlan {
         outcome.map(|_| ()).map_err(|faults| RunRefusals(keyed(faults)))
     }
 
-    /// The faults of runs of the plan, each located in the plan, with the first run that has it.
+    /// The error for the faults of runs of the plan, each located in the plan, with its first run.
     pub fn refusal(&self, refusals: &RunRefusals) -> LoadError {
         let mut found = Vec::new();
         for (key, count) in &refusals.0 {

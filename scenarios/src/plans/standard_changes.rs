@@ -170,7 +170,7 @@ fn prediction_change(Vehicle { name, .. }: &Vehicle, word: &str) -> Change {
 fn mechanism_change(vehicle: &Vehicle, key: &str, property: SchemaNode, value: &Json) -> Option<Change> {
     let (mechanism, off) = property.mechanism()?;
     let name = &vehicle.name;
-    // A table of numbers would be wider than the rest of the row.
+    // The value is left out if it is a table, which would be wider than the rest of the row.
     let how = if off.is_object() { String::new() } else { format!(" ({key} = {})", toml_of(off)) };
     let set = format!("vehicle.{name}.driver.{key}={}", toml_of(off));
     (value != off).then(|| (format!("{name}'s {mechanism}"), format!("{name}: without {mechanism}{how}"), set))

@@ -130,7 +130,7 @@ impl RoadCurve {
         let right = self.lane_end().map_or_else(|| Profile::constant(-half_m), |end| Profile::lane_end(-half_m, end));
         let to_m = centre.length_m();
         let mut route = Route::curved(centre, right, Profile::constant(half_m), Profile::constant(half_m));
-        // With a leg, the route can return its tightest turn.
+        // The route needs a leg to return its tightest turn.
         route.legs.push(RouteLeg { lane: "road".to_owned(), to_m, ..RouteLeg::default() });
         Ok(Arc::new(route))
     }

@@ -44,7 +44,7 @@ impl RoadFault {
         RoadFault { path: path.into(), label: label.to_owned(), message, help: String::new() }
     }
 
-    /// The same with a help text.
+    /// The same fault with a help text.
     pub fn help(self, help: impl Into<String>) -> RoadFault {
         RoadFault { help: help.into(), ..self }
     }

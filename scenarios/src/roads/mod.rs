@@ -283,7 +283,7 @@ mod tests {
 
     /// At any crossing angle, the point in the middle of one road is in the middle of the other.
     #[test]
-    fn the_middles_of_crossing_roads_meet() {
+    fn centre_lines_of_crossing_roads_meet_at_any_angle() {
         for angle_deg in [90.0, -90.0, 60.0, 120.0, -30.0] {
             let road = Road::Intersection(Intersection { lane_count: 3, angle_deg, ..Intersection::default() });
             let meeting = [0.0, 0.5 * road.width_m()];
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ramp_has_no_width_past_its_end() {
+    fn the_ending_lane_of_a_ramp_has_no_width_past_its_end() {
         let road = Road::RampMerge(RampMerge::default());
         let edge = |along_m| straight(&road, Branch::Main).right_edge_m(along_m);
         assert!(edge(1.0) < 1e-4 && edge(3.5) > 0.36 && edge(9.0) <= 0.37);

@@ -44,12 +44,12 @@ impl Draft {
         Draft { random, road: String::new(), vehicles: String::new(), duration_s: 40.0 }
     }
 
-    /// A number between two others, rounded to tenths, as a person would write it.
+    /// A random number between two bounds, rounded to tenths, as a person would write it.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         (10.0 * self.random.uniform(low, high)).round() / 10.0
     }
 
-    /// A whole number between two others, both included.
+    /// A random whole number between two bounds, both included.
     pub fn count(&mut self, low: usize, high: usize) -> usize {
         let drawn = self.random.uniform(low as f64, high as f64 + 1.0) as usize;
         drawn.clamp(low, high)
@@ -59,6 +59,7 @@ impl Draft {
         self.random.chance(probability)
     }
 
+    /// A random word of these.
     pub fn one_of<'a>(&mut self, words: &[&'a str]) -> &'a str {
         words[self.count(0, words.len() - 1)]
     }
@@ -89,7 +90,7 @@ impl Draft {
         self.vehicle(Draftee { name: "ego", class: "car", lane, along_m, speed_mps, to, wanted_mps, driver });
     }
 
-    /// The whole file.
+    /// The text of the whole scenario file.
     pub fn finished(self, title: &str, shows: &str) -> String {
         let Draft { road, vehicles, duration_s, .. } = self;
         format!(

@@ -1,11 +1,11 @@
 //! Streets for which no planner was tuned: ordinary scenes, each drawn from a seed.
 //!
-//! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario has a name: in `run`, `why`, plans of
-//! sweeps and `extends`. The same name is the same file for ever. A change of a kind that changes its draws needs another word, since
-//! rows of sweeps are compared by name.
+//! `streets/ring/17` names the scenario number 17 of the kind `ring`, wherever a scenario can be named: in `run`,
+//! `why`, plans of sweeps and `extends`. The same name always means the same file. If a kind is changed such that its
+//! random draws change, it needs a new word, because rows of sweeps are compared by name.
 //!
-//! The ego of each street is a human of a drawn style; `--planner` gives it another driver. Each scene has a conflict in most of its
-//! draws: a road user stands in the way, crosses, merges, comes the other way, or drives slowly ahead.
+//! The ego of each street is a human of a random style; `--planner` gives it another driver. Most scenes contain a
+//! conflict: a road user stands in the ego's lane, crosses, merges, comes towards the ego, or drives slowly ahead.
 
 mod draft;
 mod junctions;
@@ -67,12 +67,12 @@ pub struct Street {
 }
 
 impl Street {
-    /// The words of all kinds.
+    /// The words of all kinds of streets.
     pub fn kinds() -> impl Iterator<Item = &'static str> {
         KINDS.iter().map(|kind| kind.word)
     }
 
-    /// The street of a name such as `streets/ring/17`; `None` if the name is not that of a street.
+    /// The street with a name such as `streets/ring/17`; `None` if the name is not that of a street.
     pub fn named(name: &str) -> Option<Street> {
         let (word, number) = name.strip_prefix(FOLDER)?.split_once('/')?;
         let kind = KINDS.iter().position(|kind| kind.word == word)?;
@@ -98,12 +98,12 @@ impl Street {
         format!("{FOLDER}{}", KINDS[self.kind].word)
     }
 
-    /// Its name.
+    /// The name of the street.
     pub fn name(&self) -> String {
         format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)
     }
 
-    /// The scenario file.
+    /// The text of the scenario file.
     pub fn text(&self) -> String {
         let kind = &KINDS[self.kind];
         let mut draft = Draft::new(u64::from(self.number), self.kind as u64);
@@ -118,7 +118,7 @@ mod tests {
     use crate::load;
 
     #[test]
-    fn names_lead_to_streets_and_back() {
+    fn street_names_convert_to_streets_and_back() {
         for kind in Street::kinds() {
             let name = format!("streets/{kind}/12");
             assert_eq!(Street::named(&name).map(|street| street.name()), Some(name));
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pattern_stands_for_kinds_and_numbers() {
+    fn a_street_pattern_covers_kinds_and_numbers() {
         let names = |pattern: &str| Street::matching(pattern).iter().map(Street::name).collect::<Vec<_>>();
         assert_eq!(names("streets/ring/3-5"), ["streets/ring/3", "streets/ring/4", "streets/ring/5"]);
         assert_eq!(names("streets/ring*/7"), ["streets/ring/7", "streets/ring2/7"]);
@@ -142,7 +142,7 @@ mod tests {
 
     /// Every street loads without a fault, with an ego that moves.
     #[test]
-    fn every_street_is_a_sound_scenario() {
+    fn every_street_is_a_valid_scenario() {
         for kind in Street::kinds() {
             for number in 0..40 {
                 let name = format!("streets/{kind}/{number}");
@@ -155,7 +155,7 @@ mod tests {
 
     /// Draws differ from number to number, and are repeatable.
     #[test]
-    fn numbers_give_different_streets() {
+    fn different_numbers_give_different_streets() {
         let text = |name: &str| Street::named(name).expect("a street").text();
         assert_eq!(text("streets/tee/3"), text("streets/tee/3"));
         assert_ne!(text("streets/tee/3"), text("streets/tee/4"));

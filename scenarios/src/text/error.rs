@@ -1,6 +1,6 @@
-//! Located errors.
+//! Errors with a place in a text.
 //!
-//! A [`Fault`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
+//! A [`Fault`] is one fault at one [`Place`] of one [`Document`]; a [`LoadError`] holds all faults that were found.
 //! Both are `miette` diagnostics, so the caller decides how to show them.
 
 use std::{fmt, ops::Range, sync::Arc};
@@ -35,12 +35,12 @@ impl Document {
         Arc::new(Document { name: name.into(), is_key: false, text: text.chars().map(masked).collect(), rank })
     }
 
-    /// A key of a scenario that code made, with its value.
+    /// A document for errors in a scenario that code made: the path of one key, with its value as the text.
     pub fn of_key(path: &str, text: &str, rank: usize) -> Arc<Document> {
         Arc::new(Document { name: path.to_owned(), is_key: true, text: text.chars().map(masked).collect(), rank })
     }
 
-    /// The same text with another rank.
+    /// The same document with another rank.
     pub fn ranked(&self, rank: usize) -> Arc<Document> {
         Arc::new(Document { name: self.name.clone(), is_key: self.is_key, text: self.text.clone(), rank })
     }
@@ -127,7 +127,7 @@ impl Place {
         Place { document: Arc::clone(document), span }
     }
 
-    /// Whether the other place is in this one.
+    /// Whether this place contains the other one.
     pub fn holds(&self, other: &Place) -> bool {
         let (own, other_span) = (&self.span, &other.span);
         let is_within = own.start <= other_span.start && other_span.end <= own.end;
@@ -144,7 +144,7 @@ impl Place {
     }
 }
 
-/// One thing that is wrong with a scenario, and what would work instead.
+/// A fault of a scenario, and what would work instead.
 #[derive(Clone, Debug, Error)]
 #[error("{message}")]
 pub struct Fault {
@@ -205,23 +205,23 @@ impl Fault {
         self.place.as_ref()
     }
 
-    /// What would work, if something is known.
+    /// What would work instead, if known.
     pub fn hint(&self) -> Option<&str> {
         self.help.as_deref()
     }
 
-    /// What is wrong.
+    /// The text that says what is wrong.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// The file, or the flag, in which the error lies; in a scenario that code made, the path of the key, such as
-    /// `vehicle.ego.start.lane`. `None` if there is nothing to blame.
+    /// The file or the flag that contains the error; in a scenario that code made, the path of the key, such as
+    /// `vehicle.ego.start.lane`. `None` if the error has no place.
     pub fn file(&self) -> Option<&str> {
         self.place.as_ref().map(|place| place.document.name.as_str())
     }
 
-    /// Line and column of the error, both from 1; `None` without a text to blame.
+    /// Line and column of the error, both from 1; `None` if the error has no place in a text.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         self.place
             .as_ref()
@@ -229,7 +229,8 @@ impl Fault {
             .map(|place| place.document.line_and_column(place.span.start))
     }
 
-    /// The key in which the error lies: of a text the one on its line, such as `speed_mps`, and in a scenario that code made its whole path.
+    /// The key that contains the error: in a text, the key on its line, such as `speed_mps`; in a scenario that code
+    /// made, its whole path.
     pub fn key(&self) -> Option<&str> {
         let place = self.place.as_ref()?;
         if place.document.is_key {
@@ -263,7 +264,7 @@ impl Diagnostic for Fault {
     }
 }
 
-/// A scenario, or a plan of many runs, that cannot be used, with everything that was found wrong.
+/// Why a scenario or a plan cannot be used: all faults that were found.
 #[derive(Clone, Debug, Error, Diagnostic)]
 #[error("cannot use {what} {}: {}", quoted(name), counted(faults.len() + left_out))]
 pub struct LoadError {
@@ -298,7 +299,7 @@ impl LoadError {
         LoadError { what, name: name.into(), faults, left_out, more }
     }
 
-    /// What is wrong, in the order of the text; at most 20.
+    /// The faults in the order of the text; at most 20.
     pub fn faults(&self) -> &[Fault] {
         &self.faults
     }

@@ -1,4 +1,4 @@
-//! Rules of texts: names, plain text, numbers in messages, and errors that have a place in a text.
+//! Rules for texts: names, plain text, numbers in messages, and errors with a place in a text.
 
 pub(crate) mod error;
 pub(crate) mod name;

@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pattern_words_and_check_are_of_one_form() {
+    fn the_name_pattern_its_description_and_its_check_agree() {
         assert_eq!(pattern(), "^[a-z0-9_-]{1,64}$");
         assert_eq!(in_words(), "a name has 1 to 64 lower-case letters, digits, `_` or `-`");
         for name in ["ego", "front-2", "_", &"a".repeat(64)] {
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn a_star_stands_for_a_part_of_a_name() {
+    fn a_star_in_a_pattern_matches_any_part_of_a_name() {
         for (pattern, name, expected) in [
             ("lane-change/*", "lane-change/front-nice", true),
             ("*/nice", "intersection/nice", true),

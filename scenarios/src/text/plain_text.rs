@@ -1,7 +1,7 @@
-//! What a text may hold that is shown on a terminal.
+//! The characters that a text shown on a terminal may contain.
 
-/// Whether a character is shown and does nothing else: no control character but the line end and the tab, and none that turns the
-/// direction of the text around it.
+/// Whether a character is only displayed: it is neither a control character, except for the line end and the tab, nor
+/// one that changes the direction of the text.
 pub fn is_plain(character: char) -> bool {
     match character {
         '\n' | '\t' => true,

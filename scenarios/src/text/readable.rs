@@ -1,12 +1,12 @@
-//! Numbers in messages: as many digits as matter to a reader.
+//! Numbers in messages, with as many digits as a reader needs.
 
 use serde_json::Value as Json;
 
 /// Numbers that are written with at most this many characters are shown as they are.
 const MAX_CHARACTERS: usize = 7;
 
-/// The number with four significant digits, unless it is short as it is: what follows from a scale, or was measured, has
-/// fifteen digits of which a message needs few.
+/// The number rounded to four significant digits, unless it is already short: scaled or measured numbers have fifteen
+/// digits, of which a message needs few.
 pub fn readable(value: f64) -> f64 {
     if !value.is_finite() || value.abs().to_string().len() <= MAX_CHARACTERS {
         return value;
@@ -40,7 +40,7 @@ mod tests {
     use super::readable;
 
     #[test]
-    fn numbers_keep_the_digits_that_matter() {
+    fn numbers_in_messages_keep_their_significant_digits() {
         let cases = [
             (2.881_197_929_382_324, 2.881),
             (0.316_227_766_016_837_94, 0.3162),

@@ -1,7 +1,8 @@
-//! A scenario written out as a file to start from: every key with what the schema says of it.
+//! Writes a scenario as a file to start from, with a comment from the schema on every key.
 //!
-//! What the scenario states is written as it stands, `extends` resolved. What it leaves out follows as a comment with its
-//! default (`#step_s = 0.1`). Each sort of table is explained where it first appears; later ones state only their own.
+//! Keys that the scenario states are written with their values, including those that it inherits by `extends`. All
+//! other keys follow as comments with their defaults (`#step_s = 0.1`). Each kind of table is explained where it first
+//! appears; later tables of the kind contain only the keys that they state.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -20,8 +21,8 @@ use crate::text::readable::toml;
 const WIDTH: usize = 110;
 
 impl Registry {
-    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a file that
-    /// would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
+    /// The scenario with this name or path as a commented file that means the same, for a file in `folder`. A path to a file that
+    /// would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows another picture.
     ///
     /// # Errors
     ///
@@ -69,7 +70,7 @@ impl Writer {
         let mut sections = Vec::new();
         let kind = value.get("kind").and_then(Json::as_str).filter(|_| !schema.kinds().is_empty());
         if kind.is_some_and(|kind| schema.of_kind(kind).is_none()) {
-            // A kind of another crate: the schema of Interplay does not describe its keys.
+            // The schema of Interplay does not describe the keys of a kind from another crate.
             for (key, value) in value {
                 self.line(&format!("{key} = {}", inline(schema, value)), live);
             }
@@ -144,7 +145,7 @@ impl Writer {
     /// What the schema says of a key, as a comment.
     fn explain(&mut self, property: SchemaNode) {
         let mut words = property.description().to_owned();
-        // That a count is at least 0 needs no words.
+        // A lower bound of 0 on a count need not be stated.
         let is_news = |bound: &Bound| *bound != Bound::AtLeast(0.0) || property.type_name() == Some("number");
         let bounds: Vec<String> = property.bounds().filter(is_news).map(|bound| bound.to_string()).collect();
         let mut bounds = bounds.join(", ");

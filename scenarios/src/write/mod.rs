@@ -1,4 +1,4 @@
-//! From the scenario back to a file: everything is stated, and what the file reads back to is the same.
+//! Writes a scenario back to a file that states every key and reads back to the same scenario.
 
 pub(crate) mod commented;
 pub(crate) mod reference;
@@ -19,10 +19,9 @@ use crate::model::traffic::obstacle::{ObstacleForm, Outline};
 use crate::write::commented::plain;
 
 impl Scenario {
-    /// The file that states everything of this scenario, whatever the file left out that it came from. It reads back to the same
-    /// scenario, and so to the same runs.
+    /// A file that states every key of this scenario. It reads back to the same scenario, and so to the same runs.
     ///
-    /// Files that the scenario names are named by absolute paths, and the prices of a tariff are written out.
+    /// The file names other files by absolute paths, and contains the prices of a tariff.
     pub fn to_file(&self) -> ScenarioFile {
         let drives = !self.vehicles.is_empty();
         let weather = self.building.as_ref().map(|_| self.weather.config().into());
@@ -47,7 +46,7 @@ impl Scenario {
                 .filter(|vehicle| vehicle.obstacle.is_none())
                 .map(Vehicle::to_config)
                 .collect(),
-            // Their vehicles are among the others.
+            // The vehicles of flows are already among the other vehicles.
             flows: Vec::new(),
             detectors: self.detectors.clone(),
             detail: self.detail.map(Stated::from),
@@ -79,7 +78,7 @@ impl ScenarioFile {
     }
 
     pub(crate) fn stated(&self) -> Map<String, Json> {
-        // The largest seeds are beyond the whole numbers of TOML.
+        // TOML cannot represent the largest seeds as whole numbers.
         let mut keys = Stated::<ScenarioFile>::from(ScenarioFile { seed: None, ..self.clone() }).into_keys();
         keys.extend(self.seed.map(|seed| ("seed".to_owned(), seed.into())));
         degrees::to_degrees(Registry::standard().complete(), &mut keys);

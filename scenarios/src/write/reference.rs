@@ -1,4 +1,4 @@
-//! The reference of all keys, as a page of Markdown made of the schema.
+//! The reference of all keys, as a page of Markdown made from the schema.
 //!
 //! A section is a table of the scenario file, or one kind of a table that has several. Each definition of the schema is
 //! described where it first appears; other places link there.
@@ -29,7 +29,7 @@ const HEAD: &str = "# Every key\n\n\
     `emissions_kg_per_kwh`, `interval_s`, `budget.processor_s`, and the kinds `walker`, `recorded`, `inputs`, `economic-mpc`, `csv`\n  \
     and `boptest` with all that is in them. Later keys say it themselves.\n";
 
-/// The page.
+/// The reference page of all keys as Markdown.
 pub fn key_reference() -> String {
     let mut pages = Sections::default();
     let schema = Registry::standard().complete();
@@ -209,7 +209,7 @@ mod tests {
 
     /// Each new version states which keys came with it.
     #[test]
-    fn the_page_says_which_keys_are_new() {
+    fn the_reference_marks_new_keys() {
         assert!(HEAD.contains(concat!("those of version ", env!("CARGO_PKG_VERSION"))), "{HEAD}");
     }
 }

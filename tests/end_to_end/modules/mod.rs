@@ -62,7 +62,7 @@ fn libraries() -> Vec<(String, Crate)> {
 }
 
 #[test]
-fn modules_form_no_circles() {
+fn modules_have_no_cyclic_dependencies() {
     let mut circles = Vec::new();
     let mut outdated = ACCEPTED_CIRCLES.to_vec();
     for (member, modules) in libraries() {
@@ -86,7 +86,7 @@ fn modules_form_no_circles() {
 }
 
 #[test]
-fn a_public_type_s_name_is_in_one_module_only() {
+fn each_public_type_name_occurs_in_one_module_only() {
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (member, modules) in libraries() {
         for (place, module) in &modules.0 {
@@ -122,7 +122,7 @@ fn nodes_on_circles(files: &[(&str, &str)]) -> usize {
 
 /// A circle of siblings and one of a parent and its child are found, and none where a parent only shows what its child holds.
 #[test]
-fn circles_of_paths_are_found() {
+fn cyclic_dependencies_through_paths_are_found() {
     let root = ("", "mod a; mod b; pub use a::A;");
     let a = ("a", "pub struct A; fn f() { vec![crate::b::B::new()]; }");
     assert_eq!(nodes_on_circles(&[root, a, ("b", "use crate::A; pub struct B;")]), 2);
@@ -134,7 +134,7 @@ fn circles_of_paths_are_found() {
 }
 
 #[test]
-fn circles_are_found_where_a_parent_names_what_it_re_exports() {
+fn cycles_through_re_exports_of_a_parent_are_found() {
     let child = ("a", "pub struct A(super::P);");
     for import in ["pub use a::A;", "pub(crate) use a::A;", "pub use a::*;"] {
         let parent = |code: &str| format!("mod a; {import} pub struct P; {code}");
@@ -147,7 +147,7 @@ fn circles_are_found_where_a_parent_names_what_it_re_exports() {
 }
 
 #[test]
-fn circles_are_found_where_a_parent_calls_a_method_that_its_child_implements() {
+fn cycles_through_methods_that_a_child_implements_are_found() {
     let child = ("a", "use super::P; impl P { pub fn m(&self) {} }");
     let parent = |code: &str| format!("mod a; pub struct P; pub struct Q; {code}");
     let calls = ["impl P { fn f(&self) { self.m() } }", "impl P { fn f() { Self::m } }", "fn f() { P::m }"];

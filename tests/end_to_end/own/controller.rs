@@ -50,7 +50,7 @@ fn cost(mut controller: impl Control) -> f64 {
 }
 
 #[test]
-fn a_controller_of_one_s_own_runs_days_and_early_is_better_than_late() {
+fn a_user_defined_controller_that_heats_earlier_costs_less() {
     let [late, early] = [0, 3].map(|steps_ahead| cost(Early { gain_kw_per_k: 0.5, steps_ahead }));
     assert!(early < 0.8 * late, "{early} {late}");
 }

@@ -78,7 +78,7 @@ fn driven(expected: &str) -> Result<(Loaded, Report), Box<dyn Error>> {
 }
 
 #[test]
-fn a_metric_of_one_s_own_is_in_the_report_and_may_be_expected() -> Result<(), Box<dyn Error>> {
+fn a_user_defined_metric_is_reported_and_may_be_expected() -> Result<(), Box<dyn Error>> {
     let at_least = "{ name = 'time_headway_s', vehicle = 'ego', at_least = 0.01 }";
     let (_, report) = driven(&format!("{at_least}, {{ name = 'time_headway_s', at_least = 100.0 }}"))?;
     let json = serde_json::to_value(&report)?;
@@ -94,7 +94,7 @@ fn a_metric_of_one_s_own_is_in_the_report_and_may_be_expected() -> Result<(), Bo
 }
 
 #[test]
-fn a_metric_of_one_s_own_has_a_column_and_is_compared() -> Result<(), Box<dyn Error>> {
+fn a_user_defined_metric_has_a_column_and_is_compared() -> Result<(), Box<dyn Error>> {
     let folder = scratch("own-metric");
     let text = "scenario = ['lane-change/both-tough']\nplanner = ['idm', 'conservative']\nset = { 'expect' = {} }\n";
     let registry = registry()?;

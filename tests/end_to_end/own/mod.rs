@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// What the documents show of each file is what is compiled.
 #[test]
-fn the_document_shows_what_is_compiled() {
+fn examples_in_the_extension_guide_match_the_compiled_code() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let shown = |file: &str| {
         let source = fs::read_to_string(root.join(file)).expect("the example");

@@ -25,6 +25,6 @@ fn two_seconds(scenario: &str) -> Result<bool, Box<dyn std::error::Error>> {
 // shown until here
 
 #[test]
-fn a_rule_of_ones_own_drives_among_humans() {
+fn a_user_defined_rule_drives_among_humans() {
     assert!(two_seconds("lane-change/front-tough").expect("a run"), "it touches no vehicle");
 }

@@ -98,7 +98,7 @@ impl Identify {
             .network
             .as_ref()
             .map_err(|reason| InputError::NoNetwork { table: table.clone(), reason: reason.clone() })?;
-        // What may be wrong is the network, and the table of weather is not written yet.
+        // Only the network can be wrong here: the table of weather is not written yet.
         let text = report::identified_scenario(&table, &found.report, network, None);
         if let Err(error) = interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
             let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
@@ -154,7 +154,7 @@ impl Identify {
         if (TOLD_S..=mapping.identify.processor_s).contains(&expected_s) {
             print_error(&format!("this takes about {expected_s:.0} s of a processor"));
         }
-        // A short fit ends before anyone wonders.
+        // A short fit ends before the user needs a sign of progress.
         let progress = |words: &str| {
             let seconds = begun.elapsed().as_secs();
             if seconds >= SILENT_S {
@@ -163,7 +163,7 @@ impl Identify {
         };
         let found =
             identify_with_progress(&telemetry, &mapping.identify, &progress).map_err(|reason| match reason {
-                // These errors are in the mapping, not in the table.
+                // Errors of these kinds are in the mapping, not in the table.
                 IdentifyError::Setting(_)
                 | IdentifyError::NothingToIdentify { .. }
                 | IdentifyError::TooMuchWork { .. }
@@ -224,7 +224,7 @@ fn held_out(found: &Identification) -> String {
             text.push_str(&format!("  {}: too few days are left for a prediction of a day\n", zone.name));
             continue;
         };
-        // The last forecast is the one with all that the method models.
+        // The last forecast includes everything that the method models.
         let error = free.errors_k.iter().rev().find_map(|(_, error_k)| *error_k);
         let error = error.map_or_else(|| "-".to_owned(), |error_k| format!("{error_k:.3} K"));
         let mean = free.mean_of_data_k.map_or_else(String::new, |mean_k| format!(", mean of the data {mean_k:.3} K"));

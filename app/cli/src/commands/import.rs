@@ -89,7 +89,7 @@ impl Import {
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.toml")));
         let options = ImportOptions { ego: self.ego.clone(), replace: self.replace.clone() };
         let imported = import_commonroad_file(&self.file, &options)?;
-        // What could not be run is refused with its place in the imported file.
+        // A scenario that could not be run is refused with its place in the imported file.
         imported.resolve(registry)?;
         let beside = |ending: &str| out.with_extension(ending);
         let named = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn replacements_name_a_vehicle_and_a_driver() {
+    fn the_replace_flag_names_a_vehicle_and_a_driver() {
         let of = |vehicle: Option<&str>, kind: &str, style: Option<&str>| {
             let [vehicle, style] = [vehicle, style].map(|word| word.map(str::to_owned));
             Ok(Replacement { vehicle, kind: kind.to_owned(), style })

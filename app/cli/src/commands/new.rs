@@ -68,7 +68,7 @@ impl New {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let scenario = registry.commented(&self.from, folder)?;
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
-        // A comment is one line, whatever the file is called.
+        // A comment must stay one line, even if the name of the file contains a line break.
         let command = shell::line(words.iter().map(String::as_str)).replace(char::is_control, "·");
         let head = format!(
             "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
@@ -76,7 +76,7 @@ impl New {
              # and that of the `#[table]` above them.\n\n"
         );
         let folders = NewFolders::make_above(&self.file).map_err(unwritable(&self.file))?;
-        // The schema first: once the scenario file exists, its schema does too.
+        // The schema is written first: if the scenario file exists, its schema exists too.
         let schema = folder.join(SCHEMA_FILE);
         let is_missing = !schema.exists();
         if is_missing {

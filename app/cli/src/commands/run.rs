@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn the_command_that_repeats_a_run_has_its_words_and_no_others() {
+    fn the_repeat_command_keeps_the_flags_that_change_the_run() {
         assert_eq!(Run::default().command(), "interplay run lane-change/front-nice");
         let words = ["my file.toml", "--json", "--set", "title=\"It's\"", "--no-record", "--seed", "7"];
         let run = parsed(&[&words[..], &["--set", "seed=3", "--planner", "human"]].concat());

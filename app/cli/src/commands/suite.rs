@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_case_decides_how_the_suite_ends() {
+    fn the_worst_case_decides_the_exit_code_of_a_suite() {
         let ending =
             |outcomes: &[Result<bool, &str>]| ending(&outcomes.iter().map(|one| case(*one)).collect::<Vec<_>>());
         assert_eq!(ending(&[]), ExitStatus::Well);

@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_viewer_of_the_same_line_of_versions_will_do() {
+    fn a_viewer_of_the_same_minor_version_is_accepted() {
         let said =
             "rerun-cli 0.36.3 [rustc 1.92.0, LLVM 21.1.3] x86_64-unknown-linux-gnu release-0.36.3 abc, built 2026";
         assert_eq!(version_in(said).as_deref(), Some("0.36.3"));

@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_is_named_after_its_scenario_and_never_leaves_its_folder() {
+    fn run_names_follow_scenarios_and_stay_in_their_folder() {
         for (scenario, name) in [
             ("lane-change/front-nice", "lane-change/front-nice"),
             ("my.toml", "my"),
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_one_name_from_several_folders_have_names_of_their_own() {
+    fn files_with_equal_names_in_several_folders_get_distinct_run_names() {
         let found = |paths: &[&str]| -> Vec<String> {
             let of = |path: &&str| ScenarioArgument { name: short_name(path), scenario: (*path).to_owned() };
             let named = with_names_of_their_own(paths.iter().map(of).collect());
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_folder_files_keep_their_place() {
+    fn files_of_a_folder_are_found_with_their_relative_paths() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/files");
         let found = find(folder).expect("the authored files are there");
         let names: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();

@@ -50,7 +50,7 @@ pub(crate) struct PlanFlags {
 }
 
 impl PlanFlags {
-    /// The plan, in which each line names its flags; none if no flag makes one.
+    /// The text of the plan that these flags state; each line names the flag that it comes from. `None` if no scenario is given.
     pub fn text(&self) -> Option<String> {
         if self.scenario.is_empty() {
             return None;
@@ -61,10 +61,10 @@ impl PlanFlags {
         Some(text)
     }
 
-    /// Checks what a plan could not say.
+    /// Refuses a setting that a flag states twice: a plan cannot express it.
     ///
     /// # Errors
-    /// The flag that states a path twice.
+    /// Names the flag and the path of the setting.
     pub fn check(&self) -> Result<(), String> {
         let all = |flag, changes: &[String]| {
             let path = values::stated_twice(changes.iter().map(String::as_str));
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn flags_make_a_plan() {
+    fn sweep_flags_are_written_as_a_plan() {
         let words = ["x", "--scenario", "intersection/nice", "--planner", "idm", "--planner", "conservative"];
         let more =
             ["--style", "tough", "--vary", "vehicle.ego.start.speed_mps={ uniform = [0.6, 0.8] }", "--starts", "5"];

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_changes_are_read() {
+    fn flag_values_are_parsed_as_numbers_and_changes() {
         assert_eq!(count::<NonZeroU64>("7").map(NonZeroU64::get), Ok(7));
         for wrong in ["0", "-1", "many", "1.5", ""] {
             assert!(count::<NonZeroU64>(wrong).is_err(), "{wrong}");

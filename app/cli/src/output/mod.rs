@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_terminal_shows_a_text_and_obeys_none() {
+    fn control_characters_are_not_sent_to_a_terminal() {
         assert_eq!(harmless("a\tb\nc"), "a\tb\nc");
         assert_eq!(harmless("\u{1b}[1;31mred"), "\\u{1b}[1;31mred");
         assert_eq!(harmless("\u{1b}]0;title\u{7}"), "\\u{1b}]0;title\\u{7}");
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_written_as_json_is_an_error() {
+    fn a_value_without_a_json_form_is_an_error() {
         let pairs = BTreeMap::from([([1, 2], 3)]);
         let error = json("the report", &pairs).expect_err("a key of JSON is a text").to_string();
         assert!(error.starts_with("the report cannot be written as JSON: "), "{error}");

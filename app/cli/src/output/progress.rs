@@ -12,10 +12,10 @@ use crate::output::print_error;
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
-    /// A progress line at the beginning: nothing of `total` is done yet.
+    /// Shows a progress line with none of `total` steps done.
     pub fn start(total: usize) -> Progress {
         let bar = ProgressBar::new(total as u64);
-        // The template is a constant, and sound: a test draws with it.
+        // The template is a valid constant: a test draws with it.
         if let Ok(style) = style() {
             bar.set_style(style);
         }
@@ -23,7 +23,7 @@ impl Progress {
         Progress(bar)
     }
 
-    /// A progress line that also says how long the rest takes at the speed so far.
+    /// Shows a progress line that also estimates the remaining time from the speed so far.
     pub fn with_time_left(total: usize) -> Progress {
         let Progress(bar) = Progress::start(total);
         if let Ok(style) = style_with_time_left() {
@@ -32,7 +32,7 @@ impl Progress {
         Progress(bar)
     }
 
-    /// Counts one more as done; may be called from any thread.
+    /// Counts one more step as done; may be called from any thread.
     pub fn advance(&self) {
         self.0.inc(1);
     }
@@ -54,12 +54,12 @@ pub(crate) struct CheckProgress {
 const SILENCE: Duration = Duration::from_secs(1);
 
 impl CheckProgress {
-    /// A progress line at the beginning: none of these runs is checked yet.
+    /// Shows a progress line with none of `runs` checked.
     pub fn start(runs: u64) -> CheckProgress {
         CheckProgress { began: Instant::now(), runs, checked: AtomicU64::new(0), bar: OnceLock::new() }
     }
 
-    /// Counts one more as checked; may be called from any thread.
+    /// Counts one more run as checked; may be called from any thread.
     pub fn advance(&self) {
         let checked = 1 + self.checked.fetch_add(1, Ordering::Relaxed);
         if self.began.elapsed() < SILENCE || checked == self.runs {
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_step_is_counted_and_the_line_can_be_drawn() {
+    fn progress_counts_steps_and_its_template_is_valid() {
         style().and_then(|_| style_with_time_left()).expect("sound templates");
         let progress = Progress::start(4);
         (0..3).for_each(|_| progress.advance());
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_check_is_told_of_when_it_takes_longer_than_a_second() {
+    fn progress_of_a_check_appears_after_a_second() {
         let quick = CheckProgress::start(3);
         quick.advance();
         assert!(quick.bar.get().is_none());

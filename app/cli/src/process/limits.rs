@@ -1,4 +1,4 @@
-//! Limits of the system: a command that meets one ends with exit code 3 and a reason, not by a signal.
+//! Limits of the operating system: a command that reaches one ends with exit code 3 and a reason, instead of being killed by a signal.
 
 use std::num::NonZeroUsize;
 use std::{io, thread};
@@ -15,7 +15,7 @@ const STACK_BYTES: usize = 16 << 20;
 /// # Errors
 /// The system's reason, if it has no such threads.
 pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> io::Result<T> {
-    // Beforehand, since rayon panics where it cannot start them later. A pool that exists already is not an error.
+    // The threads are started beforehand, because rayon panics if it cannot start them later. A pool that already exists is not an error.
     if let Err(reason) = ThreadPoolBuilder::new().build_global()
         && !is_there_already(&reason)
     {
@@ -24,7 +24,7 @@ pub(crate) fn on_a_thread_of_its_own<T: Send>(work: impl FnOnce() -> T + Send) -
     thread::scope(|scope| {
         let worker = thread::Builder::new().name("main work".to_owned()).stack_size(STACK_BYTES);
         let worker = worker.spawn_scoped(scope, work)?;
-        // A panic of the work continues on this thread.
+        // A panic in the worker thread continues on this thread.
         Ok(worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }

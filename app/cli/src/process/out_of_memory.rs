@@ -1,7 +1,7 @@
 //! A process that runs out of memory ends with exit code 3, as every command that cannot finish.
 //!
-//! Without this the process would be aborted, which a build server cannot tell from a crash; elsewhere than on Unix it still is. What
-//! it has written is left as after a kill.
+//! Without this the process would abort, which a build server cannot tell from a crash; on systems other than Unix it
+//! still does. The files that it has written are left as if it had been killed.
 
 #![expect(unsafe_code, reason = "an allocator is the only place where all allocations can be seen to fail")]
 
@@ -13,25 +13,25 @@ static ALLOCATOR: EndsWithoutMemory = EndsWithoutMemory;
 /// The system's allocator; where it has nothing left the process ends.
 struct EndsWithoutMemory;
 
-// SAFETY: every call is the system allocator's own; what it answers is handed on unless it is null, and then the process ends.
+// SAFETY: every call goes to the system allocator. Its result is returned unless it is null; then the process ends.
 unsafe impl GlobalAlloc for EndsWithoutMemory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc`.
         or_end(unsafe { System.alloc(layout) })
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc`.
         or_end(unsafe { System.alloc_zeroed(layout) })
     }
 
     unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc`.
         or_end(unsafe { System.realloc(place, layout, size) })
     }
 
     unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
-        // SAFETY: as the caller promises.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc`.
         unsafe { System.dealloc(place, layout) }
     }
 }
@@ -47,7 +47,7 @@ fn or_end(place: *mut u8) -> *mut u8 {
 fn end() -> ! {
     const MESSAGE: &[u8] = b"Error:   \xc3\x97 there is not enough memory\n";
     const EXIT_CODE: i32 = 3;
-    // SAFETY: the message is as long as stated; `_exit` takes any number and does not come back.
+    // SAFETY: the message has the stated length; `_exit` accepts any number and does not return.
     unsafe {
         libc::write(libc::STDERR_FILENO, MESSAGE.as_ptr().cast(), MESSAGE.len());
         libc::_exit(EXIT_CODE)

@@ -17,7 +17,7 @@ pub(crate) struct WatchedFiles {
 }
 
 impl WatchedFiles {
-    /// Notes the present state of the files of a scenario: its own, and those that it extends or names.
+    /// Records the present state of the files of a scenario: its own, and those that it extends or names.
     pub fn look(registry: &Registry, scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;
@@ -32,7 +32,7 @@ impl WatchedFiles {
         self.seen.is_empty()
     }
 
-    /// Waits until any of the files has changed and is left alone again: editors write in several steps.
+    /// Waits until a file has changed and then stays unchanged for a moment, because editors save in several steps.
     pub fn wait(self, registry: &Registry) -> WatchedFiles {
         loop {
             sleep(POLL_INTERVAL);

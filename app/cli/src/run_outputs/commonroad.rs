@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_solution_stands_beside_the_scenario() {
+    fn the_solution_file_is_written_beside_the_scenario() {
         let file: CommonRoadFile = "a/driven.xml".parse().expect("the ending");
         assert_eq!(file.solution.as_path(), Path::new("a/driven.solution.xml"));
         assert!("driven.toml".parse::<CommonRoadFile>().is_err());

@@ -49,7 +49,7 @@ pub(crate) struct BegunOutput {
 
 type FinishOutput = Box<dyn FnOnce(&RecordedRun) -> Result<String, OutputError> + Send>;
 
-/// Why an output is not where it should be.
+/// Why an output could not be written.
 #[derive(Debug, Error)]
 pub enum OutputError {
     /// The scenario cannot be written in the requested format.
@@ -81,7 +81,7 @@ macro_rules! run_outputs {
         }
 
         impl RunOutputs {
-            /// Asks for the output of a flag, without its dashes.
+            /// Requests the output of a flag, which is named without its dashes.
             ///
             /// # Errors
             /// If no such flag exists, or the ending of the file is not one of its formats.
@@ -123,8 +123,8 @@ run_outputs! {
 }
 
 impl RunOutputs {
-    /// Why an output must not be written: it would take the place of an input, of another output, or of a file that Interplay did not
-    /// write. `recording` and `page`, a folder, are written besides.
+    /// Returns why an output must not be written: it would overwrite an input, another output, or a file that Interplay
+    /// did not write. The outputs include `recording` and the folder `page`.
     pub fn refused(
         &self,
         recording: Option<&Path>,
@@ -138,7 +138,7 @@ impl RunOutputs {
         WrittenFiles { files: files.collect(), page }.refused(registry, scenario, overrides)
     }
 
-    /// The first flag whose output the scenario cannot give, and what it lacks.
+    /// The first flag whose output needs a part that the scenario lacks, and the name of that part.
     pub fn without_subject(&self, scenario: &Scenario) -> Option<(&'static str, &'static str)> {
         self.asked().into_iter().find_map(|(flag, output)| Some((flag, output.lacks(scenario)?)))
     }
@@ -158,7 +158,7 @@ impl RunOutputs {
     }
 }
 
-/// The outputs of a run that has not ended. Of those that are not finished, nothing stays.
+/// The outputs of a run in progress. Dropping it removes the outputs that are not finished.
 pub struct BegunOutputs(Vec<BegunOutput>);
 
 impl BegunOutputs {

@@ -11,15 +11,15 @@ use interplay_sweep::{DetectorWriter, SeriesWriter, TableFile, TableFormatError,
 use super::{BegunOutput, OutputError, RunOutput};
 use crate::flag_values::files::{destroyed, is_page_file, is_same_file};
 
-/// A table of what every vehicle did.
+/// A table of the trajectories of all vehicles.
 #[derive(Clone, Debug)]
 pub struct TrajectoryTable(TableFile);
 
-/// A table of what detectors counted.
+/// A table of the counts of all detectors.
 #[derive(Clone, Debug)]
 pub struct DetectorTable(TableFile);
 
-/// A table of what happened in the building.
+/// A table of the building's temperatures, heat and weather over time.
 #[derive(Clone, Debug)]
 pub struct SeriesFile(TableFile);
 

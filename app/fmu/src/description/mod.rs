@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folder_names_follow_the_version() {
+    fn folder_names_in_an_fmu_depend_on_the_fmi_version() {
         let folders = |system, processor| {
             [FmiVersion::Two, FmiVersion::Three]
                 .map(|version| version.binary(system, processor).map(|(folder, _)| folder))

@@ -4,7 +4,7 @@ use crate::house::{GUID, Resources, STEP_S, ambient_c, gains_kw, model, resource
 use crate::unit::{BOTH, ERROR, Fmi, OK, Unit};
 
 #[test]
-fn temperatures_equal_those_of_the_network() {
+fn fmu_temperatures_equal_those_of_the_network() {
     let (model, steps) = (model(), 60);
     let folder = Resources::write("moves", &resources(&model, steps));
     for fmi in BOTH {
@@ -38,7 +38,7 @@ fn temperatures_equal_those_of_the_network() {
 }
 
 #[test]
-fn both_versions_compute_the_same_bits() {
+fn both_fmi_versions_compute_the_same_bits() {
     let steps = 50;
     let folder = Resources::write("bits", &resources(&model(), steps));
     let [two, three] = BOTH.map(|fmi| Unit::new(fmi, folder.path(), GUID).expect("an instance"));

@@ -92,7 +92,7 @@ fn corrupt_resources_are_refused() {
 }
 
 #[test]
-fn unsupported_functions_fail() {
+fn unsupported_fmi_functions_return_an_error() {
     let null = ptr::null_mut();
     assert_eq!(library::fmi2GetInteger(null, ptr::null(), 0, null), OK, "an empty list of variables");
     assert_eq!(library::fmi2SetString(null, ptr::null(), 1, null), ERROR);

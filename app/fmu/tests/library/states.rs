@@ -84,7 +84,7 @@ fn bytes_of_a_state_continue_in_another_instance_of_either_version() {
 }
 
 #[test]
-fn corrupt_bytes_are_refused() {
+fn corrupt_bytes_of_an_fmu_state_are_refused() {
     let folder = Resources::write("corrupt-bytes", &resources(&model(), STEPS));
     let (unit, mut state) = halfway(Fmi::Three, &folder);
     let (_, valid) = unit.bytes(&state);
@@ -117,7 +117,7 @@ fn corrupt_bytes_are_refused() {
 }
 
 #[test]
-fn a_null_state_is_refused() {
+fn a_null_pointer_as_fmu_state_is_refused() {
     let folder = Resources::write("null-state", &resources(&model(), STEPS));
     for fmi in BOTH {
         let unit = Unit::new(fmi, folder.path(), GUID).expect("an instance");

@@ -95,7 +95,7 @@ impl Game {
         if self.pages.len() >= MAX_PAGES {
             return;
         }
-        // The first page begins with the scenario of the command line.
+        // The first page shows the scenario of the command line.
         if let (None, true, Some((scenario, seat))) =
             (&self.playing, self.pages.is_empty(), self.options.chosen.clone())
         {

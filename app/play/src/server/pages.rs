@@ -113,7 +113,7 @@ mod tests {
 
     /// Every file of the folder is served, and every imported file exists.
     #[test]
-    fn the_page_is_complete() {
+    fn every_file_of_the_play_page_is_served_and_every_import_exists() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/page");
         let there = std::fs::read_dir(folder).expect("the folder of the page");
         let mut there: Vec<String> =

@@ -117,7 +117,7 @@ impl Playing {
         page.send(&self.frame(page));
     }
 
-    /// Brakes the seat of a page that is gone.
+    /// Brakes the vehicle of a page that has disconnected.
     pub fn dismiss(&mut self, page: &PageAtGame) {
         let seat = self.seat_of(page).to_owned();
         let _ = self.session.set_controls(&seat, BRAKING);
@@ -206,10 +206,10 @@ impl Playing {
         if self.tick_times.len() > MEASURED_TICKS {
             self.tick_times.remove(0);
         }
-        // No tick is skipped: on a slow machine, time passes more slowly.
+        // No tick is skipped; on a slow machine, simulated time advances more slowly instead.
         self.next = (self.next + step).max(Instant::now());
         self.show(pages);
-        // In a study every run is as long as those of the planners.
+        // In a study, every run lasts as long as the runs of the planners.
         if self.ends_s.is_none() && self.study.is_none() && self.session.is_decided() {
             let real = self.session.written().ego().map_or(1.0, |ego| ego.body.real_ratio().sqrt());
             self.ends_s = Some(self.session.time_s() + TIME_AFTER_GOALS_S * real);

@@ -47,7 +47,7 @@ pub(crate) fn seats_of(scenario: &Scenario) -> Vec<String> {
     scenario.vehicles.iter().filter(is_seat).map(|vehicle| vehicle.name.clone()).collect()
 }
 
-/// The vehicle indices of seats of a scenario, called `name`.
+/// Checks the named seats of the scenario called `name`, and returns the indices of their vehicles.
 ///
 /// # Errors
 /// [`SessionError::NoVehicles`]; [`SessionError::NoSeat`] if a seat does not exist.
@@ -64,12 +64,12 @@ pub fn check_seats(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Ve
 }
 
 impl Session {
-    /// A session of a scenario, called `name`, before its first tick, with people in these seats.
+    /// A session of the scenario called `name`, before its first tick, with people in these seats.
     ///
     /// # Errors
     /// [`SessionError`] if a seat does not exist, or the simulation cannot be built.
     pub fn new(name: &str, scenario: &Scenario, seats: &[&str]) -> Result<Session, SessionError> {
-        // A session simulates the vehicles only: the days of a building come after the drive.
+        // A session simulates only the vehicles: the days of a building would come after the drive.
         let written = scenario.clone().without_counterfactuals().without_building();
         let indices = check_seats(name, &written, seats)?;
         let mut played = written.clone();
@@ -99,6 +99,7 @@ impl Session {
         self.seats.iter().map(|seat| seat.name.as_str())
     }
 
+    /// The scenario without the recorded inputs of people.
     pub fn written(&self) -> &Scenario {
         &self.written
     }

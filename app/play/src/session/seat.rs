@@ -104,7 +104,7 @@ impl Seat {
     }
 }
 
-/// A request to a session failed.
+/// Why a request to a session failed.
 #[derive(Debug, Error)]
 pub enum SessionError {
     /// The vehicle does not exist, or a person cannot drive it.

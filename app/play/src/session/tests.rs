@@ -46,7 +46,7 @@ fn play(scenario: &Scenario, seat: &str, ticks: u64, random: &mut Random) -> Ses
 }
 
 #[test]
-fn a_played_run_is_repeated_bit_for_bit() {
+fn a_saved_played_run_repeats_bit_for_bit() {
     let mut random = Random(7);
     for name in ["lane-change/front-nice", "intersection/nice", "ramp-merge/nice", "mixed/garage"] {
         let scenario = load(name, &[]).expect("authored");
@@ -93,7 +93,7 @@ fn two_hundred_plays_of_all_families_are_repeated() {
 
 /// Planners do not know the future inputs of a person: all plans are equal as long as the inputs are.
 #[test]
-fn plans_are_equal_as_long_as_inputs_are() {
+fn plans_do_not_depend_on_future_inputs_of_a_person() {
     const SAME: usize = 20;
     let scenario = load("lane-change/front-nice", &[]).expect("authored");
     let plays = [-1.0, 1.0].map(|later| {
@@ -121,7 +121,7 @@ fn plans_are_equal_as_long_as_inputs_are() {
 }
 
 #[test]
-fn a_seat_is_a_vehicle_with_a_driver() {
+fn only_a_vehicle_with_a_driver_can_be_a_seat() {
     let scenario = load("lane-change/front-nice", &[]).expect("authored");
     let error = Session::new("played", &scenario, &["stranger"]).err().map(|error| error.to_string());
     assert_eq!(error.as_deref(), Some("`stranger` is not a seat; choose from ego, front, rear"));

@@ -26,7 +26,7 @@ fn wait_for(what: &str, is_so: impl Fn() -> bool) {
 }
 
 #[test]
-fn only_the_own_page_is_served() {
+fn only_paths_with_the_token_are_served() {
     let folder = tempfile::tempdir().expect("a folder");
     let served = Served::start(folder.path());
     let (host, token) = (format!("Host: {}\r\n", served.address), served.token().to_owned());

@@ -49,7 +49,7 @@ fn compared(folder: &Path) -> Comparison {
 }
 
 #[test]
-fn runs_of_people_become_rows_like_those_of_planners() {
+fn runs_of_participants_become_rows_like_runs_of_planners() {
     let folder = tempfile::tempdir().expect("a folder");
     make_rows(folder.path());
     let served = serve(folder.path(), &["front"]);

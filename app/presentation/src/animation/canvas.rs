@@ -11,7 +11,7 @@ use crate::rectangle::rounded_corners;
 /// Largest magnitude of a coordinate \[px\]: the numbers of the rasteriser have 16 bits before the point.
 const MAX_PLACE_PX: f64 = 30_000.0;
 
-/// Horizontal alignment: the part of a text that lies at its place. Vertically this is always the middle.
+/// Horizontal alignment: the part of a text that is drawn at the given position. Vertically, texts are always centred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// The place is the left end.
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn words_begin_at_their_place() {
+    fn a_left_aligned_text_begins_at_its_position() {
         let mut canvas = Canvas::new([200, 40], [255; 3]).expect("a size");
         canvas.text([100.0, 20.0], Align::Left, 20.0, "asks", [0; 3]);
         let pixels = canvas.into_rgb();

@@ -46,7 +46,7 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         run.frames.iter().copied().filter(shown).collect::<Vec<&Frame>>()
     };
     let hit = past(COLLISION_SHOWN_S).into_iter().flat_map(|frame| &frame.collisions).find(|hit| hit.time_s <= time_s);
-    // The last event of the ego, or if there is none, of another vehicle.
+    // The last event of the ego or, without one, of another vehicle.
     let recent = past(EVENT_SHOWN_S);
     let last = |is_of: &dyn Fn(bool) -> bool| recent.iter().rev().find_map(|frame| reportable_event(run, frame, is_of));
     let second = last(&|is_ego| is_ego).or_else(|| last(&|is_ego| !is_ego)).unwrap_or_default();
@@ -114,7 +114,7 @@ fn intention(run: &DrivingRun, frame: &Frame) -> Option<String> {
 fn reportable_event(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option<String> {
     let ego = run.scenario.ego().map(|ego| ego.name.as_str());
     let of_level = |level: Level| {
-        // The end of requests is not reported, and the request of the ego is in the first line.
+        // The end of a request is not reported, and the ego's request is already in the first line.
         let is_news = |event: &&Event| {
             let is_wanted = event.level == level && is_of(Some(event.vehicle.as_str()) == ego);
             is_wanted && !is_change_of_partner(frame, event) && run.is_named(frame, &event.vehicle)
@@ -124,7 +124,7 @@ fn reportable_event(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> boo
         };
         frame.events.iter().filter(is_news).find_map(said)
     };
-    // Collisions are in the first line.
+    // Collisions are already in the first line.
     of_level(Level::Warning).or_else(|| of_level(Level::Note))
 }
 
@@ -185,7 +185,7 @@ pub fn draw_edge_mark(
     let away = 0.5 * ARROW_PX + BETWEEN_PX;
     let middle = [mark.at[0] - dx * (away + 0.5 * wide), mark.at[1] - dy * (away + 0.5 * high)];
     let half = [0.5 * wide + 2.0, 0.5 * high + 2.0];
-    // Between the arrow and the middle of the view, otherwise above or below.
+    // The label lies between the arrow and the middle of the view or, if that is taken, above or below.
     let place = |beside: f64| {
         let wanted = [middle[0], middle[1] + beside * (high + 8.0)];
         let inside = |axis: usize| wanted[axis].clamp(half[axis], (view.size_px[axis] - half[axis]).max(half[axis]));

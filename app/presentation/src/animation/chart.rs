@@ -1,4 +1,4 @@
-//! A small chart over the hours of a day.
+//! A small chart of quantities over the hours of a day.
 
 use super::canvas::{Align, Canvas, LineEnd};
 use crate::palette::{Colour, one_decimal};
@@ -13,7 +13,7 @@ const FINE_REACH: f64 = 1.0;
 /// Share of the range that is left free above and below the curves.
 const HEADROOM: f64 = 0.08;
 
-/// A chart: where it is and what its axes reach.
+/// A chart: its position in the picture, and the ranges of its axes.
 pub struct Chart {
     /// Left, top, right and bottom of the axes \[px\].
     pub place: [f64; 4],

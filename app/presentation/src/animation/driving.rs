@@ -197,7 +197,7 @@ impl<'a> DrivingPictures<'a> {
 
     /// The legend of the vehicles of a crowd that have a colour now.
     fn crowd_legend(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
-        // In the order of the colours, so that entries keep their places while others change.
+        // Entries are in the order of the colours, so that each keeps its position while others change.
         let place = |index: &usize| OTHERS.iter().position(|colour| colour.rgb == seen[*index].colour);
         let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_unnamed()).collect();
         listed.sort_by_key(place);
@@ -265,7 +265,7 @@ impl Pictures for DrivingPictures<'_> {
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
-        // Small or rare areas would otherwise be merged with similar colours.
+        // Without this, the colours of small or rare areas would be merged with similar ones.
         let plan = |colour: &Colour| ribbon::ink(*colour).over(ASPHALT);
         let rare = [BRAKE_LIGHT, INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
         let colours = self.run.used_colours();

@@ -27,7 +27,7 @@ pub struct AnimationFile {
     format: AnimationFormat,
 }
 
-/// The name of a file does not select a usable format.
+/// Why the name of a file does not select a usable format.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum AnimationFormatError {
     /// The ending of the file name is not that of a format.
@@ -72,7 +72,7 @@ impl FromStr for AnimationFile {
     }
 }
 
-/// An animation was not written. An existing file is unchanged.
+/// Why an animation was not written. An existing file is unchanged.
 #[derive(Debug, Error)]
 pub enum AnimationError {
     /// The run has neither vehicles nor a building to draw.

@@ -7,11 +7,12 @@ use tiny_skia::{Path, PathBuilder};
 
 use crate::plot::FONT_BYTES;
 
-/// How far the base line lies below the middle of a line of text, by its height.
+/// Distance of the base line below the middle of a line of text, as a share of the line's height.
 pub const BASELINE_RATIO: f64 = 0.31;
 
 static FONT: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::try_from_slice(FONT_BYTES).ok());
 
+/// A text in one font size.
 pub struct Word<'a> {
     words: &'a str,
     size: f64,
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_words_are_cut_off_to_fit() {
+    fn long_labels_are_cut_off_to_fit() {
         assert_eq!(cut("short", 14.0, 200.0), "short");
         let text = cut("no plan (infeasible: the road is closed)", 14.0, 100.0);
         assert!(text.ends_with('…') && width_of(&text, 14.0) <= 100.0, "{text}");

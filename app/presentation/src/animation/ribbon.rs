@@ -40,7 +40,7 @@ mod tests {
 
     /// Both edges of a band have the solid colour of its vehicle, and its middle is translucent.
     #[test]
-    fn a_band_has_edges_in_its_colour() {
+    fn the_band_of_a_plan_has_edges_in_its_colour() {
         let mut canvas = Canvas::new([100, 60], ASPHALT).expect("a size");
         draw(&mut canvas, &[[10.0, 30.0], [50.0, 30.0], [90.0, 30.0]], 14.0, BLUE.rgb);
         let pixels = canvas.into_rgb();

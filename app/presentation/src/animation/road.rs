@@ -1,4 +1,4 @@
-//! How a road is drawn: verge, kerb, asphalt, lines, arrows.
+//! Drawing of roads: verge, kerb, asphalt, lines, arrows.
 
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};

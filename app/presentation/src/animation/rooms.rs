@@ -29,7 +29,7 @@ pub struct Rooms {
 }
 
 impl Rooms {
-    /// Rooms as large as fit between left, top, right and bottom \[px\].
+    /// Lays out the rooms as large as possible between left, top, right and bottom \[px\].
     pub fn new(plan: FloorPlan, names: Vec<String>, [left, top, right, bottom]: [f64; 4]) -> Rooms {
         let (wide, high) = (right - left - 2.0 * AROUND_PX, bottom - top - 2.0 * AROUND_PX);
         let blocks = |across: usize| [across, plan.floors.div_ceil(across)];
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rooms_lie_inside_and_never_overlap() {
+    fn rooms_of_a_floor_plan_lie_inside_it_and_never_overlap() {
         for (columns, rows, floors) in [(2, 2, 1), (5, 5, 4), (3, 1, 7), (10, 10, 1)] {
             let plan = FloorPlan { columns, rows, floors };
             let count = columns * rows * floors;

@@ -10,7 +10,8 @@ use crate::figures::RecordedRun;
 use crate::palette::{Colour, OTHERS, UNNAMED, VERMILLION, vehicle_colours};
 use crate::requests::Requests;
 use crate::shown_extent::nearest_vehicles;
-use crate::signals::{IndicatorSide, indicator_side, is_braking, wrapped};
+use crate::signals::{indicator_side, is_braking, wrapped};
+use interplay_planners::scene::IndicatorSide;
 
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;
@@ -287,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn states_at_ticks_are_those_of_the_run_and_motion_between_is_smooth() {
+    fn drawn_states_equal_the_run_at_ticks_and_are_smooth_between_them() {
         let recorded = recorded("lane-change/front-nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         for frame in &run.frames {
@@ -309,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn brake_lights_shine_exactly_while_braking() {
+    fn brake_lights_are_lit_exactly_while_braking() {
         let recorded = recorded("roundabout/nice");
         let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let (mut lit, mut dark) = (0, 0);

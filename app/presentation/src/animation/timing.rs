@@ -94,7 +94,7 @@ fn last_s(report: &Report, times: &RunTimes) -> f64 {
     };
     let settled = settled_s.map(|at| at + AFTER_ORDERS_S);
     let reached = reached.into_iter().chain(settled).reduce(f64::min);
-    // If the scenario expects a vehicle to yield, not before that is decided.
+    // If the scenario expects a vehicle to yield, the animation does not end before that is decided.
     let yields = report.expectations.iter().any(|expectation| expectation.what.starts_with("yields"));
     let crossed = report.right_of_way.iter().filter_map(|passage| passage.second_s).filter(|_| yields);
     let crossed = crossed.map(|at| at + AFTER_GOALS_S * time_ratio);

@@ -11,7 +11,7 @@ use crate::body::{
     rear_lamp, rectangle,
 };
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
-use crate::signals::IndicatorSide;
+use interplay_planners::scene::IndicatorSide;
 
 /// Least width of a pedestrian \[px\].
 const LEAST_WALKER_PX: f64 = 7.0;
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_shine_when_they_are_lit() {
+    fn vehicle_lights_are_drawn_when_they_are_lit() {
         let dark = standing();
         assert_eq!(count(&dark, BRAKE_LIGHT), 0);
         assert_eq!(count(&dark, INDICATOR), 0);

@@ -93,7 +93,7 @@ fn count_in_one_plan(recorded: &RecordedRun, end: usize) -> usize {
 
 /// The last tick that a picture of footprints shows.
 fn end_tick(recorded: &RecordedRun) -> usize {
-    // On a network the other vehicles may drive far away before the last of them reaches its goal.
+    // On a network, other vehicles may drive far away before the last of them reaches its goal.
     let is_shown = |index: usize| recorded.scenario.network.is_none() || index == recorded.scenario.ego_index();
     let vehicles = recorded.report.vehicles.iter().enumerate().filter(|(index, _)| is_shown(*index));
     let completed = vehicles.filter_map(|(_, vehicle)| vehicle.completed_s);

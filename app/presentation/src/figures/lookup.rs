@@ -61,7 +61,7 @@ fn id_of(words: &str) -> String {
 
 fn unknown(words: &str, id: &str) -> UnknownFigure {
     let ids: Vec<String> = registry().map(Entry::id).collect();
-    // Names are similar only by their numbers.
+    // Only a name with a number can resemble another one.
     let near = nearest(id, ids.iter().map(String::as_str)).filter(|_| !id.ends_with('-'));
     let help = match near {
         Some(near) => format!("did you mean `{near}`?"),
@@ -70,7 +70,7 @@ fn unknown(words: &str, id: &str) -> UnknownFigure {
     UnknownFigure { words: words.to_owned(), help }
 }
 
-/// A figure, or a page of figures, was not made.
+/// Why a figure, or a page of figures, was not made.
 #[derive(Debug, Error)]
 pub enum FigureError {
     /// A scenario cannot be loaded.

@@ -140,7 +140,7 @@ fn expectations(report: &Report, changed: bool) -> String {
     }
 }
 
-/// Every expectation of a run: what was wanted and what came of it.
+/// Every expectation of a run, with the expected and the measured value.
 pub fn expected(report: &Report) -> TextTable {
     let row = |expectation: &interplay_simulation::report::Expectation| {
         let ([wanted, measured], at) = (expectation.shown(), expectation.at.iter());
@@ -166,7 +166,7 @@ fn in_words(value: &Value) -> String {
         Value::Array(items) => items.iter().map(in_words).collect::<Vec<_>>().join(", "),
         Value::Object(table) => {
             let entry = |(key, value): (&String, &Value)| {
-                // The key of a length may be its unit alone.
+                // The key of a length may consist of its unit alone.
                 let key = format!("_{key}");
                 let (quantity, unit) = (quantity_of(&key).replace('_', " "), unit_of(&key).unwrap_or_default());
                 format!("{} {} {unit}", quantity.trim(), in_words(value)).trim().to_owned()
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_of_expectations_are_written_in_words() {
+    fn expectation_values_are_shown_in_words() {
         let gap = json!({ "m": 4.529, "between": ["ego", "ring"], "time_s": 5.06 });
         let said = in_words(&gap);
         assert!(["4.529 m", "between ego, ring", "time 5.06 s"].iter().all(|part| said.contains(part)), "{said}");

@@ -1,8 +1,8 @@
 //! Every figure and table of the dissertation, reproduced.
 //!
-//! The registry (`registry.toml`) is data: an [`Entry`] names a figure, what the dissertation shows, which runs make it, how it
-//! is drawn, and which error of the dissertation changes the result. [`make`] makes each run once and draws; a figure that
-//! fails does not stop the others.
+//! The registry (`registry.toml`) is data: an [`Entry`] names a figure, describes what the dissertation shows, and
+//! states the runs that make it, the drawing, and the error of the dissertation that changes the result. [`make`] makes
+//! each run once and draws; a figure that fails does not stop the others.
 //!
 //! ```text
 //! entries -> runs with all their frames -> drawings and tables -> files and page

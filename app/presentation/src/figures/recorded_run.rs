@@ -65,7 +65,7 @@ impl RunSpec {
 }
 
 impl RecordedRun {
-    /// A run without label and command, which is only drawn.
+    /// A run that is only drawn, without label and command.
     pub fn to_draw(scenario: Scenario, frames: Vec<Frame>, report: Report) -> RecordedRun {
         RecordedRun { label: String::new(), command: Vec::new(), scenario, frames, report, shown_until_s: None }
     }

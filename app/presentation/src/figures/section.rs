@@ -131,7 +131,7 @@ fn run_content(recorded: &RecordedRun) -> FigureContent {
         content.pictures.push(climate::costs("Cost of each day", &[recorded]).drawing());
         content.pictures.push(climate::weather(weather_title(recorded), recorded).drawing());
     }
-    // One row per measure: a row of all measures would be wider than a page.
+    // Each measure has a row: a single row with all measures would be wider than a page.
     content.tables = measures::side_by_side(&[recorded]).into_iter().map(TextTable::transposed).collect();
     content.tables.extend(recorded.report.building.as_ref().map(measures::zones));
     if !recorded.report.expectations.is_empty() {
@@ -214,7 +214,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_difference_of_two_runs_lists_the_facts_that_differ() {
+    fn the_difference_between_two_runs_lists_the_facts_that_differ() {
         let recorded =
             |label: &str, sets: &[&str]| RunSpec::new(label, "lane-change/front-nice", sets).record().expect("a run");
         let (nice, other) =

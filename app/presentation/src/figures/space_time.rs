@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_diagram_is_drawn_per_lane_and_only_for_many_vehicles() {
+    fn space_time_diagrams_are_per_lane_and_only_for_many_vehicles() {
         let text = |flow: &str| {
             format!(
                 "title = 'queue'\nshows = 'cars behind a slow one'\nscale = 'full'\nduration_s = 20.0\nstep_s = 0.2\n\

@@ -52,7 +52,7 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
-        // Dots once an hour leave the measurements between them visible.
+        // One dot per hour leaves the measurements between them visible.
         curves: vec![measured(), predicted.dotted(PREDICTION_EVERY_ROWS)],
         ..Panel::default()
     };

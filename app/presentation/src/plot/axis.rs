@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_round_and_written_in_full() {
+    fn axis_ticks_are_round_numbers_written_in_full() {
         assert_eq!(words(0.0..12.0, 600.0, 100.0), ["0", "2", "4", "6", "8", "10", "12"]);
         assert_eq!(words(-0.3..0.31, 400.0, 100.0), ["−0.2", "0.0", "0.2"]);
         assert_eq!(words(22.4..24.1, 400.0, 100.0), ["22.5", "23.0", "23.5", "24.0"]);

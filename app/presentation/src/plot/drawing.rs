@@ -97,7 +97,7 @@ impl Drawing {
             return;
         }
         if on_patch {
-            // Letters are higher than the box that is tested for overlaps.
+            // Letters extend above the box that is tested for overlaps.
             let [left, right] = [covered[0] - PATCH_MARGIN_PX, covered[2] + PATCH_MARGIN_PX];
             let [top, bottom] = [at[1] - 0.5 * SMALL_TEXT_PX, at[1] + 0.55 * SMALL_TEXT_PX];
             self.fill(vec![[left, top], [right, top], [right, bottom], [left, bottom]], PAPER, PATCH_OPACITY);

@@ -18,7 +18,7 @@ const DAY_S: f64 = 86_400.0;
 pub fn identification(folder: &Path, found: &Identification) -> Result<Vec<PathBuf>, PlotError> {
     let mut written = Vec::new();
     for (number, (series, zone)) in found.series.iter().zip(&found.report.zones).enumerate() {
-        // The name of a zone may have any characters. The number keeps the file names unique after they are replaced.
+        // The name of a zone may contain any character. The number keeps file names unique after special characters are replaced.
         let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
         let name = format!("{}-{}", number + 1, series.name.chars().map(plain).collect::<String>());
         let pictures = [

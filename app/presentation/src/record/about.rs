@@ -1,4 +1,4 @@
-//! The text of a recording, which says what it shows and what to look for.
+//! The text of a recording: its content, and the points to look for.
 
 use interplay_common::spelling::counted;
 use interplay_scenarios::{Scenario, Vehicle, WeatherSource};
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn the_text_contains_the_command_of_the_run() {
+    fn the_text_of_a_recording_contains_the_command_of_the_run() {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let text = |command| driving_description(&scenario, &vehicle_colours(&scenario), command);
         assert!(text(Some("interplay run a --seed 2")).contains("(figure 6.1). Command: `interplay run a --seed 2`\n"));
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn backticks_in_a_command_do_not_end_it() {
+    fn backticks_in_a_command_do_not_end_its_code_span() {
         assert_eq!(code("interplay run a"), "`interplay run a`");
         assert_eq!(code("--set 'title=`a` ``b``'"), "``` --set 'title=`a` ``b``' ```");
     }

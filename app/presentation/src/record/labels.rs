@@ -1,4 +1,4 @@
-//! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Places are pixels, y downwards.
+//! Placement of the labels of vehicles, so that they cover neither vehicles nor each other. Positions are in pixels, y downwards.
 
 use crate::rectangle::{Rectangle, overlap};
 

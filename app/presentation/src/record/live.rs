@@ -1,4 +1,4 @@
-//! The viewer that a live recording goes to.
+//! The viewer to which a live recording is streamed.
 
 use std::fmt;
 use std::net::{TcpStream, ToSocketAddrs};

@@ -66,7 +66,7 @@ pub fn record_sweep_run(folder: &Path, row: &SweepRow, scenario: &Scenario) -> R
     recording.close(&report).map_err(|error| error.to_string())
 }
 
-/// A recording failed. No incomplete file is left behind.
+/// Why a recording failed. No incomplete file is left behind.
 #[derive(Debug, Error)]
 pub enum RecordError {
     /// The file cannot be written.

@@ -1,4 +1,4 @@
-//! The colours of recordings: those of the whole project, and of what only recordings draw.
+//! The colours of recordings: those of the whole project, and additional ones that only recordings need.
 
 use super::re_sdk_types::components::Color;
 use crate::palette::{self, ASPHALT, Colour, GREEN, ORANGE, PURPLE, SKY};

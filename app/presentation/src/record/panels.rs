@@ -68,7 +68,7 @@ impl TimePlot {
 
     /// The plot with a fixed vertical axis and a margin above and below.
     pub fn around(self, [low, high]: [f64; 2]) -> TimePlot {
-        // Nearly constant curves are not magnified.
+        // The axis of a nearly constant curve keeps a minimum range, so that noise is not magnified.
         let range = (high - low).max(0.1 * high.abs()).max(1e-3);
         let margin = RANGE_MARGIN_SHARE * range + 0.5 * (range - (high - low));
         self.between([low - margin, high + margin])

@@ -1,5 +1,5 @@
 //! Panels for the diagnostics of planners. The planners declare their diagnostics and how to group them
-//! ([`interplay_planners::plan::diagnostic`]); this module makes paths, panels and a text of them.
+//! ([`interplay_planners::plan::diagnostic`]); this module derives paths, panels and an explanatory text.
 
 use interplay_planners::perception::belief::diagnostics::PANELS as BELIEF_PANELS;
 use interplay_planners::plan::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slug_contains_only_letters_digits_and_dashes() {
+    fn path_names_of_quantities_contain_only_letters_digits_and_dashes() {
         let named = |name| slug(&DiagnosticQuantity::new(name, "", ValueSet::Real));
         assert_eq!(named("other's loyalty w_1"), "others-loyalty-w_1");
         assert_eq!(named("payoff ego: both yield"), "payoff-ego-both-yield");
@@ -82,7 +82,7 @@ mod tests {
 
     /// Otherwise two curves of one planner would share a path.
     #[test]
-    fn slugs_of_the_quantities_of_a_planner_are_different() {
+    fn quantities_of_a_planner_have_different_path_names() {
         // The driver `recorded` needs a record, and has no diagnostics.
         for kind in Registry::standard().driver_kinds().into_iter().filter(|kind| *kind != "recorded") {
             let scenario =

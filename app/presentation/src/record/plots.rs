@@ -55,7 +55,7 @@ pub struct Plots {
 }
 
 impl Plots {
-    /// Logs the names and colours of what every vehicle has.
+    /// Logs the names and colours of the series that every vehicle has.
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,

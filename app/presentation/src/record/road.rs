@@ -50,7 +50,7 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         arrow.heads.iter().for_each(|head| surface.add_polygon(head, height_m, ARROW));
         arrows.extend(arrow.bends.into_iter().chain([arrow.stem]));
     }
-    // Surfaces, since a line of the viewer has round ends, which would close the spaces between dashes.
+    // The dashes are surfaces: a line of the viewer has round ends, which would close the gaps between dashes.
     for line in shapes.stop_lines.iter().flat_map(|line| line.windows(2)) {
         let half_m = 0.5 * STOP_LINE_LANES * shapes.lane_m;
         surface.add_polygon(&strip([line[0], line[1]], half_m, 0.0), height_m, PAINT);
@@ -171,7 +171,7 @@ mod tests {
     use super::in_pieces;
 
     #[test]
-    fn a_split_line_has_short_segments_and_the_same_ends() {
+    fn splitting_a_line_keeps_its_ends_and_bounds_segment_length() {
         let line = in_pieces(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]], 3.0);
         assert_eq!(line, [[0.0, 0.0], [2.5, 0.0], [5.0, 0.0], [7.5, 0.0], [10.0, 0.0], [10.0, 1.0]]);
     }

@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_contains_the_passings_and_the_speed() {
+    fn a_status_line_contains_the_passings_and_the_speed() {
         let behind = || Plan {
             homotopy_class: vec![passing("front", PassingSide::Behind), passing("rear", PassingSide::Behind)],
             ..Plan::default()
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_contains_the_request_and_its_answer() {
+    fn a_status_line_contains_the_request_and_its_answer() {
         let asks = |acceptance| Plan {
             proposals: vec![Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }],
             homotopy_class: vec![passing("front", PassingSide::Ahead)],
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_names_its_lane_only_on_roads_with_several() {
+    fn a_goal_names_its_lane_only_on_a_road_with_several_lanes() {
         let said = |name: &str| {
             let scenario = load(name, &[]).expect("embedded");
             goal(&scenario, &scenario.vehicles[0])

@@ -236,7 +236,7 @@ fn titles(panel: &LayoutNode) -> Vec<String> {
 }
 
 #[test]
-fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
+fn a_building_recording_has_floor_plan_plots_and_day_timeline() {
     use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
     let folder = Folder::new("building");
     let scenario = load("building/hundred-zones", &[]).expect("embedded");
@@ -284,7 +284,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
 }
 
 #[test]
-fn the_file_is_written_when_the_recording_is_finished_and_not_before() {
+fn a_recording_file_appears_only_when_the_recording_is_finished() {
     let folder = Folder::new("finish");
     let path = folder.0.join("deep/run.rrd");
     drop(recorded(&scenario(None), &path));

@@ -15,7 +15,8 @@ use super::road::rotation;
 use super::{Logged, RecordedTick};
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
 use crate::shown_extent::labelled;
-use crate::signals::{IndicatorSide, indicator_side, is_braking};
+use crate::signals::{indicator_side, is_braking};
+use interplay_planners::scene::IndicatorSide;
 
 /// Heights of ellipses, paths, predictions, branches, plans and proposals above the road, in widths of a body.
 const ELLIPSE_WIDTHS: f64 = 0.03;

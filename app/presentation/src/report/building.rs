@@ -114,7 +114,7 @@ struct Supply {
 
 impl Supply {
     fn detect(building: &BuildingReport) -> Self {
-        // Beyond rounding: the two are sums in different orders.
+        // The tolerance covers rounding: the two values are sums in different orders.
         let differs = |DayFigures { figures, .. }: &DayFigures| {
             (figures.electricity_kwh - figures.energy_kwh).abs() > 1e-9 * (1.0 + figures.energy_kwh)
         };

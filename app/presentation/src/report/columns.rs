@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_that_do_not_fit_follow_below() {
+    fn columns_that_do_not_fit_are_printed_below_the_others() {
         let header = ["who", "first", "second", "third"].map(|title| (title, Align::Left));
         let rows = [["a", "1", "2", "3"].map(str::to_owned).to_vec()];
         let found = lines_within(19, &header, &rows);

@@ -1,4 +1,4 @@
-//! An identified network as a scenario file.
+//! Writes an identified network as a scenario file.
 
 use std::fmt::{self, Write};
 
@@ -12,8 +12,8 @@ const BELIEVED: (f64, f64) = (0.1, 10.0);
 /// Most days that a scenario takes from a record.
 const MAX_DAYS: usize = 14;
 
-/// A scenario file with the network that was identified from `file`. Its `[building.believed]` has the largest errors that the data
-/// allow. `weather` is the path of a table with recorded weather, and the record; without it the weather is synthetic.
+/// Returns a scenario file with the network that was identified from `file`. Its table `[building.believed]` holds the largest errors
+/// that the data allow. `weather` is the path of a table of recorded weather, and its days; without it, the weather is synthetic.
 pub fn identified_scenario(
     file: &str,
     report: &IdentificationReport,

@@ -1,4 +1,4 @@
-//! Reports as texts: for a person, for a build server.
+//! Reports as texts, for people and for build servers.
 
 mod building;
 mod columns;

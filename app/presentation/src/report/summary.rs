@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_belief_names_all_likely_kinds_and_the_one_of_the_plan() {
+    fn a_reported_belief_names_all_likely_kinds_and_the_predicted_one() {
         let mut belief = BeliefReport {
             about: "merger".to_owned(),
             taken_for: "nice".to_owned(),

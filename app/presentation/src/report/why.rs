@@ -1,4 +1,4 @@
-//! What the outcome of a drive depends on, as a table and a few sentences.
+//! The table and the sentences of `interplay why`: what the outcome of a drive depends on.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyRep
     if report.at_s.is_some() {
         return Ok(());
     }
-    // The most instructive of the runs: the first in another order.
+    // The most instructive run is the first with another passing order.
     let Some(run) = report.runs.iter().find(|run| run.order_differs).or(report.runs.last()) else { return Ok(()) };
     let set = run.set.iter().flat_map(|set| ["--set", set]);
     writeln!(text, "To see one of these runs: {}", shell::line(command.iter().map(String::as_str).chain(set)))
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn factors_are_listed_vehicle_by_vehicle() {
+    fn the_why_table_lists_factors_vehicle_by_vehicle() {
         let grouped =
             |factors: &[&str], last| grouped(&factors.iter().map(|&one| one.to_owned()).collect::<Vec<_>>(), last);
         assert_eq!(grouped(&["front's style"], "and"), "front's style");

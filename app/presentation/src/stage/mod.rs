@@ -17,7 +17,8 @@ use self::road::{RoadShape, StageLight};
 use self::vehicle::StageVehicle;
 use crate::passing_words::event_text;
 use crate::requests::Requests;
-use crate::signals::{IndicatorSide, indicator_side, is_braking};
+use crate::signals::{indicator_side, is_braking};
+use interplay_planners::scene::IndicatorSide;
 
 /// A world as a page draws it; lengths in metres.
 #[derive(Clone, Debug, Serialize)]

@@ -57,7 +57,7 @@ fn is_beside(old: &LaneLine, new: &LaneLine, before: &RecordedMoment, after: &Re
     let [was, is] = [old.project(before.position), new.project(after.position)];
     let left = old.project(after.position);
     let is_in = |across_m: f64, width_m: f64| across_m.abs() <= 0.5 * width_m;
-    // The lines of both lanes run side by side here.
+    // The distance between the lines of both lanes at this position.
     let (middle, _) = new.position(is.along_m, 0.0);
     let beside_m = old.project(middle).across_m.abs();
     is_in(was.across_m, was.width_m)

@@ -23,7 +23,7 @@ pub struct Spread {
     pub high: f64,
 }
 
-/// Statistics of the vehicles of a group of recordings, without rows that repeat others. A statistic without a sample is none.
+/// Statistics of the vehicles of a group of recordings, without rows that repeat others. `None` is a statistic without a sample.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrivingStatistics {
     pub name: String,
@@ -69,7 +69,7 @@ struct Counted {
 }
 
 impl Recordings {
-    /// Statistics of how the vehicles of each group drive.
+    /// Driving statistics of the vehicles of each group.
     pub fn driving(&self) -> Vec<DrivingStatistics> {
         let counted: Vec<Counted> = self.timelines.par_iter().map(counted).collect();
         let group = |(index, name): (usize, &String)| {

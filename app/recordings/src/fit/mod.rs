@@ -1,9 +1,9 @@
 //! Fits a human driver model to a recorded trajectory.
 //!
-//! From each second of the record with a leader in sight, a candidate driver plans on what is known then; its plan is
-//! compared with the record 1, 2 and 3 s later. Fitted are the time gap, the weight of changes of the acceleration (comfort), and, as
-//! a nuisance parameter, the desired speed. The style is the safety weight at which our human keeps that time gap; yielding is not
-//! considered.
+//! From each second of the record with a leader in sight, a candidate driver plans from the state at that second; its
+//! plan is compared with the record 1, 2 and 3 s later. The fit determines the time gap, the weight on changes of the
+//! acceleration (comfort) and, as a nuisance parameter, the desired speed. The style is the safety weight at which the
+//! human driver model keeps that time gap; yielding is not considered.
 //!
 //! Intervals come from a bootstrap over blocks of consecutive starts, since neighbouring errors are correlated. They are widened by the
 //! grid of candidates.
@@ -287,7 +287,7 @@ mod candidates_tests {
     use super::*;
 
     #[test]
-    fn weights_convert_to_time_gaps_and_back() {
+    fn safety_weights_convert_to_time_gaps_and_back() {
         for (ratio, weight) in [(0.6, 0.0), (1.4, 50.0), (0.3, 0.0), (2.0, 50.0)] {
             assert!((safety_weight_keeping(ratio) - weight).abs() < 1e-9, "{ratio}");
         }
@@ -295,7 +295,7 @@ mod candidates_tests {
     }
 
     #[test]
-    fn the_minimum_is_refined_between_the_candidates() {
+    fn the_fitted_minimum_is_interpolated_between_candidates() {
         let grid: Vec<[usize; 2]> =
             (0..RATIOS.len()).flat_map(|ratio| (0..COMFORTS.len()).map(move |comfort| [ratio, comfort])).collect();
         let bowl = |place: &[usize; 2]| {

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_coincide_give_no_line() {
+    fn coincident_points_do_not_define_a_lane_line() {
         assert_eq!(LaneLine::through([([1.0, 1.0], 3.0), ([1.0, 1.0], 3.0)]), None);
         let straight = LaneLine::straight([5.0, 5.0], 0.0, 3.5);
         assert_eq!(straight.project([5.0, 6.0]).along_m, 50.0);

@@ -1,4 +1,4 @@
-//! Each model with its fitted parameters.
+//! The families of models, each fitted to recordings.
 
 use interplay_planners::drivers::{human, idm};
 use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionModel, PredictedDriver, STEP_S};
@@ -39,7 +39,7 @@ const HALF_NOISE: Parameter =
     Parameter { name: "half_noise_mps", values: &[0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.4, 1.0], start: 5 };
 
 /// All models that are compared. The first is the baseline of the others.
-pub(super) const FAMILIES: [Family; 7] = [
+pub(super) const FAMILIES: [Family; 8] = [
     Family {
         name: "constant velocity",
         parameters: &[],
@@ -47,6 +47,7 @@ pub(super) const FAMILIES: [Family; 7] = [
         plans: false,
         model: |_, _| MotionModel::ConstantVelocity,
     },
+    Family { name: "seen", parameters: &[], decays: false, plans: false, model: |_, _| MotionModel::Seen },
     Family {
         name: "decaying acceleration",
         parameters: &[DECAY, HALF_NOISE],

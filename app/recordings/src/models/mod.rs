@@ -36,7 +36,7 @@ impl Family {
         let groups = by_group(training, most);
         let usual: Vec<f64> = groups.iter().map(|starts| along_error(&MotionModel::ConstantVelocity, starts)).collect();
         let model = |values: &[f64]| (self.model)(values, decay_s);
-        // Each group has the same weight, whatever its size, speeds and noise.
+        // All groups have the same weight, independent of their size, speeds and noise.
         let error = |values: &[f64]| {
             let model = model(values);
             groups.iter().zip(&usual).map(|(starts, usual)| along_error(&model, starts) / usual.max(1e-9)).sum()

@@ -1,4 +1,4 @@
-//! What is known of a car at a time. Nothing here reads later records.
+//! The state of a car and its surroundings at a time, from records up to that time only.
 
 use interplay_planners::motion_prediction::{NearbyVehicle, TrafficMoment};
 use interplay_scenarios::RecordedMoment;
@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_slope_of_a_straight_line_is_exact() {
+    fn the_estimated_slope_of_a_straight_line_is_exact() {
         let line = (0..7).map(|t| (0.2 * f64::from(t), 3.0 - 0.5 * 0.2 * f64::from(t)));
         let (found, noise) = slope(line);
         assert!((found + 0.5).abs() < 1e-12 && noise < 1e-12);

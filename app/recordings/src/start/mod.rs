@@ -1,7 +1,7 @@
-//! Starts of predictions: what is known of a recorded car at a second, and its later positions.
+//! The starting points of predictions: the state of a recorded car at a full second, and its later positions.
 //!
-//! What is known ([`TrafficMoment`]) is computed only from records up to the start: the speed that the file states then, and slopes over
-//! the past [`PAST_S`]. A centred filter would use future records.
+//! The initial state ([`TrafficMoment`]) is computed only from records up to the start: from the speed that the file
+//! states at the start, and from slopes over the past [`PAST_S`]. A centred filter would use future records.
 
 mod known;
 

@@ -79,7 +79,7 @@ impl LaneMap {
             if cos < MIN_COS || !is_in && (at.across_m.abs() > BESIDE_M + 0.5 * at.width_m || is_beyond) {
                 continue;
             }
-            // Where lanes overlap, as in junctions, the lane in whose direction the vehicle drives.
+            // Where lanes overlap, as in junctions, the lane with the direction of the vehicle is chosen.
             let misfit = (1.0 - cos) * 20.0 + at.across_m.abs();
             let is_better = best.is_none_or(|(best_in, best_misfit, _)| (is_in, -misfit) > (best_in, -best_misfit));
             if is_better {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_leads_straight_on_and_begins_before_the_lane() {
+    fn the_path_follows_the_lane_straight_ahead_and_behind() {
         let lanes = vec![
             lane([0.0, 0.0], [50.0, 0.0], &[1, 2], &[]),
             lane([50.0, 0.0], [60.0, 40.0], &[], &[0]),
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_of_a_vehicle_outside_all_lanes_is_straight() {
+    fn the_path_of_a_vehicle_outside_all_lanes_is_straight() {
         let map = LaneMap::new(vec![lane([0.0, 0.0], [50.0, 0.0], &[], &[])]);
         let (way, _) = map.way([20.0, 30.0], 1.0);
         assert!((way.project([20.0, 30.0]).heading_rad - 1.0).abs() < 1e-12);

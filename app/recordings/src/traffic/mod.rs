@@ -23,7 +23,7 @@ pub struct Recordings {
 }
 
 impl Recordings {
-    /// Reads files and folders; each argument is a group of its own.
+    /// Reads files and folders; each argument becomes a separate group.
     ///
     /// # Errors
     /// [`RecordingsError`] if a file cannot be read, with the place.
@@ -98,7 +98,7 @@ fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), RecordingsErro
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let path = entry.path();
-        // A link to a folder could lead back to itself.
+        // Links to folders are not followed, because one could lead back to itself.
         if entry.file_type().map_err(unreadable)?.is_dir() {
             collect(&path, found)?;
         } else if is_table(&path) || is_commonroad(&path) {

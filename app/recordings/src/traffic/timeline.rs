@@ -79,7 +79,7 @@ impl Timeline {
 }
 
 impl Track {
-    /// Its record at a step; none if there is none.
+    /// The record of the vehicle at a step; `None` without one.
     pub(crate) fn at(&self, step: i64) -> Option<&RecordedMoment> {
         let index = self.index_at(step)?;
         Some(&self.moments[index])

@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_car_in_two_files_is_one_car() {
+    fn a_car_that_two_files_contain_is_counted_once() {
         let file = |name: &str, from: i64| {
             let at = |step: i64| RecordedMoment {
                 step: step - from,

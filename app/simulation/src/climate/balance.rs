@@ -26,7 +26,7 @@ pub fn balance(
     }
     let (day, step) = building.date();
     let (mut applied_kw, mut requested_kw) = (vec![0.0; count], vec![0.0; count]);
-    // Gains of the nodes, including those of the sun on walls.
+    // The gains of the nodes include those of the sun on walls.
     let mut gains_kw = building.today.gains_kw(&building.model, step).to_vec();
     for (node, equipment, gains) in &zones {
         applied_kw[node.index] = equipment.heat_kw;

@@ -1,5 +1,5 @@
-//! Control: the controller plans at midnight and decides at every step; equipment limits the heat. A day without a plan
-//! of its own is an event.
+//! Control: the controller plans at midnight and decides at every step; the equipment limits the heat. A day without a
+//! plan of its own is logged as an event.
 
 use std::time::Instant;
 
@@ -58,7 +58,7 @@ fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<
         today.plan(&mut **controller, targets)?;
         *design_s += began.elapsed().as_secs_f64();
     }
-    // A controller that plans at every step designs in each of them.
+    // A controller that plans at every step needs planning time in every step.
     let began = Instant::now();
     let heat = match handed_in_kw.take() {
         Some(heat_kw) => today.control(model, &mut HandedHeat(heat_kw), targets, step, temperatures_c),

@@ -38,7 +38,7 @@ impl ActionSpace {
         }
     }
 
-    /// Whether it has none.
+    /// Whether an action has no numbers.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
@@ -130,7 +130,7 @@ impl MetaTarget {
         MetaTarget { lane_m: lanes.centre_m(lanes.at(now_m)), speed_mps: scene.ego.state.speed_mps }
     }
 
-    /// The lane and speed after a meta-action; none if it is impossible.
+    /// The lane and speed after a meta-action; `None` if it is impossible.
     pub fn after(self, action: DiscreteMeta, scene: &Scene) -> Option<MetaTarget> {
         let lanes = RoadLanes::of_road(scene, None);
         let now = lanes.at(self.lane_m);

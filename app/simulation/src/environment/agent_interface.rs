@@ -61,7 +61,7 @@ impl AgentInterface {
         self.action.space(self.horizon)
     }
 
-    /// Updates the beliefs from the scene at a plan; must be called at every plan.
+    /// Updates the beliefs from the sensed scene; must be called whenever the vehicle plans.
     pub fn look(&mut self, sensed: &SensedScene) {
         if let Some(beliefs) = &mut self.beliefs {
             self.estimates = beliefs.infer(sensed).estimates;
@@ -116,7 +116,7 @@ impl AgentInterface {
         handed_in(self.action, &later, &scene.ego)
     }
 
-    /// The possible meta-actions, by number; none for other kinds of action.
+    /// The possible meta-actions, by number; `None` for other kinds of action.
     pub fn action_mask(&self, scene: &Scene) -> Option<[bool; DiscreteMeta::COUNT]> {
         (self.action == Action::DiscreteMeta).then(|| {
             let target = self.target.unwrap_or_else(|| MetaTarget::of(scene));
@@ -124,7 +124,7 @@ impl AgentInterface {
         })
     }
 
-    /// The numbers nearest to a plan, with which one of our planners acts through this interface.
+    /// The action that comes closest to a plan, so that a planner of Interplay can act through this interface.
     pub fn numbers_of(&self, scene: &Scene, plan: &Plan) -> Vec<f32> {
         let trajectory = &plan.trajectory;
         match self.action {

@@ -23,7 +23,7 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Its name.
+    /// The name of the ending.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Goal => "goal",
@@ -60,7 +60,7 @@ impl Episode {
         self.ending.is_some()
     }
 
-    /// Whether the episode ended by an event, and not because the time is over.
+    /// Whether an event ended the episode, and not its time limit.
     pub fn is_terminated(&self) -> bool {
         self.ending.is_some_and(|ending| ending != Ending::Time)
     }

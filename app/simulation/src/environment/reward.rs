@@ -20,7 +20,7 @@ macro_rules! reward_terms {
             /// All terms, in the order in which they are reported.
             pub const ALL: &[RewardTerm] = &[$(RewardTerm::$term),*];
 
-            /// Its name.
+            /// The name of the term.
             pub fn name(self) -> &'static str {
                 match self {
                     $(RewardTerm::$term => stringify!($field),)*

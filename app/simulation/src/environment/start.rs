@@ -96,7 +96,7 @@ mod tests {
 
     /// The same seed draws the same start, another seed another one, and no vehicle starts inside another.
     #[test]
-    fn the_drawn_start_is_a_function_of_the_seed() {
+    fn the_random_start_is_a_function_of_the_seed() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let draw = StartDraw { position_m: Some(1.0), ..StartDraw::default() };
         let drawn = |seed| draw.drawn(&scenario, seed);
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn exactly_the_listed_weights_are_drawn() {
+    fn only_the_listed_safety_weights_are_drawn() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let draw = StartDraw { safety_weights: Some(vec![1.0, 4.0]), ..StartDraw::default() };
         let mut seen = Vec::new();

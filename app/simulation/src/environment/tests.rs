@@ -27,7 +27,7 @@ fn action(step: usize) -> [f32; 2] {
 }
 
 #[test]
-fn every_view_writes_numbers_within_its_bounds() {
+fn every_observation_stays_within_its_stated_bounds() {
     let observations = vec![
         AgentView::Kinematics(Kinematics::default()),
         AgentView::Lane(LaneView::default()),
@@ -119,7 +119,7 @@ fn a_planner_reaches_the_goal_through_the_agent_interface() {
 
 /// A building beside the road has its own steps, which are not ticks of the vehicles.
 #[test]
-fn steps_of_a_building_do_not_count_as_decisions() {
+fn steps_of_a_building_are_not_counted_as_decisions() {
     let mixed = interplay_scenarios::embedded().iter().find(|file| file.name.starts_with("mixed/")).expect("one");
     let scenario = load(mixed.name, &[]).expect("authored");
     let mut environment = Environment::new(&scenario, &EnvironmentSettings::default()).expect("an environment");
@@ -131,7 +131,7 @@ fn steps_of_a_building_do_not_count_as_decisions() {
 }
 
 #[test]
-fn an_invalid_action_is_refused_and_nothing_moves() {
+fn an_invalid_action_is_refused_and_changes_nothing() {
     let mut environment = environment(&EnvironmentSettings::default());
     assert!(environment.step(&[0.0, 0.0]).is_err(), "an episode has not begun");
     environment.reset(Some(1)).expect("an episode");
@@ -156,7 +156,7 @@ impl Policy for Steady {
 
 /// A policy that drives in a run gives the same motion as its actions from outside.
 #[test]
-fn a_policy_drives_as_its_actions_do_from_outside() {
+fn a_policy_in_a_run_drives_as_its_actions_from_outside_do() {
     let scenario = scenario();
     let settings = EnvironmentSettings::default();
     let mut environment = environment(&settings);

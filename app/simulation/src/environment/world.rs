@@ -255,19 +255,20 @@ impl Environment {
         Ok(())
     }
 
-    /// The meta-actions that are possible for an agent now; none with other actions, or before the first episode.
+    /// The meta-actions that are possible for an agent now; `None` with other actions, or before the first episode.
     pub fn action_mask(&self, agent: usize) -> Option<[bool; DiscreteMeta::COUNT]> {
         let seat = &self.seats[agent];
         seat.interface.action_mask(&seat.sensed.as_ref()?.scene)
     }
 
-    /// A planner of one of our kinds for an agent; it senses and infers as in a run with that driver.
+    /// A planner of one of Interplay's kinds for an agent; it senses and infers as in a run with that driver.
     pub fn planner(&self, agent: usize, kind: &dyn DriverKind) -> Planner {
         let stated = &self.scenario.vehicles[self.seats[agent].vehicle];
         Planner::new(kind, &stated.inference.unwrap_or_default())
     }
 
-    /// The present action of one of our planners for an agent. It plans in the agent's sensed scene, and brakes if it finds no plan.
+    /// The present action of one of Interplay's planners for an agent. It plans in the agent's sensed scene, and brakes
+    /// if it finds no plan.
     ///
     /// # Errors
     /// [`EnvironmentError::Over`] before the first episode.
@@ -278,12 +279,12 @@ impl Environment {
         Ok(seat.interface.numbers_of(&sensed.scene, &plan))
     }
 
-    /// The world of the episode; none before the first.
+    /// The world of the episode; `None` before the first.
     pub fn world(&self) -> Option<&Simulation> {
         self.world.as_ref()
     }
 
-    /// Ends the episode and returns its report; none before the first.
+    /// Ends the episode and returns its report; `None` before the first.
     ///
     /// # Errors
     /// [`EnvironmentError::Run`] if a watcher failed.

@@ -73,7 +73,7 @@ pub struct BuildingMeasures {
 impl BuildingMeasures {
     /// Measures before the first day.
     pub fn new(building: &Building, controller: &Controller) -> Self {
-        // The convergence of learning, too, takes time proportional to the cube of the number of inputs.
+        // The analysis of convergence also takes time proportional to the cube of the number of inputs.
         let small = building.targets.reference_c.len() <= MAX_REGRET_INPUTS;
         let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
         let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
@@ -133,8 +133,8 @@ impl BuildingMeasures {
         let targets = &*targets.under(&today.actual.ambient_c);
         let limits = model.network().limits();
         let figures = KeyFigures::compute(&today.record, targets, limits, model.step_s());
-        // If no optimum is found the run continues, and the regret is unknown.
-        // The optimum of the network does not apply to another program.
+        // If no optimum is found, the run continues and the regret is unknown. The optimum of the network does not
+        // apply to another program.
         let lifted = self.lifted.as_ref().filter(|_| !building.plant.is_foreign());
         let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
         let regret = lifted.and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
@@ -157,7 +157,7 @@ impl BuildingMeasures {
 
 /// Heat supplied and removed before the first occupied time; 0 on a day without one \[kWh\].
 fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
-    // Occupation belongs to the ends of steps: the step that ends with it is the last early one.
+    // Occupation is defined at the ends of steps: the step that ends with the first occupied time is the last early step.
     let steps = targets.any_occupied().iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
     let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
     early_kw * step_s / 3600.0

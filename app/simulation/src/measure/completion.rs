@@ -8,11 +8,11 @@ use interplay_scenarios::{Road, Vehicle};
 /// Tolerance of the lateral position at the goal, as a share of the lane's width.
 const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 
-/// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
-/// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone; on a network, once its rear
-/// bumper is on the last lane of its route.
+/// Whether and when a vehicle completes its task. On a road of parallel lanes it has done so once its centre is within
+/// 15 % of a lane's width of the goal's lateral position; at an intersection, once its rear bumper has left the
+/// conflict zone; on a network, once its rear bumper is on the last lane of its route.
 ///
-/// A vehicle that starts there has no task, and neither has one that follows a record.
+/// A vehicle that starts at its goal has no task, nor has a vehicle that follows a record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,
@@ -33,7 +33,7 @@ enum Task {
 }
 
 impl Completion {
-    /// The goal of a vehicle.
+    /// A measure of whether a vehicle completes its task on this road.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
         let route = Arc::clone(&vehicle.route);
         let last = route.legs.last().filter(|_| road.parallel_lanes().is_none() && route.legs.len() > 1);
@@ -65,7 +65,7 @@ impl Completion {
         self.route.along(position)
     }
 
-    /// Whether it started elsewhere and therefore has a task.
+    /// Whether the vehicle started away from its goal and therefore has a task.
     pub fn has_task(&self) -> bool {
         self.has_task
     }
@@ -75,7 +75,7 @@ impl Completion {
         matches!(self.task, Task::Cross { .. })
     }
 
-    /// Takes a state; returns whether the goal is reached for the first time.
+    /// Updates the measure with a state; returns whether the goal is reached for the first time.
     pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
         let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
         if reached {
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_is_reached_within_a_tolerance_of_its_width() {
+    fn a_target_lane_is_reached_within_fifteen_percent_of_its_width() {
         let scenario = load("lane-change/front-nice", &[]).expect("authored");
         let (ego, road) = (ego(&scenario), &scenario.road);
         let wanted_m = ego.route.across(ego.target(road).position());

@@ -1,9 +1,10 @@
 //! Digests of a run, exact in every bit, for each phase.
 //!
-//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ: they
-//! show that the runs differ, not where the difference began. Digests of single ticks ([`Digest::of_tick`]) show where: in the first
-//! tick that differs, the first phase that differs is the cause.
+//! Every tick depends on the one before, so if two runs differ anywhere, nearly all digests of the whole runs differ:
+//! they show that the runs differ, but not where the difference began. Digests of single ticks ([`Digest::of_tick`])
+//! show this: in the first tick that differs, the first phase that differs is the cause.
 
+use interplay_planners::scene::IndicatorSide;
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -57,10 +58,13 @@ impl Digest {
         digest.phases()
     }
 
-    /// Takes one tick and the states at its end.
+    /// Adds one tick, and the states at its end, to the digests.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
             numbers(&mut self.sense, &vehicle.state.to_array());
+            if let Some(side) = vehicle.indicator {
+                self.sense.update(&[u8::from(side == IndicatorSide::Left)]);
+            }
             // The prediction of a vehicle that plans first is its plan, so an error in it comes from the phase Plan.
             if *vehicle.prediction != vehicle.plan.trajectory {
                 trajectory(&mut self.predict, &vehicle.prediction);
@@ -146,7 +150,7 @@ mod tests {
 
     /// The prediction of a vehicle that plans first is its plan, so another plan does not change the digest of Predict.
     #[test]
-    fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
+    fn a_prediction_equal_to_the_plan_belongs_to_the_plan_digest() {
         let told = |x_m: f64| {
             let mut recorded = tick(1.0);
             let vehicle = &mut recorded.frame.vehicles[0];

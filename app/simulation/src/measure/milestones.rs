@@ -32,7 +32,7 @@ pub struct Milestones {
 }
 
 impl Milestones {
-    /// Nothing logged yet.
+    /// Begins with nothing logged.
     pub fn new(scenario: &Scenario) -> Milestones {
         let limits: Vec<Limits> = scenario.vehicles.iter().map(|vehicle| vehicle.limits).collect();
         Milestones { brakes: vec![false; limits.len()], accepted: vec![BTreeMap::new(); limits.len()], limits }
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_first_zones_are_named_and_the_others_counted() {
+    fn an_event_names_three_zones_and_counts_the_others() {
         assert_eq!(listed(&["a"]), "a");
         assert_eq!(listed(&["a", "b", "c", "d", "e"]), "a, b, c and 2 more");
     }

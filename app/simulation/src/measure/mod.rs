@@ -1,4 +1,4 @@
-//! Measure: metrics, which are declared once (`metrics`), and measures of other forms.
+//! Measures of a run: metrics, which are declared once (`metrics`), and measures of other forms.
 //!
 //! A [`Metric`] has one value for a vehicle or a run. Other measures do not: reaching a goal is also an event, plans are counted and
 //! timed together, the right of way is a list of pairs, beliefs and digests are not numbers, and a building is measured day by day.
@@ -118,7 +118,7 @@ impl Measures {
         &self.along_m
     }
 
-    /// Nothing measured yet.
+    /// Begins with nothing measured.
     pub fn new(scenario: &Scenario) -> Self {
         let starts = scenario.starts();
         let located = |vehicle: &Vehicle, start: &State| {

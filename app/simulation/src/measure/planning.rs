@@ -20,12 +20,12 @@ pub struct Planning {
 }
 
 impl Planning {
-    /// No plan yet; `budget_ms` is the time budget of a plan \[ms\].
+    /// Begins without a plan; `budget_ms` is the time budget of a plan \[ms\].
     pub fn new(budget_ms: Option<f64>) -> Self {
         Planning { budget_ms, ..Planning::default() }
     }
 
-    /// Takes one tick.
+    /// Updates the counts and times with one tick.
     pub fn observe(&mut self, vehicle: &VehicleFrame) {
         if vehicle.origin == Origin::Crashed {
             return;
@@ -70,7 +70,7 @@ pub struct HeldBelief {
 }
 
 impl Beliefs {
-    /// Takes the estimates of one tick; the last estimates of vehicles that are out of sight stay.
+    /// Updates the beliefs with the estimates of one tick; beliefs about vehicles that are out of sight are kept.
     pub fn observe(&mut self, estimates: &[DriverEstimate], time_s: f64) {
         for estimate in estimates {
             match self.0.iter_mut().find(|held| held.estimate.vehicle == estimate.vehicle) {
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_belief_is_held_since_the_last_change_of_its_kind() {
+    fn a_belief_is_dated_from_the_last_change_of_the_driver_kind() {
         let mut beliefs = Beliefs::default();
         let kinds = [DriverModel::Nice, DriverModel::Nice, DriverModel::Tough, DriverModel::Tough];
         for (tick, kind) in kinds.into_iter().enumerate() {

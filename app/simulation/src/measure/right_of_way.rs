@@ -1,4 +1,4 @@
-//! Which of two vehicles goes first where their routes cross or merge, and whether the other one yields.
+//! Determines which of two vehicles goes first where their routes cross or merge, and whether the other one yields.
 
 use interplay_planners::Body;
 use interplay_scenarios::{ConflictZone, Scenario};
@@ -109,8 +109,8 @@ impl Passages {
         }
     }
 
-    /// Takes a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these arc lengths \[m\] and the vehicles
-    /// have these speeds \[m/s\].
+    /// Updates the passages with a tick from `times_s[0]` to `times_s[1]`, after which the mass centres are at these
+    /// arc lengths \[m\] and the vehicles have these speeds \[m/s\].
     pub fn observe(&mut self, along_m: &[f64], speeds_mps: &[f64], times_s: [f64; 2]) {
         for zone in &mut self.zones {
             let [a, b] = &mut zone.approaches;
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn starts_in_the_zone_count_as_entries_and_starts_beyond_it_do_not() {
+    fn a_start_inside_the_conflict_zone_counts_as_entry_and_one_beyond_does_not() {
         assert_eq!(crossing(&[[0.1, -0.5], [0.9, 0.3]]), passage("ego", "crossing", 0.0, Some(0.3625)));
         assert_eq!(crossing(&[[0.5, -0.5], [0.9, 0.3]]), passage("crossing", "ego", 0.3625, None));
     }

@@ -43,7 +43,7 @@ impl Measured {
         Measured { value: value.map(MetricValue::Number), ..Measured::default() }
     }
 
-    /// A number of two vehicles at a time \[s\].
+    /// A number that concerns two vehicles, at a time \[s\].
     pub fn between(value: f64, between: [String; 2], time_s: f64) -> Self {
         Measured { time_s: Some(time_s), between: Some(between), ..Measured::number(Some(value)) }
     }
@@ -82,7 +82,7 @@ impl MetricValue {
 }
 
 impl MetricValues {
-    /// The result of the metric with this name; none if it is not measured.
+    /// The result of the metric with this name; `None` if it is not measured.
     pub fn get(&self, name: &str) -> Option<(&MetricDeclaration, &Measured)> {
         self.0.iter().find(|(declaration, _)| declaration.name == name).map(|(declaration, one)| (declaration, one))
     }

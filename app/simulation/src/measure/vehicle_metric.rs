@@ -19,7 +19,7 @@ pub struct VehicleMetric {
     pub applies: fn(&Vehicle) -> bool,
 }
 
-/// The value of a vehicle at each tick; none if it has none.
+/// The quantity of a vehicle that the metric measures at each tick; `None` if the vehicle has no value.
 #[derive(Clone, Copy, Debug)]
 pub enum VehicleQuantity {
     /// A value of the tick as a whole; its time is the beginning of the tick.
@@ -28,7 +28,7 @@ pub enum VehicleQuantity {
     AtMoment(fn(&VehicleMoment<'_>) -> Option<f64>),
 }
 
-/// The fold of the values of all ticks.
+/// How the values of all ticks are combined into one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fold {
     /// The largest positive value, with the time at which it was first reached; 0 if none was positive.

@@ -1,4 +1,4 @@
-//! How long and for whom vehicles that want to move are stationary, and which are deadlocked ([`Standing`]).
+//! Measures how long vehicles that want to move are stationary, for which vehicles they wait, and which are deadlocked ([`Standing`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -124,7 +124,7 @@ impl Waits {
         }
     }
 
-    /// Takes a tick; returns the events that begin in it.
+    /// Updates the measures with a tick; returns the events that begin in it.
     pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
         let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
         let known = self.deadlocks.len();

@@ -27,8 +27,12 @@ pub fn plan(
         if let Some(handed_in) = handed_in.take() {
             return external::plan(handed_in, scene);
         }
-        let Driving { planner, sight, plan_ms, .. } = &mut *driving;
-        let sensed = sight.as_ref().map(|sight| sight.apply_to(scene));
+        let Driving { planner, sensor, sight, plan_ms, .. } = &mut *driving;
+        let sensed = if scene.knowledge.is_of_motion() {
+            sensor.as_mut().map(|sensor| sensor.sense(scene))
+        } else {
+            sight.as_ref().map(|sight| sight.apply_to(scene))
+        };
         let began = Instant::now();
         let outcome = match &sensed {
             Some(sensed) => planner.plan_sensed(sensed),

@@ -28,12 +28,16 @@ pub fn plans_now(clock: Res<Clock>) -> bool {
     clock.ticks_since_plan() == 0
 }
 
-/// Lets every sensor measure the other vehicles. Their plans are added in the phase Plan.
+/// Lets every sensor measure the other vehicles. Their plans are added in the phase Plan. The sensor of a driver who knows no plans measures
+/// what that driver observes, in the phase Plan.
 pub fn look(mut vehicles: Query<(&TrafficRow, &mut Driving)>, mut traffic: ResMut<CurrentTraffic>) {
     if vehicles.iter().any(|(_, driving)| driving.sensor.is_some()) {
         traffic.0.find_neighbours();
     }
     for (row, mut driving) in &mut vehicles {
+        if traffic.0.road_users[row.0].observes() {
+            continue;
+        }
         let Driving { sensor, sight, .. } = &mut *driving;
         *sight = sensor.as_mut().map(|sensor| sensor.look(&traffic.0.moment(row.0)));
     }

@@ -30,7 +30,7 @@ struct Vehicle {
 }
 
 impl DynamicPlant {
-    /// No vehicles yet, in a world around `origin`.
+    /// A plant without vehicles, in a world around `origin`.
     pub fn new(settings: Dynamic, origin: [f64; 2]) -> Self {
         DynamicPlant { settings, origin, vehicles: Vec::new() }
     }

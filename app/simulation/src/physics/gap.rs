@@ -41,7 +41,7 @@ impl FootprintGaps {
         &self.footprints
     }
 
-    /// Begins a tick in which some vehicles are not on the road; returns the ego's distance at its start \[m\], none without others.
+    /// Begins a tick in which some vehicles are not on the road; returns the ego's distance at its start \[m\], `None` without others.
     pub fn begin(&mut self, states: &[State], absent: Vec<bool>) -> Option<f64> {
         self.absent = absent;
         (self.smallest_m, self.closest) = (None, None);
@@ -49,7 +49,7 @@ impl FootprintGaps {
         self.smallest_m
     }
 
-    /// Updates the distances at a time within the tick, given as the share that has passed.
+    /// Updates the distances at a time within the tick, given as the elapsed share of the tick.
     pub fn observe(&mut self, states: &[State], share: f64) {
         let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
         let present = || {
@@ -90,12 +90,12 @@ impl FootprintGaps {
         }
     }
 
-    /// The smallest distance of the ego in the tick \[m\]; none without other vehicles.
+    /// The smallest distance of the ego in the tick \[m\]; `None` without other vehicles.
     pub fn smallest_m(&self) -> Option<f64> {
         self.smallest_m
     }
 
-    /// The two vehicles that came closest to each other in the tick; none if there is only one.
+    /// The two vehicles that came closest to each other in the tick; `None` if there is only one.
     pub fn closest(&self) -> Option<Closest> {
         self.closest
     }

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lag_is_exponential_and_zero_lag_acts_at_once() {
+    fn an_actuator_lag_is_exponential_and_zero_lag_has_no_delay() {
         let plant = Dynamic { steering_lag_s: 0.07, ..Dynamic::default() };
         let expected = 0.1 * (1.0 - libm::exp(-0.05 / 0.07));
         assert!((steered(0.1, &plant, 50) - expected).abs() < 1e-12);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_limit_gives_a_ramp() {
+    fn a_rate_limited_actuator_follows_a_ramp() {
         let plant = Dynamic { steering_lag_s: 0.0, steering_rate_max_radps: 2.0, ..Dynamic::default() };
         assert!((steered(-0.5, &plant, 100) + 0.2).abs() < 1e-12);
         assert!((steered(-0.5, &plant, 400) + 0.5).abs() < 1e-12);

@@ -18,7 +18,7 @@ pub struct MovingFootprint<'a> {
 }
 
 /// The time until two footprints would touch at constant velocities and headings \[s\]; 0 if they touch already,
-/// none if that takes longer than `within_s` or never happens.
+/// `None` if that takes longer than `within_s` or never happens.
 ///
 /// Circles around the footprints decide most pairs; the others are swept by Parry.
 pub fn time_to_collision_s(a: &MovingFootprint<'_>, b: &MovingFootprint<'_>, within_s: f64) -> Option<f64> {

@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn invalid_answers_are_refused_with_the_expected_one() {
+    fn an_invalid_answer_is_refused_with_the_expected_message() {
         let wrong = [
             (None, "", "not a message"),
             (None, "hello", "in `hello`"),

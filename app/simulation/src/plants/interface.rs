@@ -15,8 +15,7 @@ use super::error::PlantError;
 use crate::state::day::Metered;
 use crate::state::detail::NotCopied;
 
-/// The inputs of a building in one step, all held for the step. Lists have one number per zone, unless they say
-/// otherwise.
+/// The inputs of a building in one step, all held constant during the step. Unless stated otherwise, lists have one number per zone.
 #[derive(Clone, Copy, Debug)]
 pub struct StepInputs<'a> {
     /// The step, counted from the first midnight.

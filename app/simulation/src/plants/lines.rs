@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::error::PlantError;
 
-/// A connection that carries lines.
+/// A TCP connection that carries lines of text.
 #[derive(Debug)]
 pub struct Lines {
     stream: TcpStream,
@@ -59,7 +59,7 @@ impl Lines {
     /// Sends a line without waiting for an answer.
     ///
     /// # Errors
-    /// The error of the system.
+    /// The error of the operating system.
     pub fn send(&mut self, line: &str) -> io::Result<()> {
         self.stream.write_all(format!("{line}\n").as_bytes())
     }
@@ -86,7 +86,7 @@ impl Lines {
     fn broken(&self, question: &str, reason: io::Error) -> PlantError {
         let question = question.to_owned();
         match reason.kind() {
-            // A socket that times out returns either, depending on the system.
+            // A socket that times out returns one of these errors, depending on the system.
             ErrorKind::TimedOut | ErrorKind::WouldBlock => {
                 PlantError::Timeout { question, timeout_s: self.timeout.as_secs_f64() }
             }

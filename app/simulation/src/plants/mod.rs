@@ -1,10 +1,11 @@
-//! The plant on which the equipment's heat acts: our own network, or another program.
+//! The plant on which the equipment's heat acts: the network of the scenario, or another program.
 //!
 //! ```text
 //! start: temperatures at the first midnight        step: heat, people, weather -> temperatures at the step's end
 //! ```
 //!
-//! The other program answers lines of JSON behind a socket, or the requests of BOPTEST. [`ThermalPlant`] is the interface. The controller never sees it: it knows the believed network only.
+//! The other program answers lines of JSON through a socket, or the requests of BOPTEST. [`ThermalPlant`] is the
+//! interface. The controller does not see the plant: it knows only the believed network.
 
 mod answer;
 mod boptest;

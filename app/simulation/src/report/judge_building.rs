@@ -24,7 +24,7 @@ pub(super) fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -
     let first = report.iterations.first().map_or(f64::NAN, |day| day.figures.cost);
     for (what, most, figure, zone) in upper_bounds(expect) {
         let Some(most) = most else { continue };
-        // A value that is unknown on one of the days is not known to be within the bound.
+        // If the value of one day is unknown, the bound does not hold.
         let each: Option<Vec<_>> = numbered().map(|(day, number)| Some((figure(day, first)?, number, day))).collect();
         let worst = each.and_then(|each| each.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)));
         let at = worst.filter(|(worst, ..)| *worst > 0.0).map(|(_, number, day)| {

@@ -17,8 +17,8 @@ use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
 use crate::state::components::to_nanosecond;
 
 impl Report {
-    /// Builds the report from the measures of a run and judges it. `wall_s` is its duration; `ended_early_s` is set if the run ended before
-    /// the scenario was over \[s\].
+    /// Builds the report from the measures of a run and judges its expectations. `wall_s` is its wall time \[s\];
+    /// `ended_early_s` is set if the run ended before the scenario was over \[s\].
     pub fn new(
         name: &str,
         scenario: &Scenario,

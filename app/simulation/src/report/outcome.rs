@@ -152,7 +152,7 @@ pub struct PlansReport {
 }
 
 impl Report {
-    /// Smallest distance of the ego's footprint to another; none without others \[m\].
+    /// Smallest distance of the ego's footprint to another; `None` without others \[m\].
     pub fn min_gap_m(&self) -> Option<f64> {
         self.metrics.number("ego_gap_m")
     }
@@ -177,7 +177,7 @@ impl CounterfactualReport {
 }
 
 impl VehicleReport {
-    /// Its lowest and its highest speed \[m/s\].
+    /// The lowest and the highest speed of the vehicle \[m/s\].
     pub fn speed_range_mps(&self) -> [f64; 2] {
         ["min_speed_mps", "max_speed_mps"].map(|name| self.metrics.number(name).unwrap_or(self.last.speed_mps))
     }
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_rounded_unless_that_hides_the_failure() {
+    fn numbers_are_rounded_unless_rounding_hides_the_failure() {
         let gap = json!({ "m": 2.288_119_792_938_232_4, "time_s": 16.601_957_716, "between": ["a", "b"] });
         let shown = said(json!(0.5), gap);
         assert!(shown.contains("2.288,") && shown.contains("16.6"), "{shown}");

@@ -1,4 +1,4 @@
-//! A world that the caller steps.
+//! A simulation as a world that the caller steps.
 
 mod builder;
 mod extensions;
@@ -121,8 +121,8 @@ impl Simulation {
         &self.scenario
     }
 
-    /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the frame of
-    /// that tick; none once the scenario is over, and then nothing moves.
+    /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the
+    /// frame of that tick, or `None` once the scenario is over; then nothing moves.
     ///
     /// # Errors
     /// [`RunError::NoInput`] if a vehicle that is driven from outside has no input for this tick; nothing has moved then.
@@ -167,12 +167,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of the simulation.
+    /// A resource of the world: one that [`SimulationBuilder::with_state`] has added, or one of the simulation itself.
     pub fn state<T: Resource>(&self) -> Option<&T> {
         self.world.get_resource()
     }
 
-    /// The last frame; none before the first step.
+    /// The last frame; `None` before the first step.
     pub fn frame(&self) -> Option<&Frame> {
         (self.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
     }
@@ -224,7 +224,7 @@ impl Simulation {
         self.hand_in(vehicle, HandedIn::Input(input))
     }
 
-    /// The same with a plan, whose first input is applied. The others know it like the plan of any other driver.
+    /// As [`Simulation::apply`], with a plan whose first input is applied. The others know it like the plan of any other driver.
     ///
     /// # Errors
     /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if its length is not the scenario's horizon.
@@ -269,7 +269,9 @@ impl Simulation {
             user.agent.can_be_asked = new.driver.can_be_asked();
             user.agent.shared_goal = new.driver.shared_goal(&user.goal);
             user.goes_first = new.driver.goes_first();
-            user.knows_plans = new.driver.knows_plans();
+            user.knows_plans = new.knows_plans();
+            user.reaction_s = new.driver.reaction_s();
+            user.decides = new.driver.is_vetoed();
         }
         self.scenario = Arc::new(changed.clone());
     }

@@ -123,8 +123,8 @@ impl Snapshot {
         Ok(serde_json::to_string_pretty(&saved)?)
     }
 
-    /// Reads the text of [`Snapshot::to_json`] and repeats the run up to there, which takes as long as it took. `registry` has the kinds
-    /// of drivers that the scenario may name.
+    /// Reads the text of [`Snapshot::to_json`] and repeats the run up to the snapshot, which takes as long as the run
+    /// took. `registry` has the kinds of drivers that the scenario may name.
     ///
     /// # Errors
     /// [`SavedRunError`], if the text is not a snapshot or the repeated run reaches other states.

@@ -74,11 +74,15 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         shared_goal: vehicle.driver.shared_goal(&goal),
         can_be_asked: vehicle.driver.can_be_asked(),
         is_obstacle: vehicle.outline().is_some(),
+        indicator: None,
         rules: RoadRules::default(),
         urgency: 1.0,
     };
     RoadUser {
-        knows_plans: vehicle.driver.knows_plans(),
+        knows_plans: vehicle.knows_plans(),
+        tells_plan: vehicle.tells_plan(),
+        reaction_s: vehicle.driver.reaction_s(),
+        decides: vehicle.driver.is_vetoed(),
         keeps_rules: vehicle.keeps_rules(),
         presence: vehicle.stay.presence_at_start(),
         stay: vehicle.stay,

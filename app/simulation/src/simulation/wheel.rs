@@ -7,8 +7,8 @@ use crate::simulation::run_error::RunError;
 use crate::state::components::{Clock, Driving, HandedIn};
 
 impl Simulation {
-    /// From the next plan on, a planner controls a vehicle that is driven from outside; without one, the caller's inputs
-    /// control it again. Which plans the vehicle and the others know of each other does not change.
+    /// Lets a planner control a vehicle that is driven from outside, from the next plan on; without a planner, the caller's inputs
+    /// control it again. The call does not change which plans the vehicle and the others know of each other.
     ///
     /// # Errors
     /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives the vehicle another driver.
@@ -73,7 +73,7 @@ mod tests {
 
     /// The caller changes inputs at every plan and lets a planner drive in between; the record of these inputs gives the same run.
     #[test]
-    fn a_record_of_inputs_repeats_the_run() {
+    fn a_run_repeats_from_its_recorded_inputs() {
         let outside = Override::Set("vehicle.ego.driver={ kind = 'external' }".to_owned());
         let scenario = load("lane-change/front-nice", &[outside]).expect("authored");
         let mut played = Simulation::new(&scenario).expect("a world");

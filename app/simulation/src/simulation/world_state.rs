@@ -175,7 +175,7 @@ mod tests {
 
     /// After a run with vehicles, a building and sensors, the copy has every component and resource as often as the original.
     #[test]
-    fn a_copy_has_every_component() {
+    fn a_copied_world_has_every_component() {
         let scenario = load("mixed/garage", &[]).expect("authored");
         let mut simulation = Simulation::new(&scenario).expect("a world");
         for _ in 0..40 {

@@ -85,7 +85,7 @@ mod tests {
 
     /// Heat from outside acts on the zones, limited by their equipment.
     #[test]
-    fn heat_from_outside_acts_on_the_zones_within_the_limits() {
+    fn heat_set_by_the_caller_is_limited_by_the_equipment() {
         let scenario = interplay_scenarios::load("building/four-room-pid", &[]).expect("authored");
         let temperature_after = |heat: f64| {
             let mut world = Simulation::new(&scenario).expect("a world");

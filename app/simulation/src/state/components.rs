@@ -42,10 +42,10 @@ pub struct Driving {
 }
 
 impl Driving {
-    /// A copy with the same memory, of the driver of a vehicle called `name`.
+    /// A copy with the same memory, for the driver of the vehicle called `name`.
     ///
     /// # Errors
-    /// [`NotCopied`] if the driver does not fork.
+    /// [`NotCopied`] if the driver cannot be copied.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
         Ok(Driving {
             planner: self.planner.fork().ok_or_else(|| NotCopied::driver_of(name))?,
@@ -57,7 +57,7 @@ impl Driving {
     }
 }
 
-/// Input or plan from outside for the next tick.
+/// An input or a plan that the caller sets for the next tick.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub enum HandedIn {
     /// The vehicle has its own driver.
@@ -77,7 +77,7 @@ impl HandedIn {
         if is_external { HandedIn::Awaited } else { HandedIn::NotExternal }
     }
 
-    /// Takes the input; none for a vehicle with its own driver.
+    /// Takes the input; `None` for a vehicle with its own driver.
     pub fn take(&mut self) -> Option<Self> {
         match self {
             HandedIn::NotExternal => None,
@@ -110,7 +110,7 @@ impl Clock {
         self.tick.div_ceil(self.ticks_per_plan)
     }
 
-    /// Time from one plan to the next, and length of a stage of a plan \[s\].
+    /// Time between two plans, which is also the length of a stage of a plan \[s\].
     pub fn planning_period_s(&self) -> f64 {
         self.step_s * self.ticks_per_plan as f64
     }
@@ -149,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_have_no_rounding_errors() {
+    fn simulated_times_have_no_rounding_errors() {
         let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30, ticks_per_plan: 1 };
         for tick in 0..100_000_u32 {
             let written = format!("{}.{}", tick / 10, tick % 10);

@@ -22,7 +22,7 @@ pub struct LevelOfDetail {
 }
 
 impl LevelOfDetail {
-    /// The drivers of a scenario's vehicle; none for one that always has the same driver.
+    /// The two drivers of a vehicle of a scenario; `None` for a vehicle that always has the same driver.
     pub fn of(scenario: &Scenario, index: usize) -> Option<Self> {
         let (detail, vehicle) = (scenario.detail_of(index)?, &scenario.vehicles[index]);
         let far = Driver::Idm(idm::Settings::literature().scaled(vehicle.body.real_ratio()));
@@ -35,8 +35,8 @@ impl LevelOfDetail {
         })
     }
 
-    /// The driver that takes over, if the vehicle has come near or gone far, with a description. `states` are those of all vehicles
-    /// on the road.
+    /// The driver that takes over, with a description, if the vehicle has come near the ego or left its surroundings.
+    /// `states` are those of all vehicles on the road.
     pub fn successor(&mut self, index: usize, states: &[Option<State>]) -> Option<(Planner, String)> {
         let own = states[index]?;
         let from_ego_m = states[self.ego].map_or(f64::INFINITY, |ego| distance_m(&own, &ego));
@@ -56,7 +56,7 @@ impl LevelOfDetail {
     /// A copy with the same memory, for the vehicle called `name`.
     ///
     /// # Errors
-    /// [`NotCopied`] if one of its drivers does not fork.
+    /// [`NotCopied`] if one of its drivers cannot be copied.
     pub fn fork(&self, name: &str) -> Result<Self, NotCopied> {
         let copy = |planner: &Planner| planner.fork().ok_or_else(|| NotCopied::driver_of(name));
         Ok(LevelOfDetail { near: copy(&self.near)?, far: copy(&self.far)?, ..*self })
@@ -78,12 +78,12 @@ pub struct NotCopied {
 }
 
 impl NotCopied {
-    /// The entity of the vehicle called `name` was removed from the world, or lacks a component that it began with.
+    /// The error that the entity of the vehicle called `name` was removed from the world, or lacks one of its initial components.
     pub fn incomplete(name: &str) -> Self {
         NotCopied { who: format!("the vehicle `{name}`"), why: "an added system removed it or a part of it".to_owned() }
     }
 
-    /// The driver of the vehicle called `name` does not fork.
+    /// The error that the driver of the vehicle called `name` cannot be copied.
     pub fn driver_of(name: &str) -> Self {
         NotCopied { who: format!("the driver of `{name}`"), why: "it does not implement `fork`".to_owned() }
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use interplay_building::control::Design;
 use interplay_planners::plan::diagnostic;
 use interplay_planners::rules::RoadRules;
+use interplay_planners::scene::IndicatorSide;
 pub use interplay_planners::traffic::Origin;
 use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
@@ -103,6 +104,8 @@ pub struct VehicleFrame {
     /// The motion that the others expected when they planned: the plan itself if it plans first, otherwise the continuation of its last
     /// plan. Vehicles ahead of it that also plan first had planned before it and knew only its last plan.
     pub prediction: Arc<Trajectory>,
+    /// The side on which it indicated a change of lane when it planned, among people.
+    pub indicator: Option<IndicatorSide>,
     /// Requirements of the rules of the road.
     pub rules: RoadRules,
     /// Factor by which its required braking exceeded comfortable braking when it planned; 1 if comfortable braking sufficed.
@@ -123,18 +126,19 @@ impl VehicleFrame {
             plan: Arc::clone(&user.plan),
             origin: user.origin,
             prediction: Arc::clone(&agent.prediction),
+            indicator: agent.indicator,
             rules: agent.rules.clone(),
             urgency: agent.urgency,
             plan_ms,
         }
     }
 
-    /// The cost of the plan; none for a plan that was not chosen by cost.
+    /// The cost of the plan; `None` for a plan that was not chosen by cost.
     pub fn plan_cost(&self) -> Option<f64> {
         self.plan.value_of(&diagnostic::COST)
     }
 
-    /// The new partner of its planner, or the end of the partnership; none if that has not changed in this tick.
+    /// The new partner of the vehicle's planner, or the end of the partnership; `None` if neither has changed in this tick.
     pub fn new_partner(&self) -> Option<Option<&str>> {
         self.plan.events.iter().rev().find_map(|event| match &event.kind {
             PlanEventKind::Partner(partner) => Some(partner.as_deref()),
@@ -176,7 +180,7 @@ pub struct Event {
     pub text: String,
 }
 
-/// How serious an event is.
+/// The severity of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// For information.

@@ -8,6 +8,8 @@ use crate::state::frame::Frame;
 
 /// A slower real car is stationary \[m/s\].
 pub(crate) const STANDING_MPS: f64 = 0.3;
+/// A plan that was made from what the driver saw is followed for at most about this long \[s\].
+const PLAN_S: f64 = 0.2;
 /// Maximum distance from a traffic light at which a vehicle stops for it, for a real car \[m\].
 const LIGHT_M: f64 = 5.0;
 /// A vehicle with a desired speed up to this does not want to move, for a real car \[m/s\].
@@ -94,12 +96,13 @@ impl<'a> Standing<'a> {
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
 
-    /// Why a vehicle is stationary; none if no reason is visible, or if vehicles wait for one another in a cycle.
+    /// Why a vehicle is stationary; `None` if no reason is visible, or if vehicles wait for one another in a cycle.
     pub fn reason(&self, index: usize) -> Option<StandingReason> {
         self.plain_reason(index).filter(|reason| self.ends(reason, &mut vec![index]))
     }
 
-    /// All vehicles that wait for one another together with a vehicle, itself included, in ascending order; empty without a cycle.
+    /// The cycle of vehicles that wait for one another and to which a vehicle belongs, itself included, in ascending
+    /// order; empty without a cycle.
     pub fn circle(&self, index: usize) -> Vec<usize> {
         let together = |other: &usize| self.reaches(*other).contains(&index);
         let mut circle: Vec<usize> = self.reaches(index).into_iter().filter(together).collect();
@@ -157,13 +160,14 @@ impl<'a> Standing<'a> {
         })
     }
 
-    /// Whether a traffic light that is not green is just beyond a line \[m\].
+    /// Whether a traffic light that is not green, or was not when the driver saw it, is just beyond a line \[m\].
     fn is_lit(&self, index: usize, line_m: f64) -> bool {
-        let near_m = LIGHT_M * self.scale(index);
-        self.vehicles[index].route.legs.iter().any(|leg| {
-            let colour = leg.light.as_ref().map(|light| light.colour_at(self.frame.time_s));
-            (0.0..near_m).contains(&(leg.to_m - line_m))
-                && colour.is_some_and(|colour| !matches!(colour, LightColour::Green | LightColour::Off))
+        let (vehicle, near_m) = (&self.vehicles[index], LIGHT_M * self.scale(index));
+        let late_s = if vehicle.knows_plans() { 0.0 } else { vehicle.driver.reaction_s() + PLAN_S };
+        let is_closed = |colour: LightColour| !matches!(colour, LightColour::Green | LightColour::Off);
+        vehicle.route.legs.iter().filter(|leg| (0.0..near_m).contains(&(leg.to_m - line_m))).any(|leg| {
+            let times_s = [self.frame.time_s, self.frame.time_s - late_s];
+            leg.light.as_ref().is_some_and(|light| times_s.iter().any(|time_s| is_closed(light.colour_at(*time_s))))
         })
     }
 

@@ -23,7 +23,7 @@ pub struct WorstZones {
 }
 
 impl WorstZones {
-    /// The zones of a day's record.
+    /// Finds these zones in a day's record.
     pub fn find(record: &DayRecord, targets: &Targets, limits: &PowerLimits) -> Self {
         let zones = targets.zones;
         let largest = |share: &dyn Fn(usize) -> f64| {
@@ -41,7 +41,7 @@ impl WorstZones {
             let requested_kw = record.requested_kw.iter().skip(zone).step_by(zones);
             requested_kw.map(|kw| limits.excess_kw(zone, *kw)).fold(0.0, f64::max)
         };
-        // The largest share does not depend on the length of a step.
+        // The step length is arbitrary here: it does not change which share is largest.
         let figures = ZoneFigures::of_all(record, targets, 3600.0);
         WorstZones {
             tracking: largest(&|zone| errors_k(zone).map(|error_k| error_k * error_k).sum()),

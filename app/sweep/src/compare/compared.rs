@@ -52,7 +52,7 @@ type FixedFigure = (&'static str, FigureKind, &'static str, fn(&RunRecord, &str)
 const FIGURES: [FixedFigure; 13] = [
     // Runs in which the ego completed its task without contact; without vehicles, those that passed.
     ("success", FigureKind::Share, "success", |record, _| Some(f64::from(succeeds(record)))),
-    // Of runs that succeeded.
+    // Over runs that succeeded.
     ("completed_s", FigureKind::Mean, "completed_s", |record, name| record.number(name).filter(|_| succeeds(record))),
     // Runs in which the ego had the first place.
     ("first", FigureKind::Share, "ego_place", |record, name| Some(f64::from(record.number(name) == Some(1.0)))),
@@ -60,13 +60,13 @@ const FIGURES: [FixedFigure; 13] = [
     ("yields", FigureKind::Share, "ego_yields", |record, name| Some(f64::from(record.flag(name) == Some(true)))),
     // Runs in which the ego went before another in a conflict zone.
     ("others_yield", FigureKind::Share, "others_yield", RunRecord::number),
-    // Runs with the order that the scenario's file states and without contact, of those whose file states one.
+    // Runs without contact that have the passing order of their scenario's file; only scenarios whose file states an order.
     ("order_kept", FigureKind::Share, "order_kept", RunRecord::number),
-    // Runs in which the ego never completed its task, though no vehicle touched another.
+    // Runs in which the ego never completed its task although no vehicle touched another.
     ("deadlocks", FigureKind::Runs, "deadlock", RunRecord::number),
     // Runs in which the ego touched another vehicle.
     ("contacts", FigureKind::Runs, "ego_contact", RunRecord::number),
-    // Runs of these in which the ego approached the other at least as fast as the other approached it.
+    // Runs with such a contact in which the ego approached the other vehicle at least as fast as the other approached it.
     ("contacts_by_ego", FigureKind::Runs, "contact_by_ego", RunRecord::number),
     // Runs in which any two vehicles touched.
     ("touched", FigureKind::Runs, "contacts", RunRecord::number),
@@ -131,14 +131,14 @@ impl ComparedColumns {
 }
 
 impl FigureColumn {
-    /// The values of the runs that have one.
+    /// The values of these runs in the compared column; runs without a value are left out.
     pub fn values(&self, records: &[&RunRecord]) -> Vec<f64> {
         records.iter().filter_map(|record| (self.of)(record, &self.column)).collect()
     }
 }
 
 impl SplitColumn {
-    /// Whether the first run is better than the second.
+    /// Whether the value of the first run is better than that of the second.
     pub fn is_better(&self, one: &RunRecord, other: &RunRecord) -> bool {
         let pair = one.number(self.column).zip(other.number(self.column));
         pair.is_some_and(|(one, other)| match self.better {

@@ -44,7 +44,7 @@ impl Share {
         Share { count, of, interval: wilson_interval(count, of) }
     }
 
-    /// The share itself; none if `of` is zero.
+    /// The share itself; `None` if `of` is zero.
     pub fn share(&self) -> Option<f64> {
         (self.of > 0).then(|| self.count as f64 / self.of as f64)
     }
@@ -66,7 +66,7 @@ impl Quantiles {
     }
 }
 
-/// How often each of two planners did better, with the significance.
+/// The number of pairs in which each of two planners did better, with the significance of the difference.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Split {
     /// Pairs in which the first did better.

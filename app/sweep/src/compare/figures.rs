@@ -43,7 +43,7 @@ pub struct GroupFigures {
     pub planners: Vec<PlannerFigures>,
 }
 
-/// Results of a planner.
+/// The figures of a planner over its runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlannerFigures {
     /// Its name.
@@ -76,7 +76,7 @@ pub struct NamedFigure {
     pub figure: Figure,
 }
 
-/// Aggregate of the values of many runs; none if no run has a value.
+/// An aggregate of the values of many runs; `None` if no run has a value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Figure {
@@ -93,32 +93,32 @@ pub enum Figure {
 }
 
 impl Figures {
-    /// The figure of a key.
+    /// The figure with this key.
     pub fn get(&self, key: &str) -> Option<&Figure> {
         self.0.iter().find(|named| named.key == key).map(|named| &named.figure)
     }
 
-    /// A share; none if the figure is not a share.
+    /// The figure with this key as a share; `None` if it is not a share.
     pub fn share(&self, key: &str) -> Option<&Share> {
         if let Some(Figure::Share(share)) = self.get(key) { Some(share) } else { None }
     }
 
-    /// A count; 0 if the figure is not a count.
+    /// The figure with this key as a count; 0 if it is not a count.
     pub fn count(&self, key: &str) -> u64 {
         if let Some(Figure::Count(count)) = self.get(key) { *count } else { 0 }
     }
 
-    /// A mean, if any run has a value.
+    /// The figure with this key as a mean; `None` if it is not a mean, or if no run has a value.
     pub fn mean(&self, key: &str) -> Option<&Estimate> {
         if let Some(Figure::Mean(mean)) = self.get(key) { mean.as_ref() } else { None }
     }
 
-    /// Quantiles, if any run has a value.
+    /// The figure with this key as quantiles; `None` if it is not quantiles, or if no run has a value.
     pub fn quantiles(&self, key: &str) -> Option<&Quantiles> {
         if let Some(Figure::Quantiles(quantiles)) = self.get(key) { quantiles.as_ref() } else { None }
     }
 
-    /// A median, if any run has a value.
+    /// The figure with this key as a median; `None` if it is not a median, or if no run has a value.
     pub fn median(&self, key: &str) -> Option<f64> {
         if let Some(Figure::Median(median)) = self.get(key) { *median } else { None }
     }
@@ -241,7 +241,7 @@ fn planner_figures(
     let base: HashMap<Conditions, &RunRecord> =
         by_planner.get(baseline).into_iter().flatten().map(|record| (record.conditions(), *record)).collect();
     let figures = by_planner.iter().enumerate().map(|(index, (planner, records))| {
-        // Two intervals a planner.
+        // Each planner has two intervals.
         let stream = stream + 2 * index as u64;
         let pairs = || -> Vec<(&RunRecord, &RunRecord)> {
             records.iter().filter_map(|record| Some((*record, *base.get(&record.conditions())?))).collect()

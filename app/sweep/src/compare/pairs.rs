@@ -55,7 +55,7 @@ pub struct MetricSplit {
 }
 
 impl MetricSplits {
-    /// The split of a key; an empty one if there is none.
+    /// The split with this key; an empty one if it does not exist.
     pub fn get(&self, key: &str) -> Split {
         self.0.iter().find(|one| one.key == key).map(|one| one.split).unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! The rows of a folder, as far as a comparison needs them.
+//! The rows of a folder, with the columns that a comparison needs.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -29,18 +29,18 @@ pub(super) struct RunRecord {
 }
 
 impl RunRecord {
-    /// Whether there is a result.
+    /// Whether the run has a result.
     pub fn is_finished(&self) -> bool {
         !self.digest.is_empty()
     }
 
-    /// Whether there are vehicles.
+    /// Whether the run has vehicles.
     pub fn has_vehicles(&self) -> bool {
         self.number("contacts").is_some()
     }
 
-    /// The value in a column of numbers, flags as 0 and 1; none if it is missing or the table does not have the column, as tables
-    /// of older versions.
+    /// The number in a column, with flags as 0 and 1; `None` if the value is missing or if the table lacks the column,
+    /// as tables of older versions may.
     pub fn number(&self, column: &str) -> Option<f64> {
         match self.table.column(column)? {
             TableColumn::Flags(all) => all[self.row].map(f64::from),
@@ -62,7 +62,7 @@ impl RunRecord {
         }
     }
 
-    /// The conditions of the run apart from the planner, which identify its pair: scenario, style, sample and seed.
+    /// The conditions of the run apart from the planner: scenario, style, sample and seed. Runs with the same conditions form a pair.
     pub fn conditions(&self) -> Conditions {
         (Arc::clone(&self.scenario), Arc::clone(&self.style), self.sample, self.seed)
     }
@@ -71,14 +71,14 @@ impl RunRecord {
 /// Scenario, style, sample and seed.
 pub(super) type Conditions = (Arc<str>, Arc<str>, u64, u64);
 
-/// The rows of a folder and the versions of the program that made them.
+/// The rows of a folder, and the versions of the program that made them.
 pub(super) struct Records {
     pub all: Vec<RunRecord>,
     pub versions: Vec<String>,
 }
 
 impl Records {
-    /// Reads the rows of a folder or a file: the columns that identify rows, and these columns.
+    /// Reads the rows of a folder or a file: the columns that identify each row, and the requested ones.
     pub fn read<'a>(path: &Path, columns: impl Iterator<Item = &'a str>) -> Result<Records, SweepError> {
         let file = if path.is_dir() { path.join(RUNS_FILE) } else { path.to_owned() };
         if !file.is_file() {

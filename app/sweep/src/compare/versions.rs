@@ -1,4 +1,4 @@
-//! Differences between two sweeps of one plan: of two versions of the program, or of a planner.
+//! Differences between two sweeps of one plan, made by two versions of the program or of a planner.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -29,7 +29,7 @@ pub struct VersionComparison {
     pub groups: Vec<VersionGroup>,
 }
 
-/// A planner under the same conditions.
+/// Runs of one planner under the same conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VersionGroup {
     /// The family.

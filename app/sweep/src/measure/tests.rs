@@ -61,7 +61,7 @@ fn expectation(what: &str, passed: bool) -> Expectation {
 }
 
 #[test]
-fn the_message_of_a_panic_is_kept() {
+fn the_message_of_a_panic_becomes_the_error_of_the_run() {
     let words = |panic: fn()| catch_unwind(panic).map_err(|panic| message(&*panic).to_owned());
     let said = std::hint::black_box("made of parts");
     assert_eq!(message(&said.to_owned()), said);
@@ -117,7 +117,7 @@ fn success_of_a_rule_keeping_ego_needs_more_than_its_task() -> Outcome {
 }
 
 #[test]
-fn contacts_of_the_ego_are_counted_apart_from_all_contacts() -> Outcome {
+fn contacts_of_the_ego_are_counted_separately() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let none = measured(&scenario, &report)?;
     has(&none, json!({ "contacts": 0, "ego_contact": false, "ego_contact_s": null, "impulse_ns": null }));
@@ -129,7 +129,7 @@ fn contacts_of_the_ego_are_counted_apart_from_all_contacts() -> Outcome {
 }
 
 #[test]
-fn columns_of_the_others_are_separate_from_those_of_the_ego() -> Outcome {
+fn columns_about_other_vehicles_exclude_the_ego() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     for (index, vehicle) in report.vehicles.iter_mut().enumerate() {
         vehicle.has_task = true;
@@ -153,7 +153,7 @@ fn columns_of_the_others_are_separate_from_those_of_the_ego() -> Outcome {
 }
 
 #[test]
-fn order_is_kept_if_every_order_expectation_holds_without_contact() -> Outcome {
+fn the_order_is_kept_if_order_expectations_hold_without_contact() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     let mut kept = |expectations: &[(&str, bool)], contact: bool| {
         report.expectations = expectations.iter().map(|(what, passed)| expectation(what, *passed)).collect();
@@ -172,7 +172,7 @@ fn order_is_kept_if_every_order_expectation_holds_without_contact() -> Outcome {
 }
 
 #[test]
-fn the_place_on_a_road_is_the_index_in_the_order() -> Outcome {
+fn the_place_of_the_ego_on_a_road_is_its_rank_in_the_passing_order() -> Outcome {
     let (scenario, mut report) = three_vehicles()?;
     for (order, place) in [(vec!["ego", "front"], 1), (vec!["front", "rear", "ego"], 3), (vec!["front"], 0)] {
         report.order = order.into_iter().map(str::to_owned).collect();
@@ -183,7 +183,7 @@ fn the_place_on_a_road_is_the_index_in_the_order() -> Outcome {
 }
 
 #[test]
-fn the_place_on_a_network_counts_the_vehicles_that_went_first() -> Outcome {
+fn the_place_of_the_ego_on_a_network_counts_vehicles_that_went_first() -> Outcome {
     let changes = ["duration_s=0.4", "expect.completes=[]", CONSERVATIVE];
     let (scenario, mut report) = short("t-junction/bayesian-nice", &changes)?;
     assert!(scenario.network.is_some());
@@ -229,7 +229,7 @@ fn the_row_of_a_building_has_the_sums_of_its_days() -> Outcome {
 }
 
 #[test]
-fn a_run_of_a_plan_has_a_row() -> Outcome {
+fn every_run_of_a_plan_becomes_a_row() -> Outcome {
     let text =
         "scenario = ['intersection/nice']\nplanner = ['conservative']\nsamples = 2\njitter = { speed_mps = 0.01 }\n";
     let plan = SweepPlan::from_text("one.toml", text, Path::new(""))?;

@@ -137,7 +137,7 @@ mod tests {
 
     /// `scipy.stats.binomtest(wins, wins + losses).pvalue` of SciPy 1.17.1.
     #[test]
-    fn the_probability_agrees_with_scipy() {
+    fn the_sign_test_probability_agrees_with_scipy() {
         for (wins, losses, expected) in [
             (0, 194, 7.965_459_555_662_261e-59),
             (5, 7, 0.774_414_062_5),
@@ -155,14 +155,14 @@ mod tests {
 
     /// `2^(1 − n)` where all pairs go one way.
     #[test]
-    fn the_probability_of_a_one_sided_split_has_a_closed_form() {
+    fn the_sign_test_of_a_one_sided_split_has_a_closed_form() {
         assert!((sign_test(10, 0) / 0.5_f64.powi(9) - 1.0).abs() < 1e-12);
         assert!(sign_test(2000, 0) == 0.0 && sign_test(1000, 0) > 0.0);
     }
 
     /// `statsmodels.stats.multitest.multipletests(p, method="holm")[1]`, and the example of Holm's definition.
     #[test]
-    fn the_correction_agrees_with_statsmodels() {
+    fn holms_correction_agrees_with_statsmodels() {
         let found = holm(&[0.01, 0.04, 0.03, 0.005]);
         for (found, expected) in found.iter().zip([0.03, 0.06, 0.06, 0.02]) {
             assert!((found - expected).abs() < 1e-15, "{found}");

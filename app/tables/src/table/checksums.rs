@@ -49,14 +49,14 @@ impl Checksums {
         Checksums(notes.and_then(|notes| notes.iter().find(|note| note.key == NOTE)?.value.clone()))
     }
 
-    /// Whether a column is as it was written; `index` counts all columns of all row groups. True if the file has no checksums.
+    /// Whether a column matches its checksum; `index` counts all columns of all row groups. True if the file has no checksums.
     pub fn agree(&self, index: usize, column: &TableColumn) -> bool {
         let Some(all) = &self.0 else { return true };
         let start = (index + 1) * DIGITS;
         all.get(start..start + DIGITS).is_some_and(|stated| stated == of_column(column))
     }
 
-    /// Whether the column names are as they were written.
+    /// Whether the column names match their checksum.
     pub fn agree_on_names(&self, schema: &TableSchema) -> bool {
         self.0.as_ref().is_none_or(|all| all.get(..DIGITS).is_some_and(|stated| stated == of_names(schema)))
     }

@@ -152,7 +152,7 @@ fn values<D: DataType, T>(
         }
         let mut found = found.drain(..);
         if levels.is_empty() {
-            // A column of required values has no levels.
+            // A column without missing values has no definition levels.
             all.extend(found.map(|value| Some(convert(value))));
         } else {
             all.extend(levels.iter().map(|level| if *level > 0 { found.next().map(&convert) } else { None }));

@@ -34,8 +34,8 @@ impl TableWriter {
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
         let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
-        // The file does not depend on when or where it is written. This kind of LZ4 allocates through Rust, so a process without
-        // memory ends with exit code 3; the binding of the C library of zstd would panic.
+        // The contents of the file depend neither on the time nor on the machine. This variant of LZ4 allocates through
+        // Rust, so that a process without memory ends with exit code 3; the C binding of zstd would panic.
         let properties = WriterProperties::builder()
             .set_created_by(format!("{}{}", checksums::WRITER, env!("CARGO_PKG_VERSION")))
             .set_compression(Compression::LZ4_RAW)

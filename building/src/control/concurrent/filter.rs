@@ -13,7 +13,7 @@
 //! Σ over a row of |Q_l|  ≤ γ_q,        ‖G (I − QG) α‖_F ≤ γ₂
 //! ```
 //!
-//! γ₂ has a floor: a disturbance acts for a step before anything can be done, and that alone is ‖h₁‖_F.
+//! γ₂ has a floor: a disturbance acts for one step before the feedback can respond, and this response alone has the norm ‖h₁‖_F.
 
 use interplay_convex::{ConicSolution, Program, SolveError, Solver, SolverSettings, Variable, Variables};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -76,7 +76,7 @@ impl Responses {
                     t.extend(lifted.product(&input));
                     u.extend(input);
                 }
-                // The response of a later tap is the same with a delay.
+                // The response to a later tap is the same, delayed by the number of the tap.
                 for l in 0..taps {
                     temperatures[(l * n + a) * n + c] = delayed(&t, size, l * n);
                     inputs[(l * n + a) * n + c] = delayed(&u, size, l * n);
@@ -137,7 +137,7 @@ pub(super) fn check(settings: &ConcurrentSettings, lifted: &Lifted) -> Result<()
     if value < floor { Err(ControlError::BelowFloor { bound: "gamma_2", value, floor }) } else { Ok(()) }
 }
 
-/// Designs Q for the weights while occupied, and the mean of those of the inputs.
+/// Designs Q for the weights of the occupied steps and the mean weights of the inputs.
 ///
 /// # Errors
 /// [`ControlError::BelowFloor`] if no Q satisfies the bounds; [`ControlError::TooManyUnknowns`]; [`ControlError`] if the

@@ -44,7 +44,7 @@ pub struct Concurrent {
     targets: Option<Targets>,
 }
 
-/// A designed feedback, and the deviations that remain under it.
+/// A designed feedback, and the standard deviations that remain under it.
 #[derive(Clone, Debug)]
 pub struct FilterFeedback {
     /// The filter Q and its cost.
@@ -134,7 +134,7 @@ impl PlanningDesign for Concurrent {
 
     fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
         self.targets = Some(day_ahead.targets.clone());
-        // After a failed design yesterday's plan is followed with the last feedback, from rest.
+        // After a failed design, the controller follows yesterday's plan with the last feedback, which starts from rest.
         let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.filter.clone());
         self.state = last.map(|filter| StateSpace::new(filter, self.estimator.lifted().model()));
         let free_c = self.estimator.expect(day_ahead)?;
@@ -167,7 +167,7 @@ impl PlanningDesign for Concurrent {
         let limits = self.estimator.lifted().model().network().limits();
         let limited = |heat_kw: Vec<f64>| -> Vec<f64> { limits.limited_all(&heat_kw) };
         let Some(plan) = self.history.plan() else {
-            // The first day: only the initial feedback.
+            // On the first day, only the initial feedback acts.
             let gain_kw_per_k = self.settings.initial_gain_kw_per_k;
             return limited(observation.weighted_errors_k().iter().map(|error_k| gain_kw_per_k * error_k).collect());
         };

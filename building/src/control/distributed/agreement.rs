@@ -1,7 +1,7 @@
 //! The rounds by which zones agree on a common plan (Algorithm 1, with two faster step rules).
 //!
-//! In each round every zone learns the gradient of the common cost from its neighbours ([`super::messages`]), finds its best
-//! inputs with those of the others as they are ([`super::zone`], side by side), and the proposals become a step:
+//! In each round every zone receives the gradient of the common cost from its neighbours ([`super::messages`]), finds its best inputs
+//! while those of the others stay as they are ([`super::zone`], in parallel), and the proposals become a step:
 //!
 //! | scheme | step | sums over all zones in a round |
 //! |---|---|---|
@@ -9,26 +9,26 @@
 //! | line search | w d, 1/n ≤ w ≤ 1 | one for each try |
 //! | momentum | w d + Σ β_j (the j-th step before), clipped | one for each try |
 //!
-//! Momentum leaves those inputs out of earlier steps that are at a limit and stay there. Where messages come late, the zones
-//! take Jacobi steps only, and the later the messages the shorter: a step against a gradient that is some rounds old
-//! overshoots. The same holds of a zone that did not get a message at all.
+//! Momentum excludes inputs from earlier steps that are at a limit and stay there. If messages arrive late, the zones
+//! take only Jacobi steps, which are shorter the later the messages are: a step against a gradient that is some rounds
+//! old overshoots. The same applies to a zone that did not receive a message at all.
 //!
 //! # Descent
 //!
-//! J does not rise with Jacobi steps (Theorem I) if each zone's own step does not raise it: J is convex, and d/n is the mean of
-//! the steps of the single zones. A zone's problem must therefore not be below J for any of its inputs. With the comfort
-//! bounds of its neighbours alone, as printed in (5.13), it is: where bounds of zones farther away bind, the cost rose, up to
-//! 180 % above the optimum on random networks. Here the curvature of a zone's problem is that of *all* bounds that its heat
-//! can touch: those of its neighbours as they are, and those of zones farther away as if they were violated, the most that
-//! they can add. So a zone needs nothing but the messages of its neighbours, and its response to its own heat, which is part
-//! of its model. The gradient includes all bounds exactly, so that the common optimum is the only point of rest.
+//! J does not rise with Jacobi steps (Theorem I) if each zone's own step does not raise it: J is convex, and d/n is the mean of the steps
+//! of the single zones. Therefore the cost of a zone's problem must not be below J for any of its inputs. With only the comfort bounds of
+//! its neighbours, as printed in (5.13), it can be below J: where bounds of more distant zones bind, the cost rose, up to 180 % above the
+//! optimum on random networks. Here the curvature of a zone's problem includes *all* bounds that its heat can affect: those of its
+//! neighbours as they are, and those of more distant zones as if they were violated, which is the most that they can add. So a zone needs
+//! only the messages of its neighbours and its response to its own heat, which is part of its model. The gradient includes all bounds
+//! exactly, so the common optimum is the only fixed point.
 //!
-//! # How near they come
+//! # Distance from the optimum
 //!
-//! Momentum is within 0.1 % of the centralised optimum after 40 rounds on the grids of the tests, and after 400 on 50 random
-//! networks where limits and comfort bounds bind. Line search needs 200 on the grids; Jacobi's share 1/n leaves up to 1 %
-//! after 800, and several tens of percent where bounds bind: descent, not optimality. A zone whose own problem has no solution
-//! keeps its inputs for the round; if that happens to all zones, the exchange fails.
+//! Momentum is within 0.1 % of the centralised optimum after 40 rounds on the grids of the tests, and after 400 on 50 random networks
+//! where limits and comfort bounds bind. Line search needs 200 on the grids. Jacobi's share 1/n leaves up to 1 % after 800 rounds, and
+//! several tens of percent where bounds bind: it guarantees descent, not optimality. A zone whose own problem has no solution keeps its
+//! inputs for the round; if this happens to all zones, the exchange fails.
 //!
 //! The variables are the inputs u_i, so that the limits are those of each zone alone; with the printed u_ff,i they are coupled
 //! through the feedback, and the zones stall above the optimum where limits bind.
@@ -68,7 +68,7 @@ pub(super) struct Agreement {
 }
 
 impl JointDay<'_> {
-    /// Plans from a first guess, within the limits.
+    /// Agrees on a plan within the limits, starting from a first guess.
     ///
     /// # Errors
     /// [`ControlError::NoZonePlans`] if no zone can solve its problem.

@@ -1,7 +1,7 @@
 //! The messages between neighbouring zones.
 //!
-//! Every zone simulates itself (and the walls it owns) by forward Euler, which needs the temperatures of its neighbours
-//! only, step by step; and backwards the sensitivity λ of J to its temperatures, which needs theirs only:
+//! Every zone simulates itself (and the walls it owns) by forward Euler, step by step, which needs only the temperatures of its
+//! neighbours. Backwards in time it computes the sensitivity λ of J to its temperatures, which needs only theirs:
 //!
 //! ```text
 //! T_p(t+1) = T_p(t) + h/c_p (Σ_q g_pq (T_q(t) − T_p(t)) + k_p (T₀(t) − T_p(t)) + w_p(t) + u_p(t))
@@ -9,9 +9,8 @@
 //! ∂J/∂u_p(t) = h/c_p λ_p(t+1) + 2 W_u u_p(t)
 //! ```
 //!
-//! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series
-//! over the day, one number for each step. A message that is lost is sent again; a zone from which nothing comes in a round
-//! is represented by its last message.
+//! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series over the day, with
+//! one number for each step. A lost message is sent again; if no message of a zone arrives in a round, its last message is used.
 
 use std::collections::VecDeque;
 
@@ -81,7 +80,7 @@ impl Messages {
         for link in network.links() {
             leaving_kw_per_k[link.from] += link.conductance_kw_per_k;
             leaving_kw_per_k[link.to] += link.conductance_kw_per_k;
-            // A wall belongs to the first zone beside it.
+            // A wall belongs to the adjacent zone with the lowest number.
             let (wall, zone) = (link.from.max(link.to), link.from.min(link.to));
             if wall >= zones && (owner[wall] == wall || zone < owner[wall]) {
                 owner[wall] = zone;
@@ -136,6 +135,7 @@ impl Messages {
         self.undelivered = 0;
     }
 
+    /// The zones with which a zone exchanges messages.
     pub fn neighbours(&self, zone: usize) -> impl Iterator<Item = usize> + '_ {
         self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
     }
@@ -155,7 +155,7 @@ impl Messages {
         for edge in &mut self.edges {
             let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
             let silent = self.silent == Some(from) || self.silent == Some(to);
-            // A zone asks again for a message that does not come, unless its neighbour is silent.
+            // A zone repeats its request for a missing message, unless its neighbour is silent.
             let tries = if silent { 1 } else { 1 + MAX_REPEATS };
             let lost_tries =
                 (0..tries).take_while(|_| self.loss > 0.0 && self.random.chance_of_32_bits(self.loss)).count();
@@ -196,8 +196,8 @@ impl Messages {
         }
     }
 
-    /// Temperatures of the nodes at the starts of the steps and the end, N + 1 each, as their owners know them. `driving`
-    /// is all other heat into each node, nodes of a step together; at most zones of it come from `heat_kw`, stacked.
+    /// Temperatures of the nodes at the start of each step and at the end, N + 1 each, as the zones that own them know them. `heat_kw` is
+    /// the heat of the zones' equipment, stacked, and `driving` all other heat into the nodes, with the nodes of a step together.
     pub fn temperatures(&mut self, initial_c: &[f64], heat_kw: &[f64], driving: &[f64]) -> Vec<Vec<f64>> {
         self.draw(Subject::Temperature);
         let series = self.forwards(initial_c, heat_kw, Some(driving));
@@ -205,7 +205,7 @@ impl Messages {
         series
     }
 
-    /// How temperatures move with inputs, by the messages that arrive.
+    /// The response of temperatures to inputs, as the zones compute it from the messages that arrive.
     pub fn directions(&mut self, heat_kw: &[f64]) -> Vec<Vec<f64>> {
         self.draw(Subject::Direction);
         self.forwards(&vec![0.0; self.gain.len()], heat_kw, None)

@@ -1,8 +1,8 @@
 //! Zones that plan together (chapter 5), and the same day in one problem.
 //!
-//! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
-//! error. The distributed design plans by messages between neighbours: `messages` has the messages, `zone` the problem of one
-//! zone, `agreement` the rounds, [`cooperative`](super::cooperative) the learning from neighbours and its convergence.
+//! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own error. The
+//! distributed design plans by messages between neighbours: `messages` contains the messages, `zone` the problem of one zone, `agreement`
+//! the rounds, and [`cooperative`](super::cooperative) the learning from neighbours and its convergence.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the "exponential"
 //! growth of the dissertation belongs to the dense form. The advantages of the exchange are privacy and robustness: a zone informs

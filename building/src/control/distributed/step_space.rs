@@ -1,4 +1,4 @@
-//! The best combination of a few directions of all zones.
+//! Finds the combination of a few directions of all zones that has the least cost.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -30,7 +30,7 @@ pub(super) struct StepSpace<'a> {
 }
 
 impl StepSpace<'_> {
-    /// The change of an input.
+    /// The change of input k at the combination x of the directions.
     pub fn step_kw(&self, x: &[f64], k: usize) -> f64 {
         self.directions.iter().zip(x).map(|(direction, x)| x * direction.heat_kw[k]).sum()
     }
@@ -39,7 +39,7 @@ impl StepSpace<'_> {
         self.known_c[k] + self.directions.iter().zip(x).map(|(direction, x)| x * direction.risen_k[k]).sum::<f64>()
     }
 
-    /// J at x.
+    /// The cost J at the combination x.
     pub fn cost(&mut self, x: &[f64]) -> f64 {
         *self.sums += 1;
         let inputs_kw: Vec<f64> = (0..self.heat_kw.len()).map(|k| self.heat_kw[k] + self.step_kw(x, k)).collect();
@@ -47,7 +47,7 @@ impl StepSpace<'_> {
         self.day.cost_of(&temperatures_c, &inputs_kw)
     }
 
-    /// The minimum, by Newton's method with halved steps.
+    /// The combination with the least cost, by Newton's method with a step that is halved until the cost falls.
     pub fn minimum(&mut self) -> Vec<f64> {
         let mut x = vec![0.0; self.directions.len()];
         let mut cost = self.cost(&x);

@@ -9,7 +9,7 @@
 //! violated. Rows r are the comfort bounds of the zone and its neighbours, whose temperatures it knows.
 //! Rows that are not violated now take part, since they may be after the step: leaving them out breaks the descent.
 //!
-//! The minimum is found by projected Newton steps: it is piecewise quadratic, so they end exactly, after a few.
+//! Projected Newton steps find the minimum: the cost is piecewise quadratic, so a few steps reach it exactly.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -57,7 +57,7 @@ pub(super) struct ZoneProblem<'a> {
 }
 
 impl ZoneProblem<'_> {
-    /// The minimising d, up to rounding. `None` if it is not unique: a number is not finite, or the cost is not strictly
+    /// The minimising d, up to rounding. `None` if d is not unique: a number is not finite, or the cost is not strictly
     /// convex in the inputs that are not at a limit.
     pub fn solve(&self) -> Option<Vec<f64>> {
         let n = self.gradient.len();
@@ -153,8 +153,8 @@ impl ZoneProblem<'_> {
 
 /// Smallest response of a zone that counts in another zone's curvature, as a share of that zone's own response.
 const MIN_RESPONSE_RATIO: f64 = 1e-6;
-/// What each zone knows beforehand: how a kilowatt of its own acts, and the largest curvature of the common cost in its inputs
-/// but for the bounds near it.
+/// The models of all zones: the effect of a kilowatt of each zone, and the largest curvature of the common cost in its
+/// inputs, without the bounds near it.
 #[derive(Clone, Debug)]
 pub(super) struct ZoneModels {
     pub zones: Vec<Zone>,
@@ -169,7 +169,7 @@ pub(super) struct Zone {
 }
 
 impl ZoneModels {
-    /// For the weights of `targets` and `penalty`.
+    /// Builds the model of each zone for the weights of `targets` and `penalty`.
     pub fn new(lifted: &Lifted, targets: &Targets, penalty: BandPenalty, messages: &Messages) -> Self {
         let (n, steps) = (lifted.zones(), lifted.steps());
         let zone = |i: usize| {
@@ -188,7 +188,7 @@ impl ZoneModels {
             for j in 0..n {
                 let kernel = kernel(j);
                 if size(&kernel) > least {
-                    // Bounds of zones that send no messages to this one: as if they were all violated.
+                    // Comfort bounds of zones that send no messages to this one count as if all were violated.
                     let bent = if near.binary_search(&j).is_ok() { 0.0 } else { penalty.quadratic };
                     let bend = |t: usize| if targets.occupied[t * n + j] { bent } else { 0.0 };
                     add_curvature(&mut curvature, &kernel, |t| targets.error_weight[t * n + j] + bend(t));

@@ -53,7 +53,7 @@ impl Kalman {
         }
     }
 
-    /// The share of missed heat that is left after `steps` steps.
+    /// The share of the missed heat that remains after `steps` steps.
     pub fn left_after(&self, steps: usize) -> f64 {
         libm::pow(self.persistence, steps as f64)
     }
@@ -88,7 +88,7 @@ impl Kalman {
         Some(unexplained.iter().zip(with_kw).map(|(more, with)| more + with).collect())
     }
 
-    /// Predicts the temperatures at the end of a step. With a number that is not finite nothing is predicted.
+    /// Predicts the temperatures at the end of a step. If a number is not finite, it predicts nothing.
     pub fn predict(&mut self, heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
         let mut gains_kw = gains_kw.to_vec();
         gains_kw.iter_mut().zip(&self.missed_kw).for_each(|(gain, missed)| *gain += missed);
@@ -124,7 +124,7 @@ fn steady_gain(model: &Model, settings: &EconomicSettings, persistence: f64) -> 
         seen[(zone, zone)] += sensor;
     }
     let rows = p.view((0, 0), (zones, order)).into_owned();
-    // P is a covariance and R positive, so the sum has an inverse; without one the measurement is taken as it is.
+    // The sum has an inverse, because P is a covariance and R is positive; without one, the measurement would be taken as it is.
     seen.lu()
         .solve(&rows)
         .map_or_else(|| DMatrix::from_fn(order, zones, |i, j| if i == j { 1.0 } else { 0.0 }), |gain| gain.transpose())

@@ -9,11 +9,11 @@
 //! emissions, `P_max` the highest electric power of the run, whose price ϖ is the demand charge. The state is estimated by a Kalman
 //! filter (`kalman`), the disturbance is the forecast with what was learned of its errors (`learned`).
 //!
-//! π values the heat that is left at the end of the horizon: it is the multiplier of the state at the start of the last plan, so
-//! that a day ahead heat is worth as much as now. Without it every plan would end with a cold building. It is kept within the dearest
-//! price of heat in the horizon.
+//! π is the value of the heat that remains at the end of the horizon. It is the multiplier of the state at the start of
+//! the last plan, so that heat a day ahead is worth as much as heat now. Without it, every plan would end with a cold
+//! building. It is limited to the highest price of heat in the horizon.
 //!
-//! What is learned of the forecast from day to day: heat that it misses at the same hour of every day.
+//! Learns the heat that the forecast misses at the same hour of every day.
 //!
 //! ```text
 //! m ← (1 − λ) m + λ d_k          mean of the missed heat of a step and zone
@@ -21,7 +21,8 @@
 //! bias = m · m² / (m² + v λ/(2 − λ))
 //! ```
 //!
-//! A mean that is small beside its own uncertainty `v λ/(2 − λ)` is not trusted: what does not repeat is not expected.
+//! A mean that is small compared with its own uncertainty `v λ/(2 − λ)` is not trusted: an error that does not repeat
+//! is not expected again.
 
 mod kalman;
 mod settings;
@@ -162,7 +163,7 @@ impl Economic {
     /// What is expected over the horizon: the forecast, what was learned of it, and the missed heat, which dies out.
     fn expected(&self, step: usize, horizon: usize) -> Disturbance {
         let (known, zones) = (self.forecast.ambient_c.len(), self.filter.missed_kw.len());
-        // Beyond what is known, the last day once more.
+        // Beyond the known steps, the last day repeats.
         let known_step = |t: usize| if t < known { t } else { known - self.steps + t % self.steps };
         let mut gains = Vec::with_capacity(horizon * self.model.network().gain_count());
         for t in step..step + horizon {
@@ -206,7 +207,8 @@ impl ControllerKind for EconomicSettings {
     }
 
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
-        // About 15 iterations, with some dense products of nodes by nodes at each stage; walls are as many as zones.
+        // The solver needs about 15 iterations, each with some dense products of nodes by nodes per stage; there are as
+        // many walls as zones.
         let stages = self.spans(0, 86_400.0 / steps).len() as f64;
         steps * stages * 15.0 * (0.2 * (2.0 * zones).powi(3) + 5000.0)
     }
@@ -298,13 +300,13 @@ struct LearnedForecast {
 }
 
 impl LearnedForecast {
-    /// Nothing is learned yet of `size` steps times zones. `rate` is λ.
+    /// Begins without any learned heat; `size` is the number of steps times the number of zones, and `rate` is λ.
     pub fn new(size: usize, rate: f64) -> Self {
         let zeros = vec![0.0; size];
         Self { rate, mean_kw: zeros.clone(), variance_kw2: zeros, today_kw: vec![None; size], days: 0 }
     }
 
-    /// Notes the heat of a step that the forecast missed \[kW\], one number per zone.
+    /// Records the heat of a step that the forecast missed \[kW\], one number per zone.
     pub fn note(&mut self, step: usize, missed_kw: &[f64]) {
         let zones = missed_kw.len();
         for (today, missed_kw) in self.today_kw.iter_mut().skip(step * zones).zip(missed_kw) {
@@ -312,13 +314,13 @@ impl LearnedForecast {
         }
     }
 
-    /// Learns from the day that is over.
+    /// Updates the means and variances with the day that is over.
     pub fn end_day(&mut self) {
         if self.today_kw.iter().all(Option::is_none) {
             return;
         }
         self.days += 1;
-        // The first days count alike, as in an average.
+        // The first days have equal weights, as in an average.
         let rate = self.rate.max(1.0 / self.days as f64).min(if self.rate > 0.0 { 1.0 } else { 0.0 });
         for (i, today_kw) in self.today_kw.iter_mut().enumerate() {
             let Some(missed_kw) = today_kw.take() else { continue };
@@ -332,7 +334,7 @@ impl LearnedForecast {
     pub fn bias_kw(&self, step: usize, zones: usize) -> impl Iterator<Item = f64> + '_ {
         (step * zones..(step + 1) * zones).map(|i| {
             let square = self.mean_kw[i] * self.mean_kw[i];
-            // After a single day nothing is known of how days vary.
+            // A single day does not show how days vary.
             if self.days < 2 || square == 0.0 {
                 return 0.0;
             }

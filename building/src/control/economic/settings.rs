@@ -73,7 +73,7 @@ impl EconomicSettings {
         setting::check(self)
     }
 
-    /// How many steps of `step_s` a plan has, at least one.
+    /// The number of steps of `step_s` in a plan, at least one.
     pub fn horizon(&self, step_s: f64) -> usize {
         steps(self.horizon_h, step_s).max(1)
     }

@@ -1,4 +1,4 @@
-//! The decay rate that a feedback can have, and the one that is chosen.
+//! The lowest decay rate that a feedback can reach, and the rate that the design uses.
 //!
 //! A feedback of zone temperatures on the heat of zones leaves the columns of walls in A − BK as they are. With the
 //! temperatures of the zones before those of the walls,
@@ -25,8 +25,8 @@ const DEFAULT_DECAY: f64 = 0.7;
 /// programme of walls above 10,000 kJ/K becomes ill-conditioned, and the cost of the feedback rises.
 const DEFAULT_MARGIN_SHARE: f64 = 0.2;
 
-/// The decay rate per step that no feedback goes below: the spectral radius of the walls' block of A; 0 without walls that
-/// store heat. Takes time in the cube of the number of walls.
+/// The lowest decay rate per step that a feedback can reach: the spectral radius of the walls' block of A; 0 without
+/// walls that store heat. Takes time proportional to the cube of the number of walls.
 pub fn floor(model: &Model) -> f64 {
     let (nodes, zones) = (model.network().node_count(), model.network().zone_count());
     let walls = nodes - zones;
@@ -37,7 +37,7 @@ pub fn floor(model: &Model) -> f64 {
     }
 }
 
-/// The decay rate where none is stated.
+/// The decay rate if the settings state none.
 pub fn default(floor: f64) -> f64 {
     (floor + DEFAULT_MARGIN_SHARE * (1.0 - floor)).max(DEFAULT_DECAY)
 }

@@ -62,8 +62,8 @@ fn row_norms(matrix: &DMatrix<f64>) -> Vec<f64> {
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// The response under the causal feedback of least expected cost. `factor` is L with Σ = LLᵀ; `price` is added to W_u for
-/// each input, and may be empty (see [`super::joint`]).
+/// The response under the causal feedback with the least expected cost. `factor` is L with Σ = LLᵀ; `price` is added to
+/// W_u for each input, and may be empty (see [`super::joint`]).
 ///
 /// # Errors
 /// [`ControlError::Covariance`] if H is not positive definite: W_u is zero.

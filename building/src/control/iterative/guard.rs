@@ -1,9 +1,9 @@
-//! A guard against a feedback whose model is wrong: it is weakened where its inputs alternate, and beforehand where a stated error of
-//! the model would make it unstable.
+//! Protects against a feedback whose model is wrong: the guard weakens the feedback if its inputs alternate, and
+//! beforehand if a stated error of the model would make it unstable.
 //!
-//! A gain that is certified for the believed network can be unstable for the real one: with half of the believed capacity the
-//! temperature answers twice as strongly, an eigenvalue `1 − b k` of the closed loop leaves the unit circle at −1, and the input
-//! jumps between its limits. The certificate cannot see that. Two checks can:
+//! A gain that is certified for the believed network can be unstable for the real one. If the believed capacity is twice the real one,
+//! the temperature responds twice as strongly, an eigenvalue `1 − b k` of the closed loop leaves the unit circle at −1, and the input
+//! jumps between its limits. The certificate cannot detect this, but two checks can:
 //!
 //! - [`worst_radius`] is the largest spectral radius over capacities and resistances that are wrong by a stated share;
 //! - `AlternationGuard` watches the feedback's part of the heat, and halves the gain of a zone after `MOST_TURNS` large changes in
@@ -46,7 +46,7 @@ impl AlternationGuard {
         Self { large_kw, before_kw: zeros.clone(), change_kw: zeros, turns, share }
     }
 
-    /// The share of the gain of a zone that is left.
+    /// The remaining share of a zone's gain.
     pub fn share(&self, zone: usize) -> f64 {
         self.share[zone]
     }
@@ -56,7 +56,7 @@ impl AlternationGuard {
         self.share.iter().copied().filter(|share| *share < 1.0).min_by(f64::total_cmp)
     }
 
-    /// Looks at the feedback's part of the heat in a step \[kW\]. Returns a zone whose gain was halved because of it.
+    /// Observes the feedback's part of the heat in a step \[kW\]. If it halves the gain of a zone, returns that zone.
     pub fn observe(&mut self, feedback_kw: &[f64]) -> Option<usize> {
         let mut halved = None;
         for (zone, feedback_kw) in feedback_kw.iter().enumerate() {
@@ -75,8 +75,8 @@ impl AlternationGuard {
     }
 }
 
-/// The largest spectral radius of A − BK where capacities and resistances are wrong by up to the share `error`: at its nine corners,
-/// edges and the middle.
+/// The largest spectral radius of A − BK over capacities and resistances that are wrong by up to the share `error`,
+/// evaluated at the corners, the edge midpoints and the centre of this square.
 ///
 /// # Errors
 /// [`ControlError::Model`] if one of the networks cannot be simulated at this step.

@@ -5,8 +5,8 @@
 //! subject to  |û_i| + q σ_i ≤ limit_i,      σ_i = ‖i-th row of (I − Y) L‖,   q = Φ⁻¹(η)      (eqs. 3.15, 3.18, 3.21)
 //! ```
 //!
-//! is a second-order cone programme in about (nN)² unknowns. It need not be posed: at its solution, with multipliers μ_i of
-//! the limits, the feedback is that of least expected cost with
+//! is a second-order cone programme in about (nN)² unknowns. It need not be solved as such: at its solution, with
+//! multipliers μ_i of the limits, the feedback is that of least expected cost with
 //!
 //! ```text
 //! W_u + diag(μ_i q / (2 σ_i))      in place of      W_u
@@ -52,8 +52,8 @@ pub struct Joint {
     pub rounds: usize,
 }
 
-/// Designs both on top of the expected temperatures without equipment `free_c`, stacked. `factor` is L with Σ = LLᵀ, and
-/// `quantile` q.
+/// Designs feedback and plan for the expected temperatures without equipment `free_c`, stacked. `factor` is L with Σ =
+/// LLᵀ, and `quantile` is q.
 ///
 /// # Errors
 /// [`ControlError`] if W_u is zero or the solver fails.

@@ -11,10 +11,10 @@
 //! The dissertation's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
 //! the nominal inputs. They are found as a sparse problem with temperatures as variables. The last line is U_ff = Û − K Ê.
 //!
-//! Where limits bind, feedback and plan compete for them. [`joint`] finds both together and designs each several times.
-//! Designing them in turn costs a few percent more there.
+//! Where limits bind, feedback and plan compete for them. [`joint`] designs both together, by designing each several
+//! times in turn. Designing each only once costs a few percent more there.
 //!
-//! The feedback is designed again when Σ or the targets have changed; with a constant Σ it is a constant gain.
+//! The feedback is redesigned when Σ or the targets change; with a constant Σ it is a constant gain.
 
 pub mod decay;
 pub mod feedback;
@@ -80,7 +80,7 @@ impl Iterative {
         let powers_kw = limits.heating_kw.iter().zip(&limits.cooling_kw).map(|(heating, cooling)| heating + cooling);
         Ok(Self {
             settings,
-            // A gain that nothing certifies is driven as it is.
+            // A gain without a certificate is applied as it is.
             guard: match settings.stability {
                 Stability::Lmi | Stability::Linear => AlternationGuard::new(powers_kw),
                 Stability::LeastSquares | Stability::Fixed => AlternationGuard::new(powers_kw.map(|_| f64::INFINITY)),
@@ -232,7 +232,7 @@ impl PlanningDesign for Iterative {
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
-            // The first day: only the initial feedback, on the error itself.
+            // On the first day, only the initial feedback acts, on the error itself.
             None => (vec![0.0; n], Some(observation.weighted_errors_k())),
         };
         let planned_kw = heat_kw.clone();

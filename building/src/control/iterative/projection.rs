@@ -1,4 +1,4 @@
-//! From the optimal causal feedback to a gain K that stabilises (step 2, eqs. 3.31-3.33).
+//! Projects the optimal causal feedback on a stabilising gain K (step 2, eqs. 3.31-3.33).
 //!
 //! K approximates C* on the errors that occur. These have the covariance G Y Σ Yᵀ Gᵀ = PPᵀ, not the single
 //! direction Ê of the printed (3.32), along which the fit is nearly singular (gains of 10⁴). With e = −Pw and u = Vw for
@@ -47,7 +47,8 @@ struct Fit {
 }
 
 impl<'a> Projection<'a> {
-    /// `response` is that of the optimal causal feedback under a lower triangular factor L; `busy` says which steps count.
+    /// Prepares the projection. `response` is that of the optimal causal feedback under a lower triangular factor L;
+    /// `busy` says which steps count.
     pub fn new(lifted: &'a Lifted, response: &'a Response, busy: &[bool]) -> Self {
         let busy = (1..lifted.steps()).filter(|&t| busy[t]).collect();
         Self { lifted, response, busy }
@@ -172,7 +173,7 @@ impl<'a> Projection<'a> {
         let p = self.main_errors();
         let q = p.nrows();
         let wanted = self.optimal_feedback()?;
-        // What each free entry adds to the rows (t, a) that count, with q numbers a row.
+        // The contribution of each free entry to the rows (t, a) that count, with q numbers per row.
         let rows = self.busy.len() * n * q;
         let mut columns: Vec<Vec<f64>> = Vec::with_capacity(gain.len() + scale.len());
         for &(a, c) in &gain {

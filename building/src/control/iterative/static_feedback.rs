@@ -32,7 +32,7 @@ pub struct StaticFeedback {
 }
 
 impl StaticFeedback {
-    /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
+    /// Performs steps 1 and 2 for a covariance of the disturbance; `price` is as in [`feedback::optimal_causal`].
     ///
     /// If no gain with the wanted decay rate is found, other certificates and rates nearer to 1 are tried; the initial gain is
     /// the last resort. [`StaticFeedback::weaker`] then says so.
@@ -127,7 +127,7 @@ impl Loops {
             let by_inequality = (stability != Stability::Linear).then(|| self.stable(projection.lmi(decay)));
             let found = match by_inequality {
                 Some(Ok(gain)) => Ok(gain),
-                // The first reason counts: that of the certificate which was asked for.
+                // Keep the first reason: that of the requested certificate.
                 Some(Err(error)) => {
                     reason.get_or_insert(error);
                     self.stable(projection.linear(decay))

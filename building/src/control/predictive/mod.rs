@@ -5,12 +5,13 @@
 //! from        T(t) as estimated, under the forecast and the heat d that it missed so far
 //! ```
 //!
-//! It is the field's usual controller and the baseline of the designs that plan once a day: it needs the same model and forecast,
-//! solves a programme at every step, and what it corrects it corrects within a step, but from a day it learns `d` only.
+//! It is the usual controller in the literature, and the baseline of the designs that plan once a day. It needs the same model and
+//! forecast, but solves a programme at every step. It corrects errors within a step, but learns only `d` from one day to the next.
 //!
-//! A step without a plan (a number that is not finite, or a solver without a result) follows the last plan, and says so.
+//! In a step without a plan (because a number is not finite, or the solver has no result), the controller follows its
+//! last plan and reports this.
 //!
-//! What the controller believes of the building's state, and of heat that its model does not explain.
+//! The controller's estimate of the building's state, and of heat that its model does not explain.
 //!
 //! ```text
 //! T⁻(t+1) = A T(t) + B (k T₀ + u + w + d)        the step that the model expects
@@ -110,7 +111,7 @@ impl ControllerKind for PredictiveSettings {
     }
 
     fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
-        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond, and there is one at each step.
+        // A plan of 1024 inputs takes some tenths of a second, a small one more than a millisecond; every step needs a plan.
         let horizon = self.horizon(86_400.0 / steps) as f64;
         steps * (0.15 * (zones * horizon).powi(3) + 1.5e6)
     }
@@ -189,7 +190,7 @@ impl PredictiveSettings {
         setting::check(self)
     }
 
-    /// How many steps of `step_s` a plan has, at least one.
+    /// The number of steps of `step_s` in a plan, at least one.
     pub fn horizon(&self, step_s: f64) -> usize {
         ((self.horizon_h * 3600.0 / step_s).round() as usize).max(1)
     }
@@ -215,13 +216,13 @@ struct Estimate {
 }
 
 impl Estimate {
-    /// Nothing is known yet. `rate` is λ.
+    /// Begins without an estimate. `rate` is λ.
     pub fn new(model: &Model, rate: f64) -> Self {
         let missed_kw = vec![0.0; model.network().zone_count()];
         Self { one_step: Lifted::new(model, 1), rate, nodes_c: Vec::new(), missed_kw, is_predicted: false }
     }
 
-    /// At midnight all temperatures are told. What was predicted for them still teaches.
+    /// Begins a day with the temperatures of all nodes. They also correct the prediction that was made for them.
     pub fn begin_day(&mut self, nodes_c: &[f64]) {
         self.measure(&nodes_c[..self.missed_kw.len()]);
         self.nodes_c = nodes_c.to_vec();
@@ -244,15 +245,15 @@ impl Estimate {
         }
     }
 
-    /// Forecast gains of the nodes with the heat of the zones that the forecast misses \[kW\].
+    /// Forecast gains of the nodes, plus the heat of the zones that the forecast misses \[kW\].
     pub fn with_missed_kw(&self, gains_kw: &[f64]) -> Vec<f64> {
         let mut gains_kw = gains_kw.to_vec();
         gains_kw.iter_mut().zip(&self.missed_kw).for_each(|(gain, missed)| *gain += missed);
         gains_kw
     }
 
-    /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. With a number that
-    /// is not finite nothing is predicted: the temperatures stay until they are measured.
+    /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. If a
+    /// number is not finite, it predicts nothing: the temperatures stay until they are measured.
     pub fn predict(&mut self, heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
         let gains_kw = self.with_missed_kw(gains_kw);
         if !ambient_c.is_finite() || !gains_kw.iter().all(|gain| gain.is_finite()) {

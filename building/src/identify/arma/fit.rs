@@ -139,7 +139,7 @@ impl<'a> Problem<'a> {
             .map(|column| whitened(column, alpha, mu, &self.segments).iter().map(|value| -value).collect())
             .collect();
         jacobian.extend((1..=self.order).map(|lag| inverted(&|t| -point.errors[t - lag])));
-        // As r is at least one, the first e_{t−1} of a segment is one of its own zeros.
+        // Because r is at least one, the first e_{t−1} of a segment is one of its initial zeros.
         jacobian.push(inverted(&|t| -point.innovations[t - 1]));
         jacobian
     }
@@ -183,7 +183,7 @@ impl<'a> Problem<'a> {
             Some(&length) if length > 0.0 => 1.0 / length,
             _ => 1.0,
         };
-        // Innovations of a model that is not quite true are not quite white; their correlation fades within n^⅓ steps.
+        // Innovations of an imperfect model are not quite white; their correlation decays within n^⅓ steps.
         let lags = libm::cbrt(count as f64) as usize;
         let scaled = robust_covariance(&self.jacobian(&point), &point.innovations, &self.segments, lags);
         let covariance =

@@ -4,8 +4,8 @@
 //! q_t = z_tᵀβ + v_t,    v_t = Σ_{k=1..r} α_k v_{t−k} + e_t + μ e_{t−1},    e_t white
 //! ```
 //!
-//! z holds what is known beforehand (a constant, daily harmonics, the zone model's regressors). The printed form, with a
-//! constant ψ instead of zᵀβ, is this one with ψ = β (1 − Σα).
+//! z contains the quantities that are known beforehand (a constant, daily harmonics, the zone model's regressors). The
+//! printed form, with a constant ψ instead of zᵀβ, is this one with ψ = β (1 − Σα).
 //!
 //! The printed M-step (2.14) divides by Σq where Σq² belongs, and even then estimates an autoregression, which is biased
 //! when there is a moving average. [`fit()`] minimises the conditional sum of squares Σ e_t² instead.
@@ -33,12 +33,12 @@ pub struct Arma {
 }
 
 impl Arma {
-    /// e_t of a series; zero for the first r of each segment, on which the others are conditioned.
+    /// The innovations e_t of a series; zero for the first r of each segment, on which the others are conditioned.
     pub fn innovations(&self, series: &[f64], segments: &[Range<usize>]) -> Vec<f64> {
         whitened(series, &self.autoregressive, self.moving_average, segments)
     }
 
-    /// What is expected of v_t, v_{t+1}, … given the segment's past values (`past[last]` is v_{t−1}) and e_{t−1}.
+    /// The expected values of v_t, v_{t+1}, … given the segment's past values (`past[last]` is v_{t−1}) and e_{t−1}.
     pub fn forecast(&self, past: &[f64], last_innovation: f64, horizon: usize) -> Vec<f64> {
         let mut values: Vec<f64> = past[past.len().saturating_sub(self.autoregressive.len())..].to_vec();
         let start = values.len();

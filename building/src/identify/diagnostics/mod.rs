@@ -1,4 +1,4 @@
-//! Diagnostics of an estimate: whether the data determine it, and whether the residuals are white.
+//! Diagnostics of an estimate: tests whether the data determine it, and whether the residuals are white.
 
 mod chi_squared;
 mod periodogram;

@@ -1,4 +1,5 @@
-//! The cumulated periodogram of white noise is a straight line; how far one leaves its band measures the structure left.
+//! The cumulated periodogram: for white noise it is a straight line, and its distance from the band around this line
+//! measures the remaining structure.
 //!
 //! With the periodogram I_j of the tapered series at frequencies j/n, C_j = Σ_{i≤j} I_i / Σ I. White noise stays within
 //! ±1.358/(√m + 0.12 + 0.11/√m) of the line with probability 95 % (Kolmogorov and Smirnov, m frequencies). The mean of the
@@ -51,7 +52,7 @@ fn tapered(series: &[f64]) -> Vec<f64> {
 /// |Σ_t x_t exp(−2πi jt/n)|² for the frequencies j/n below one half, the zeroth set to zero.
 fn periodogram(series: &[f64]) -> Vec<f64> {
     let mut transform: Vec<Complex<f64>> = series.iter().map(|&value| Complex::new(value, 0.0)).collect();
-    // The planner without SIMD: the others choose their instructions, and so the order of sums, by the processor.
+    // This FFT planner does not use SIMD: the others choose their instructions, and thereby the order of sums, by the processor.
     FftPlannerScalar::new().plan_fft_forward(series.len()).process(&mut transform);
     transform[0] = Complex::ZERO;
     transform[..series.len().div_ceil(2)].iter().map(Complex::norm_sqr).collect()

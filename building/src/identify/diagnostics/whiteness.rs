@@ -1,4 +1,4 @@
-//! Whether residuals are white: autocorrelation, Ljung and Box's test, cumulated periodogram.
+//! Tests whether residuals are white: autocorrelation, Ljung and Box's test, cumulated periodogram.
 
 use std::ops::Range;
 
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn every_verdict_is_reached_by_some_value_and_error() {
+    fn every_verdict_occurs_for_some_value_and_error() {
         for (value, error, confidence) in [
             (1.0, 0.05, Confidence::Identified),
             (1.0, 0.4, Confidence::Weak),

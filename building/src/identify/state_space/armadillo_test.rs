@@ -42,7 +42,7 @@ fn record() -> Observations {
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let number = |field: &str| field.parse::<f64>().expect("a number");
     let mut rows: Vec<Vec<f64>> = text.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect();
-    // As in the published example.
+    // The published example omits the last row.
     rows.pop();
     let step = (rows[1][0] - rows[0][0]) / DAY_S;
     let inputs: Vec<f64> = rows.iter().flat_map(|row| [row[1], row[2]]).collect();

@@ -1,4 +1,4 @@
-//! What a thermal network is made of: hidden nodes, extensions of a smaller network, and parameters.
+//! The elements of a thermal network: hidden nodes, extensions of a smaller network, and parameters.
 
 use crate::identify::settings::HiddenTemperature;
 use crate::identify::telemetry::Neighbour;
@@ -25,7 +25,7 @@ pub(super) enum Extension {
 }
 
 impl HiddenNode {
-    /// Which kind of hidden temperature it has; `None` where it has none.
+    /// The kind of hidden temperature of this node; `None` if the node is not a temperature.
     pub fn kind(self) -> Option<HiddenTemperature> {
         match self {
             Self::Wall(_) => Some(HiddenTemperature::Wall),
@@ -37,14 +37,14 @@ impl HiddenNode {
 }
 
 impl Extension {
-    /// The hidden node that it is, or that it gives sun to.
+    /// The hidden node that the extension adds, or onto which it lets the sun fall.
     pub fn hidden(self) -> HiddenNode {
         match self {
             Self::Node(hidden) | Self::Sun(hidden) => hidden,
         }
     }
 
-    /// The hidden node, if it is one.
+    /// The hidden node that the extension adds; `None` if it adds sun.
     pub fn node(&self) -> Option<HiddenNode> {
         match self {
             Self::Node(hidden) => Some(*hidden),
@@ -52,7 +52,7 @@ impl Extension {
         }
     }
 
-    /// The hidden node that the sun falls on, if it is that.
+    /// The hidden node onto which the extension lets the sun fall; `None` if it adds a node.
     pub fn sun(&self) -> Option<HiddenNode> {
         match self {
             Self::Sun(hidden) => Some(*hidden),

@@ -80,7 +80,7 @@ fn taylor(matrix: &DMatrix<Number>, order: u32) -> DMatrix<Number> {
     let first = 1.0 / f64::from(factorial);
     let mut sum = scalar(first);
     for term in (1..=TAYLOR_TERMS).rev() {
-        // The scheme holds (k + order)!/order! in its quotients, and 1/order! in its sums.
+        // The scheme includes (k + order)!/order! in its quotients, and 1/order! in its sums.
         sum = product(matrix, &sum).map(|entry| entry / f64::from(term + order));
         (0..size).for_each(|i| sum[(i, i)] += first);
     }

@@ -1,4 +1,4 @@
-//! From a fitted network to a report.
+//! Makes a report from a fitted network.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -49,7 +49,7 @@ struct Errors {
 }
 
 impl StateSpaceFindings<'_> {
-    /// The report, and what to draw.
+    /// The report, the series to draw, and the network.
     ///
     /// # Errors
     /// [`IdentifyError::NotFinite`].

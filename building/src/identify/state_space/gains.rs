@@ -1,9 +1,8 @@
-//! The covariances of a Kalman filter, which depend on which outputs are there and not on their values.
+//! The covariances of a Kalman filter, which depend on which outputs are measured but not on their values.
 //!
-//! Rows of which the same outputs are measured follow each other for long, and then the covariance converges. So the filter's
-//! covariances form a graph: from each one, a set of measured outputs leads to the next. A covariance that no longer changes
-//! leads to itself. The graph is built once for the parameters at hand; the derivatives by each parameter follow its arrows
-//! in the same order.
+//! The same outputs are usually measured in many consecutive rows, and then the covariance converges. So the filter's covariances form a
+//! graph: from each covariance, a set of measured outputs leads to the next. A covariance that no longer changes leads to itself. The
+//! graph is built once for the current parameters; the derivatives with respect to each parameter follow its arrows in the same order.
 
 use std::collections::BTreeMap;
 

@@ -52,7 +52,7 @@ pub(super) fn conductance(
     let structure = &fit.structure;
     let segments = balanced(observations);
     let rows: Vec<usize> = segments.iter().flat_map(|segment| segment.start..segment.end.saturating_sub(1)).collect();
-    // The filter's temperatures, since measured ones may be missing.
+    // These are the filter's temperatures, because measured ones may be missing.
     let count = structure.nodes.len();
     let zone_c = |zone: usize, row: usize| filtered.states[row * count + zone];
     let temperature_c = |place: Neighbour, row: usize| match place {

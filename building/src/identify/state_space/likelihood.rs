@@ -39,7 +39,7 @@ pub(super) struct Observations {
 }
 
 impl Observations {
-    /// The first rows of these, about `rows`.
+    /// About the first `rows` rows of these observations.
     pub fn beginning(&self, rows: usize) -> Self {
         let mut left = rows;
         let mut segments = Vec::new();
@@ -54,7 +54,7 @@ impl Observations {
         Self { segments, ..self.clone() }
     }
 
-    /// All but the first rows of these, about `rows`; a segment begins where all outputs are measured.
+    /// All of these observations except about the first `rows` rows; a segment begins where all outputs are measured.
     pub fn ending(&self, rows: usize) -> Self {
         let p = self.widths.0;
         let mut left = rows;

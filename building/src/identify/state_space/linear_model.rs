@@ -64,7 +64,7 @@ pub(super) struct SampledModel {
 }
 
 impl ContinuousModel {
-    /// The model in steps of `step_s`; `None` if it is too fast for that, or not finite.
+    /// The model in steps of `step_s`; `None` if its dynamics are too fast for that, or not finite.
     pub fn sampled(&self, step_s: f64) -> Option<SampledModel> {
         let [transition, first, second] = phi_functions(&self.dynamics.map(|entry| entry * step_s))?;
         Some(SampledModel {

@@ -1,10 +1,10 @@
-//! Identification by maximum likelihood in state space.
+//! Identification by maximum likelihood with state-space models.
 //!
-//! A zone is a network of one measured and up to two hidden temperatures ([`structure`]), driven by the measured boundaries,
-//! heat and sun, and by random heat. Zones with walls between them are one model. A Kalman filter turns the model and the
-//! measurements into a likelihood ([`likelihood`]), whose maximum is the estimate ([`scoring`]). How many hidden
-//! temperatures there are, [`selection`] decides. Which numbers can be trusted, [`trust`] says, and [`wrong_world`] whether
-//! the data contradict what every model here takes for granted.
+//! A zone is a network of one measured and up to two hidden temperatures ([`structure`]), driven by the measured
+//! boundaries, heat and sun, and by random heat. Zones with walls between them form one model. A Kalman filter turns
+//! the model and the measurements into a likelihood ([`likelihood`]), whose maximum is the estimate ([`scoring`]).
+//! [`selection`] chooses the number of hidden temperatures, [`trust`] decides which numbers are reliable, and
+//! [`wrong_world`] tests whether the data contradict the assumptions that all these models share.
 
 #[cfg(test)]
 mod armadillo_test;

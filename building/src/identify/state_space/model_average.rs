@@ -1,4 +1,4 @@
-//! Intervals that allow for the next larger model, which the test did not call for and which may be the right one.
+//! Intervals that allow for the next larger model, which the selection rejected but which may be the right one.
 //!
 //! ```text
 //! Σ_i w_i P(Z > (f − f_i)/s_i) = 2.5 %,      w ∝ exp(−AIC/2)
@@ -27,17 +27,17 @@ pub(super) struct Rival {
 }
 
 impl Rival {
-    /// From how much the larger model's −AIC/2 is above that of the chosen model.
+    /// Weights the larger model by how much its −AIC/2 exceeds that of the chosen model.
     pub fn new(criterion_gain: f64, offset: f64, error: f64) -> Self {
         Self { weight: 1.0 / (1.0 + libm::exp(-criterion_gain)), offset, error }
     }
 
-    /// The same, seen in the direction of a sign.
+    /// The same model as seen towards one end of the interval: its offset multiplied by `sign`.
     pub fn towards(self, sign: f64) -> Self {
         Self { offset: sign * self.offset, ..self }
     }
 
-    /// The upper end, from that of the chosen model's own interval; both as distances from its estimate.
+    /// The upper end of the averaged interval, given that of the chosen model's own interval; both as distances from its estimate.
     pub fn averaged_end(&self, own: f64) -> f64 {
         let own_error = own / STANDARD_ERRORS_OF_95_PERCENT;
         let beyond = |end: f64| {

@@ -28,7 +28,7 @@ pub(super) struct FreeRunErrors {
 }
 
 impl<'a> NetworkRun<'a> {
-    /// `None` if the model has no form in steps.
+    /// Prepares runs of the fitted network; `None` if the model has no discrete form.
     pub fn new(
         telemetry: &'a Telemetry,
         observations: &'a Observations,
@@ -53,7 +53,7 @@ impl<'a> NetworkRun<'a> {
                 let mut inputs = self.observations.inputs[row * m..(row + 1) * m].to_vec();
                 for (zone, column) in self.fit.structure.layout.heat.iter().enumerate() {
                     if let Some(column) = column {
-                        // The heat of supply air depends on the temperature, which here is the model's own.
+                        // The heat of supply air depends on the zone temperature, which here is that of the model.
                         inputs[*column] = self.telemetry.zones[zone].heat_kw(row, state[zone]);
                     }
                 }

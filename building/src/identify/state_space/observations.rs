@@ -1,4 +1,4 @@
-//! From telemetry to rows of outputs and inputs.
+//! Converts telemetry to rows of outputs and inputs.
 
 use super::gains::MOST_OUTPUTS;
 use super::likelihood::Observations;

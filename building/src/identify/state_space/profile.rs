@@ -91,7 +91,7 @@ impl Profiler<'_> {
         let inflation = self.inflation(&gradient, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let distance = |sign: f64| -> Option<f64> {
-            // A profile that was not followed to its end is too short: no end is nearer than the standard error says.
+            // A profile that stopped early would be too short, so an end is at least as far away as the standard error says.
             let own = match WORTH_A_PROFILE.contains(&log_error) {
                 true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?.abs().max(reach),
                 false => reach,
@@ -118,14 +118,14 @@ impl Profiler<'_> {
         (sandwich.standard_error(&direction) / log_error).max(1.0)
     }
 
-    /// The same of a quantity of a zone.
+    /// The inflation of the standard error of a quantity of a zone.
     pub fn inflation_of(&self, quantity: (QuantityKind, usize)) -> f64 {
         let found = logarithm(self.telemetry, &self.fit.structure, quantity, &self.fit.maximum.theta);
         found.map_or(1.0, |(_, gradient)| self.inflation(&gradient, self.precision.standard_error(&gradient)))
     }
 
-    /// ln f and its standard error by the next larger model, if there is one that knows the quantity: what it does not know it
-    /// cannot dispute.
+    /// The logarithm of a quantity and its standard error by the next larger model; `None` without such a model, or if
+    /// it does not contain the quantity and so cannot contradict it.
     pub fn of_larger(&self, quantity: (QuantityKind, usize)) -> Option<(f64, f64)> {
         self.of_model(self.larger.as_ref()?, quantity)
     }

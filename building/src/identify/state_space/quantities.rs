@@ -45,7 +45,7 @@ pub(super) enum QuantityKind {
 }
 
 impl QuantityKind {
-    /// Everything that can be said of a zone.
+    /// All quantities of a zone that the structure determines.
     pub fn of_zone(telemetry: &Telemetry, structure: &Structure, zone: usize) -> Vec<Self> {
         let neighbours = telemetry.neighbours(zone);
         let places: Vec<Place> =
@@ -81,7 +81,7 @@ impl QuantityKind {
         kinds
     }
 
-    /// The value; `None` where the structure has no such quantity.
+    /// The value of the quantity; `None` if the structure does not have it.
     pub fn value(self, telemetry: &Telemetry, structure: &Structure, theta: &[Number], zone: usize) -> Option<Number> {
         let of = |kind| structure.index(kind).map(|_| structure.value(theta, kind));
         let all = || {
@@ -105,7 +105,7 @@ impl QuantityKind {
         }
     }
 
-    /// Whether it needs heat in kW.
+    /// Whether the quantity is known only if the heat is measured in kW.
     pub fn needs_scale(self) -> bool {
         !matches!(self, Self::TimeConstant | Self::Warming)
     }
@@ -204,7 +204,8 @@ impl Precision {
         libm::sqrt(along.iter().map(|(value, inverse)| value * value * inverse).sum())
     }
 
-    /// I⁻¹ times a gradient: the direction in which a function of it changes at the least cost.
+    /// The inverse information matrix I⁻¹ times a gradient: the direction of the parameters in which a function with
+    /// this gradient changes at the least loss of likelihood.
     pub fn direction(&self, gradient: &[f64], parameters: usize) -> Vec<f64> {
         let (along, _) = self.along(gradient);
         let weighted = DVector::from_iterator(along.len(), along.iter().map(|(value, inverse)| value * inverse));

@@ -5,8 +5,8 @@
 //! the last third of the rows better when both are fitted to the first two thirds. A likelihood-ratio test alone has a level that
 //! does not fall with the number of rows, and any small error of the data's form, such as interpolation, then buys states.
 //!
-//! Every model contains the one that it extends, so it begins next to it and cannot be worse. One that is worse is a failed search,
-//! which its row of the table says.
+//! Every model contains the one that it extends and starts next to it, so its likelihood cannot be lower. A lower
+//! likelihood means that the search failed, which the row of the table states.
 //!
 //! Estimated time of the search among models, so that a search of hours is refused before it begins.
 //!
@@ -14,9 +14,9 @@
 //! time ∝ rows · models · (2 · zones)^2.5
 //! ```
 //!
-//! The time of a model is proportional to the rows that are fitted, and grows with the states of all zones together, of which a filter
-//! and its derivatives have matrices. How many models are tried depends on which of them are better: as many as three rounds of all that
-//! may be added are counted.
+//! The time of a model is proportional to the rows that are fitted, and grows with the number of states of all zones,
+//! which determines the size of the matrices. How many models are tried depends on the results; the estimate assumes
+//! three rounds that each try every extension.
 
 use std::ops::Range;
 
@@ -211,7 +211,7 @@ fn fit(
     let mut found: Vec<Maximum> = finished.par_iter().filter_map(searched).collect();
     found.sort_by(|a, b| by_likelihood(b, a));
     let best = found.into_iter().take(ENDED_STARTS).map(|maximum| maximum.theta);
-    // The starts next to smaller models go on whatever the search says of them, so that no model is worse than its parts.
+    // The starts next to smaller models always continue, so that no model is worse than the models that it contains.
     let finished: Vec<Vec<f64>> = best.chain(near.iter().cloned()).collect();
     let all: Vec<Maximum> = finished.par_iter().filter_map(finish).collect();
     let best = all.into_iter().max_by(by_likelihood)?;
@@ -287,7 +287,7 @@ pub(super) struct Sandwich {
 }
 
 impl Sandwich {
-    /// `None` where the model has no likelihood.
+    /// Computes the matrices of the sandwich; `None` if the model has no likelihood.
     pub fn new(fit: &Fit, observations: &Observations) -> Option<Self> {
         let model = |theta: &[super::exponential::Number]| fit.structure.model(theta);
         let rows: usize = observations.segments.iter().map(Range::len).sum();

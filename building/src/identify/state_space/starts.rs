@@ -1,4 +1,4 @@
-//! Where ascents begin, and within which bounds.
+//! The starting points of the ascents, and the bounds of the parameters.
 
 use super::elements::{Extension, HiddenNode};
 use super::structure::{HOUR_S, ParameterKind, Place, Structure};
@@ -178,7 +178,7 @@ impl Guess {
                     HiddenNode::Wall(boundary) => split.conductance * to_boundary(zone, boundary).unwrap_or(1.0),
                 },
                 ParameterKind::Outer(zone, boundary) if known(*kind).is_none() => {
-                    // In series with the inner conductance it is what the smaller model has.
+                    // In series with the inner conductance, this gives the conductance of the smaller model.
                     split.conductance / (split.conductance - 1.0) * to_boundary(zone, boundary).unwrap_or(1.0)
                 }
                 kind => known(kind).unwrap_or(1.0),

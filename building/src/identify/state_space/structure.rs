@@ -165,17 +165,17 @@ impl Structure {
         self.nodes.iter().position(|node| *node == Node { zone, place: Place::Hidden(hidden) })
     }
 
-    /// The place of a parameter.
+    /// The index of a parameter.
     pub fn index(&self, kind: ParameterKind) -> Option<usize> {
         self.parameters.iter().position(|known| *known == kind)
     }
 
-    /// Temperatures per zone, at most.
+    /// The largest number of temperatures of a zone.
     pub fn order(&self) -> usize {
         1 + self.hidden.iter().filter(|hidden| hidden.kind().is_some()).count()
     }
 
-    /// The value of a parameter that the structure has, 1 if it has not.
+    /// The value of a parameter, or 1 if the structure does not have it.
     pub fn value(&self, theta: &[Number], kind: ParameterKind) -> Number {
         self.index(kind).map_or(real(1.0), |index| exponential(theta[index]))
     }
@@ -321,14 +321,14 @@ impl Structure {
         self.sunlit.iter().filter_map(aperture).collect()
     }
 
-    /// Aperture of a zone \[m²\]: that of its air, and of its masses as much as reaches the air in a steady state.
+    /// Total aperture of a zone \[m²\]: that of its air, and of each mass the part whose heat reaches the air in a steady state.
     pub fn total_aperture(&self, theta: &[Number], zone: usize) -> Option<Number> {
         let of_air = exponential(theta[self.index(ParameterKind::Aperture(zone))?]);
         let of_masses = self.hidden_apertures(theta, zone).into_iter();
         Some(of_masses.fold(of_air, |sum, (node, aperture)| sum + aperture * self.share_to_air(theta, node)))
     }
 
-    /// The share of steady heat into a node that leaves to the air of its zone; the rest leaves to the boundary.
+    /// The share of steady heat into a node that reaches the air of its zone; the rest reaches the boundary.
     pub fn share_to_air(&self, theta: &[Number], node: usize) -> Number {
         let Node { zone, place } = self.nodes[node];
         let Place::Hidden(hidden @ HiddenNode::Wall(boundary)) = place else { return real(1.0) };
@@ -336,13 +336,13 @@ impl Structure {
         inner / (inner + self.value(theta, ParameterKind::Outer(zone, boundary)))
     }
 
-    /// What it has beyond the smallest model.
+    /// The extensions of the smallest model that this structure contains.
     pub fn extensions(&self) -> Vec<Extension> {
         let nodes = self.hidden.iter().map(|&hidden| Extension::Node(hidden));
         nodes.chain(self.sunlit.iter().map(|&hidden| Extension::Sun(hidden))).collect()
     }
 
-    /// What it may have more: hidden nodes, and sun on those masses that it has.
+    /// The extensions that may still be added: hidden nodes, and sun on the existing masses.
     pub fn candidates(&self, telemetry: &Telemetry) -> Vec<Extension> {
         let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
         let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater, HiddenNode::ColouredHeat]);

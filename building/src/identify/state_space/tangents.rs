@@ -39,14 +39,14 @@ impl StepMatrices {
         }
     }
 
-    /// out += Φ x.
+    /// Adds the effect of the states: out += Φ x.
     pub fn add_states(&self, out: &mut [f64], x: &[f64]) {
         for (out, row) in out.iter_mut().zip(self.transition.chunks(self.n)) {
             *out += dot(row, x);
         }
     }
 
-    /// out += Γ₀ u + Γ₁ u'.
+    /// Adds the effect of the inputs: out += Γ₀ u + Γ₁ u'.
     pub fn add_inputs(&self, out: &mut [f64], u: &[f64], slope: &[f64]) {
         if self.m > 0 {
             let rows = self.gain.chunks(self.m).zip(self.slope_gain.chunks(self.m));
@@ -77,7 +77,7 @@ pub(super) struct Tangents {
 }
 
 impl Tangents {
-    /// Of models with n states, m inputs and p outputs; `None` where one of them cannot be sampled.
+    /// The derivatives of models with n states, m inputs and p outputs; `None` if one of the models cannot be sampled.
     pub fn new(
         (n, m, p): (usize, usize, usize),
         models: Vec<ContinuousModel>,
@@ -101,7 +101,7 @@ impl Tangents {
         for (parameter, model) in models.iter().enumerate() {
             let sampled = model.sampled(step_s)?;
             let put = |array: &mut [f64], numbers: &mut dyn Iterator<Item = &Number>| {
-                // Skipped and not sliced: a record of single rows has no arrows at all.
+                // `skip` instead of a slice: a record of single rows has no arrows at all.
                 array
                     .iter_mut()
                     .skip(parameter)
@@ -129,7 +129,7 @@ impl Tangents {
         }
     }
 
-    /// ∂x ← Φ ∂x + ∂Φ x + ∂Γ₀ u + ∂Γ₁ u'.
+    /// Advances the derivatives of the states by a step: ∂x ← Φ ∂x + ∂Φ x + ∂Γ₀ u + ∂Γ₁ u'.
     pub fn advance(&mut self, matrices: &StepMatrices, x: &[f64], u: &[f64], slope: &[f64]) {
         let (n, m, count) = (matrices.n, u.len(), self.count);
         if count == 0 {
@@ -150,7 +150,7 @@ impl Tangents {
         std::mem::swap(&mut self.states, &mut self.next);
     }
 
-    /// The update of ∂x by an innovation of a state, with its gain. `which` is the innovation's place in ∂S. Returns ∂v and ∂S.
+    /// Updates ∂x with the innovation of a measured state, and its gain. `which` is the index of the innovation in ∂S. Returns ∂v and ∂S.
     pub fn update(&mut self, which: usize, state: usize, gain: &[f64], innovation: f64) -> (&[f64], &[f64]) {
         let (n, count) = (gain.len(), self.count);
         let observed = &self.states[state * count..(state + 1) * count];

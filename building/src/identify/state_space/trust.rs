@@ -1,4 +1,4 @@
-//! Whether a number can be trusted. An estimate is called identified only if
+//! Decides whether an estimate can be trusted. It is called identified only if
 //!
 //! 1. its interval is short,
 //! 2. the residuals of its zone are white, or so nearly that it makes no difference,

@@ -1,11 +1,11 @@
-//! What is wrong with a mapping or a table: where it stands, and what would work.
+//! Errors of mappings and tables: their place, and what would work.
 
 use std::fmt;
 
 use interplay_common::bounds::Bound;
 use interplay_common::setting::SettingKey;
 
-/// A mapping or a table that cannot be read.
+/// Why a mapping or a table cannot be read.
 ///
 /// Shown as `file:line:column: what is wrong; what would work`, with a line for each problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

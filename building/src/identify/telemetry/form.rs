@@ -1,6 +1,6 @@
-//! The form of a mapping's document: keys, types, words and bounds, held to the JSON Schema of its type.
+//! Checks keys, types, words and bounds of a mapping against the JSON Schema of its type.
 //!
-//! The schema is generated from the type, so that what is known of a key stands on its field and nowhere else.
+//! The schema is generated from the type, so that each key is described on its field and nowhere else.
 
 use interplay_common::bounds::Bound;
 use interplay_common::json_schema::{definition_of, kind_of, words_of};
@@ -225,7 +225,7 @@ impl Checker {
     }
 
     fn number(&mut self, offset: usize, value: f64, schema: Schema<'_>, key: &SettingKey) {
-        // A finite number beyond its own bounds is answered with them, not with the limits of all numbers.
+        // For a finite number beyond its own bounds, the error states these bounds and not the limits of all numbers.
         let mut bounds = [Bound::Finite].into_iter().chain(Bound::read(schema.stated)).chain(Bound::of_every_setting());
         if let Some(bound) = bounds.find(|bound| !bound.admits(value)) {
             self.problems.push((offset, Problem::out_of_bounds(key, value, bound)));

@@ -1,4 +1,4 @@
-//! How to read a table: which column is which quantity, in which unit, sampled how.
+//! The mapping of a table: which column contains which quantity, in which unit and with which sampling.
 //!
 //! A mapping is a small TOML file beside the CSV:
 //!
@@ -288,7 +288,7 @@ impl Mapping {
         self.identify.check(self.time.step_s).map_err(|error| {
             let key = SettingKey::from("identify").key(error.key.as_str());
             let problem = Problem::out_of_bounds(&key, error.value, error.bound);
-            // The default does not fit the sampling time where the key is not stated.
+            // If the key is not stated, its default does not fit the sampling time.
             (vec![key, "time.step_s".into()], problem)
         })
     }
@@ -301,7 +301,7 @@ impl Mapping {
         let key = SettingKey::from("table.separator");
         let wanted = "another character than `table.decimal`";
         let problem = conflict(&key, &format!("`{separator}`"), wanted);
-        // One of the two may be left out.
+        // Suggest to leave out one of the two keys.
         Err((vec![key, "table.decimal".into()], problem))
     }
 

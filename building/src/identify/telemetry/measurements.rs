@@ -87,7 +87,7 @@ impl Hold {
     }
 }
 
-/// A pair between which heat flows.
+/// A wall: two places between which heat flows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeasuredWall {
     /// A zone, by its position in [`Telemetry::zones`].
@@ -96,7 +96,7 @@ pub struct MeasuredWall {
     pub other: Neighbour,
 }
 
-/// The other side of a wall, by its position.
+/// The place on the other side of a wall, by its index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Neighbour {
     /// A zone, by its index in [`Telemetry::zones`].
@@ -111,7 +111,7 @@ impl Telemetry {
         self.time_s.len()
     }
 
-    /// The places that exchange heat with a zone through its walls, in the order of [`Telemetry::walls`].
+    /// The zones and boundaries that exchange heat with a zone through its walls, in the order of [`Telemetry::walls`].
     pub fn neighbours(&self, zone: usize) -> Vec<Neighbour> {
         self.walls
             .iter()
@@ -139,7 +139,7 @@ impl Telemetry {
         }
     }
 
-    /// The segments within the rows before `row`, and those from `row` on: what to train and what to test on.
+    /// The segments before `row`, for training, and those from `row` on, for testing.
     pub fn split_at(&self, row: usize) -> (Vec<Range<usize>>, Vec<Range<usize>>) {
         let before = self.segments.iter().map(|segment| segment.start..segment.end.min(row));
         let after = self.segments.iter().map(|segment| segment.start.max(row)..segment.end);

@@ -1,8 +1,7 @@
 //! Measurements of a building: temperatures of zones and of what surrounds them, and the heat that is known.
 //!
-//! [`Telemetry`] holds them in the units of this crate, as a table ([`Mapping`] and [`Telemetry::read`]) or a simulation
-//! gave them. Sampling is regular within a segment; between segments anything may have happened, so that no sum, smoother or
-//! filter runs across.
+//! [`Telemetry`] holds them in the units of this crate, from a table ([`Mapping`] and [`Telemetry::read`]) or a simulation.
+//! Sampling is regular within a segment. The time between segments is unknown, so no sum, smoother or filter crosses it.
 
 mod error;
 mod form;
@@ -34,8 +33,8 @@ impl Telemetry {
         read::read(file, text, mapping)
     }
 
-    /// The telemetry as a table, which [`Telemetry::mapping`] reads back to the last bit. Names may hold any character; spaces at
-    /// their ends do not count in a table.
+    /// The telemetry as a table, which [`Telemetry::mapping`] reads back bit for bit. Names may contain any character;
+    /// a table ignores spaces at their ends.
     pub fn to_csv(&self) -> String {
         write::to_csv(self)
     }

@@ -1,4 +1,4 @@
-//! From a table and its mapping to [`Telemetry`].
+//! Reads a table into [`Telemetry`] by its mapping.
 
 use std::ops::Range;
 
@@ -90,7 +90,7 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     };
     let mut segments: Vec<Range<usize>> = Vec::new();
     let (mut kept, mut time_s) = (Vec::new(), Vec::new());
-    // Midnight is that of the place where the first row was measured.
+    // Days begin at midnight at the place where the first row was measured.
     let mut offset_s = 0.0;
     // The row before, if it was complete: its time and batch.
     let mut before: Option<(f64, &str)> = None;

@@ -1,4 +1,4 @@
-//! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
+//! A table of text with a header: finds columns, converts fields to numbers and times, and locates invalid fields.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -38,10 +38,10 @@ impl<'a> Table<'a> {
     /// Splits `text` into rows and fields.
     pub fn split(file: &'a str, text: &'a str, mapping: &'a Mapping) -> Result<Self, TelemetryError> {
         let form = &mapping.table;
-        // Some programs write a byte-order mark first.
+        // Some programs begin files with a byte-order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = Lines::new(text);
-        // The schema of the mapping asks for an ASCII character.
+        // The schema of the mapping requires an ASCII character.
         let separator = u8::try_from(form.separator).unwrap_or(b',');
         let skipped = lines.start_of(form.skip_rows + 1);
         let rest = text.get(skipped..).unwrap_or_default();
@@ -76,7 +76,7 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Finds a column; `role` says in messages what it is wanted for. Spaces around titles and names do not count.
+    /// Finds a column; `role` says in error messages what the column is for. Spaces around titles and names are ignored.
     pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
         match self.computed.iter().position(|computed| computed.name == name.trim()) {
             Some(index) => Ok(Column(self.header.len() + index)),
@@ -104,7 +104,7 @@ impl<'a> Table<'a> {
         TelemetryError::new(self.file, Some((self.form.skip_rows + 1, 1)), problem)
     }
 
-    /// The text of a field; of the first one where the column is computed.
+    /// The text of a field; of a computed column, that of its first source.
     pub fn text<'r>(&self, row: &'r Row, column: Column) -> &'r str {
         let column = self.first_of(column);
         row.fields.get(column.0).unwrap_or_default()
@@ -116,7 +116,7 @@ impl<'a> Table<'a> {
         computed.and_then(|computed| computed.members.first()).copied().unwrap_or(column)
     }
 
-    /// A field as a number; `None` where it stands for no value.
+    /// A field as a number; `None` if it marks a missing value.
     pub fn number(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
         let computed = column.0.checked_sub(self.header.len()).and_then(|index| self.computed.get(index));
         let Some(computed) = computed else { return self.number_of_table(row, column) };
@@ -194,7 +194,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The error that `problem` is with the field at `row` and `column`.
+    /// The error for `problem` in the field at `row` and `column`.
     pub fn at(&self, row: &Row, column: Column, problem: Problem) -> TelemetryError {
         let column = self.first_of(column);
         let line = self.lines.text(row.line);
@@ -271,7 +271,7 @@ mod tests {
     use super::field_start;
 
     #[test]
-    fn a_field_starts_after_as_many_separators_as_its_number_outside_quotes() {
+    fn the_start_of_a_field_is_found_by_counting_unquoted_separators() {
         assert_eq!(field_start("a;bc;d", ';', 0), 1);
         assert_eq!(field_start("a;bc;d", ';', 1), 3);
         assert_eq!(field_start("ä;\"b;c\";d", ';', 2), 9);

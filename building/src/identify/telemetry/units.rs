@@ -1,4 +1,4 @@
-//! Units that a table may use, and what they are in the units of this crate.
+//! The units that a table may use, converted to the units of this crate.
 
 use std::fmt;
 
@@ -125,7 +125,7 @@ pub enum AirFlowUnit {
 }
 
 impl AirFlowUnit {
-    /// Heat that one of this unit carries per kelvin, ṁ c_p \[kW/K\].
+    /// Heat per kelvin that one such unit of air flow carries, ṁ c_p \[kW/K\].
     pub fn kw_per_k(self) -> f64 {
         match self {
             Self::M3PerS => AIR_KJ_PER_M3_K,
@@ -150,7 +150,7 @@ pub enum WaterFlowUnit {
 }
 
 impl WaterFlowUnit {
-    /// Heat that one of this unit carries per kelvin \[kW/K\].
+    /// Heat per kelvin that one such unit of water flow carries \[kW/K\].
     pub fn kw_per_k(self) -> f64 {
         match self {
             Self::LPerS => WATER_KJ_PER_L_K,
@@ -160,7 +160,7 @@ impl WaterFlowUnit {
     }
 }
 
-/// What the value of a key must be. Displays as `a table with …`, `one of …` or `a number`.
+/// The shape that the value of a key must have. Displays as `a table with …`, `one of …` or `a number`.
 pub(super) enum ValueShape {
     /// With the keys that it may have.
     Table(Vec<String>),

@@ -1,4 +1,4 @@
-//! Telemetry as a table and the mapping that reads it back, to the last bit.
+//! Writes telemetry as a table, and the mapping that reads it back bit for bit.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ type Column<'a> = (String, &'a [f64]);
 pub(super) fn to_csv(telemetry: &Telemetry) -> String {
     let columns = columns(telemetry);
     let mut csv = String::from("time_s,recording");
-    // Titles hold names that the user chose, which may hold separators, quotes and line breaks.
+    // Titles contain names that the user chose, which may include separators, quotes and line breaks.
     columns.iter().for_each(|(title, _)| csv.extend([",\"", &title.replace('"', "\"\""), "\""]));
     for (recording, segment) in telemetry.segments.iter().enumerate() {
         for row in segment.clone() {

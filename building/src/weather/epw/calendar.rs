@@ -1,7 +1,6 @@
-//! The calendar of a file: which row comes next.
+//! The calendar of a file, which determines the next row.
 //!
-//! Years are ignored, because typical years are put together from months of different ones. Whether the 29th of February
-//! exists is read off the rows: it does when they have it.
+//! Years are ignored, because typical years combine months of different years. 29 February exists if the rows contain it.
 
 use std::fmt;
 
@@ -68,7 +67,7 @@ impl Date {
 
     /// Days from another day to this one, going forwards.
     pub(super) fn days_after(self, other: Self, leap: bool) -> u32 {
-        // In a year without a 29th of February, the 1st of March takes its place.
+        // In a year without 29 February, 1 March takes its place.
         let place = |Self(date): Self| match leap {
             true => date.day_of_year(),
             false => date.day_of_year_no_leap().unwrap_or(date.day_of_year()),
@@ -143,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_year_is_walked_through_day_by_day() {
+    fn the_next_day_visits_every_day_of_a_year() {
         for (leap, days) in [(false, 365), (true, 366)] {
             let first = Date::new(7, 15).expect("a day");
             let walk: Vec<Date> = std::iter::successors(Some(first), |date| Some(date.next(leap))).take(days).collect();
@@ -157,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_day_is_read_as_headers_write_it() {
+    fn dates_are_read_in_every_notation_of_epw_headers() {
         let day = |text: &str| Date::written(text).map(|date| date.to_string());
         for text in
             ["12/31", " 12/ 31", "12/31/2015", "2015/12/31", "2015-12-31", "31-Dec", "Dec 31", "31 december 2015"]
@@ -170,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_day_that_exists_in_no_year_is_none() {
+    fn a_date_that_exists_in_no_year_is_refused() {
         for (month, day) in [(2, 30), (4, 31), (0, 1), (13, 1), (1, 0), (1, 32), (300, 1), (1, 300)] {
             assert_eq!(Date::new(month, day), None, "{month}/{day}");
         }

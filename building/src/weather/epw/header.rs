@@ -53,7 +53,7 @@ impl Header {
             return Err(EpwError::malformed(1, "an EPW file begins with `LOCATION,`, and this does not"));
         }
         let location = location(&Fields::of(1, first_line))?;
-        // Only header lines begin with a letter: the periods cannot be looked for among the rows.
+        // Only header lines begin with a letter, so the periods are never looked for among the rows.
         let header = lines.take_while(|(_, line)| !line.starts_with(|c: char| c.is_ascii_digit()));
         let mut seen = 1;
         for (line, text) in header {
@@ -129,7 +129,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A file that is not a complete EPW file, or lacks what a run uses.
+/// Why an EPW file is refused: it is incomplete, or lacks what a run uses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct EpwError {

@@ -1,16 +1,15 @@
 //! EPW files (EnergyPlus weather).
 //!
-//! A row's hour is the hour that *ends* then: hour 1 of the 1st of January ends at 01:00. Temperatures, humidity, pressure
-//! and wind are those at the end of the interval; radiation is the sum over it. So row k (from zero) of an hourly file puts
-//! its temperature at k + 1 hours after the first midnight, and its mean radiation at k + ½ hours. A file of a whole year
-//! is cyclic: the temperature between 00:00 and 01:00 of the first day lies between the last row's and the first row's.
+//! The hour of a row is the hour that *ends* at its time: hour 1 of 1 January ends at 01:00. Temperatures, humidity, pressure and wind
+//! are those at the end of the interval; radiation is the sum over it. So row k (from zero) of an hourly file states its temperature
+//! k + 1 hours after the first midnight, and its mean radiation at k + ½ hours. A file of a whole year is cyclic: the temperature between
+//! 00:00 and 01:00 of the first day lies between those of the last and the first row.
 //!
-//! Times are local standard time all year, as in the file; daylight saving in the header is ignored, and so are the years
-//! and minutes of the rows (typical years mix years; hourly files write minute 0 or 60). A year is a leap year if the rows
-//! have a 29th of February, whatever the header says. Missing values are bridged, and
-//! counted in [`Epw::filled`]. A cell that cannot be counts as missing, too, until something asks for it: [`Epw::check_use`] says what
-//! is wrong with the rows and fields that a run uses, and remarks upon the others. Global radiation that is missing everywhere is
-//! computed from direct and diffuse radiation, where these are there.
+//! Times are local standard time all year, as in the file. Daylight saving in the header is ignored, and so are the years and minutes of
+//! the rows (typical years mix years; hourly files write minute 0 or 60). A year is a leap year if the rows include 29 February, whatever
+//! the header says. Missing values are bridged, and counted in [`Epw::filled`]. A cell with an impossible value also counts as missing
+//! unless a run uses it: [`Epw::check_use`] returns the faults of the rows and fields that a run uses, and remarks on the others. If
+//! global radiation is missing everywhere, it is computed from direct and diffuse radiation, if these exist.
 
 mod calendar;
 mod header;
@@ -105,7 +104,7 @@ impl Epw {
         })
     }
 
-    /// The values of a field, a row each, with gaps bridged; none if all are missing.
+    /// The values of a field, one per row, with gaps bridged; `None` if all are missing.
     pub fn column(&self, field: Field) -> Option<&[f64]> {
         self.columns[field as usize].as_deref()
     }
@@ -115,12 +114,12 @@ impl Epw {
         self.columns[Field::DryBulb as usize].as_ref().map_or(0, Vec::len)
     }
 
-    /// Whether the rows have a 29th of February.
+    /// Whether the rows include 29 February.
     pub fn is_leap(&self) -> bool {
         self.leap
     }
 
-    /// Whether the rows cover a year, so that the weather goes on after the last with the first.
+    /// Whether the rows cover a year, so that the first row follows the last.
     pub fn is_whole_year(&self) -> bool {
         self.whole_year
     }

@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn specifications_stand_in_the_order_of_the_fields() {
+    fn specifications_of_epw_fields_are_in_the_order_of_the_fields() {
         assert!(FIELDS.iter().enumerate().all(|(i, specification)| specification.field as usize == i));
         assert!(FIELDS.iter().all(|specification| specification.column < COLUMNS));
     }

@@ -1,4 +1,4 @@
-//! What a run takes from a file, and what is wrong with that. What it does not take may be wrong.
+//! Checks the part of a file that a run uses. Faults in other parts are allowed.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::header::{EpwError, EpwProblem};
 use super::rows::{FIELDS, Field};
 use super::{Epw, HOUR_S};
 
-/// What a run takes from a file.
+/// The part of a file that a run uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EpwUse<'a> {
     /// The fields.
@@ -19,7 +19,7 @@ pub struct EpwUse<'a> {
     pub bridge_gaps_h: f64,
 }
 
-/// Something about a file that is allowed and may not have been meant.
+/// A property of a file that is allowed, but may be a mistake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpwRemark {
     /// The first line that it is about, from one.
@@ -29,11 +29,11 @@ pub struct EpwRemark {
 }
 
 impl Epw {
-    /// Checks the rows and fields that a run uses; a remark for each field with gaps that are bridged there, and for each with cells
-    /// that cannot be and that it does not use.
+    /// Checks the rows and fields that a run uses. Returns a remark for each used field with bridged gaps, and for each
+    /// unused field with impossible values.
     ///
     /// # Errors
-    /// [`EpwError`] with the first line in which a field that is used has a cell that cannot be, or has none for too long.
+    /// [`EpwError`] with the first line in which a used field has an impossible value, or is missing for too long.
     pub fn check_use(&self, usage: &EpwUse<'_>) -> Result<Vec<EpwRemark>, EpwError> {
         let rows = self.used_rows(usage);
         let mut remarks = Vec::new();

@@ -163,6 +163,10 @@ impl DriverKind for Settings {
         true
     }
 
+    fn reaction_s(&self) -> f64 {
+        self.reaction_s
+    }
+
     /// A reaction of 0.6 s: people need 0.5 to 1.5 s.
     fn people_defaults(&self) -> Map<String, Json> {
         Map::from_iter([("reaction_s".to_owned(), json!(REACTION_S))])
@@ -176,7 +180,9 @@ impl Drive for Human {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
-        let seen = self.perception.perceive(scene, self.settings.reaction_s);
+        // What is seen of motion is late already.
+        let reaction_s = if scene.knowledge.is_of_motion() { 0.0 } else { self.settings.reaction_s };
+        let seen = self.perception.perceive(scene, reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
         let adapts = [self.settings.adapts_to_leaders, self.settings.adapts_to_lane];
@@ -197,6 +203,12 @@ impl Drive for Human {
             }
             None
         };
+        if scene.knowledge.is_of_motion() {
+            let leader = leader(&wanted, wanted.others.iter().filter(|other| is_minded(&wanted, met.as_ref(), other)));
+            let followed = leader.and_then(|leader| wanted.followed(leader, self.settings.gap_share()));
+            let followed = followed.or_else(|| wanted.before_lane_end());
+            wanted.to_mut().ego.rules.follows = followed;
+        }
         let scene = wanted.as_ref();
         let problem = pose(scene, &expected.others, met.as_ref(), &self.settings);
         let is_kept_back =
@@ -240,22 +252,27 @@ pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
 fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
-    // Oncoming vehicles are checked before passing is allowed, and at every tick.
-    let is_minded = |other: &Agent| {
-        met.is_none_or(|(obstacle, is_passed)| {
-            obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
-        })
-    };
-    let others: Vec<(&Agent, &Agent)> = others.filter(|(other, _)| is_minded(other)).collect();
+    let others: Vec<(&Agent, &Agent)> = others.filter(|(other, _)| is_minded(scene, met, other)).collect();
     let leader = leader(scene, others.iter().map(|(other, _)| *other));
-    let followed = leader.map(|leader| followed(scene, leader, settings)).unwrap_or_default();
+    // Behind a vehicle that is followed by its motion, a line keeps it back.
+    let ellipses_around = leader.filter(|_| scene.ego.rules.follows.is_none());
+    let followed = ellipses_around.map(|leader| followed(scene, leader, settings)).unwrap_or_default();
     let yielded_to = yielded_to(scene, leader, &others, settings);
     let beside = met.map(|(obstacle, _)| obstacle.keep_out(scene));
     terms.extend(followed.into_iter().chain(yielded_to).chain(beside).map(Term::KeepOut));
     let rules = &scene.ego.rules;
-    let line = rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, line_m));
+    let line =
+        rules.stop_line_m.filter(|_| !rules.are_kept).map(|line_m| scene.ego.stop_line(0, vec![line_m; scene.horizon]));
     terms.extend(line.map(Term::StopLine));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], shared_steps: 0, terms }
+}
+
+/// Whether a driver minds another vehicle who meets an obstacle, which it passes or not. Oncoming vehicles are checked before passing is
+/// allowed, and at every tick.
+fn is_minded(scene: &Scene, met: Option<&(Obstacle, bool)>, other: &Agent) -> bool {
+    met.is_none_or(|(obstacle, is_passed)| {
+        obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
+    })
 }
 
 /// The starting guess of an optimisation: the last plan one step later, or before the first plan a little braking.
@@ -292,6 +309,11 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
 /// Those who might cut in or cross, where the driver expects them; `others` are pairs of a vehicle and what is expected of it.
 fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
+    // Whom a leader parts from the driver who stays behind it comes in no one's way.
+    let is_beyond = |other: &Agent| {
+        let follows = leader.filter(|_| ego.rules.follows.is_some());
+        follows.is_some_and(|leader| ego.shares_lane_with(other) && ego.lead_of(other) > ego.lead_of(leader))
+    };
     let leader = leader.map(|leader| &leader.name);
     let beside = others.iter().filter(|(other, _)| Some(&other.name) != leader);
     let mut keep_outs: Vec<KeepOut> =
@@ -301,7 +323,11 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
     }
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let concerns = |other: &Agent| {
-        !ego.is_waited_for_by(other) && ego.may_meet(other) && Some(&other.name) != leader && !behind(&other)
+        !ego.is_waited_for_by(other)
+            && ego.may_meet(other)
+            && Some(&other.name) != leader
+            && !behind(&other)
+            && !is_beyond(other)
     };
     for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::prediction::Prediction;
+use crate::problem::clearance::share_of;
 use crate::trajectory::HomotopySearch;
 
 /// The reaction of people in real cars, of whom each needs 0.5 to 1.5 s \[s\].
@@ -141,6 +142,11 @@ impl Settings {
         let weight = self.weight();
         let style = Style::ALL.into_iter().find(|style| style.safety_weight() == weight);
         style.map_or_else(|| format!("safety weight {weight}"), |style| style.name().to_owned())
+    }
+
+    /// The share of the usual time gap that the driver keeps to the vehicle ahead.
+    pub(crate) fn gap_share(&self) -> f64 {
+        self.time_gap_ratio.unwrap_or_else(|| share_of(self.weight()))
     }
 
     /// The safety weight: stated, or that of the style, or a nice driver's.

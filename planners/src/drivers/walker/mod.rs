@@ -54,6 +54,10 @@ impl DriverKind for Settings {
         true
     }
 
+    fn is_vetoed(&self) -> bool {
+        false
+    }
+
     fn can_be_asked(&self) -> bool {
         false
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::violation::{expected, first_contact, first_off_road};
 use crate::prediction::steady_inputs;
 use crate::prediction::steering::{admissible, roll_out, steer};
-use crate::{Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// Accelerations of the last resorts, as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
@@ -71,17 +71,30 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     let here_m = ego.route.across(ego.state.position());
     let accelerations = ACCELERATION_SHARES
         .map(|share| share * if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 });
-    let straight_on = accelerations.into_iter().map(|mps2| rolled_out(scene, steady_inputs(scene, mps2)));
+    let straight_on = accelerations.into_iter().map(|mps2| taken(scene, steady_inputs(scene, mps2)));
     let aside = ASIDE_WIDTHS.into_iter().flat_map(move |widths| {
         let across_m = here_m + widths * ego.body.width_m;
         accelerations.into_iter().map(move |mps2| {
-            roll_out(scene, |_, state| Input {
+            let motion = roll_out(scene, |_, state| Input {
                 acceleration_mps2: admissible(ego, state, mps2, scene.step_s),
                 steering_rad: steer(ego, state, across_m),
-            })
+            });
+            if scene.knowledge.is_of_motion() { taken(scene, motion.inputs) } else { motion }
         })
     });
     straight_on.chain(aside)
+}
+
+/// Where inputs lead the planning vehicle. People change to the first of them evenly over the first step, so that half of the change counts
+/// there.
+fn taken(scene: &Scene, mut inputs: Vec<Input>) -> Trajectory {
+    if let Some(first) = inputs.first_mut().filter(|_| scene.knowledge.is_of_motion()) {
+        let last = &scene.ego.previous_input;
+        first.acceleration_mps2 = 0.5 * (first.acceleration_mps2 + last.acceleration_mps2);
+        first.steering_rad = 0.5 * (first.steering_rad + last.steering_rad);
+        first.acceleration_mps2 = admissible(&scene.ego, &scene.ego.state, first.acceleration_mps2, scene.step_s);
+    }
+    rolled_out(scene, inputs)
 }
 
 /// The least harmful of some motions with its index, the first of equals; `None` without motions.
@@ -105,16 +118,32 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
 /// Where no harmless motion is left now, the plan is driven: of two motions with a contact, the one that was planned counts on
 /// what the others will do next, and the other one on nothing.
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
-    let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
-    let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
-    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
-    if contact.is_none_or(|stage| stage > could_stand) {
+    let contact = early_contact(scene, plan).map(|(stage, _)| stage);
+    if contact.is_none() {
         return false;
     }
     let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
     // After a contact in the first step no way out remains.
     let is_over = contact <= Some(1);
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
+}
+
+/// Whether a plan touches a vehicle before the own one could stand, no last resort is harmless, and one does less harm than the plan.
+pub(super) fn is_worse_than_a_last_resort(scene: &Scene, plan: &Trajectory) -> bool {
+    if early_contact(scene, plan).is_none() {
+        return false;
+    }
+    let planned = Harm::measure(scene, plan);
+    let harms: Vec<Harm> = last_resorts(scene).map(|motion| Harm::measure(scene, &motion)).collect();
+    !harms.iter().any(Harm::is_none) && harms.iter().any(|harm| harm.is_less_than(&planned))
+}
+
+/// The vehicle that a plan touches first with the stage, if the own one could not stand before.
+pub(super) fn early_contact<'a>(scene: &'a Scene, plan: &Trajectory) -> Option<(usize, &'a Agent)> {
+    let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
+    let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
+    let contacts = scene.others.iter().filter_map(|other| Some((first_contact(scene, plan, other)?, other)));
+    contacts.min_by_key(|(stage, _)| *stage).filter(|(stage, _)| *stage <= could_stand)
 }
 
 /// The scene after the first step of a plan, if all vehicles move as expected.

@@ -16,11 +16,13 @@ mod violation;
 
 pub(crate) use last_resort::rolled_out;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
+use last_resort::{early_contact, is_worse_than_a_last_resort};
 pub use rectangles::overlap_m;
 pub use violation::violations;
 pub(crate) use violation::{touches_ahead, within_touch};
 
-use crate::{PlanCondition, PlanViolation, Scene, Trajectory};
+use crate::prediction::spread_m;
+use crate::{Agent, PlanCondition, PlanViolation, Scene, Trajectory};
 
 /// The violation for which a plan must not be driven, if there is one: a fault of the plan itself, or a contact with
 /// which it gives
@@ -29,4 +31,29 @@ pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolat
     let contact = violations.iter().find(|violation| matches!(violation.condition, PlanCondition::Clear(_)));
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.or_else(|| contact.filter(|_| gives_away_the_last_way_out(scene, plan)))
+}
+
+/// The same for a driver who sees the motion of the others only, with the bodies of the others longer by their spread after a second. It is
+/// not refused for a vehicle behind it in its lane, which follows; and where no motion without a contact is left, it is refused if one with
+/// a weaker impact is.
+pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanViolation]) -> Option<PlanViolation> {
+    let fault = violations.iter().find(|violation| violation.is_fault());
+    fault.cloned().or_else(|| {
+        let ego = &scene.ego;
+        let follows = |other: &Agent| ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
+        let others = scene.others.iter().filter(|other| !follows(other)).map(spread).collect();
+        let scene = Scene { others, ego: ego.clone(), ..*scene };
+        let (stage, other) = early_contact(&scene, plan)?;
+        let is_refused = gives_away_the_last_way_out(&scene, plan) || is_worse_than_a_last_resort(&scene, plan);
+        is_refused.then(|| PlanViolation { condition: PlanCondition::Clear(other.name.clone()), stage })
+    })
+}
+
+/// A vehicle as long as the places at which its body may be that is expected in a second.
+fn spread(other: &Agent) -> Agent {
+    let mut other = other.clone();
+    let longer_m = if other.is_obstacle { 0.0 } else { spread_m(&other, other.body.real_ratio().sqrt()) };
+    other.body.front_m += longer_m;
+    other.body.rear_m += longer_m;
+    other
 }

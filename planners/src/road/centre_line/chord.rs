@@ -28,7 +28,7 @@ impl Chord {
         Chord { from, to_end, square, middle, half_m: 0.5 * square.sqrt() }
     }
 
-    /// The distance of a position from the chord \[m\], and which share of the chord lies before its nearest point.
+    /// The distance of a position from the chord \[m\], and the share of the chord before the nearest point.
     pub fn nearest(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let Chord { from, to_end, square, .. } = *self;
         let apart = [x - from[0], y - from[1]];
@@ -38,13 +38,13 @@ impl Chord {
         [(missed[0] * missed[0] + missed[1] * missed[1]).sqrt(), share]
     }
 
-    /// The square of the distance of a position from the middle \[m²\].
+    /// The squared distance of a position from the middle of the chord \[m²\].
     pub fn squared_to_middle(&self, [x, y]: [f64; 2]) -> f64 {
         let apart = [x - self.middle[0], y - self.middle[1]];
         apart[0] * apart[0] + apart[1] * apart[1]
     }
 
-    /// Whether every point of the chord is farther from a position than `distance_m`, certainly.
+    /// Whether it is certain that every point of the chord is farther than `distance_m` from a position.
     pub fn is_beyond(&self, distance_m: f64, position: [f64; 2]) -> bool {
         let reach_m = (1.0 + MARGIN_RATIO) * (distance_m + self.half_m);
         self.squared_to_middle(position) > reach_m * reach_m
@@ -68,7 +68,7 @@ pub(super) struct ChordGroup {
 const GROUP: usize = 12;
 
 impl ChordGroup {
-    /// All chords of a curve in groups.
+    /// Divides all chords of a curve into groups.
     pub fn all(chords: &[Chord]) -> Vec<ChordGroup> {
         let group = |(number, members): (usize, &[Chord])| {
             let mean = |axis: usize| members.iter().map(|chord| chord.middle[axis]).sum::<f64>() / members.len() as f64;
@@ -85,7 +85,7 @@ impl ChordGroup {
         chords.chunks(GROUP).enumerate().map(group).collect()
     }
 
-    /// Whether every point of its chords is farther from a position than `distance_m`, certainly.
+    /// Whether it is certain that every point of the chords of this group is farther than `distance_m` from a position.
     pub fn is_beyond(&self, distance_m: f64, [x, y]: [f64; 2]) -> bool {
         let apart = [x - self.middle[0], y - self.middle[1]];
         let reach_m = (1.0 + MARGIN_RATIO) * (distance_m + self.reach_m);
@@ -99,7 +99,7 @@ mod tests {
 
     /// A chord of 5 m: beside it, beyond its end, and what is certainly farther than a distance.
     #[test]
-    fn the_nearest_point_of_a_chord_lies_between_its_ends() {
+    fn the_nearest_point_on_a_chord_lies_between_its_ends() {
         let chord = Chord::new([1.0, 2.0], [4.0, 6.0]);
         let close = |[distance_m, share]: [f64; 2], expected: [f64; 2]| {
             (distance_m - expected[0]).abs() < 1e-12 && (share - expected[1]).abs() < 1e-12

@@ -1,4 +1,4 @@
-//! Why a centre line cannot be built.
+//! Errors of centre lines that cannot be built.
 
 use thiserror::Error;
 
@@ -82,7 +82,7 @@ mod tests {
     use super::CentreLineError;
 
     #[test]
-    fn a_cusp_at_the_origin_has_no_sign() {
+    fn the_error_of_a_cusp_at_the_origin_has_no_minus_signs() {
         let error = CentreLineError::Cusp { x_m: -1e-9, y_m: -0.0 };
         assert_eq!(error.to_string(), "the curve has a cusp or a corner near (0.000 m, 0.000 m)");
     }

@@ -24,10 +24,10 @@ impl CentreLine {
         CentreLine::through_towards(points, [None; 2])
     }
 
-    /// Like [`CentreLine::through`], with a given heading at the begin, at the end, or at both \[rad\].
+    /// Like [`CentreLine::through`], with given headings at the start, at the end, or at both \[rad\].
     ///
-    /// RoadLanes that follow each other thus have one heading where they meet. The curvature at an end with a given heading need
-    /// not be zero.
+    /// Lanes that follow each other can thus have the same heading where they meet. The curvature at an end with a
+    /// given heading need not be zero.
     ///
     /// # Errors
     /// As [`CentreLine::through`]; [`CentreLineError::NotFinite`] also for a heading.
@@ -80,7 +80,7 @@ fn distinct(points: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, CentreLineError> {
             kept.push(*point);
         }
     }
-    // The end of the line stays where it is: the point before it gives way.
+    // The end of the line is kept, and the point before it is removed.
     if kept.last() != Some(last) {
         if kept.len() > 1 {
             kept.pop();

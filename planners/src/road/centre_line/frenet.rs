@@ -73,7 +73,7 @@ pub(in crate::road) struct AcrossExpansion {
 }
 
 impl FrenetExpansion {
-    /// Least value of `1 − κ n` in derivatives.
+    /// Lower limit of `1 − κ n` in derivatives.
     pub const MIN_STRETCH: f64 = 0.05;
 
     /// The coordinates without their derivatives.

@@ -1,4 +1,4 @@
-//! Centre lines from other centre lines: parts, parallels, the reverse, and several joined to one.
+//! Makes centre lines from others: sections, parallels, the reverse, and several joined to one.
 
 use super::error::CentreLineError;
 use super::line::{CentreLine, Curve, Shape};
@@ -35,7 +35,7 @@ const LENGTH_PASSES: usize = 4;
 const MIN_SECTION_M: f64 = 1e-6;
 
 impl CentreLine {
-    /// The section of this line between two arc lengths, as a line of its own \[m\].
+    /// The section between two arc lengths as a separate line \[m\].
     ///
     /// # Errors
     /// [`CentreLineError::NoSection`] where the section is empty, or reaches beyond the ends of the line by more than
@@ -64,7 +64,7 @@ impl CentreLine {
         CentreLine::from_segments(found).ok_or(CentreLineError::NoPieces)
     }
 
-    /// The same line in the other direction.
+    /// The line in the opposite direction.
     ///
     /// # Errors
     /// [`CentreLineError::NoSection`] for a line without ends.
@@ -78,7 +78,7 @@ impl CentreLine {
         CentreLine::from_segments(parts).ok_or(CentreLineError::NoPieces)
     }
 
-    /// Sections one after the other, as one line.
+    /// Joins sections, one after the other, to one line.
     ///
     /// Where a section does not begin with the position, heading and curvature of the end before it, a polynomial of degree 5
     /// joins them, which has those of both.

@@ -7,8 +7,8 @@ use super::segment::{Jet, Segment};
 
 /// A plane curve of which position, heading and curvature are continuous, by arc length.
 ///
-/// Beyond both ends the line goes on straight, with the heading of that end and without curvature. So the curvature jumps at
-/// an end that is curved. Copies share their knots.
+/// Beyond both ends the line continues straight, with the heading of that end and zero curvature. So the curvature
+/// jumps at an end that is curved. Copies share their knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CentreLine(pub(super) Shape);
 
@@ -68,7 +68,7 @@ impl CurvePoint<'_> {
         self.segment.heading_rad(self.jet[1])
     }
 
-    /// The place a small distance along the curve, by Taylor's series.
+    /// The point a small distance further along the curve, by its Taylor series.
     #[inline(always)]
     pub fn moved(self, by_m: f64) -> Self {
         let [place, first, second, third] = self.jet;
@@ -81,7 +81,7 @@ impl CurvePoint<'_> {
         CurvePoint { jet, ..self }
     }
 
-    /// The speed `v` over the arc length, as `1/v`.
+    /// The inverse `1/v` of the speed `v = |p′|` over the arc length.
     pub fn inverse_speed(&self) -> f64 {
         let [_, [x, y], ..] = self.jet;
         1.0 / (x * x + y * y).sqrt()
@@ -95,7 +95,7 @@ impl CurvePoint<'_> {
 }
 
 impl Curve {
-    /// Places segments one after the other and continues the heading of the first. None if there are none.
+    /// Joins segments end to end and continues the heading of the first. `None` without segments.
     pub fn new(parts: Vec<Segment>) -> Option<Curve> {
         let first = parts.first()?;
         let mut heading_rad = first.heading_rad(first.knot(0.0)[1]);
@@ -132,12 +132,12 @@ impl Curve {
         &self.segments[first + after.partition_point(|segment| segment.from_m <= along_m)]
     }
 
-    /// The first segment, and the last.
+    /// The first and the last segment.
     pub fn ends(&self) -> [&Segment; 2] {
         [&self.segments[0], &self.segments[self.segments.len() - 1]]
     }
 
-    /// The curve at an arc length, straight beyond its ends.
+    /// The point of the curve at an arc length; beyond its ends the curve is straight.
     #[inline(always)]
     pub fn point(&self, along_m: f64) -> CurvePoint<'_> {
         let [first, last] = self.ends();
@@ -151,7 +151,7 @@ impl Curve {
         }
     }
 
-    /// The same as [`Curve::point`], without a search where the arc length is on the segment of another point.
+    /// As [`Curve::point`], but without a search if the arc length is on the segment of another point.
     #[inline]
     pub fn point_near<'a>(&'a self, along_m: f64, other: &CurvePoint<'a>) -> CurvePoint<'a> {
         let u = along_m - other.segment.from_m;

@@ -1,8 +1,8 @@
 //! Centre lines of roads: plane curves of which position, heading and curvature are continuous.
 //!
-//! A [`CentreLine`] is built from straight, arc and clothoid [`Piece`]s ([`CentreLine::from_pieces`]), as a smooth curve through points
-//! ([`CentreLine::through`], for measured points after [`smooth_points`]), or from other lines ([`CentreLine::between`],
-//! [`CentreLine::parallel`], [`CentreLine::joined`]). It answers where a position is in Frenet coordinates: the arc length `s` along the
+//! A [`CentreLine`] is built from straight, arc and clothoid [`Piece`]s ([`CentreLine::from_pieces`]), as a smooth curve through
+//! points ([`CentreLine::through`], for measured points after [`smooth_points`]), or from other lines ([`CentreLine::between`],
+//! [`CentreLine::parallel`], [`CentreLine::joined`]). It converts a position to Frenet coordinates: the arc length `s` along the
 //! line and the signed lateral distance `n`, positive to the left ([`CentreLine::project`], [`CentreLine::expand`]).
 //!
 //! # Representation

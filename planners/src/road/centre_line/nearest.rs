@@ -125,7 +125,7 @@ impl Curve {
                     continue;
                 }
                 let [distance_m, share] = chord.nearest(position);
-                // A descent from the best place would only be repeated.
+                // A descent from the best point so far would only be repeated.
                 let is_known = (segment.from_m..=segment.end_m()).contains(&best.0);
                 if !is_known && distance_m - sag_m < best_m {
                     let other = self.descend(position, segment.from_m + share * segment.length_m);

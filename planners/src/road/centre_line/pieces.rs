@@ -42,7 +42,7 @@ impl Piece {
         }
     }
 
-    /// Curvature at the begin and at the end of the piece \[1/m\].
+    /// Curvature at the start and at the end of the piece \[1/m\].
     pub fn curvatures_1pm(&self) -> [f64; 2] {
         match *self {
             Piece::Straight { .. } => [0.0; 2],
@@ -126,7 +126,7 @@ pub fn smooth(pieces: &[Piece], transition_m: f64) -> Result<Vec<Piece>, CentreL
         }
         smoothed.push(rest);
     }
-    // The curvature at the end of a piece that vanishes is that of the clothoids beside it.
+    // A vanished piece has the same end curvature as the clothoids beside it.
     smoothed.retain(|piece| piece.length_m() > CURVATURE_TOLERANCE * transition_m);
     Ok(smoothed)
 }
@@ -139,8 +139,8 @@ fn jump(before: &Piece, after: &Piece) -> Option<[f64; 2]> {
 }
 
 impl CentreLine {
-    /// The line of pieces one after the other, from a start with a heading \[m, rad\]; its headings go on from this one, also
-    /// beyond a full turn.
+    /// The line of consecutive pieces, from a start with a heading \[m, rad\]; its headings continue from this one,
+    /// beyond a full turn if necessary.
     ///
     /// Clothoids are integrated by Gauss-Legendre quadrature with ten points between neighbouring knots, to rounding.
     ///

@@ -1,4 +1,4 @@
-//! Centre lines as the polynomials that represent them: to store a line, and to give it to another program.
+//! Centre lines as polynomials, for storing a line or exporting it to another program.
 
 use super::error::CentreLineError;
 use super::joining::continues;
@@ -15,8 +15,8 @@ impl CentreLine {
         }
     }
 
-    /// The line of [`CentreLine::polynomials`], equal to the first one in every bit. `heading_rad` is its heading at its begin: it
-    /// says in which turn headings are counted \[rad\].
+    /// The line of [`CentreLine::polynomials`], bit for bit. `heading_rad` is the heading at its start, which
+    /// determines the full turn from which headings are counted \[rad\].
     ///
     /// # Errors
     /// - [`CentreLineError::NoPieces`] without polynomials,

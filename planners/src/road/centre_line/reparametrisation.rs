@@ -1,4 +1,4 @@
-//! A curve of any parameter, given knots by arc length.
+//! Converts a curve with any parameter to knots by arc length.
 
 use super::error::CentreLineError;
 use super::segment::{Knot, MAX_HALF_TURN_RAD, Segment};
@@ -116,7 +116,7 @@ mod tests {
     use super::integrate;
 
     #[test]
-    fn polynomials_of_degree_19_are_exact() {
+    fn quadrature_is_exact_for_polynomials_of_degree_19() {
         let [nineteenth, second] = integrate(0.0, 2.0, |x| [20.0 * x.powi(19), 3.0 * x * x]);
         assert!((nineteenth / 2.0_f64.powi(20) - 1.0).abs() < 1e-14 && (second - 8.0).abs() < 1e-14);
     }

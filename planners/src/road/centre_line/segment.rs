@@ -64,8 +64,8 @@ impl Segment {
         Segment { middle: [x / speed, y / speed], middle_heading_rad: libm::atan2(y, x), ..self }
     }
 
-    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`. The heading does not depend
-    /// on where the segment was placed before, in any bit.
+    /// The segment moved to another arc length. Of its headings, which differ by full turns, it takes the one nearest to
+    /// `heading_rad`. The heading is bit-identical wherever the segment was before.
     pub fn placed(self, from_m: f64, heading_rad: f64) -> Segment {
         let principal_rad = self.with_middle().middle_heading_rad;
         let turns = ((heading_rad - principal_rad) / std::f64::consts::TAU).round();
@@ -77,8 +77,8 @@ impl Segment {
         self.from_m + self.length_m
     }
 
-    /// Position and derivatives at the distance `u` from the first knot; in pairs of terms (Estrin), which a processor evaluates
-    /// side by side.
+    /// Position and derivatives at the distance `u` from the first knot, evaluated in pairs of terms (Estrin's scheme),
+    /// which a processor computes in parallel.
     #[inline(always)]
     pub fn jet(&self, u: f64) -> Jet {
         let c = &self.coefficients;
@@ -100,7 +100,7 @@ impl Segment {
         [position, first, second]
     }
 
-    /// Where the first knot is.
+    /// The position of the first knot.
     pub fn start(&self) -> [f64; 2] {
         self.coefficients[0]
     }
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ends_have_the_values_and_derivatives_asked_for() {
+    fn a_segment_has_the_given_values_and_derivatives_at_both_ends() {
         let (from, to) = ([[1.0, 2.0], [1.0, 0.1], [0.01, 0.2]], [[3.9, 2.9], [0.9, 0.4], [-0.1, 0.3]]);
         let segment = Segment::new(3.0, from, to);
         for (knot, expected) in [(segment.knot(0.0), from), (segment.knot(3.0), to)] {

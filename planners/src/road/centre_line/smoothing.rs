@@ -1,4 +1,4 @@
-//! Points moved within a tolerance, so that the curve through them bends less.
+//! Moves points within a tolerance, so that the curve through them bends less.
 
 use super::error::CentreLineError;
 
@@ -8,12 +8,12 @@ const SEARCH_STEPS: usize = 60;
 /// Smallest and largest smoothing that is tried, by the cube of the mean distance of the points.
 const SMOOTHING_RANGE: [f64; 2] = [1e-9, 1e9];
 
-/// Points of which each is at most `tolerance_m` from the given one, so that the curve of
-/// [`CentreLine::through`](super::CentreLine::through) bends less. The first and the last point stay.
+/// Moves each point by at most `tolerance_m`, so that the curve of [`CentreLine::through`](super::CentreLine::through)
+/// bends less. The first and the last point stay.
 ///
-/// Measured points make curvature of their errors: 1 cm at a spacing of 0.5 m makes about 0.2 1/m. For x and y over the
-/// length of the chords, the smoothing spline minimises `Σ (fᵢ − yᵢ)² + λ ∫ f″²` (Reinsch 1967; Green and Silverman 1994,
-/// section 2.3). `λ` is the largest that keeps the tolerance, found by bisection.
+/// Errors of measured points cause curvature: 1 cm at a spacing of 0.5 m causes about 0.2 1/m. For x and y over the
+/// length of the chords, the smoothing spline minimises `Σ (fᵢ − yᵢ)² + λ ∫ f″²` (Reinsch 1967; Green and Silverman
+/// 1994, section 2.3). `λ` is the largest value that keeps the tolerance, found by bisection.
 ///
 /// # Errors
 /// [`CentreLineError::NotFinite`] for a point or a tolerance that is not finite, and [`CentreLineError::TooFewPoints`] where
@@ -59,7 +59,7 @@ pub fn smooth_points(points: &[[f64; 2]], tolerance_m: f64) -> Result<Vec<[f64; 
 /// identity but zero at both ends.
 fn smoothed(points: &[[f64; 2]], chords_m: &[f64], smoothing: f64) -> Vec<[f64; 2]> {
     let inner = points.len() - 2;
-    // Column j of Q belongs to point j + 1 and has three entries, from point j on.
+    // Column j of Q belongs to point j + 1 and has three entries, beginning with point j.
     let column = |j: usize| {
         let (before, after) = (1.0 / chords_m[j], 1.0 / chords_m[j + 1]);
         [before, -before - after, after]
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_removed_and_the_tolerance_kept() {
+    fn smoothing_removes_noise_and_keeps_the_tolerance() {
         let points = noisy_circle();
         let moved = smooth_points(&points, 0.03).expect("sound points");
         assert!(largest_curvature_error(&points) > 0.1, "the noise is curvature");
@@ -152,7 +152,7 @@ mod tests {
 
     /// The straight line through the ends bends least, and with a large tolerance it comes out.
     #[test]
-    fn with_a_large_tolerance_points_move_onto_the_straight_line() {
+    fn smoothing_with_a_large_tolerance_gives_a_straight_line() {
         let moved = smooth_points(&[[0.0, 0.0], [1.0, 0.2], [2.5, -0.1], [4.0, 0.0]], 1.0).expect("sound points");
         assert!(moved.iter().all(|[_, y]| y.abs() < 1e-6), "{moved:?}");
         let points = [[0.0, 0.0], [1.0, 0.2], [2.0, 0.0]];

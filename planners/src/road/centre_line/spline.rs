@@ -13,7 +13,7 @@ pub(super) fn bends(knots: &[f64], values: &[f64], end_slopes: [Option<f64>; 2])
     for i in 0..count {
         let before = i.checked_sub(1).map(|before| knots[i] - knots[before]);
         let after = knots.get(i + 1).map(|after| after - knots[i]);
-        // Beyond an end with a given slope the spline is as if it had an interval without length there.
+        // A given slope at an end has the effect of an additional interval of zero length there.
         let (slope_before, slope_after) = match (before, after) {
             (Some(_), Some(_)) => (secant(i - 1), secant(i)),
             (None, Some(_)) => match end_slopes[0] {
@@ -56,7 +56,7 @@ mod tests {
 
     /// A cubic polynomial is the spline through its own values with its own slopes at the ends.
     #[test]
-    fn with_the_slopes_of_a_cubic_polynomial_it_comes_out() {
+    fn a_spline_through_a_cubic_polynomial_is_that_polynomial() {
         let (knots, cube) = ([-1.0, 0.5, 0.7, 2.0], |x: f64| x * x * x - x);
         let bends = bends(&knots, &knots.map(cube), [Some(2.0), Some(11.0)]);
         assert!(bends.iter().zip(knots).all(|(bend, x)| (bend - 6.0 * x).abs() < 1e-12), "{bends:?}");
@@ -77,7 +77,7 @@ mod tests {
 
     /// The spline with knots 0, 1, 2 through 0, 1, 0 is `(3 u − u³)/2` on the first interval.
     #[test]
-    fn a_hat_has_its_closed_form() {
+    fn a_spline_through_one_peak_matches_its_closed_form() {
         let bends = bends(&[0.0, 1.0, 2.0], &[0.0, 1.0, 0.0], [None; 2]);
         let [value, slope, bend] = between([0.0, 0.0, bends[0]], [1.0, 1.0, bends[1]], 0.4);
         assert!((value - 0.568).abs() < 1e-15 && (slope - 1.26).abs() < 1e-15 && (bend + 1.2).abs() < 1e-15);

@@ -43,7 +43,7 @@ fn loop_road() -> CentreLine {
 }
 
 #[test]
-fn a_circle_has_its_closed_form() {
+fn a_circular_centre_line_matches_its_closed_form() {
     for curvature_1pm in [0.05, -0.2, 2.0] {
         let (circle, radius) = (circle(curvature_1pm), 1.0 / curvature_1pm);
         assert!((circle.length_m() - TAU * radius.abs()).abs() < 1e-12 * radius.abs());
@@ -74,7 +74,7 @@ fn a_clothoid_ends_at_the_fresnel_integrals() {
 }
 
 #[test]
-fn a_straight_line_equals_the_corridor_bit_for_bit() {
+fn a_straight_centre_line_equals_the_corridor_bit_for_bit() {
     for heading_rad in [0.0, 0.3, FRAC_PI_2, -2.5] {
         let (line, corridor) =
             (CentreLine::straight(heading_rad), Corridor { heading_rad, right_m: -1.0, left_m: 1.0, end: None });
@@ -89,7 +89,7 @@ fn a_straight_line_equals_the_corridor_bit_for_bit() {
 }
 
 #[test]
-fn position_heading_and_curvature_are_continuous_and_the_speed_is_one() {
+fn centre_lines_have_continuous_curvature_and_unit_speed() {
     let points = [[0.0, 0.0], [3.0, 0.5], [12.0, 4.0], [13.0, 6.0], [13.5, 20.0]];
     for line in [winding(), loop_road(), circle(3.0), CentreLine::through(&points).expect("distinct points")] {
         for knot_m in line.knots_m().iter().skip(1).rev().skip(1) {
@@ -150,7 +150,7 @@ fn derivatives_agree_with_finite_differences() {
 
 /// Also for polynomials whose speed is far from 1 and not constant.
 #[test]
-fn derivatives_include_the_speed() {
+fn derivatives_of_projections_include_the_speed_of_the_curve() {
     let (from, to) = ([[0.0, 0.0], [1.3, 0.0], [0.02, 0.01]], [[11.0, 0.4], [0.8, 0.07], [-0.05, 0.01]]);
     let line = CentreLine::from_segments(vec![Segment::new(10.0, from, to)]).expect("one segment");
     for (along_m, across_m) in [(1.0, 2.0), (4.0, -3.0), (7.5, 1.0), (9.0, 5.0)] {
@@ -178,7 +178,7 @@ fn with_a_guess_a_projection_stays_on_its_branch_of_a_loop() {
 }
 
 #[test]
-fn headings_go_on_from_the_start_also_beyond_a_full_turn() {
+fn headings_continue_from_the_start_beyond_a_full_turn() {
     let arc = [Piece::Arc { length_m: 10.0, curvature_1pm: 0.1 }];
     let line = CentreLine::from_pieces([0.0; 2], 3.0 * TAU - 0.5, &arc).expect("an arc");
     let part = line.between(5.0, 10.0).expect("on the line");
@@ -188,7 +188,7 @@ fn headings_go_on_from_the_start_also_beyond_a_full_turn() {
 }
 
 #[test]
-fn beyond_its_ends_a_line_is_straight() {
+fn a_centre_line_is_straight_beyond_its_ends() {
     let line = line(&[Piece::Arc { length_m: 10.0, curvature_1pm: 0.1 }]);
     let (end, after) = (line.at(10.0), line.at(15.0));
     assert!((apart(end.position, after.position) - 5.0).abs() < 1e-7);
@@ -202,7 +202,7 @@ fn beyond_its_ends_a_line_is_straight() {
 /// On the normal beyond the centre of a quarter of a circle, the distance to the arc has a maximum in its middle: the nearest
 /// points are beyond its ends.
 #[test]
-fn beyond_the_centre_of_curvature_a_search_leaves_the_maximum() {
+fn a_projection_beyond_the_centre_of_curvature_leaves_the_local_maximum() {
     let line = line(&[Piece::Arc { length_m: 5.0 * PI, curvature_1pm: 0.1 }]);
     let middle_m = 2.5 * PI;
     for across_m in [10.5, 12.0, 15.0] {
@@ -221,7 +221,7 @@ fn beyond_the_centre_of_curvature_a_search_leaves_the_maximum() {
 }
 
 #[test]
-fn far_positions_and_far_guesses_have_finite_coordinates() {
+fn projections_of_far_positions_and_guesses_are_finite() {
     let line = loop_road();
     for position in [[1e9, -1e9], [-1e30, 1e20], [40.0, 15.0]] {
         for near_m in [None, Some(-1e30), Some(1e9), Some(f64::NAN), Some(f64::INFINITY)] {
@@ -248,7 +248,7 @@ fn a_curvature_jump_names_its_piece_and_a_transition_removes_it() {
 }
 
 #[test]
-fn what_is_no_line_is_refused() {
+fn invalid_centre_lines_are_refused() {
     let through = |points: &[[f64; 2]]| CentreLine::through(points);
     assert_eq!(through(&[]), Err(CentreLineError::TooFewPoints));
     assert_eq!(through(&[[1.0, 2.0]; 5]), Err(CentreLineError::TooFewPoints));
@@ -266,7 +266,7 @@ fn what_is_no_line_is_refused() {
 }
 
 #[test]
-fn a_line_through_two_points_is_straight_and_through_points_of_a_circle_nearly_one() {
+fn a_line_through_two_points_is_straight_and_through_a_circle_nearly_circular() {
     let line = CentreLine::through(&[[1.0, 1.0], [4.0, 5.0]]).expect("distinct points");
     assert!((line.length_m() - 5.0).abs() < 1e-14 && apart(line.at(2.5).position, [2.5, 3.0]) < 1e-14);
     let points: Vec<[f64; 2]> =
@@ -280,7 +280,7 @@ fn a_line_through_two_points_is_straight_and_through_points_of_a_circle_nearly_o
 }
 
 #[test]
-fn a_line_through_points_has_the_headings_that_are_given_at_its_ends() {
+fn a_line_through_points_has_the_given_headings_at_its_ends() {
     let points: Vec<[f64; 2]> =
         (0..=8).map(|i| libm::sincos(0.2 * f64::from(i))).map(|(y, x)| [20.0 * x, 20.0 * y]).collect();
     let line = CentreLine::through_towards(&points, [Some(FRAC_PI_2), Some(FRAC_PI_2 + 1.6)]).expect("distinct points");
@@ -295,7 +295,7 @@ fn a_line_through_points_has_the_headings_that_are_given_at_its_ends() {
 }
 
 #[test]
-fn parallels_parts_and_the_reverse_keep_their_distance() {
+fn parallel_sectioned_and_reversed_lines_keep_their_distance() {
     let line = winding();
     let parallel = line.parallel(3.5).expect("it is nowhere that sharp");
     for step in 0..=60 {
@@ -363,7 +363,7 @@ proptest! {
 }
 
 #[test]
-fn polynomials_make_the_same_line() {
+fn a_line_rebuilt_from_its_polynomials_is_the_same_line() {
     for line in [winding(), loop_road(), loop_road().between(100.0, 150.0).expect("a part")] {
         let (parts, heading_rad) = (line.polynomials(), line.at(0.0).heading_rad);
         assert_eq!(CentreLine::from_polynomials(&parts, heading_rad), Ok(line.clone()));

@@ -1,4 +1,4 @@
-//! Where two routes cross or merge.
+//! Finds the places where two routes cross or merge.
 
 use super::route::{ConflictKind, Route};
 
@@ -13,7 +13,7 @@ pub struct Conflict {
     pub kind: ConflictKind,
 }
 
-/// Ends of conflicts are found to this share of the narrowest lane.
+/// The ends of conflicts are accurate to this share of the width of the narrowest lane.
 pub const CONFLICT_TOLERANCE_RATIO: f64 = 0.01;
 
 /// RoadLanes that overlap by less than this share of their width lie side by side, and do not conflict.
@@ -53,7 +53,8 @@ pub fn conflicts(a: &Route, b: &Route) -> Vec<Conflict> {
             let touches = |one: [f64; 2], two: [f64; 2]| one[0] <= two[1] && two[0] <= one[1];
             touches(other.own_m, overlap.other_m) && touches(overlap.own_m, other.other_m)
         };
-        // The ends on the other route are refined there; a sliver that only one of them sees keeps its coarse ends.
+        // The search on the other route gives its precise ends; an overlap so short that only one search finds it keeps
+        // the approximate ends.
         let refined = on_b.iter().filter(meets).map(|other| other.own_m).reduce(hull);
         let (on_a, on_b) = (overlap.own_m, refined.unwrap_or(overlap.other_m));
         let beyond_m = 2.0 * SPACING_RATIO * narrowest_m(a, b);
@@ -137,7 +138,7 @@ fn overlaps(own: &Route, other: &Route) -> Vec<Overlap> {
         }
     }
     found.retain(|overlap| overlap.depth_m > SIDE_BY_SIDE_RATIO * narrowest_m);
-    // The places between which an overlap was seen are a spacing apart.
+    // An overlap may extend beyond its sampled positions by up to one spacing.
     for overlap in &mut found {
         overlap.other_m = [overlap.other_m[0] - spacing_m, overlap.other_m[1] + spacing_m];
     }

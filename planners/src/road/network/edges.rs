@@ -131,7 +131,7 @@ impl Place<'_> {
         let mut beside = lane.centre.project(self.point.position, None);
         for _ in 0..EDGE_STEPS {
             let cos = libm::cos(beside.heading_rad - self.point.heading_rad);
-            // The left of a lane in the opposite direction is to the right.
+            // The left side of a lane in the opposite direction is on the right.
             let direction = if cos < 0.0 { -1.0 } else { 1.0 };
             let missing_m = direction * side * lane.half_width_m(beside.along_m) - beside.across_m;
             edge_m += direction * missing_m / (direction * cos).max(LEAST_COSINE);
@@ -145,7 +145,7 @@ impl Place<'_> {
 /// A profile that is nowhere beyond an edge and nowhere steeper than [`MAX_EDGE_SLOPE`], times `sign`.
 fn smooth_edge(places: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
     let mut knots = places.clone();
-    // Where an edge jumps between two places, both have the inner value, for it may jump anywhere between them.
+    // Where an edge jumps between two positions, both get the inner value, because the jump may be anywhere between them.
     for pair in 0..places.len().saturating_sub(1) {
         let (before, after) = (places[pair], places[pair + 1]);
         if (after[1] - before[1]).abs() > MAX_EDGE_SLOPE * (after[0] - before[0]) {

@@ -1,10 +1,10 @@
-//! Why lanes are no network, and why lanes of a network are no route.
+//! Errors of lanes that do not form a valid network, and of lists of lanes that are not a route.
 
 use thiserror::Error;
 
 use super::super::centre_line::CentreLineError;
 
-/// What is wrong with a lane of a network, and where.
+/// A fault of a lane of a network, with the lane and the field.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("lane `{lane}`: {fault}")]
 pub struct RoadNetworkError {
@@ -18,7 +18,7 @@ pub struct RoadNetworkError {
     pub fault: LaneFault,
 }
 
-/// What is wrong with a lane.
+/// A fault of a lane.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum LaneFault {
     /// The lane has no name.
@@ -128,7 +128,7 @@ pub enum LaneFault {
     },
 }
 
-/// Why a list of lanes is not a route.
+/// Why a list of lanes is not a valid route.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RouteError {
     /// No lanes are named.

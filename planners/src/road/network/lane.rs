@@ -1,4 +1,4 @@
-//! A lane and what it says of other lanes.
+//! A lane and its references to other lanes.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub struct Lane {
     pub is_zebra: bool,
 }
 
-/// The reference of a lane to a neighbouring one.
+/// A lane's reference to a neighbouring lane.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LaneNeighbour {
     /// Name of the neighbouring lane.
@@ -96,12 +96,12 @@ impl Lane {
 }
 
 impl Lane {
-    /// Whether the lane is for people on foot alone.
+    /// Whether the lane is reserved for pedestrians.
     pub fn is_path(&self) -> bool {
         self.users == [LaneUser::Pedestrian]
     }
 
-    /// Whether the lane is for a user.
+    /// Whether a road user may use the lane.
     pub fn is_open_to(&self, user: LaneUser) -> bool {
         self.users.is_empty() || self.users.contains(&user)
     }
@@ -113,7 +113,7 @@ impl Lane {
 }
 
 impl LaneNeighbour {
-    /// Whether the neighbour is driven in the same direction and one may change into it.
+    /// Whether the neighbour is driven in the same direction and vehicles may change into it.
     pub fn is_open(&self) -> bool {
         self.relation == NeighbourRelation::SameDirection && self.may_change
     }

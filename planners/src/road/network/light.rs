@@ -46,7 +46,7 @@ pub struct LightCycle {
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 impl LightCycle {
-    /// What the light shows at a time \[s\].
+    /// The colour of the light at a time \[s\].
     pub fn colour_at(&self, time_s: f64) -> LightColour {
         let cycle_s: f64 = self.phases.iter().map(|phase| phase.duration_s).sum();
         if cycle_s <= 0.0 {
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phases_follow_each_other_for_ever() {
+    fn the_phases_of_a_traffic_light_repeat() {
         let phase = |colour, duration_s| LightPhase { colour, duration_s };
         use LightColour::{Amber, Green, Red};
         let phases = vec![phase(Green, 10.0), phase(Amber, 3.0), phase(Red, 12.0)];

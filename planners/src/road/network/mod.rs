@@ -1,8 +1,7 @@
 //! Roads as a network of lanes.
 //!
-//! A [`RoadNetwork`] is a list of [`Lane`]s that name their successors and neighbours. A [`Route`] is the way of a vehicle
-//! through it: one centre line, and the strip beside it that the vehicle may use. [`conflicts`] says where two routes cross
-//! or merge.
+//! A [`RoadNetwork`] is a list of [`Lane`]s that name their successors and neighbours. A [`Route`] is the path of a vehicle through it:
+//! one centre line, and the strip beside it that the vehicle may use. [`conflicts`] finds the places where two routes cross or merge.
 
 mod conflicts;
 mod edges;

@@ -1,4 +1,4 @@
-//! Whether a lane lies beside another one, as that one says of it.
+//! Checks that a lane lies beside another one that names it as a neighbour.
 
 use super::error::LaneFault;
 use super::lane::{Lane, LaneNeighbour, NeighbourRelation};
@@ -48,7 +48,7 @@ pub(super) fn is_beside(lane: &Lane, neighbour: &LaneNeighbour, other: &Lane, si
     let count = (lane.centre.length_m() / width_m).ceil().clamp(PLACES[0], PLACES[1]) as usize;
     let places = (0..=count).map(|place| lane.centre.length_m() * place as f64 / count as f64);
     let compared: Vec<Beside> = places.chain(middles_m).filter_map(|own_m| beside(lane, other, side, own_m)).collect();
-    // Where one of them turns away, it is not beside the other any more.
+    // Where one of the lanes turns away, the two are no longer side by side.
     let is_along = |place: &&Beside| is_same == (place.cos > 0.0);
     let crossed = compared
         .iter()

@@ -7,8 +7,7 @@ use super::error::{LaneFault, RoadNetworkError};
 use super::lane::{Lane, LaneUser};
 use super::neighbours::is_beside;
 
-/// RoadLanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
-/// itself.
+/// Lanes that form a valid network: every named lane exists, successors touch, and no lane overlaps itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadNetwork {
     lanes: Vec<Lane>,
@@ -28,7 +27,7 @@ const MAX_KINK_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const CHECKS_PER_KNOT: usize = 4;
 
 impl RoadNetwork {
-    /// Checks lanes and makes a network of them.
+    /// Checks lanes and joins them to a network.
     ///
     /// # Errors
     /// The first fault that is found, in the order of the lanes, with the lane and the field:
@@ -52,7 +51,7 @@ impl RoadNetwork {
             }
         }
         let network = RoadNetwork { lanes, numbers };
-        // RoadLanes are checked alone before they are compared: a comparison needs lanes with ends.
+        // Each lane is checked alone before lanes are compared, because a comparison needs lanes with valid ends.
         for check in [RoadNetwork::check_alone, RoadNetwork::check_beside_others] {
             for (index, lane) in network.lanes.iter().enumerate() {
                 check(&network, lane).map_err(|(field, fault)| RoadNetworkError {
@@ -177,8 +176,8 @@ pub struct LanePlace {
 const EDGE_TOLERANCE_M: f64 = 1e-6;
 
 impl RoadNetwork {
-    /// The lanes that hold a position, edges and ends included, those first whose direction is nearest to a heading
-    /// \[m, rad\]; of equal directions, those whose centre is nearer.
+    /// The lanes that contain a position, edges and ends included, sorted by the difference between their direction and
+    /// a heading \[m, rad\], then by the distance of their centre.
     pub fn locate(&self, position: [f64; 2], heading_rad: f64) -> Vec<LanePlace> {
         let mut places: Vec<LanePlace> = Vec::new();
         for lane in self.lanes() {
@@ -262,17 +261,17 @@ fn overlap(one: &LanePart, other: &LanePart, step_m: f64) -> bool {
 }
 
 impl RoadNetwork {
-    /// Whether a lane is kept for some users.
+    /// Whether a lane is reserved for some road users.
     pub fn has_restricted_lanes(&self) -> bool {
         self.lanes().iter().any(|lane| !lane.users.is_empty())
     }
 
-    /// The network as far as it is open to some user: without lanes that are kept for others.
+    /// The network without the lanes that are closed to this road user.
     pub fn open_to(&self, user: LaneUser) -> RoadNetwork {
         self.with_lanes(|lane| lane.is_open_to(user))
     }
 
-    /// The network with some of its lanes only.
+    /// The network with only the lanes that `is_kept` selects.
     pub fn with_lanes(&self, is_kept: impl Fn(&Lane) -> bool) -> RoadNetwork {
         let mut lanes: Vec<Lane> = self.lanes().iter().filter(|lane| is_kept(lane)).cloned().collect();
         let names: Vec<String> = lanes.iter().map(|lane| lane.name.clone()).collect();

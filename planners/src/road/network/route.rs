@@ -1,4 +1,4 @@
-//! The way of a vehicle through a network.
+//! The route of a vehicle through a network.
 
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub struct Route {
     pub(super) number: Option<usize>,
     /// Where it meets the others of that set.
     pub(super) conflicts: Vec<RouteConflict>,
-    /// The same strip as a straight road, if it is one.
+    /// The route as a straight road, if it is one.
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
     pub(super) max_curvature_1pm: f64,
@@ -123,12 +123,12 @@ impl Route {
         }
     }
 
-    /// The same line with no more room than the lane that it is on; none for a route that stands alone.
+    /// The same line, bounded to the lane that it is on; `None` for a route outside a network.
     pub fn own_lane(&self) -> Option<&Arc<Route>> {
         self.own_lane.as_ref()
     }
 
-    /// The same strip as a straight road, if it is one.
+    /// The route as a straight road, if it is one.
     pub fn straight(&self) -> Option<&Corridor> {
         self.straight.as_ref()
     }
@@ -138,12 +138,12 @@ impl Route {
         self.centre.length_m()
     }
 
-    /// The leg at an arc length; beyond the ends, the first or the last. None if there are no legs.
+    /// The leg at an arc length; beyond the ends, the first or the last leg. `None` without legs.
     pub fn leg(&self, along_m: f64) -> Option<&RouteLeg> {
         self.legs.iter().find(|leg| along_m < leg.to_m).or_else(|| self.legs.last())
     }
 
-    /// The arc length of the route at an arc length of one of its lanes \[m\]; none for a lane on which it has no leg.
+    /// The arc length of the route at an arc length of one of its lanes \[m\]; `None` for a lane on which it has no leg.
     ///
     /// Exact where the route follows the lane's centre line. Where it changes to a lane beside it, it is the place of the
     /// lane's continuation, which may lie before or after the leg.
@@ -151,8 +151,8 @@ impl Route {
         self.legs.iter().find(|leg| leg.lane == lane).map(|leg| along_lane_m + leg.offset_m)
     }
 
-    /// The speed at an arc length from which no lane ahead is entered faster than permitted, braking at `braking_mps2`; none
-    /// without speed limits \[m/s\].
+    /// The highest speed at an arc length from which, braking at `braking_mps2`, the vehicle keeps the speed limits of
+    /// all lanes ahead; `None` without speed limits \[m/s\].
     pub fn permitted_speed_mps(&self, along_m: f64, braking_mps2: f64) -> Option<f64> {
         let ahead = self.legs.iter().filter(|leg| leg.to_m > along_m || self.legs.last() == Some(leg));
         let limits = ahead.filter_map(|leg| {
@@ -162,13 +162,13 @@ impl Route {
         limits.min_by(f64::total_cmp)
     }
 
-    /// The speed at an arc length from which every curve ahead is taken with at most a lateral acceleration, braking at
-    /// `braking_mps2`; none without curves ahead \[m/s\].
+    /// The highest speed at an arc length from which, braking at `braking_mps2`, the vehicle takes every curve ahead
+    /// with at most this lateral acceleration; `None` without curves ahead \[m/s\].
     pub fn curve_speed_mps(&self, along_m: f64, lateral_mps2: f64, braking_mps2: f64) -> Option<f64> {
         highest_speed_mps(&self.bends, along_m, lateral_mps2, braking_mps2)
     }
 
-    /// The place with the largest curvature; none for a route without legs.
+    /// The place with the largest curvature; `None` for a route without legs.
     pub fn tightest_turn(&self) -> Option<TightestTurn> {
         let (along_m, curvature_1pm) = max_curvature(&self.centre);
         let lane = self.leg(along_m)?.lane.clone();
@@ -199,7 +199,7 @@ pub(super) fn max_curvature(line: &CentreLine) -> (f64, f64) {
     turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default()
 }
 
-/// A place where a route meets another one of the same network, as the first one sees it.
+/// A place where a route meets another one of the same network, described from the first route.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteConflict {
     /// The number of the other route.
@@ -222,7 +222,7 @@ pub struct RouteConflict {
     pub precedence: Precedence,
 }
 
-/// Who goes first where two routes meet.
+/// The rule for which vehicle goes first where two routes meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precedence {
     /// The vehicles on this route go first.
@@ -233,7 +233,7 @@ pub enum Precedence {
     ByArrival,
 }
 
-/// What two routes do where they overlap.
+/// How two routes overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConflictKind {
     /// The routes come from different lanes and go on to different lanes.

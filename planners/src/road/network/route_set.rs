@@ -1,4 +1,4 @@
-//! The routes of several vehicles through one network: where they meet, and who goes first there.
+//! The routes of several vehicles through one network, with their conflicts and the right of way in each.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -17,8 +17,8 @@ const SAME_SIDE_RAD: f64 = 45.0 * PI / 180.0;
 const LEFT_TURN_RAD: f64 = 30.0 * PI / 180.0;
 
 impl RoadNetwork {
-    /// The routes along lists of lanes, each as by [`RoadNetwork::route`], that know where they meet each other and who goes
-    /// first there. Equal lists share a route.
+    /// The routes along lists of lanes, each as by [`RoadNetwork::route`], with the places where they meet each other
+    /// and the right of way there. Equal lists share a route.
     ///
     /// Who goes first follows from the signs at the ends of the lanes before the conflict ([`RightOfWay`]). Where both signs
     /// say the same, a vehicle that turns left yields to those from the opposite side; otherwise the one from the
@@ -34,8 +34,8 @@ impl RoadNetwork {
 }
 
 impl Route {
-    /// Routes of one network that know where they meet each other and who goes first there, as by [`RoadNetwork::routes`].
-    /// Routes along the same lanes become one.
+    /// Joins routes of one network to a set with the places where they meet and the right of way there, as by
+    /// [`RoadNetwork::routes`]. Routes along the same lanes become one.
     pub fn set_of(routes: Vec<Route>) -> Vec<Arc<Route>> {
         let mut distinct: Vec<Route> = Vec::new();
         let mut numbers = Vec::with_capacity(routes.len());
@@ -63,12 +63,12 @@ impl Route {
 }
 
 impl Route {
-    /// Whether the route belongs to a set of routes, which know where they meet.
+    /// Whether the route belongs to a set of routes, whose conflicts are known.
     pub fn is_in_network(&self) -> bool {
         self.number.is_some()
     }
 
-    /// Where the route meets another one of the same set, in the order of this one.
+    /// The places where the route meets another one of the same set, in the order along this route.
     pub fn conflicts_with<'a>(&'a self, other: &Route) -> impl Iterator<Item = &'a RouteConflict> {
         let number = other.number;
         self.conflicts.iter().filter(move |conflict| Some(conflict.with) == number)
@@ -138,7 +138,7 @@ impl Approach {
         let leg = route.legs.get(number);
         let before = number.checked_sub(1).and_then(|before| route.legs.get(before));
         let sign_of = |leg: Option<&RouteLeg>| leg.map(|leg| leg.right_of_way).unwrap_or_default();
-        // A lane with a sign of its own that the conflict begins on is left for another lane, or reaches into the conflict.
+        // If the conflict begins on a lane with its own sign, the route leaves this lane there or the lane reaches into the conflict.
         let (line_m, sign) = if sign_of(leg) != RightOfWay::Priority {
             (from_m, sign_of(leg))
         } else {
@@ -186,6 +186,6 @@ fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedenc
             _ => Precedence::ByArrival,
         };
     }
-    // A vehicle that drives to the left comes from the right.
+    // A vehicle that crosses to the left comes from the right.
     own_first(from_right_rad < 0.0)
 }

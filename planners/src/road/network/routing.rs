@@ -1,4 +1,4 @@
-//! Routes from lists of lanes.
+//! Makes routes from lists of lanes.
 
 use super::super::centre_line::{CentreLine, CentreLineError, JoinedLine, LineSection};
 use super::edges;
@@ -30,8 +30,8 @@ const MIN_CHANGE_RATIO: f64 = 4.0;
 const MAX_REPLACED_SHARE: f64 = 0.4;
 
 impl RoadNetwork {
-    /// The route along lanes, each a successor of the one before, or a neighbour in the same direction into which one may
-    /// change.
+    /// The route along lanes. Each lane is a successor of the one before, or a neighbour in the same direction into
+    /// which a vehicle may change.
     ///
     /// Its centre line follows the lanes' centres from the begin of the first to the end of the last. Where lanes touch
     /// without being continuous in position, heading and curvature, a smooth curve replaces one lane width on either side. A
@@ -161,7 +161,7 @@ const CHANGE_COST_RATIO: f64 = 10.0;
 const CHANGES_IN_A_ROW: usize = 6;
 
 impl RoadNetwork {
-    /// The shortest route from the begin of a lane to the end of another one.
+    /// The shortest route from the start of a lane to the end of another one.
     ///
     /// Searches by Dijkstra's method over successors and open neighbours; a change costs as much as ten lane widths of
     /// driving, and needs room. Of routes of equal length, the one whose lanes come first in the network is taken.
@@ -181,13 +181,13 @@ impl RoadNetwork {
         self.route(&names)
     }
 
-    /// The lanes from which no end of the network can be reached, in the order of the network: loops without an exit, and what
-    /// leads into them. An end is a lane without successors; changes into open neighbours count.
+    /// The lanes from which no end of the network can be reached, in the order of the network: loops without an exit,
+    /// and the lanes that lead only into them. An end is a lane without successors; changes into open neighbours count.
     pub fn lanes_without_end(&self) -> Vec<&Lane> {
         let mut ends: Vec<bool> = self.lanes().iter().map(|lane| lane.successors.is_empty()).collect();
         let leads_to =
             |lane: &Lane, other: &Lane| lane.successors.contains(&other.name) || lane.may_change_to(&other.name);
-        // Each round but the last adds a lane.
+        // Each round except the last adds a lane.
         loop {
             let reaches = |(number, lane): (usize, &Lane), ends: &[bool]| {
                 !ends[number] && self.lanes().iter().zip(ends).any(|(other, is_end)| *is_end && leads_to(lane, other))
@@ -208,7 +208,7 @@ impl RoadNetwork {
         let mut is_done = vec![false; count];
         costs[start * CHANGES_IN_A_ROW] = 0.0;
         let mut found = None;
-        // Each round finishes a node, so the search ends also where lanes form a loop.
+        // Each round finishes a node, so the search also ends where lanes form a loop.
         while found.is_none() {
             let open = (0..count).filter(|node| !is_done[*node] && costs[*node].is_finite());
             let next = open.min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;

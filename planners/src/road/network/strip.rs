@@ -1,4 +1,4 @@
-//! The strip of a route in Frenet coordinates: where a position is, and how far a body is inside the edges.
+//! The strip of a route in Frenet coordinates: projections of positions, and distances of a body to the edges.
 
 use super::super::centre_line::FrenetPoint;
 use super::super::corridor::LaneEnd;
@@ -81,12 +81,12 @@ impl Frame {
 }
 
 impl Route {
-    /// Frenet coordinates of a position, searched from an arc length on where one is known.
+    /// Frenet coordinates of a position. The search begins at the arc length `near_m`, if given.
     pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> FrenetPoint {
         self.centre.project(position, near_m)
     }
 
-    /// Frenet coordinates of the positions of a motion, each searched from the place of the one before.
+    /// Frenet coordinates of the positions of a motion; each search begins at the result of the previous one.
     pub fn locate_all(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = FrenetPoint> {
         let mut near_m = None;
         positions.iter().map(move |position| {
@@ -134,9 +134,9 @@ impl Route {
         self.right.end()
     }
 
-    /// How far each of the four corners is inside its edge: the two right corners from the right edge, the two left ones from
-    /// the left edge, in the order of [`Body::local_corners`]; negative outside \[m\]. `at` is where the mass centre is
-    /// beside the road.
+    /// The distance of each of the four corners to its edge \[m\], negative outside: of the two right corners to the
+    /// right edge, and of the two left ones to the left edge, in the order of [`Body::local_corners`]. `at` is the
+    /// projection of the mass centre on the road.
     ///
     /// On a straight road these are [`Corridor::clearances`](crate::Corridor::clearances). On a curved one, with a corner at
     /// `c(x, y, θ)`, the row is `±(n(c) − edge(s(c)))`, with exact first and second derivatives: with `h(c) = n − edge(s)`,
@@ -192,8 +192,8 @@ impl Route {
         corner.row(sign, at.across_m - value, gradient, hessian)
     }
 
-    /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place. So most corners
-    /// need no projection of their own.
+    /// The values of [`Route::clearances`], except that a positive lower bound may replace a positive value. So most
+    /// corners need no separate projection.
     pub fn clearance_bounds(&self, body: &Body, state: &State, at: &FrenetPoint) -> [f64; 4] {
         if let Some(corridor) = self.straight() {
             return corridor.clearances(body, state).map(|corner| corner.value);

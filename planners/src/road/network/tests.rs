@@ -74,7 +74,7 @@ fn fault(lanes: Vec<Lane>) -> (String, &'static str, LaneFault) {
 }
 
 #[test]
-fn a_fault_names_its_lane_and_field() {
+fn a_fault_of_a_network_names_its_lane_and_field() {
     let first = || followed_by(straight("first", [0.0, 0.0], 0.0, 10.0), &["second"]);
     let second = || straight("second", [10.0, 0.0], 0.0, 10.0);
     assert!(RoadNetwork::new(vec![first(), second()]).is_ok());
@@ -111,7 +111,7 @@ fn turning(turn_deg: f64) -> Lane {
 /// After a full turn the lane is where it was; after three quarters of one it crosses itself, and after half of one lies beside
 /// itself.
 #[test]
-fn a_lane_does_not_come_back_onto_itself() {
+fn a_lane_that_overlaps_itself_is_refused() {
     for turn_deg in [90.0, 180.0, 270.0, 300.0] {
         assert!(RoadNetwork::new(vec![turning(turn_deg)]).is_ok(), "{turn_deg}");
     }
@@ -131,7 +131,7 @@ fn a_lane_does_not_come_back_onto_itself() {
 }
 
 #[test]
-fn neighbours_lie_on_their_side_and_run_in_their_direction() {
+fn neighbours_must_lie_on_their_stated_side_and_in_their_direction() {
     let right = |left: &str| Lane { left: neighbour(left, true), ..straight("right", [0.0, 0.0], 0.0, 50.0) };
     let other = |start: [f64; 2], heading_rad: f64| straight("other", start, heading_rad, 50.0);
     assert!(RoadNetwork::new(vec![right("other"), other([0.0, 3.5], 0.0)]).is_ok());
@@ -165,7 +165,7 @@ fn neighbours_lie_on_their_side_and_run_in_their_direction() {
 }
 
 #[test]
-fn the_strip_holds_neighbours_into_which_one_may_change() {
+fn the_strip_of_a_route_contains_lanes_that_it_may_change_into() {
     let network = two_lanes();
     let route = network.route(&["right"]).expect("a lane");
     for along_m in [0.0, 77.7, 200.0] {
@@ -181,7 +181,7 @@ fn the_strip_holds_neighbours_into_which_one_may_change() {
 }
 
 #[test]
-fn a_change_to_the_lane_beside_leads_smoothly_from_one_centre_to_the_other() {
+fn a_lane_change_leads_smoothly_from_one_lane_centre_to_the_other() {
     let route = two_lanes().route(&["right", "left"]).expect("they are neighbours");
     assert_eq!(route.legs.iter().map(|leg| leg.lane.as_str()).collect::<Vec<_>>(), ["right", "left"]);
     let middle_m = route.legs[0].to_m;
@@ -205,7 +205,7 @@ fn a_change_to_the_lane_beside_leads_smoothly_from_one_centre_to_the_other() {
 
 /// The lane beside is divided one metre later than the lane itself: there is always a lane beside it.
 #[test]
-fn lanes_side_by_side_may_be_divided_at_different_places() {
+fn adjacent_lanes_may_be_divided_at_different_places() {
     let mut lanes = vec![
         followed_by(straight("right-1", [0.0, 0.0], 0.0, 50.0), &["right-2"]),
         straight("right-2", [50.0, 0.0], 0.0, 50.0),
@@ -219,7 +219,7 @@ fn lanes_side_by_side_may_be_divided_at_different_places() {
 }
 
 #[test]
-fn a_change_needs_room_and_changes_in_a_row_share_it() {
+fn a_lane_change_needs_room_and_successive_changes_share_it() {
     let lanes = |length_m: f64| {
         let mut lanes: Vec<Lane> =
             (0..3).map(|i| straight(&format!("{i}"), [0.0, 3.5 * f64::from(i)], 0.0, length_m)).collect();
@@ -240,7 +240,7 @@ fn a_change_needs_room_and_changes_in_a_row_share_it() {
 
 /// An acceleration lane that ends: the strip narrows before its end, and is nowhere wider than the lanes.
 #[test]
-fn where_a_neighbour_ends_the_strip_narrows_before() {
+fn the_strip_narrows_before_a_neighbour_ends() {
     let mut lanes = two_lanes().lanes().to_vec();
     lanes[0] = Lane { left: neighbour("left", true), ..straight("right", [40.0, 0.0], 0.0, 100.0) };
     let route = RoadNetwork::new(lanes).expect("a network").route(&["left"]).expect("a lane");
@@ -256,7 +256,7 @@ fn where_a_neighbour_ends_the_strip_narrows_before() {
 
 /// Straight lanes at an angle γ overlap over `w (1 + |cos γ|)/sin γ`.
 #[test]
-fn crossing_lanes_overlap_as_parallelograms_do() {
+fn the_conflict_of_crossing_lanes_matches_their_parallelogram() {
     for angle_deg in [90.0, 60.0, -120.0, 30.0_f64] {
         let (sin, cos) = libm::sincos(angle_deg.to_radians());
         let crossing = straight("crossing", [-50.0 * cos + 3.0, -50.0 * sin], angle_deg.to_radians(), 100.0);
@@ -276,7 +276,7 @@ fn crossing_lanes_overlap_as_parallelograms_do() {
 }
 
 #[test]
-fn lanes_side_by_side_do_not_conflict_and_a_change_merges() {
+fn adjacent_lanes_do_not_conflict_but_a_lane_change_merges() {
     let network = two_lanes();
     let [right, left] = ["right", "left"].map(|lane| network.route(&[lane]).expect("a lane"));
     assert_eq!(conflicts(&right, &left), []);
@@ -317,7 +317,7 @@ fn a_roundabout_has_routes_around_it_and_conflicts_where_they_join() {
 }
 
 #[test]
-fn a_search_ends_where_no_way_leads_and_where_lanes_form_a_loop() {
+fn a_route_search_ends_without_a_route_and_with_loops() {
     let network = roundabout(12.0);
     let no_way = RouteError::NoWay { from: "out-1".into(), to: "in-2".into() };
     assert_eq!(network.shortest_route("out-1", "in-2"), Err(no_way));
@@ -337,7 +337,7 @@ fn a_search_ends_where_no_way_leads_and_where_lanes_form_a_loop() {
 }
 
 #[test]
-fn a_loop_without_an_exit_is_found() {
+fn lanes_of_a_loop_without_an_exit_are_found() {
     let around = roundabout(12.0);
     assert!(around.lanes_without_end().is_empty());
     let closed = around.lanes().iter().filter(|lane| !lane.name.starts_with("out")).cloned().map(|mut lane| {
@@ -352,7 +352,7 @@ fn a_loop_without_an_exit_is_found() {
 }
 
 #[test]
-fn a_position_is_located_on_the_lanes_that_hold_it() {
+fn a_position_is_located_on_the_lanes_that_contain_it() {
     let network = roundabout(15.0);
     let found = network.locate([0.0, 15.5], PI);
     assert!(found.iter().any(|place| place.lane == "ring-0") && found.iter().any(|place| place.lane == "ring-1"));
@@ -367,7 +367,7 @@ fn a_position_is_located_on_the_lanes_that_hold_it() {
 
 /// Where overtaking is permitted, the strip holds the oncoming lane, and the edges of the own direction do not.
 #[test]
-fn an_oncoming_lane_belongs_to_the_strip_where_it_may_be_used() {
+fn the_strip_contains_an_oncoming_lane_where_it_may_be_used() {
     let oncoming = |lane: &str, may_change: bool| {
         Some(LaneNeighbour { lane: lane.to_owned(), relation: NeighbourRelation::Oncoming, may_change })
     };

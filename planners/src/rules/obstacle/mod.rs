@@ -98,6 +98,10 @@ impl ObstacleMemory {
         let Some(obstacle) = obstacle.with_side(scene) else {
             return Some(Manoeuvre::Wait(obstacle, None));
         };
+        if !is_under_way && obstacle.is_too_near_to_swing_out(scene) {
+            self.passing = None;
+            return Some(Manoeuvre::Wait(obstacle, None));
+        }
         let until_m = room::end_of_row_m(scene, &obstacle);
         match room::in_the_way(scene, &obstacle, until_m, is_under_way) {
             None => {

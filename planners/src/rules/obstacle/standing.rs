@@ -1,8 +1,8 @@
 //! A vehicle that stands in the way: where it is, and how it is passed.
 
-use crate::plan::certificate::touches_ahead;
+use crate::plan::certificate::{rolled_out, touches_ahead};
 use crate::prediction::steering::{admissible, roll_out, steer};
-use crate::problem::clearance::{containing, ellipses};
+use crate::problem::clearance::{STANDSTILL_GAP_M, containing, ellipses};
 use crate::scene::road_rules::Obstacle;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
@@ -14,6 +14,8 @@ const SIDE_M: f64 = 0.09;
 const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 pub(super) const WAITING_LENGTHS: f64 = 2.2;
+/// It stops in comfort with this \[m/s²\].
+const STOPPING_MPS2: f64 = 1.4;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
 /// A driver swings out over this many lengths of its body,
@@ -34,9 +36,17 @@ impl Obstacle {
         Some(Obstacle { pass_at_m, ..self.clone() })
     }
 
-    /// How far the front of a driver comes who waits behind it, with room to swing out later \[m\].
+    /// How far the front of a driver comes who waits behind it, with room to swing out later; nearer for a driver who sees only late that
+    /// it is an obstacle, and stops in comfort \[m\].
     pub(crate) fn line_m(&self, scene: &Scene) -> f64 {
-        self.along_m[0] - WAITING_LENGTHS * (scene.ego.body.front_m + scene.ego.body.rear_m)
+        let Agent { body, state, route, .. } = &scene.ego;
+        let line_m = self.along_m[0] - WAITING_LENGTHS * (body.front_m + body.rear_m);
+        if !scene.knowledge.is_of_motion() {
+            return line_m;
+        }
+        let stopping_m = state.speed_mps * state.speed_mps / (2.0 * STOPPING_MPS2);
+        let reached_m = route.along(state.position()) + body.front_m + stopping_m;
+        line_m.max(reached_m.min(self.along_m[0] - STANDSTILL_GAP_M * body.scale))
     }
 
     /// Whether a driver could not stop before it any more, however hard it brakes.
@@ -60,6 +70,11 @@ impl Obstacle {
             }
         });
         motion.inputs
+    }
+
+    /// Whether a driver who sees it without having been told of it before is so near behind it that swinging out would touch it.
+    pub(super) fn is_too_near_to_swing_out(&self, scene: &Scene) -> bool {
+        scene.knowledge.is_of_motion() && self.is_touched_by(scene, &rolled_out(scene, self.guess(scene)), 0.0)
     }
 
     /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays

@@ -1,4 +1,5 @@
-//! A line at which a vehicle waits: its front stays before it, `s_line − front − s(p_t) ≥ 0`, softly, with an exact penalty.
+//! A line before which the front of a vehicle stays, at rest or moving: `s_line,t − front − s(p_t) ≥ 0`, softly, with an exact penalty. What
+//! it costs to be beyond the line grows without bound, and its gradient points back everywhere.
 //!
 //! The gradient is `−∇s`, the Hessian `−∇²s`, both over the position; the body is taken along the road.
 
@@ -20,8 +21,8 @@ pub struct StopLine {
     pub front_m: f64,
     /// The route along which the line's place is measured.
     pub route: Arc<Route>,
-    /// Arc length of the line on the route \[m\].
-    pub line_m: f64,
+    /// Arc lengths of the line on the route at `t = 1…N`; `N` long \[m\].
+    pub lines_m: Vec<f64>,
     /// Cost of crossing the line.
     pub penalty: Penalty,
 }
@@ -46,7 +47,7 @@ impl RowTerm for StopLine {
         let [sx, sy] = at.along_gradient;
         let [xx, xy, yy] = at.along_hessian;
         rows[0] = PoseExpansion {
-            value: self.line_m - self.front_m - at.along_m,
+            value: self.lines_m[stage] - self.front_m - at.along_m,
             gradient: [-sx, -sy, 0.0],
             hessian: [-xx, -xy, 0.0, -yy, 0.0, 0.0],
         };
@@ -55,6 +56,6 @@ impl RowTerm for StopLine {
     fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
         let position = iterate.states[self.vehicle][stage + 1].position();
         let along_m = iterate.place(self.vehicle, stage).map_or_else(|| self.route.along(position), |at| at.along_m);
-        values[0] = self.line_m - self.front_m - along_m;
+        values[0] = self.lines_m[stage] - self.front_m - along_m;
     }
 }

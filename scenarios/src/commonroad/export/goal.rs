@@ -1,4 +1,4 @@
-//! Whether a state lies in one of the goals of a planning problem.
+//! Checks whether a state lies in one of the goals of a planning problem.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_goal_is_reached_where_all_that_it_states_holds() {
+    fn a_commonroad_goal_is_reached_where_all_its_conditions_hold() {
         let square = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
         let goal = Goal {
             time: Some([5.0, 7.0]),
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rectangle_is_turned() {
+    fn a_rotated_rectangle_of_a_goal_is_converted() {
         let rectangle = Rectangle { length_m: 4.0, width_m: 1.0, orientation_rad: 0.5 * PI, centre: [1.0, 1.0] };
         let goals = GoalPlaces::default();
         let region = Region::Rectangle(rectangle);

@@ -1,4 +1,4 @@
-//! From a run to CommonRoad: the scenario as it was driven, and the motion of the ego as the solution of its planning problem.
+//! Exports a run to CommonRoad: the scenario as it was driven, and the motion of the ego as the solution of its planning problem.
 //!
 //! ```text
 //! scenario, or the XML that it was imported from -> what stays (`Base`) -> with what was driven: two texts of XML

@@ -45,7 +45,7 @@ pub(super) fn of(base: &Base, ego: &DrivenVehicle) -> (String, bool) {
             velocity_mps: at.velocity_mps,
         })
     };
-    // A problem that follows from the driven motion is solved when the run ends.
+    // A planning problem that is derived from the driven motion is solved when the run ends.
     let arrival =
         states.iter().enumerate().position(arrives).or_else(|| base.problem.is_none().then_some(states.len() - 1));
     let name: String = base.benchmark.chars().filter(|letter| *letter != ':' && !letter.is_whitespace()).collect();

@@ -12,7 +12,7 @@ const DIGITS: i32 = 6;
 pub(super) fn number(value: f64) -> f64 {
     let factor = 10_f64.powi(DIGITS);
     let rounded = (factor * value).round() / factor;
-    // Not `-0`.
+    // Write `0` instead of `-0`.
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
@@ -91,13 +91,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_are_harmless_and_numbers_short() {
+    fn xml_texts_are_escaped_and_numbers_short() {
         assert_eq!(escaped("a<b & \"c\"\u{0}"), "a&lt;b &amp; &quot;c&quot; ");
         assert_eq!([number(-1e-9), number(1.234_567_89)].map(|value| value.to_string()), ["0", "1.234568"]);
     }
 
     #[test]
-    fn ids_are_given_once_and_as_wanted_where_they_are_free() {
+    fn ids_are_unique_and_as_requested_if_free() {
         let mut ids = Ids::taken([3, 7].into_iter());
         assert_eq!([ids.give(Some(5)), ids.give(Some(3)), ids.give(None)], [5, 8, 9]);
         assert_eq!(Ids::default().give(None), FIRST);

@@ -100,7 +100,7 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
 /// The route of a car from one of some lanes to one of the goals, and whether one exists; straight on otherwise.
 fn way(network: &RoadNetwork, starts: &[&Lane], goals: &[String], state: &State) -> Option<(OnLanes, bool)> {
     let body = &BMW_320I;
-    // Where lanes overlap, the route that fits the state best is taken, and of those the shortest list of lanes.
+    // Where lanes overlap, choose the route that fits the state best, and among equal ones the shortest list of lanes.
     let pairs = starts.iter().flat_map(|lane| goals.iter().map(move |goal| (lane, goal)));
     let ways = pairs.filter_map(|(lane, goal)| to_lane(network, lane, goal, state, body));
     let is_better = |one: &OnLanes, other: &OnLanes| {

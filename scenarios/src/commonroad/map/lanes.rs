@@ -1,4 +1,4 @@
-//! Lanelets become lanes of a network. What the network does not accept is left out, and noted.
+//! Converts lanelets to lanes of a network. Parts that the network refuses are left out, with a note.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -213,7 +213,7 @@ mod tests {
     const RIGHT: [[f64; 2]; 2] = [[0.0, 0.0], [20.0, 0.0]];
 
     #[test]
-    fn the_middle_is_halfway_for_any_order_of_the_bounds() {
+    fn the_centre_of_a_lanelet_is_halfway_for_any_order_of_its_bounds() {
         let line = between(&LEFT, &RIGHT).expect("a line");
         assert_eq!(line.points, [[0.0, 1.5], [10.0, 1.5], [20.0, 1.5]]);
         assert_eq!(line.widths, [[0.0, 3.0], [10.0, 3.0], [20.0, 3.0]]);
@@ -224,13 +224,13 @@ mod tests {
     }
 
     #[test]
-    fn lanelets_without_length_have_no_line() {
+    fn lanelets_without_length_have_no_centre_line() {
         assert_eq!(between(&[[0.0, 1.0]; 3], &[[0.0, 0.0]; 3]), None);
     }
 
     /// A corner of 90 degrees within a metre: the lane is smoothed or narrowed until its edges do not cross.
     #[test]
-    fn corners_become_bends() {
+    fn corners_of_lanelets_become_smooth_bends() {
         let before = (0..=10).map(|x| ([f64::from(x), 2.0], [f64::from(x) + 0.2 * f64::from(x), 0.0]));
         let after = (1..=10).map(|y| ([10.0, 2.0 + f64::from(y)], [12.0, 1.2 * f64::from(y)]));
         let (left, right): (Vec<[f64; 2]>, Vec<[f64; 2]>) = before.chain(after).unzip();

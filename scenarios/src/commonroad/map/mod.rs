@@ -1,4 +1,4 @@
-//! From a scenario of CommonRoad to a scenario of Interplay, one file per concept.
+//! Converts a scenario of CommonRoad to one of Interplay, one file per concept.
 
 mod ego;
 mod lanes;
@@ -83,7 +83,8 @@ pub(super) fn mapped(
             continue;
         }
         let mut config = driven(&follower, &lanes, options, notes);
-        // A vehicle whose record ends before the run leaves then; a vehicle with a driver of ours drives to the end of its way.
+        // A vehicle whose record ends before the run leaves at that time; a vehicle with a driver of Interplay drives
+        // to the end of its route.
         config.leaves_at_end = (!config.route.is_empty()).then_some(true);
         config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
         vehicles.push((config, Some(follower.place)));
@@ -227,7 +228,7 @@ impl ImportOptions {
     fn replacement(&self, id: &str, name: &str) -> Option<Stated<Driver>> {
         let is_it = |vehicle: &str| vehicle == id || vehicle == name;
         let named = self.replace.iter().find(|it| it.vehicle.as_deref().is_some_and(is_it));
-        // An option for one vehicle goes before the option for all.
+        // An option for one vehicle takes precedence over the option for all.
         let found = named.or_else(|| self.replace.iter().find(|it| it.vehicle.is_none()))?;
         let driver = Stated::kind(&found.kind);
         Some(match &found.style {

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_things_are_counted_in_one_line() {
+    fn equal_import_notes_are_counted_in_one_line() {
         let mut notes = Notes::default();
         notes.several(0, ["sign", "signs"], NOT_YET);
         notes.one(["light", "lights"], NOT_YET);
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_plain_and_unique() {
+    fn imported_names_are_valid_and_unique() {
         let mut names = Names::default();
         assert_eq!(names.name("l", "12"), "l12");
         assert_eq!(names.name("l", "12"), "l12-2");

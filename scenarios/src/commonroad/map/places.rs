@@ -100,7 +100,7 @@ fn placed(network: &RoadNetwork, route: &Route, lanes: &[String], state: &State,
     let shares = SHARES.iter().map(|share| {
         let [x_m, y_m] = route.position(at.along_m, share * at.across_m);
         let heading_rad = (at.heading_rad + share * error_rad).to_degrees();
-        // Rounded as in the file, so that the check sees the values that are read back.
+        // The values are rounded as in the file, so that the check sees what is read back.
         let [x_m, y_m] = [x_m, y_m].map(|coordinate| rounded(coordinate, 4));
         State { x_m, y_m, heading_rad: rounded(heading_rad, 4).to_radians(), ..*state }
     });
@@ -162,7 +162,7 @@ fn speed_mps(distance_m: f64, time_s: f64, own_mps: f64) -> f64 {
             high_mps = middle_mps;
         }
     }
-    // If no speed is high enough, the acceleration is too small; the final speed of a constant one is as good.
+    // If no speed is high enough, the acceleration limit is too low; the final speed of a constant acceleration is then the best choice.
     (0.5 * (low_mps + high_mps)).min((2.0 * distance_m / time_s - own_mps).max(own_mps))
 }
 
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_speed_covers_the_distance_in_time() {
+    fn the_arrival_speed_covers_the_distance_in_time() {
         assert!((speed_mps(100.0, 10.0, 10.0) - 10.0).abs() < 1e-3, "as it drives");
         // 10 m/s to 13 m/s takes 2 s and 23 m, and 8 s more are 104 m.
         assert!((speed_mps(127.0, 10.0, 10.0) - 13.0).abs() < 1e-3);

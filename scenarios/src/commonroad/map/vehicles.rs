@@ -1,4 +1,4 @@
-//! Obstacles as vehicles that follow their records or have a driver of ours.
+//! Converts obstacles to vehicles that follow their records or have a driver of Interplay.
 
 use interplay_planners::drivers::recorded::Record;
 use interplay_planners::{Body, State};
@@ -195,7 +195,7 @@ fn body(obstacle: &Obstacle<'_>, notes: &mut Notes) -> Option<Body> {
 fn rows(obstacle: &Obstacle<'_>, step_s: f64, begin: f64, notes: &mut Notes) -> Vec<[f64; 5]> {
     let shape = obstacle.shape.first().and_then(|shape| shape.rectangle());
     let (offset, turned_rad) = shape.map_or(([0.0; 2], 0.0), |(it, _)| (it.centre, it.orientation_rad));
-    // A box that moves has the direction of its motion.
+    // A moving box is oriented along its motion.
     let turned_rad = if obstacle.role == Role::Static { turned_rad } else { 0.0 };
     let mut rows: Vec<[f64; 5]> = Vec::with_capacity(obstacle.states.len());
     let (mut backwards, mut out_of_order, mut uncertain) = (false, 0, false);

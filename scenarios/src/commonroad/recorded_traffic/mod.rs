@@ -1,6 +1,7 @@
 //! Recorded traffic as plain values: lanes with their bounds, and vehicles with their positions at each time step.
 //!
-//! It is not a scenario: it has no drivers. Comparisons of driver models with people, and fits to people, read it.
+//! It is not a scenario, because it has no drivers. It is the input for comparing driver models with people, and for
+//! fitting models to people.
 
 use std::path::Path;
 
@@ -40,7 +41,7 @@ pub struct RecordedLane {
 }
 
 impl RecordedLane {
-    /// Whether a place is between its bounds \[m\].
+    /// Whether a position is between the bounds of the lane \[m\].
     pub fn contains(&self, place: [f64; 2]) -> bool {
         is_inside(self.left.iter().chain(self.right.iter().rev()).copied(), place)
     }
@@ -55,7 +56,7 @@ pub(crate) fn is_inside(corners: impl Iterator<Item = [f64; 2]> + Clone, [x, y]:
     corners.zip(next).filter(|(from, to)| crosses([*from, *to])).count() % 2 == 1
 }
 
-/// A vehicle, with where it was.
+/// A recorded vehicle with its states.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedVehicle {
     /// Its name in the record.
@@ -70,7 +71,7 @@ pub struct RecordedVehicle {
     pub moments: Vec<RecordedMoment>,
 }
 
-/// Where a vehicle was at a step of time.
+/// The state of a vehicle at one time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedMoment {
     /// Number of the step of time.
@@ -146,14 +147,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lane_contains_what_is_between_its_bounds() {
+    fn a_lane_contains_the_points_between_its_bounds() {
         let (left, right) = (vec![[0.0, 4.0], [20.0, 4.0]], vec![[0.0, 0.0], [7.0, 0.0], [20.0, 0.0]]);
         let lane = RecordedLane { left, right, ..RecordedLane::default() };
         assert!(lane.contains([5.0, 1.0]) && !lane.contains([5.0, 4.5]));
     }
 
     #[test]
-    fn a_table_becomes_vehicles_at_steps_of_time() {
+    fn a_table_of_records_becomes_vehicles_at_time_steps() {
         let text =
             "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,1,0,0,5\nb,0.4,9,1,0,3\nb,0.6,9.6,1,0,3\n";
         let traffic = recorded_traffic_in_text("t.csv", text).expect("a table");
@@ -162,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_names_its_line() {
+    fn an_error_in_a_table_of_records_names_its_line() {
         let text = "id,time_s,x_m,y_m,heading_rad,speed_mps\na,0.0,0,0,0,5\na,0.2,no,0,0,5\n";
         let error = recorded_traffic_in_text("t.csv", text).expect_err("no number");
         assert_eq!(error.faults()[0].line_and_column().map(|(line, _)| line), Some(3));

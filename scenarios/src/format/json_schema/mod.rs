@@ -1,4 +1,4 @@
-//! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
+//! The JSON Schema of a scenario file, which editors use for completion and the loader for checks.
 //!
 //! It is generated from [`ScenarioFile`](crate::ScenarioFile). The field of a setting states its description, type and default, and as
 //! `schemars` attributes its bounds, its example, and
@@ -220,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_polished_description_ends_with_the_unit_once() {
+    fn a_description_of_a_key_states_its_unit_once() {
         let mut schema = json!({ "properties": {
             "speed_mps": { "type": "number", "description": "How fast it drives." },
             "gap_m": { "type": "number", "description": "Gap to the next \\[m\\]; 0 is none." },

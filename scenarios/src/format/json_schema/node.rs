@@ -23,12 +23,12 @@ pub(crate) struct SchemaNode<'s> {
 }
 
 impl<'s> SchemaNode<'s> {
-    /// The whole schema.
+    /// The root of the schema.
     pub fn new(root: &'s Json) -> SchemaNode<'s> {
         SchemaNode { root, stated: root, list: None }
     }
 
-    /// The schema of which this is a part.
+    /// The root of the schema that contains this part.
     pub fn whole(self) -> SchemaNode<'s> {
         SchemaNode::new(self.root)
     }
@@ -37,7 +37,7 @@ impl<'s> SchemaNode<'s> {
         SchemaNode { stated, list: None, ..self }
     }
 
-    /// The name of the definition that this refers to.
+    /// The name of the definition that this part refers to.
     pub fn definition_name(self) -> Option<&'s str> {
         self.stated.get("$ref")?.as_str()?.strip_prefix("#/$defs/")
     }
@@ -46,7 +46,7 @@ impl<'s> SchemaNode<'s> {
         definition_of(self.root, self.stated)
     }
 
-    /// The value of a keyword here, or else in the definition.
+    /// The value of a keyword of this part, or else of its definition.
     pub fn keyword(self, keyword: &str) -> Option<&'s Json> {
         self.stated.get(keyword).or_else(|| self.definition().get(keyword))
     }
@@ -60,7 +60,7 @@ impl<'s> SchemaNode<'s> {
         self.text("type")
     }
 
-    /// The description of the key, or of the list of which this is an entry; empty if there is none.
+    /// The description of the key, or of the list whose entry this is; empty if there is none.
     pub fn description(self) -> &'s str {
         let of_list = || self.list?.get("description")?.as_str();
         self.text("description").or_else(of_list).unwrap_or_default()
@@ -75,7 +75,7 @@ impl<'s> SchemaNode<'s> {
         self.stated.get("default")
     }
 
-    /// The bounds of a number in place of which a word may stand.
+    /// The bounds of a number that a word may replace.
     pub fn number_beside_words(self) -> Option<SchemaNode<'s>> {
         let is_number = |one: &&Json| one.get("type").is_some_and(|name| name == "number");
         self.alternatives().find(is_number).map(|one| self.at(one))
@@ -86,7 +86,7 @@ impl<'s> SchemaNode<'s> {
         self.stated.get("default").or_else(|| self.stated.get("examples")?.get(0))
     }
 
-    /// Whether a value is the default; `1` is `1.0`.
+    /// Whether a value equals the default; `1` equals `1.0`.
     pub fn is_default(self, value: &Json) -> bool {
         self.stated.get("default").is_some_and(|default| same(default, value))
     }
@@ -96,7 +96,7 @@ impl<'s> SchemaNode<'s> {
         self.keyword("deprecated").is_some()
     }
 
-    /// The agents that the key concerns, if a scenario may be without them.
+    /// The part of a scenario, vehicles or building, without which the key has no meaning.
     pub fn concerns(self) -> Option<Concern> {
         match self.stated.get("x-concerns")?.as_str()? {
             "vehicles" => Some(Concern::Vehicles),
@@ -109,18 +109,18 @@ impl<'s> SchemaNode<'s> {
         self.stated.get("x-merge-by")?.as_str()
     }
 
-    /// Whether the keys of this table are paths of settings, as `--set` has them.
+    /// Whether the keys of this table are paths of settings, as in `--set`.
     pub fn holds_paths(self) -> bool {
         self.stated.get("x-paths").is_some()
     }
 
-    /// The mechanism of a planner that this setting switches off: its name, and the value with which it is off.
+    /// The mechanism of a planner that this setting can switch off: its name, and the value that does so.
     pub fn mechanism(self) -> Option<(&'s str, &'s Json)> {
         let stated = self.stated.get("x-mechanism")?.as_object()?;
         stated.iter().next().map(|(name, off)| (name.as_str(), off))
     }
 
-    /// Pairs of keys of this table that may not stand side by side. Each pair is stated on the first of them.
+    /// Pairs of keys of this table that exclude each other. Each pair is stated on its first key.
     pub fn exclusions(self) -> impl Iterator<Item = (&'s str, &'s str)> {
         self.properties().flat_map(|(key, property)| {
             let others = property.stated.get("x-excludes").and_then(Json::as_array).into_iter().flatten();
@@ -128,12 +128,12 @@ impl<'s> SchemaNode<'s> {
         })
     }
 
-    /// The words from which a text is chosen.
+    /// The words that a text may be.
     pub fn words(self) -> Vec<&'s str> {
         words_of(self.definition()).collect()
     }
 
-    /// The kinds of a table that has several.
+    /// The kinds of a table with alternatives.
     pub fn kinds(self) -> Vec<&'s str> {
         self.alternatives().filter_map(kind_of).collect()
     }
@@ -142,7 +142,7 @@ impl<'s> SchemaNode<'s> {
         self.definition().get("oneOf").and_then(Json::as_array).into_iter().flatten()
     }
 
-    /// The table of one kind, if there is such a kind.
+    /// The table of one kind, if that kind exists.
     pub fn of_kind(self, kind: &str) -> Option<SchemaNode<'s>> {
         self.alternatives().find(|one| kind_of(one) == Some(kind)).map(|one| self.at(one))
     }
@@ -159,7 +159,7 @@ impl<'s> SchemaNode<'s> {
         properties.into_iter().flatten().map(move |(key, stated)| (key, self.at(stated)))
     }
 
-    /// A key of a table; where the kind of the table is open, of the first kind that has it.
+    /// A key of a table; if the kind of the table is not known, the key of the first kind that has it.
     pub fn property(self, key: &str) -> Option<SchemaNode<'s>> {
         let of = |schema: &'s Json| schema.get("properties")?.get(key);
         of(self.definition()).or_else(|| self.alternatives().find_map(of)).map(|stated| self.at(stated))
@@ -254,7 +254,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_angles_have_twins() {
+    fn only_keys_of_angles_have_twins_in_degrees() {
         assert_eq!(in_degrees("steering_max_rad").as_deref(), Some("steering_max_deg"));
         assert_eq!((in_degrees("front_stiffness_per_rad"), in_degrees("rate_radps")), (None, None));
     }

@@ -1,9 +1,9 @@
 //! Angles in files are degrees: `steering_max_deg`. Scenarios hold radians.
 //!
-//! Each key of the schema that ends with `_rad` has a twin that ends with `_deg`, unless the format has that key already. The
-//! twin is an ordinary key of the file; before a scenario is made from the file, its value replaces that of the other. Keys
-//! in radians are accepted for one more version, with a remark that states the replacement. An angle that no number of degrees gives to the
-//! last bit is written and read in radians without a remark, so that a written drive is the same drive.
+//! Each key of the schema that ends with `_rad` has a twin that ends with `_deg`, unless the format already has that key. The twin is an
+//! ordinary key of the file; before a scenario is made from the file, its value replaces that of the key in radians. Keys in radians are
+//! accepted for one more version, with a remark that states the replacement. Some angles equal no number of degrees bit for bit; these
+//! are written and read in radians without a remark, so that a written drive is the same drive.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -114,7 +114,7 @@ mod tests {
     use crate::Registry;
 
     #[test]
-    fn degrees_replace_radians() {
+    fn keys_in_degrees_replace_keys_in_radians() {
         let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
         to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];

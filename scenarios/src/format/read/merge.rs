@@ -1,8 +1,8 @@
 //! Merging of a file with the one that it extends, and of a flag with the file.
 //!
-//! Tables merge key by key, the later one winning; lists are replaced, except those whose schema names a key to merge by
-//! (`[[vehicle]]`: `name`). Two rules keep a variant from having to undo its parent: where a table names another `kind`, the
-//! keys that this kind does not know are dropped, and of two keys that exclude each other the later one removes the earlier.
+//! Tables merge key by key, and the later value wins; lists are replaced, except those whose schema names a key to merge by
+//! (`[[vehicle]]`: `name`). Two rules save a variant from undoing its parent: if a table names another `kind`, keys unknown to this kind
+//! are dropped; and of two keys that exclude each other, the later one removes the earlier one.
 
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue};

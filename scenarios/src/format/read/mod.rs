@@ -1,4 +1,4 @@
-//! From a name to a tree of keys and values with their places: files, what they extend, and changes by flags.
+//! Reads a scenario into a tree of keys and values with their places: its file, the files that it extends, and changes by flags.
 
 pub(crate) mod degrees;
 pub(crate) mod embedded;

@@ -1,7 +1,7 @@
 //! Changes of a scenario from the command line, such as `--set vehicle.ego.goal.speed_mps=1.2`.
 //!
-//! A change is merged into the file as a file is merged into the one that it extends, and then checked like it. Its document is the
-//! text of the flag, so errors point into the flag. The changes of a counterfactual are merged in the same way.
+//! A change is merged into the file as a file is merged into the one that it extends, and then checked in the same way. Its document is
+//! the text of the flag, so errors point into the flag. The changes of a counterfactual are merged in the same way.
 
 use std::sync::Arc;
 
@@ -148,12 +148,12 @@ pub(crate) struct SettingPath(Vec<Step>);
 const OTHER_VEHICLES: &str = "*";
 
 impl SettingPath {
-    /// No step yet.
+    /// The empty path.
     pub fn root() -> SettingPath {
         SettingPath(Vec::new())
     }
 
-    /// The path extended by a key, written at a place.
+    /// The path extended by a key, which is written at `place`.
     pub fn join(&self, key: &str, place: &Place) -> Result<SettingPath, Fault> {
         extended(&self.0, key, place).map(SettingPath)
     }
@@ -168,12 +168,12 @@ impl SettingPath {
         schema_at(root, self.0.iter().map(|step| step.word.as_str()))
     }
 
-    /// The places of its words.
+    /// The places of its words in the text.
     pub fn places(&self) -> impl Iterator<Item = &Place> {
         self.0.iter().map(|step| &step.place)
     }
 
-    /// Merges a value into a scenario at the end of the path.
+    /// Merges a value into a scenario at this path.
     pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
         if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
@@ -183,7 +183,7 @@ impl SettingPath {
         paths.try_for_each(|path| lay(Some(schema), root, (&path.0, 0), value.clone()))
     }
 
-    /// The paths that it stands for in a scenario: one for each vehicle but the ego if it has a `*`, otherwise itself.
+    /// The paths in a scenario that this path stands for: with `*`, one for each vehicle except the ego, otherwise itself.
     fn in_scenario(&self, root: &Table) -> Vec<SettingPath> {
         if !self.is_of_others() {
             return vec![self.clone()];
@@ -196,7 +196,7 @@ impl SettingPath {
         other_names(root).into_iter().map(of).collect()
     }
 
-    /// Whether it stands for every vehicle but the ego.
+    /// Whether the path stands for every vehicle except the ego.
     fn is_of_others(&self) -> bool {
         let word = |index: usize| self.0.get(index).map(|step: &Step| step.word.as_str());
         (word(0), word(1)) == (Some("vehicle"), Some(OTHER_VEHICLES))

@@ -1,4 +1,4 @@
-//! Reads files that users name: regular files only, up to a size, and without waiting.
+//! Reads files that users name: only regular files, up to a size, and without blocking.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
@@ -6,8 +6,8 @@ use std::path::Path;
 
 /// Opens a file for reading.
 ///
-/// Refuses a pipe or a device, because reading it may block for ever or never end. If a file that claims to be regular would block a
-/// reader, as some below `/proc` do, reading it fails instead.
+/// Refuses a pipe or a device, because reading it may block forever or never end. If a file that claims to be regular
+/// would block a reader, as some files below `/proc` do, reading it fails instead.
 ///
 /// # Errors
 /// The system's error, or the type of the file if it is not regular.
@@ -52,7 +52,7 @@ mod tests {
     /// An endless device, one that blocks its reader, and a folder.
     #[cfg(unix)]
     #[test]
-    fn pipes_devices_and_folders_are_refused_at_once() {
+    fn pipes_devices_and_folders_are_refused_without_blocking() {
         for path in ["/dev/zero", "/dev/tty", "/dev", "/nowhere"] {
             assert!(read_regular(Path::new(path), 10).is_err(), "{path}");
         }

@@ -29,12 +29,11 @@ pub enum Source {
 }
 
 impl Source {
-    /// The authored scenario of that name, otherwise the file at that path. An unreadable file is only found when it is
-    /// read.
+    /// The authored scenario with this name, otherwise the file at this path. Whether the file is readable is only found when it is read.
     ///
     /// # Errors
     ///
-    /// There is neither a scenario nor a file of that name.
+    /// If neither a scenario nor a file has this name.
     pub fn find(name_or_path: &str) -> Result<Source, LoadError> {
         Source::resolve(name_or_path).map_err(|fault| LoadError::new(name_or_path, vec![fault]))
     }

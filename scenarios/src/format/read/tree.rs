@@ -134,7 +134,7 @@ fn entry_of_value(table: &str, key: &str, value: &Json) -> TomlEntry {
     let shown: String = format!("{key}{before}{}", toml(value)).chars().take(MAX_SHOWN).collect();
     let document = Document::of_key(name, &shown, 1);
     let span = (key.len() + before.len()).min(shown.len())..shown.len();
-    // For a table, an error then points at the whole and not at the first key.
+    // An error in a table then points at the whole table and not at its first key.
     let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
     let value = match value {
         Json::Object(stated) => {
@@ -183,7 +183,7 @@ impl TomlNode {
         }
     }
 
-    /// Sets the place of it and of everything below it.
+    /// Sets the place of this value and of all values below it.
     pub fn set_place(&mut self, place: &Place) {
         self.place = place.clone();
         match &mut self.value {
@@ -219,8 +219,8 @@ impl TomlNode {
         }
     }
 
-    /// The place of the value at a path such as `vehicle.0.start.x_m`, or of the innermost table around it. For a
-    /// table, that is the part that was stated last, so that a flag is blamed for what it changed.
+    /// The place of the value at a path such as `vehicle.0.start.x_m`, or of the innermost table around it. The place
+    /// of a table is that of the part that was stated last, so that an error points at the flag that changed it.
     pub fn place_of(&self, path: &str) -> &Place {
         let mut node = self;
         for step in path.split('.') {
@@ -233,18 +233,18 @@ impl TomlNode {
         parts.chain([&node.place]).min_by_key(|place| (place.document.rank, place.span.start)).unwrap_or(&node.place)
     }
 
-    /// The value at a path, if stated.
+    /// The value at a path, if it is stated.
     pub fn at(&self, path: &str) -> Option<&TomlNode> {
         path.split('.').try_fold(self, |node, step| node.child(step))
     }
 
-    /// The word by which a table in an array is addressed: its `name`, or the `vehicle` it is about.
+    /// The word that identifies a table in an array: its `name`, or the `vehicle` that it concerns.
     pub fn label(&self) -> Option<&str> {
         let table = self.table()?;
         ["name", "vehicle"].iter().find_map(|key| table.get(*key)?.node.text())
     }
 
-    /// The same value as JSON, for serde. A number that JSON cannot hold becomes null; the check has refused it before.
+    /// The value as JSON, for serde. A number that JSON cannot represent becomes null; an earlier check has refused it.
     pub fn to_json(&self) -> Json {
         use serde_json::Number;
         match &self.value {

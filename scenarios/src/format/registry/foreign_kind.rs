@@ -1,4 +1,4 @@
-//! Kinds of drivers, controllers or roads from other crates: how their settings are described and read.
+//! Kinds of drivers, controllers or roads from other crates: the schema of their settings, and how the settings are read.
 
 use std::fmt;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub(crate) struct ForeignKind<Kind: ?Sized> {
 type ReadSettings<Kind> = Arc<dyn Fn(Json) -> Result<ForeignSettings<Kind>, Error> + Send + Sync>;
 
 impl<Kind: ?Sized + 'static> ForeignKind<Kind> {
-    /// The kind with settings `S`, which `share` makes usable by their trait and `about` gives a word and a version.
+    /// The kind with settings `S`: `share` makes them usable by their trait, and `about` returns the kind's word and version.
     pub fn of<S>(share: fn(S) -> Arc<Kind>, about: fn(&Kind) -> [&'static str; 2]) -> ForeignKind<Kind>
     where
         S: Default + Serialize + DeserializeOwned + JsonSchema + 'static,

@@ -107,7 +107,7 @@ fn named_by<'k, Kind: ?Sized, S>(kinds: &'k [ForeignKind<Kind>], table: &Stated<
     kinds.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind))
 }
 
-/// [`Registry::schema`] of what Interplay has.
+/// The [`Registry::schema`] of the standard registry.
 pub fn schema() -> Json {
     Registry::standard().schema()
 }
@@ -124,12 +124,12 @@ impl Default for Registry {
 }
 
 impl Registry {
-    /// The kinds of Interplay, and no others.
+    /// The registry with the kinds of Interplay, and no others.
     pub fn standard() -> &'static Registry {
         &STANDARD
     }
 
-    /// The same registry with another kind of driver: that of these settings.
+    /// Adds a kind of driver with these settings to the registry.
     ///
     /// A table `driver = { kind = "…", … }` of a scenario file is checked against the schema of the settings and read by
     /// `serde`. The fields of the settings state all that the schema says, as in Interplay: units, bounds, examples, defaults
@@ -148,7 +148,7 @@ impl Registry {
         Ok(self.with_schema())
     }
 
-    /// The same registry with another kind of controller: that of these settings, as [`Registry::with_driver`].
+    /// Adds a kind of controller with these settings to the registry, as [`Registry::with_driver`] does.
     ///
     /// # Errors
     /// [`RegistryError`] if the kind's word is taken or is not a valid name.
@@ -165,7 +165,7 @@ impl Registry {
         Ok(self.with_schema())
     }
 
-    /// The same registry with another form of road: that of these settings, as [`Registry::with_driver`].
+    /// Adds a form of road with these settings to the registry, as [`Registry::with_driver`] does.
     ///
     /// # Errors
     /// [`RegistryError`] if the form's word is taken or is not a valid name.
@@ -180,7 +180,7 @@ impl Registry {
         Ok(self.with_schema())
     }
 
-    /// The same registry with another kind of obstacle: a word with its usual size.
+    /// Adds a kind of obstacle to the registry: a word with its usual size.
     ///
     /// # Errors
     /// [`RegistryError`] if the kind's word is taken or is not a valid name.
@@ -197,8 +197,8 @@ impl Registry {
         self
     }
 
-    /// The same registry with another declared metric. The caller who made the value knows how to compute it: users of the simulation
-    /// call `with_metric` of `interplay_simulation::measure::RegisterMetrics`.
+    /// Adds a declared metric to the registry. The caller who made the value knows how to compute it: users of the
+    /// simulation call `with_metric` of `interplay_simulation::measure::RegisterMetrics`.
     ///
     /// # Errors
     /// [`RegistryError::MetricTaken`] if its name or one of its keys is taken by another metric.
@@ -317,7 +317,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_kinds_of_drivers_are_those_of_the_planners() {
+    fn the_registry_lists_every_kind_of_driver_of_the_planners() {
         let kinds = Registry::standard().driver_kinds();
         assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
         for kind in kinds {

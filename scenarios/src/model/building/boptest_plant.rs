@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_has_a_scheme_and_a_host() {
+    fn a_boptest_address_has_a_scheme_and_a_host() {
         for sound in ["http://127.0.0.1:8080", "http://localhost", "http://[::1]:80/api/v1"] {
             assert_eq!(config(sound).fault(1), None, "{sound}");
         }
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_that_do_not_fit_the_zones_are_named() {
+    fn boptest_settings_that_do_not_fit_the_zones_are_named() {
         let fault = |change: fn(&mut BoptestPlantConfig)| {
             let mut wrong = config("http://localhost");
             change(&mut wrong);

@@ -90,7 +90,7 @@ fn one() -> usize {
 }
 
 impl Grid {
-    /// How many rooms there are.
+    /// The number of rooms.
     pub fn rooms(&self) -> usize {
         self.floors.saturating_mul(self.rows).saturating_mul(self.columns)
     }
@@ -142,7 +142,7 @@ impl BuildingConfig {
         }
     }
 
-    /// How many zones there are.
+    /// The number of zones.
     pub fn zone_count(&self) -> usize {
         match (self.zones.len(), self.grid) {
             (0, Some(grid)) if self.preset.is_none() => grid.rooms(),
@@ -151,7 +151,7 @@ impl BuildingConfig {
         }
     }
 
-    /// How many steps a day has.
+    /// The number of steps of a day.
     pub fn steps_per_day(&self) -> usize {
         (DAY_S / self.step_s).round() as usize
     }

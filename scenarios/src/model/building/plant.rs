@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_is_a_host_and_a_port() {
+    fn a_socket_plant_address_is_a_host_and_a_port() {
         for sound in ["127.0.0.1:7878", "localhost:1", "plant.example:65535", "[::1]:7878"] {
             assert_eq!(fault(sound), None, "{sound}");
         }

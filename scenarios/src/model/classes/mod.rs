@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn axles_are_below_the_body() {
+    fn axles_of_every_class_are_below_the_body() {
         for class in FULL_SIZE {
             let body = class.dimensions().body;
             assert!(body.front_axle_m < body.front_m && body.rear_axle_m < body.rear_m, "{class:?}");

@@ -135,7 +135,8 @@ pub struct DetectorLine {
 }
 
 impl DetectorLine {
-    /// The share of the motion between two positions at which the line is crossed in the direction of the lane; `None` if it is not \[m\].
+    /// The share of the motion between two positions \[m\] at which it crosses the line in the direction of the lane;
+    /// `None` if it does not.
     pub fn passed_at(&self, from: [f64; 2], to: [f64; 2]) -> Option<f64> {
         let axes = Axes::along(self.heading_rad);
         let [before, after] =

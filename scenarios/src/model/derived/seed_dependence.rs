@@ -1,4 +1,4 @@
-//! Whether a run depends on the seed of its scenario.
+//! Determines whether a run depends on the seed of its scenario.
 
 use interplay_building::weather::Forecast;
 use interplay_planners::PlanDeadline;
@@ -37,8 +37,8 @@ impl Vehicle {
 }
 
 impl Scenario {
-    /// The time limit of a vehicle's plans, if the file states one \[ms\]. Driver models that stand for people have none: people do not
-    /// plan by a computer's clock.
+    /// The time limit of a vehicle's plans, if the file states one \[ms\]. Driver models of people have none: people do
+    /// not plan by a computer's clock.
     pub fn plan_budget_ms(&self, vehicle: &Vehicle) -> Option<f64> {
         let real_time = self.real_time.filter(|_| !vehicle.driver.goes_first())?;
         Some(real_time.plan_budget_ms.unwrap_or(1e3 * self.planning_period_s()))

@@ -31,7 +31,7 @@ pub struct LightConfig {
 }
 
 impl LightConfig {
-    /// Its colour over time.
+    /// The colour of the light over time.
     pub fn cycle(&self) -> LightCycle {
         LightCycle { phases: self.phases.clone(), offset_s: self.offset_s }
     }

@@ -99,7 +99,7 @@ pub enum Outline {
 }
 
 impl Outline {
-    /// The smallest body around it, of an obstacle of a scale ([`Body::scale`]).
+    /// The smallest body around the outline, at a scale ([`Body::scale`]).
     pub fn body(&self, scale: f64) -> Body {
         let (front_m, rear_m, width_m) = match self {
             Outline::Box { length_m, width_m } => (0.5 * length_m, 0.5 * length_m, *width_m),
@@ -109,7 +109,7 @@ impl Outline {
                 (most(|at| at[0]), most(|at| -at[0]), 2.0 * most(|at| at[1].abs()))
             }
         };
-        // It never moves by itself: any axles within it make a valid body.
+        // An obstacle never moves by itself, so any axles within its body are valid.
         let (front_axle_m, rear_axle_m) = (0.6 * front_m.max(1e-3), 0.6 * rear_m.max(1e-3));
         Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale }
     }
@@ -125,7 +125,7 @@ impl Outline {
         Outline::Polygon { corners_m: self.corners_m().into_iter().map(turn).collect() }
     }
 
-    /// Corners of the outline, counter-clockwise, to the front and to the left; those of a circle by sixteen \[m\].
+    /// Corners of the outline, counter-clockwise, as coordinates to the front and to the left \[m\]; a circle has sixteen.
     pub fn corners_m(&self) -> Vec<[f64; 2]> {
         match self {
             Outline::Box { length_m, width_m } => {

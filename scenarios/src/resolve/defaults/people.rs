@@ -41,6 +41,9 @@ pub(super) fn state_habits(vehicle: &mut Map<String, Json>, registry: &Registry,
     let kind = vehicle.get("driver").and_then(|driver| registry.driver_kind(driver.get("kind")?.as_str()?));
     let rules = kind.map_or(RuleKeeping::Kept, DriverKind::people_rules);
     vehicle.entry("rules").or_insert(json!(rules));
+    for key in ["tells_plan", "knows_plans"] {
+        vehicle.entry(key).or_insert(json!(false));
+    }
     if let Some(limits) = vehicle.entry("limits").or_insert_with(|| json!({})).as_object_mut() {
         let comfort = schema.property("limits").and_then(|limits| limits.property("comfort"));
         let real = serde_json::to_value(ComfortLimits::default()).unwrap_or_default();

@@ -58,7 +58,7 @@ impl Compass {
         }
     }
 
-    /// Direction from the middle \[rad\].
+    /// Direction of the arm from the middle of the junction \[rad\].
     pub fn heading_rad(self) -> f64 {
         match self {
             Compass::East => 0.0,
@@ -123,10 +123,10 @@ impl Arm {
 }
 
 impl Arms<'_> {
-    /// The lanes of all arms, and those that connect them.
+    /// The lanes of all arms, and the lanes that connect them.
     ///
     /// # Errors
-    /// For sizes that leave no room for the lanes.
+    /// [`RoadFault`] if the stated sizes leave no room for the lanes.
     pub fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
         let half_m = 0.5 * self.lane_width_m;
         if self.turn_radius_m <= half_m {

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_that_face_away_have_no_connector() {
+    fn lanes_that_face_away_from_each_other_have_no_connector() {
         let pose = |x: f64, y: f64, heading_rad: f64| LanePose { position: [x, y], heading_rad };
         assert!(connector(pose(0.0, 0.0, 0.0), pose(-5.0, 0.0, 0.0)).is_err(), "behind");
         assert!(connector(pose(0.0, 0.0, 0.0), pose(5.0, 5.0, -1.5)).is_err(), "the lines meet beyond");

@@ -67,7 +67,7 @@ fn numbered(name: &str, number: usize, count: usize) -> String {
 /// A width that changes between two places \[m\].
 fn changing_width(places_m: [f64; 2], widths_m: [f64; 2]) -> Profile {
     let knots = [[places_m[0], widths_m[0]], [places_m[1], widths_m[1]]];
-    // Positions that do not increase are refused before.
+    // An earlier check refuses positions that do not increase.
     Profile::steps(&knots).unwrap_or(Profile::constant(widths_m[0]))
 }
 

@@ -1,4 +1,4 @@
-//! The geometry of a roundabout: where and on which curves arms join its ring.
+//! The geometry of a roundabout: the places and curves at which arms join its ring.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

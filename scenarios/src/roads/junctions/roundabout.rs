@@ -107,7 +107,7 @@ impl Roundabout {
         if let Some(joint) = ring.joint()?.filter(is_wide) {
             return Ok(joint);
         }
-        // A long arm decides whether the ring or the arm is to blame.
+        // A test with a very long arm shows whether the ring or the arm causes the fault.
         let long = Ring { arm_length_m: 1e3 * (outer_m + width_m), ..ring }.joint()?.filter(is_wide);
         Err(match long {
             Some(joint) => {

@@ -1,4 +1,4 @@
-//! All pictures with one palette, and what changes from each to the next.
+//! All pictures of an animation with one palette, and the changes from each picture to the next.
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
@@ -71,7 +71,7 @@ impl Film {
         let columns = || 0..width;
         let left = columns().find(|x| rows.iter().any(|y| differs(*x, *y))).unwrap_or_default();
         let right = columns().rev().find(|x| rows.iter().any(|y| differs(*x, *y))).unwrap_or_default();
-        // WebP has even corners only.
+        // In WebP, the corners of a changed part have even coordinates.
         let (left, top) = (left & !1, top & !1);
         let pixel = |x: usize, y: usize| differs(x, y).then(|| now[y * width + x]);
         let pixels =
@@ -160,7 +160,7 @@ const COLUMNS: usize = 2;
 const GAP_PX: usize = 6;
 const PAPER: u8 = 0xFF;
 
-/// Pictures at equal distances, including the first and the last, as PNG.
+/// A filmstrip as PNG: pictures at equal intervals of time, including the first and the last.
 pub fn filmstrip(pictures: &dyn Pictures) -> Result<Vec<u8>, png::EncodingError> {
     let [width, height] = pictures.size().map(|part| part as usize);
     let last = pictures.count() - 1;

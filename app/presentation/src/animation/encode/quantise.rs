@@ -16,7 +16,7 @@ const MIN_EXACT_SHARE: f64 = 2e-4;
 /// Leading bits of red, green and blue that select the nearest colour of the palette.
 const BITS: u32 = 5;
 
-/// A palette, and the index of its nearest colour for each colour by its leading bits.
+/// A palette, with a lookup table from the leading bits of a colour to the index of the nearest colour in the palette.
 pub struct ColourTable {
     /// At most 127 colours.
     pub colours: Vec<Colour>,
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_colours_stay_and_the_others_stay_near() {
+    fn quantisation_keeps_exact_colours_and_shifts_others_little() {
         let pixels: Vec<u8> =
             (0..60_000_u32).flat_map(|i| [(i % 251) as u8, (i / 251 % 241) as u8, (i % 97) as u8]).collect();
         let table = ColourTable::quantise(std::slice::from_ref(&pixels), &[[230, 159, 0], [1, 2, 3]]);
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn few_colours_are_all_exact() {
+    fn a_picture_with_few_colours_keeps_all_of_them() {
         let pixels: Vec<u8> = [[9, 8, 7], [1, 1, 1], [200, 100, 0]].concat().repeat(50);
         let table = ColourTable::quantise(std::slice::from_ref(&pixels), &[]);
         let shown: Vec<u8> =

@@ -36,7 +36,7 @@ fn frame(film: &Film, change: &Change) -> Result<Vec<u8>, EncodingError> {
     };
     let pixels: Vec<u8> = change.pixels.iter().flat_map(rgba).collect();
     let ([left, top], [width, height]) = (change.corner, change.size);
-    // Flat areas are often smaller without prediction from their neighbours.
+    // Flat areas often compress better without prediction from their neighbours.
     let encoded = |use_predictor_transform: bool| {
         let mut parameters = EncoderParams::default();
         parameters.use_predictor_transform = use_predictor_transform;

@@ -87,7 +87,7 @@ mod tests {
 
     /// Footprints are complete and large enough, and numbers legible, for any length of the drive.
     #[test]
-    fn short_and_long_drives_show_every_footprint() {
+    fn every_footprint_of_short_and_long_drives_is_visible() {
         for length_m in [20.0, 100.0, 2000.0] {
             let drawing = drive(length_m).drawing();
             assert_eq!(drawing.illegible(), Vec::<String>::new(), "{length_m} m");
@@ -112,7 +112,7 @@ mod tests {
 
     /// Overlapping footprints of a car are drawn once, with the numbers of all.
     #[test]
-    fn footprints_of_one_car_do_not_pile_up() {
+    fn footprints_of_one_car_are_spaced_apart() {
         for (length_m, kept, words) in [(20.0, 4, "1–2"), (10.0, 2, "1–4"), (0.0, 1, "1–8")] {
             let drawing = crossing(length_m).drawing();
             assert_eq!(bodies_px(&drawing).len(), 2 * kept, "{length_m} m");
@@ -123,7 +123,7 @@ mod tests {
 
     /// Numbers that would overlap others are left out, the first and the last last.
     #[test]
-    fn numbers_do_not_pile_up_where_many_vehicles_pass() {
+    fn footprint_numbers_do_not_overlap_where_many_vehicles_pass() {
         let mut footprints = drive(100.0);
         for number in 2..7 {
             footprints.vehicles.push(car(&format!("car {number}"), BLUE));

@@ -59,7 +59,7 @@ impl FloorPlanLayer {
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels =
             names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]).chain(self.floor_names());
-        // The viewer writes labels below their places. Several floors have their names above them.
+        // The viewer writes labels below their positions. With several floors, the names of the floors are above them.
         let outdoors_y = if self.rooms.floors > 1 { height as f32 - 40.0 } else { 0.0 };
         let centre = |index: usize| {
             let [left, top] = self.corner(index);

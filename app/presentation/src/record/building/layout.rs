@@ -50,7 +50,7 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let cost = plot("Cost of each day", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
-        // The legend of the temperatures above names the rooms.
+        // The legend of the temperatures above already names the rooms.
         (1.0, heat.without_legend()),
         (1.0, cost.with_legend(letters(&["cheapest possible"]), QUARTER_WIDTH)),
     ];
@@ -168,7 +168,7 @@ mod tests {
     use super::spread;
 
     #[test]
-    fn the_zones_of_the_first_tab_are_spread_over_all() {
+    fn the_first_tab_shows_zones_spread_over_the_building() {
         assert_eq!(spread(1, 4), [0]);
         assert_eq!(spread(4, 4), [0, 1, 2, 3]);
         assert_eq!(spread(5, 4), [0, 1, 2, 4]);

@@ -22,12 +22,12 @@ pub struct ObservationSpace {
 }
 
 impl ObservationSpace {
-    /// Number of numbers.
+    /// Number of numbers of an observation.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether there are none.
+    /// Whether an observation has no numbers.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -120,7 +120,7 @@ pub trait ObservationKind: fmt::Debug + Send + Sync {
 pub struct ForeignView(Arc<dyn ObservationKind>);
 
 impl ForeignView {
-    /// The view.
+    /// Wraps a view of another crate.
     pub fn new(view: impl ObservationKind + 'static) -> ForeignView {
         ForeignView(Arc::new(view))
     }

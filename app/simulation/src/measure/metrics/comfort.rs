@@ -140,7 +140,7 @@ mod tests {
 
     /// Hard braking is defined relative to the vehicle's strongest braking, limit included.
     #[test]
-    fn hard_braking_is_relative_to_the_strongest_braking() {
+    fn hard_braking_is_a_share_of_the_strongest_possible_braking() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let strongest_mps2 = -scenario.vehicles[0].limits.acceleration_min_mps2;
         for (share, is_hard) in [(0.74, false), (0.75, true), (1.0, true)] {

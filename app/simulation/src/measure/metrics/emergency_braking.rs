@@ -1,4 +1,4 @@
-//! How often a vehicle brakes harder than drivers do without an emergency.
+//! Counts how often a vehicle brakes harder than drivers do without an emergency.
 
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
@@ -67,7 +67,7 @@ mod tests {
     use crate::measure::metrics::tests::over_ticks;
 
     #[test]
-    fn each_emergency_is_counted_once() {
+    fn each_emergency_braking_is_counted_once() {
         let count = |brakings_mps2: &[f64]| {
             let mut speed_mps = 20.0;
             let ticks = brakings_mps2.iter().map(|braking_mps2| {

@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_taken_at_the_crossing_and_braking_in_the_seconds_after() {
+    fn lane_change_gaps_are_measured_at_the_crossing_and_braking_after_it() {
         let body = load("full-size/lane-change", &[]).expect("authored").vehicles[0].body;
         let moments = cut_in();
         let length_m = body.front_m + body.rear_m;

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn names_and_keys_are_unique() {
+    fn names_and_keys_of_metrics_are_unique() {
         let declarations: Vec<_> = ALL.iter().copied().flatten().map(|metric| metric.declaration()).collect();
         let names: Vec<&str> = declarations.iter().map(|one| one.name).collect();
         let report_keys = declarations.iter().map(|one| one.report_key.unwrap_or(one.name)).collect();

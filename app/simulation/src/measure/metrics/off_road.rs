@@ -38,7 +38,7 @@ const LEAVES_ROAD: VehicleMetric = VehicleMetric::new(
 fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
     let VehicleMoment { vehicle, state, along_m, .. } = moment;
     if vehicle.obstacle.is_some() {
-        // A car parked at the kerb breaks no rule.
+        // A parked car at the kerb breaks no rule, so its distance is 0.
         return Some(0.0);
     }
     let (sin, cos) = libm::sincos(state.heading_rad);

@@ -192,7 +192,7 @@ impl Crossing {
         }
         let within_s = self.left_s.map_or(0.0, |left_s| moment.time_s - left_s);
         let is_there = their_front_m > their_m[0];
-        // A vehicle that entered before this one had its right of way respected.
+        // If the other vehicle entered before this one, its right of way was respected.
         let was_there = !self.was_entered && is_there;
         self.was_entered = true;
         self.is_settled = was_there || is_there || within_s >= spare_s;

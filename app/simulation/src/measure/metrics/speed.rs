@@ -1,4 +1,4 @@
-//! How fast a vehicle drives.
+//! The lowest and the highest speed of a vehicle.
 
 use interplay_scenarios::MetricDeclaration;
 use interplay_scenarios::MetricKind::Number;

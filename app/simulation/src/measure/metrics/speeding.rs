@@ -1,4 +1,4 @@
-//! How far a vehicle exceeds the speed limits of its lanes.
+//! The amount by which a vehicle exceeds the speed limits of its lanes.
 
 use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricDeclaration, Vehicle};
@@ -61,14 +61,14 @@ mod tests {
     }
 
     #[test]
-    fn a_route_without_limits_has_no_value() {
+    fn speeding_has_no_value_on_a_route_without_limits() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let without = at_moments(&SPEEDING, &scenario.vehicles[0], &[moment(0.0, 1.0, 50.0)]);
         assert_eq!(without.value, None);
     }
 
     #[test]
-    fn each_lane_has_its_own_limit() {
+    fn speeding_is_judged_by_the_limit_of_each_lane() {
         let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
         let vehicle = Vehicle { route: route(), ..scenario.vehicles[0].clone() };
         let mut seen = vec![(0.0, 10.0, 19.0), (1.0, 50.0, 20.0), (2.0, 150.0, 40.0)];

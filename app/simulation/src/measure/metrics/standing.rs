@@ -1,4 +1,4 @@
-//! How long a vehicle that wants to move is stationary without a visible reason ([`Standing`]).
+//! The time for which a vehicle that wants to move is stationary without a visible reason ([`Standing`]).
 
 use interplay_scenarios::MetricKind::{Count, Number};
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
@@ -18,7 +18,7 @@ pub(super) const METRICS: &[&dyn Metric] = &[
         value: |standing| MetricValue::Number(standing.longest_s),
     },
     &StandingMetric {
-        // Comparisons use "deadlocks" for runs in which the ego never completed its task.
+        // Comparisons reserve "deadlocks" for runs in which the ego never completed its task.
         declaration: MetricDeclaration {
             comparison_key: Some("stuck"),
             ..MetricDeclaration::of_vehicle("deadlocks", Count, DOC_DEADLOCKS)

@@ -91,7 +91,7 @@ fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64
     let own_across_m = stated.route.across(own.position());
     let others = tick.end.vehicles.iter().zip(states).enumerate();
     let others = others.filter(|(index, _)| *index != vehicle && !tick.frame.vehicles[*index].is_absent);
-    // The distance along the road is hardly shorter than the straight one.
+    // The distance along the road is never much shorter than the straight-line distance.
     let is_near = |body: &Body, state: &State| {
         let [x_m, y_m] = [state.x_m - own.x_m, state.y_m - own.y_m];
         let most_m = 1.5 * FOLLOWED_M * scale + stated.body.front_m + body.rear_m;

@@ -20,7 +20,7 @@ const PER_HOUR: usize = 4;
 const W_PER_KW: f64 = 1000.0;
 const REQUEST: &str = "PUT /forecast";
 
-/// Series of a test from now on; each value holds until the next time.
+/// Series of a test, from the present time on; each value holds until the next time.
 #[derive(Debug)]
 pub struct KnownSeries {
     /// The times \[s\].

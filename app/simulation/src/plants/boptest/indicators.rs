@@ -1,4 +1,4 @@
-//! The indicators of a test: BOPTEST's own, and ours from its measurements.
+//! The indicators of a test: those of BOPTEST, and those that Interplay computes from the measurements.
 
 use interplay_building::benchmark::{AirQuality, Carrier, Indicators, MeasuredRun, PowerSignal, ThermalZone};
 use interplay_scenarios::{BoptestIndicators, BoptestPlantConfig, BoptestPrices};
@@ -21,7 +21,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Requests them at the beginning of a test, for its whole duration: first time and length \[s\].
+    /// Requests these series at the beginning of a test, for its whole duration: first time and length \[s\].
     pub fn ask(
         listed: &BoptestIndicators,
         prices: BoptestPrices,
@@ -47,7 +47,7 @@ impl Known {
         Ok(Self { start_s, end_s: start_s + horizon_s, series, price_of_electricity })
     }
 
-    /// The reading of the electricity meter between two times \[s\]; none if no electricity is measured.
+    /// The reading of the electricity meter between two times \[s\]; `None` if no electricity is measured.
     pub fn metered(
         &self,
         config: &BoptestPlantConfig,
@@ -69,7 +69,7 @@ impl Known {
             Ok(PowerSignal { carrier: Carrier::Electricity, power_w, price_per_kwh, emission_kg_per_kwh })
         };
         let powers = listed.electricity.iter().map(power).collect::<Result<_, BoptestError>>()?;
-        // For one square metre, so that figures per area are those of the building.
+        // With an area of 1 m², figures per area equal those of the whole building.
         let measured = MeasuredRun { area_m2: 1.0, powers, times_s, ..MeasuredRun::default() };
         let figures = Indicators::compute(&measured).map_err(|error| invalid(&error.to_string()))?;
         Ok(Some(Metered {

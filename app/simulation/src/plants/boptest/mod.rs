@@ -5,8 +5,9 @@
 //! advance, once a step                                           results, kpi -> Benchmark
 //! ```
 //!
-//! Both are a [`api::Bench`], which answers the same requests. The heat of a zone becomes the inputs that the scenario maps to it; all
-//! other inputs stay those of the case's own controller. At the end its indicators are read, and computed again from what it measured. `docs/guide/foreign-plants.md` describes the settings.
+//! Both are a [`api::Bench`], which answers the same requests. The heat of a zone becomes the inputs that the scenario maps to
+//! it; all other inputs stay those of the case's own controller. At the end, Interplay reads the indicators of the case and
+//! computes them again from the measurements. `docs/guide/foreign-plants.md` describes the settings.
 
 mod api;
 mod boptest_error;

@@ -48,7 +48,8 @@ pub struct BoptestPlant {
 }
 
 impl BoptestPlant {
-    /// A plant with `steps` steps that connects when the run begins. `outdoor_c` is the temperature of the first day \[°C\].
+    /// The plant of a run of `steps` steps. It connects to the test case when the run begins. `outdoor_c` are the
+    /// outdoor temperatures of the first day \[°C\].
     pub fn new(config: &BoptestPlantConfig, believed: Model, steps: usize, outdoor_c: &[f64]) -> Self {
         let mean_outdoor_c = outdoor_c.iter().sum::<f64>() / outdoor_c.len().max(1) as f64;
         let steps_per_day = ((DAY_S / believed.step_s()).round() as usize).max(1);
@@ -300,13 +301,13 @@ mod tests {
     }
 
     #[test]
-    fn heat_is_scaled_and_bounded() {
+    fn heat_is_scaled_and_bounded_as_an_input_of_the_case() {
         let values = [-5.0, 0.0, 4.0, 10.0, 25.0].map(|heat_kw| input_value(&input(None), heat_kw));
         assert_eq!(values, [0.0, 0.0, 0.4, 1.0, 1.0]);
     }
 
     #[test]
-    fn pulses_have_the_wanted_mean_without_part_load() {
+    fn equipment_without_part_load_pulses_with_the_wanted_mean() {
         for wanted in [0.05, 0.3, 0.55, 0.79] {
             let (mut held_back, mut sum) = (0.0, 0.0);
             for _ in 0..1000 {

@@ -1,9 +1,9 @@
-//! Short gaps between segments become rows of which only the time is known.
+//! Turns short gaps between segments into rows without measurements.
 //!
-//! A segment begins with a guess of its hidden temperatures, so that a single missing row would cost as much knowledge as days
-//! of rows give. Through a short gap the filter goes on instead: temperatures are missing and weather is interpolated. So is heat
-//! where it is the same on both sides of a very short gap. Elsewhere the heat of the missing rows is unknown, and so
-//! are the temperatures of the nodes that it enters.
+//! A segment begins with a guess of its hidden temperatures, so a single missing row would lose as much information as
+//! days of rows provide. Therefore the filter continues through a short gap: temperatures are missing, and weather is
+//! interpolated. Heat is also interpolated if it is the same on both sides of a very short gap. Otherwise the heat of
+//! the missing rows is unknown, and so are the temperatures of the nodes that it enters.
 
 use std::ops::Range;
 
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_gap_joins_two_segments_and_a_long_one_does_not() {
+    fn short_gaps_join_segments_and_long_gaps_separate_them() {
         let telemetry = without(50..53);
         let (bridged, unknown_heat) = bridged(&telemetry).expect("a short gap");
         assert_eq!((bridged.segments.len(), bridged.rows()), (1, telemetry.rows() + 3));

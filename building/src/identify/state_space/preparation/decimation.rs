@@ -1,6 +1,6 @@
-//! Long records with longer steps.
+//! Converts long records to longer steps.
 //!
-//! The time of a fit is proportional to the rows. A record of many rows holds far more of them than its parameters need:
+//! The time of a fit is proportional to the number of rows. A long record has far more rows than its parameters need:
 //! every k-th temperature is kept, and heat and weather are averaged over k rows, so that heat is conserved.
 
 use crate::identify::telemetry::{Hold, SupplyAir, Telemetry};
@@ -40,7 +40,7 @@ pub(super) fn decimated(telemetry: &Telemetry, unknown_heat: &[usize], factor: u
     let mean = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
         blocks.iter().map(|&row| (row..row + factor).map(value).sum::<f64>() / factor as f64).collect()
     };
-    // A series that changes evenly has its mean over a row in the middle of it.
+    // A linear series has its mean over a row at the middle of the row.
     let held = |values: &[f64], hold: Hold| {
         mean(&|row| match hold {
             Hold::FirstOrder => 0.5 * (values[row] + values[(row + 1).min(values.len() - 1)]),

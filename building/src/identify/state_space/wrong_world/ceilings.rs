@@ -1,4 +1,4 @@
-//! What no building can be, whatever the likelihood says.
+//! Physical limits that no building exceeds, whatever the likelihood says.
 
 use std::ops::Range;
 

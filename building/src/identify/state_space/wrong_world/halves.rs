@@ -27,20 +27,20 @@ pub(in crate::identify::state_space) struct Agreement {
 }
 
 impl Agreement {
-    /// Whether neither half can be trusted to say the same as the other.
+    /// Whether the halves differ so much that neither estimate can be trusted.
     pub fn is_contradiction(&self) -> bool {
         let (distance, log_ratio) = CONTRADICTION_OF_FAR;
         self.distance > CONTRADICTION || (self.distance > distance && self.log_ratio > log_ratio)
     }
 
-    /// Whether they are so far apart that the record itself is suspected.
+    /// Whether the halves differ so much that the record itself is suspected.
     pub fn is_suspicious(&self) -> bool {
         self.distance > SUSPICION
     }
 }
 
 impl Halves {
-    /// `None` where a half has no likelihood.
+    /// Fits the model to both halves; `None` if a half has no likelihood.
     pub fn new(fit: &Fit, observations: &Observations) -> Option<Self> {
         let rows: usize = observations.segments.iter().map(std::ops::Range::len).sum();
         let of = |half: &Observations| {
@@ -53,7 +53,8 @@ impl Halves {
         Some(Self { fits: [first?, second?] })
     }
 
-    /// What the halves say of a quantity, with standard errors multiplied by `inflation`; `None` where one of them does not know it.
+    /// The estimates of a quantity by the two halves, with standard errors multiplied by `inflation`; `None` if one
+    /// half does not determine it.
     pub fn agreement(
         &self,
         telemetry: &Telemetry,

@@ -1,7 +1,8 @@
-//! Whether the data contradict what every model takes for granted: that the weather's clock is that of the building, that all
-//! heat but white or coloured noise is measured, that walls do not change, and that one model holds for the whole record.
+//! Tests whether the data contradict the assumptions of every model: that the weather's clock is that of the building, that all
+//! heat except white or coloured noise is measured, that walls do not change, and that one model is valid for the whole record.
 //!
-//! An estimate cannot tell: a wrong world has its own best parameters, with short intervals and often with white residuals.
+//! The estimate itself does not show this: false assumptions also have best parameters, with short intervals and often
+//! with white residuals.
 
 pub(super) mod ceilings;
 pub(super) mod halves;

@@ -1,4 +1,4 @@
-//! Score tests (Lagrange multipliers) for heat that no model has: what the likelihood would gain from it, without a fit.
+//! Score tests (Lagrange multipliers) for heat that no model contains: they predict the gain in likelihood without a fit.
 //!
 //! ```text
 //! LM = g_βᵀ (I_ββ − I_βθ I_θθ⁻¹ I_θβ)⁻¹ g_β        at β = 0, chi-squared with as many degrees of freedom as β has entries
@@ -132,7 +132,7 @@ fn statistic(world: &World<'_>, evaluation: &Evaluation, range: Range<usize>) ->
     let gradient = |indices: &[usize]| {
         DVector::from_iterator(indices.len(), indices.iter().map(|&j| evaluation.gradient[j] / scale(j)))
     };
-    // The rest of the gradient by θ, which is nearly zero at the maximum.
+    // The remaining gradient with respect to θ, which is nearly zero at the maximum.
     let left = gradient(&added) - cross.transpose() * factor.solve(&gradient(&known));
     let eigen = own.symmetric_eigen();
     let mut sum = (0.0, 0);
@@ -172,7 +172,7 @@ pub(super) fn heavy_tail(world: &World<'_>, zone: usize) -> Option<HeavyTail> {
     if kurtosis < LIMIT && skewness.abs() < LIMIT {
         return None;
     }
-    // Positive where the air follows the outdoors by more than the walls explain.
+    // Positive if the air follows the outdoor temperature more than the walls explain.
     let outward = values.iter().map(|(value, to_outdoor)| (value - mean).powi(3) * to_outdoor.signum()).sum::<f64>();
     let times = format!(
         "innovations are at times far larger than in general (kurtosis {kurtosis:.0} standard errors too large)"

@@ -212,7 +212,7 @@ impl Bench for FmuBench {
             }
             "forecast" => self.forecast(body),
             "results" => self.results(body),
-            // An FMU computes no indicators.
+            // An FMU does not compute indicators.
             _ => Ok(Signals::new()),
         }
     }

@@ -5,7 +5,7 @@
 //!                        FmuBench: initialize, advance, results
 //! ```
 //!
-//! It has no indicators of BOPTEST; the report contains those that we compute from its results.
+//! BOPTEST's own indicators are not available; the report contains those that Interplay computes from the results.
 
 mod bench;
 
