@@ -171,6 +171,9 @@ impl<'a> MadeOf<'a> {
 /// A vehicle some steps after it was observed, with as much of its expected motion as a plan needs.
 fn driven_on(agent: &Agent, steps: usize, horizon: usize) -> Agent {
     let Agent { prediction, .. } = agent;
+    if steps == 0 && prediction.inputs.len() <= horizon {
+        return agent.clone();
+    }
     let rest = |from: usize, count: usize, length: usize| from.min(length)..(from + count).min(length);
     let motion = Trajectory {
         states: prediction.states[rest(steps, horizon + 1, prediction.states.len())].to_vec(),
