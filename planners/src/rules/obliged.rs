@@ -19,6 +19,11 @@ pub(crate) struct Obliged<'a> {
 const USUAL_SHARE: f64 = 0.28;
 
 impl<'a> Obliged<'a> {
+    /// Whether the rules of a network apply to it.
+    pub(crate) fn is_judged(&self) -> bool {
+        self.keeps_rules && self.agent.route.is_in_network()
+    }
+
     /// A road user as far as the others can tell: it wants to drive as fast as is permitted where it is, and to stay in its lane.
     pub(crate) fn as_seen(agent: &'a Agent, keeps_rules: bool) -> Obliged<'a> {
         let along_m = agent.route.along(agent.state.position());
