@@ -14,8 +14,8 @@ const SIDE_M: f64 = 0.09;
 const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 pub(super) const WAITING_LENGTHS: f64 = 2.2;
-/// It stops in comfort with this \[m/s²\].
-const STOPPING_MPS2: f64 = 1.4;
+/// Who would have to brake harder than this to stop there stops nearer \[m/s²\].
+const STOPPING_MPS2: f64 = 3.0;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
 /// A driver swings out over this many lengths of its body,
