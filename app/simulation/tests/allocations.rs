@@ -44,8 +44,9 @@ fn allocations_per_tick_are_constant_in_time_and_proportional_to_vehicles() {
         // Measures keep numbers of each tick: time gaps, and samples for medians.
         let held_per_tick = held_more / (TICKS * vehicles) as i64;
         assert!(held_per_tick < 100, "{held_per_tick} bytes more a vehicle and tick");
+        // Some 18 of them are for what can be seen of each vehicle, and its expected motion.
         let each = late as f64 / (TICKS * vehicles) as f64;
-        assert!(each < 160.0, "{each:.1} allocations a vehicle and tick of {vehicles}");
+        assert!(each < 175.0, "{each:.1} allocations a vehicle and tick of {vehicles}");
         late
     });
     assert!(counted[1] < counted[0] * 22 / 10, "{counted:?}");

@@ -91,10 +91,13 @@ impl Follower {
         let mut model = idm::Settings::literature().scaled(ratio);
         let mut ahead = Vec::new();
         if let Some(leader) = seen.leader {
-            let states: Vec<State> = leader.prediction.states.iter().take(steps + 1).copied().collect();
-            let places: Vec<[f64; 2]> = states.iter().map(|state| state.position()).collect();
-            let rears = route.locate_all(&places).zip(&states);
-            ahead = rears.map(|(at, state)| [at.along_m - leader.body.rear_m, state.speed_mps]).collect();
+            let mut near_m = None;
+            let rear = |state: &State| {
+                let along_m = route.locate(state.position(), near_m).along_m;
+                near_m = Some(along_m);
+                [along_m - leader.body.rear_m, state.speed_mps]
+            };
+            ahead = leader.prediction.states.iter().take(steps + 1).map(rear).collect();
             if let Some([rear_m, _]) = ahead.first() {
                 let gap_m = rear_m - route.along(state.position()) - body.front_m;
                 let kept_s = (gap_m - model.gap_m).max(0.0) / state.speed_mps.max(LEAST_GAP_M * ratio);

@@ -132,15 +132,16 @@ impl Scene {
     /// Where the rear of a vehicle is expected at `t = 1…N` along the own route \[m\], and its speed there along it \[m/s\].
     fn rears(&self, leader: &Agent) -> Vec<[f64; 2]> {
         let states = &leader.prediction.states;
-        let last = states.last().copied().unwrap_or(leader.state);
-        let states: Vec<State> = (1..=self.horizon).map(|t| states.get(t).copied().unwrap_or(last)).collect();
-        let places: Vec<[f64; 2]> = states.iter().map(State::position).collect();
-        let along = self.ego.route.locate_all(&places).zip(&states);
-        let rear = |(at, state): (crate::road::centre_line::FrenetPoint, &State)| {
+        let last = states.last().unwrap_or(&leader.state);
+        let mut near_m = None;
+        let rear = |t: usize| {
+            let state: &State = states.get(t).unwrap_or(last);
+            let at = self.ego.route.locate(state.position(), near_m);
+            near_m = Some(at.along_m);
             let along_mps = state.speed_mps * libm::cos(state.heading_rad - at.heading_rad);
             [at.along_m - leader.body.rear_m, along_mps.max(0.0)]
         };
-        along.map(rear).collect()
+        (1..=self.horizon).map(rear).collect()
     }
 
     /// The speeds of an approach in comfort from a front at `front_m`, to a gap that depends on the speed of the vehicle ahead.

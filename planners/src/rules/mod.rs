@@ -70,9 +70,6 @@ impl RuleBook {
     /// `order` is the order that it observed, of the others as they are expected to be now. The lights are those of `seen_s` \[s\].
     pub(crate) fn judge_one(&self, order: &Order, users: &[Obliged<'_>], vehicle: usize, seen_s: f64) -> RoadRules {
         let user = &users[vehicle];
-        if !user.keeps_rules || !user.agent.route.is_in_network() {
-            return beside_no_network(user);
-        }
         let Order { arrivals, mut lights_m, mut holds, mut turns } = order.clone();
         lights_m[vehicle] = lights::line_m(user.agent, seen_s);
         turns[vehicle] = self.arrivals.turn(user.agent);
@@ -107,7 +104,7 @@ impl RuleBook {
 
 /// Whether the rules of a network are kept by any vehicle.
 fn are_judged(users: &[Obliged<'_>]) -> bool {
-    users.iter().any(|user| user.keeps_rules && user.agent.route.is_in_network())
+    users.iter().any(Obliged::is_judged)
 }
 
 /// Which vehicles have to wait for which, before circles are broken.
@@ -166,7 +163,7 @@ fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lig
 /// What is asked of a vehicle that is held by others.
 fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
     let ego = &user.agent;
-    if !user.keeps_rules || !ego.route.is_in_network() {
+    if !user.is_judged() {
         return beside_no_network(user);
     }
     let before_m = stopping_distance_m(ego);

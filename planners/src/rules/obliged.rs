@@ -15,14 +15,19 @@ pub(crate) struct Obliged<'a> {
     pub keeps_rules: bool,
 }
 
-/// What a driver is taken to want who stands where nothing limits its speed, in a real car \[m/s\].
-const USUAL_MPS: f64 = 13.9;
+/// Share of its highest speed that a road user is taken to want where nothing limits its speed: 14 m/s of a car, 1.4 m/s of a pedestrian.
+const USUAL_SHARE: f64 = 0.28;
 
 impl<'a> Obliged<'a> {
+    /// Whether the rules of a network apply to it.
+    pub(crate) fn is_judged(&self) -> bool {
+        self.keeps_rules && self.agent.route.is_in_network()
+    }
+
     /// A road user as far as the others can tell: it wants to drive as fast as is permitted where it is, and to stay in its lane.
     pub(crate) fn as_seen(agent: &'a Agent, keeps_rules: bool) -> Obliged<'a> {
         let along_m = agent.route.along(agent.state.position());
-        let usual_mps = USUAL_MPS * agent.body.real_ratio().sqrt();
+        let usual_mps = USUAL_SHARE * agent.limits.speed_max_mps;
         let wanted_mps = agent.permitted_speed_mps(along_m).unwrap_or(usual_mps).max(agent.state.speed_mps);
         let wanted_mps = wanted_mps.min(agent.limits.speed_max_mps);
         Obliged { agent, wanted_mps, lateral_goal_m: 0.0, keeps_rules }

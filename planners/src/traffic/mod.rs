@@ -201,10 +201,15 @@ impl Traffic {
 
     /// What the rules ask of one who sees the motion of the others only.
     fn asked_of_observer(&self, row: usize) -> Option<RoadRules> {
-        let (view, made_of) = (self.view(row)?, self.made_of());
-        let own = self.road_users[row].obliged();
+        let (view, own) = (self.view(row)?, self.road_users[row].obliged());
+        if !own.is_judged() {
+            return Some(RoadRules { are_kept: own.keeps_rules, ..RoadRules::default() });
+        }
         let place = view.rows.iter().position(|other| *other == row)?;
-        let seen = view.rows.iter().filter_map(|other| made_of.obliged(*other, &view.agents));
+        let seen = view.rows.iter().zip(&view.wanted_mps).filter_map(|(other, wanted_mps)| {
+            let (agent, keeps_rules) = (view.agents[*other].as_ref()?, self.road_users[*other].keeps_rules);
+            Some(Obliged { agent, wanted_mps: *wanted_mps, lateral_goal_m: 0.0, keeps_rules })
+        });
         let users: Vec<Obliged<'_>> =
             seen.enumerate().map(|(index, user)| if index == place { own } else { user }).collect();
         Some(self.rule_book.judge_one(&view.order, &users, place, view.seen_s))

@@ -35,6 +35,8 @@ pub(super) struct View {
     pub near: Neighbours,
     /// The rows of the vehicles on the road.
     pub rows: Vec<usize>,
+    /// How fast each of them is taken to want to drive, in the order of `rows` \[m/s\].
+    pub wanted_mps: Vec<f64>,
     /// Which of them have to wait for which, in the order of `rows`.
     pub order: Order,
 }
@@ -77,11 +79,12 @@ impl Observations {
             (0..made_of.road_users.len()).map(|row| is_present(&row).then(|| here(row)).flatten()).collect();
         let rows: Vec<usize> = (0..agents.len()).filter(|row| agents[*row].is_some()).collect();
         let users: Vec<Obliged<'_>> = rows.iter().filter_map(|row| made_of.obliged(*row, &agents)).collect();
+        let wanted_mps = users.iter().map(|user| user.wanted_mps).collect();
         let made = self.made.get(seen);
         let seen_s = made.map_or(tick, |made| made.tick) as f64 * made_of.step_s;
         let order = made.map(|made| Order::of(&made.arrivals, &users, seen_s)).unwrap_or_default();
         let near = Neighbours::of_agents(agents.iter().map(Option::as_ref), made_of.horizon as f64 * made_of.step_s);
-        View { late_steps, seen_s, near, rows, order, agents }
+        View { late_steps, seen_s, near, rows, wanted_mps, order, agents }
     }
 }
 
@@ -97,7 +100,7 @@ pub(super) struct MadeOf<'a> {
 
 impl<'a> MadeOf<'a> {
     /// A road user as the others see it, of whom `agents` has one for each row.
-    pub(super) fn obliged<'b>(&self, row: usize, agents: &'b [Option<Agent>]) -> Option<Obliged<'b>> {
+    fn obliged<'b>(&self, row: usize, agents: &'b [Option<Agent>]) -> Option<Obliged<'b>> {
         Some(Obliged::as_seen(agents.get(row)?.as_ref()?, self.road_users[row].keeps_rules))
     }
 
@@ -171,6 +174,9 @@ impl<'a> MadeOf<'a> {
 /// A vehicle some steps after it was observed, with as much of its expected motion as a plan needs.
 fn driven_on(agent: &Agent, steps: usize, horizon: usize) -> Agent {
     let Agent { prediction, .. } = agent;
+    if steps == 0 && prediction.inputs.len() <= horizon {
+        return agent.clone();
+    }
     let rest = |from: usize, count: usize, length: usize| from.min(length)..(from + count).min(length);
     let motion = Trajectory {
         states: prediction.states[rest(steps, horizon + 1, prediction.states.len())].to_vec(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::violation::{expected, first_contact, first_off_road};
+use super::violation::{expected, first_contact, first_off_road, is_farther, reach_m};
 use crate::prediction::steady_inputs;
 use crate::prediction::steering::{admissible, roll_out, steer};
 use crate::{Agent, Input, Scene, State, Trajectory};
@@ -136,6 +136,16 @@ pub(super) fn is_worse_than_a_last_resort(scene: &Scene, plan: &Trajectory) -> b
     let planned = Harm::measure(scene, plan);
     let harms: Vec<Harm> = last_resorts(scene).map(|motion| Harm::measure(scene, &motion)).collect();
     !harms.iter().any(Harm::is_none) && harms.iter().any(|harm| harm.is_less_than(&planned))
+}
+
+/// Whether a plan comes so near to a vehicle, which may be longer by some length \[m\], that they could touch.
+pub(super) fn comes_near(scene: &Scene, plan: &Trajectory, longer_m: impl Fn(&Agent) -> f64) -> bool {
+    scene.others.iter().any(|other| {
+        let reach_m = reach_m(&scene.ego, other) + longer_m(other);
+        plan.states.iter().enumerate().any(|(stage, here)| {
+            expected(other, stage).is_some_and(|there| !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m))
+        })
+    })
 }
 
 /// The vehicle that a plan touches first with the stage, if the own one could not stand before.

@@ -16,7 +16,7 @@ mod violation;
 
 pub(crate) use last_resort::rolled_out;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
-use last_resort::{early_contact, is_worse_than_a_last_resort};
+use last_resort::{comes_near, early_contact, is_worse_than_a_last_resort};
 pub use rectangles::overlap_m;
 pub use violation::violations;
 pub(crate) use violation::{touches_ahead, within_touch};
@@ -39,6 +39,9 @@ pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolat
 pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanViolation]) -> Option<PlanViolation> {
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.cloned().or_else(|| {
+        if !comes_near(scene, plan, longer_m) {
+            return None;
+        }
         let ego = &scene.ego;
         let follows = |other: &Agent| ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
         let others = scene.others.iter().filter(|other| !follows(other)).map(spread).collect();
@@ -51,9 +54,13 @@ pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanVio
 
 /// A vehicle as long as the places at which its body may be that is expected in a second.
 fn spread(other: &Agent) -> Agent {
-    let mut other = other.clone();
-    let longer_m = if other.is_obstacle { 0.0 } else { spread_m(&other, other.body.real_ratio().sqrt()) };
+    let (mut other, longer_m) = (other.clone(), longer_m(other));
     other.body.front_m += longer_m;
     other.body.rear_m += longer_m;
     other
+}
+
+/// The spread of the place of a vehicle after a second \[m\].
+fn longer_m(other: &Agent) -> f64 {
+    if other.is_obstacle { 0.0 } else { spread_m(other, other.body.real_ratio().sqrt()) }
 }

@@ -78,11 +78,11 @@ fn farthest_corner_m(body: &Body) -> f64 {
 }
 
 /// How far two vehicles can be from each other and touch \[m\].
-fn reach_m(one: &Agent, other: &Agent) -> f64 {
+pub(super) fn reach_m(one: &Agent, other: &Agent) -> f64 {
     [one, other].map(|agent| farthest_corner_m(&agent.body)).iter().sum::<f64>()
 }
 
-fn is_farther(x_m: f64, y_m: f64, reach_m: f64) -> bool {
+pub(super) fn is_farther(x_m: f64, y_m: f64, reach_m: f64) -> bool {
     x_m * x_m + y_m * y_m > reach_m * reach_m
 }
 

@@ -1,6 +1,6 @@
 //! A vehicle that stands in the way: where it is, and how it is passed.
 
-use crate::plan::certificate::{rolled_out, touches_ahead};
+use crate::plan::certificate::touches_ahead;
 use crate::prediction::steering::{admissible, roll_out, steer};
 use crate::problem::clearance::{STANDSTILL_GAP_M, containing, ellipses};
 use crate::scene::road_rules::Obstacle;
@@ -14,8 +14,8 @@ const SIDE_M: f64 = 0.09;
 const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 pub(super) const WAITING_LENGTHS: f64 = 2.2;
-/// It stops in comfort with this \[m/s²\].
-const STOPPING_MPS2: f64 = 1.4;
+/// Who would have to brake harder than this to stop there stops nearer \[m/s²\].
+const STOPPING_MPS2: f64 = 3.0;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
 /// A driver swings out over this many lengths of its body,
@@ -72,9 +72,14 @@ impl Obstacle {
         motion.inputs
     }
 
-    /// Whether a driver who sees it without having been told of it before is so near behind it that swinging out would touch it.
+    /// Whether a driver who sees late that it is an obstacle has come so near that it cannot swing out beside it: on the tightest circle of
+    /// the radius `R` it moves aside by `L` on the way `√(2 R L)`.
     pub(super) fn is_too_near_to_swing_out(&self, scene: &Scene) -> bool {
-        scene.knowledge.is_of_motion() && self.is_touched_by(scene, &rolled_out(scene, self.guess(scene)), 0.0)
+        let Agent { body, state, route, limits, .. } = &scene.ego;
+        let room_m = self.along_m[0] - route.along(state.position()) - body.front_m;
+        let aside_m = (self.reach_m[1] - (route.across(state.position()) - self.across_m).abs()).max(0.0);
+        let radius_m = body.wheelbase_m() / libm::tan(limits.steering_max_rad);
+        scene.knowledge.is_of_motion() && room_m > 0.0 && room_m * room_m < 2.0 * radius_m * aside_m
     }
 
     /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays
