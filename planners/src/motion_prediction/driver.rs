@@ -93,8 +93,7 @@ impl PredictedDriver {
     /// Where any driver expects the vehicle who sees it behind the vehicle ahead.
     pub(super) fn predict_seen(&self, moment: &TrafficMoment) -> PredictedMotion {
         let Scene { ego, others, .. } = PredictedDriver { lateral: None, ..self.clone() }.scene(moment);
-        let leader = others.iter().find(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
-        let motion = SeenMotion { vehicle: &ego, leader }.expected(STEPS, STEP_S);
+        let motion = SeenMotion { vehicle: &ego, leader: ego.leader_among(&others) }.expected(STEPS, STEP_S);
         let across_m = motion.states.iter().map(|state| state.y_m).collect();
         PredictedMotion { along_m: travelled_m(&motion.states), across_m }
     }

@@ -1,13 +1,14 @@
 //! The motion that every driver expects of a vehicle whose plan it does not know, from what can be seen of it.
 //!
 //! ```text
-//! acceleration  a(t) = min(a₀ e^(−t/τ), τ = τ₀ max(1, −a₀/a_τ), behind its leader, before its line, within its speed limit)
+//! acceleration  a(t) = min(a₀ e^(−t/τ), behind its leader, before its line, within its speed limit),  τ = τ₀ max(1, −a₀/a_τ)
 //! lateral       towards n₀ + v_n τ_n, or into the lane to which it indicates
 //! ```
 //!
-//! `a₀` is its present acceleration and `v_n` its lateral speed. Who brakes hard brakes for long: for a stop. Behind its leader, whose own seen motion is known, and before the line at
-//! which the rules hold it, it brakes as the intelligent driver model of the literature does, with the time gap that it keeps now. The
-//! motion is rolled out through the bicycle, so that its inputs reproduce it, on bends too.
+//! `a₀` is its present acceleration and `v_n` its lateral speed. A vehicle that brakes hard is expected to brake for longer, as for a
+//! stop. Behind its leader, whose own seen motion is known, and before the line at which the rules hold it, it brakes by the intelligent
+//! driver model with the values of the literature and the time gap that it keeps now. The motion is rolled out through the bicycle, so
+//! that its inputs reproduce it, on bends too.
 
 use crate::drivers::idm;
 use crate::prediction::steadily_along;
@@ -21,7 +22,7 @@ const DECAY_S: f64 = 1.0;
 const LONGER_MPS2: f64 = 1.0;
 /// The same of a lateral speed \[s\].
 const LATERAL_DECAY_S: f64 = 1.0;
-/// Who drives at a larger angle to its route is expected to go on as it goes \[rad\].
+/// A vehicle at a larger angle to its route is expected to keep its speed and angle \[rad\].
 const ALONG_RAD: f64 = 0.8;
 /// A gap is at least this, of real vehicles \[m\].
 const LEAST_GAP_M: f64 = 0.1;

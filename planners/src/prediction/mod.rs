@@ -56,13 +56,18 @@ impl Prediction {
 /// and its angle to the road. Goals that are shared stay.
 pub fn without_plans(scene: Scene) -> Scene {
     let Scene { horizon, step_s, .. } = scene;
-    let others = scene.others.into_iter().map(|other| Agent {
+    let others = scene.others.into_iter().map(|other| without_plan(other, horizon, step_s));
+    Scene { others: others.collect(), ..scene }
+}
+
+/// One vehicle as such an observer expects it.
+pub(crate) fn without_plan(other: Agent, horizon: usize, step_s: f64) -> Agent {
+    Agent {
         prediction: Arc::new(steadily_along(&other.route, &other.body, &other.state, horizon, step_s)),
         previous_input: Input::default(),
         can_be_asked: !other.is_obstacle,
         ..other
-    });
-    Scene { others: others.collect(), ..scene }
+    }
 }
 
 /// Half width of the spread of an observed position along the road, of real vehicles \[m\].
@@ -72,8 +77,8 @@ const SPREAD_MPS2: f64 = 0.5;
 
 /// The half width of the spread of the place along the road of a vehicle of which only the motion is seen, after some time \[m\]:
 /// `σ₀ + σ_a t²/2`.
-pub(crate) fn spread_m(vehicle: &Agent, time_s: f64) -> f64 {
-    SPREAD_M * vehicle.body.real_ratio() + 0.5 * SPREAD_MPS2 * time_s * time_s
+pub fn spread_m(body: &Body, time_s: f64) -> f64 {
+    SPREAD_M * body.real_ratio() + 0.5 * SPREAD_MPS2 * time_s * time_s
 }
 
 /// The motion of a vehicle that keeps its present heading and speed.
@@ -178,7 +183,7 @@ mod tests {
     #[test]
     fn the_spread_grows_with_the_square_of_time() {
         let vehicle = crate::fixture::real_car(0.0, 20.0);
-        let [now, later] = [0.0, 2.0].map(|time_s| spread_m(&vehicle, time_s));
+        let [now, later] = [0.0, 2.0].map(|time_s| spread_m(&vehicle.body, time_s));
         assert!((later - now - 1.0).abs() < 1e-12);
     }
 }

@@ -172,7 +172,7 @@ impl Scene {
         let spread_m = |stage: usize| {
             let is_spread = self.knowledge.is_of_motion() && !is_in_lane;
             let time_s = (self.step_s * (stage + 1) as f64).min(SPREAD_S * ego.body.real_ratio().sqrt());
-            if is_spread { prediction::spread_m(other, time_s) } else { 0.0 }
+            if is_spread { prediction::spread_m(&other.body, time_s) } else { 0.0 }
         };
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;

@@ -37,14 +37,14 @@ impl Scene {
     /// narrow or taken.
     pub(crate) fn kept_behind(&self) -> Option<Followed> {
         let rules = &self.ego.rules;
-        let is_ahead = |other: &&Agent| self.ego.shares_lane_with(other) && self.ego.lead_of(other) > 0.0;
-        let ahead = self.others.iter().filter(is_ahead);
-        let Some(leader) = ahead.min_by(|a, b| self.ego.lead_of(a).total_cmp(&self.ego.lead_of(b))) else {
+        let stays_behind = |leader: &&Agent| {
+            let is_passed = rules.passes.as_ref().is_some_and(|obstacle| obstacle.name == leader.name);
+            !is_passed && (rules.stays_in_lane || !self.has_room_beside(leader))
+        };
+        let Some(leader) = self.ego.leader_among(&self.others).filter(stays_behind) else {
             return self.before_lane_end();
         };
-        let is_passed = rules.passes.as_ref().is_some_and(|obstacle| obstacle.name == leader.name);
-        let stays = !is_passed && (rules.stays_in_lane || !self.has_room_beside(leader));
-        if stays { self.followed(leader, PLANNER_SHARE) } else { self.before_lane_end() }
+        self.followed(leader, PLANNER_SHARE)
     }
 
     /// How the planning vehicle stays before the end of its lane on a straight road while the lane beside is taken.

@@ -67,15 +67,26 @@ impl RuleBook {
     }
 
     /// What is asked of one road user, number `vehicle` of `users`, who observed the others some time ago and knows its own present:
-    /// `order` is the order that it observed, of the others as they are expected to be now. The lights are those of `seen_s` \[s\].
-    pub(crate) fn judge_one(&self, order: &Order, users: &[Obliged<'_>], vehicle: usize, seen_s: f64) -> RoadRules {
+    /// `order` and `arrivals` are those that it observed, of the others as they are expected to be now. The lights are those of
+    /// `seen_s` \[s\].
+    pub(crate) fn judge_one(
+        &self,
+        order: &Order,
+        arrivals: &Arrivals,
+        users: &[Obliged<'_>],
+        vehicle: usize,
+        seen_s: f64,
+    ) -> RoadRules {
         let user = &users[vehicle];
-        let Order { arrivals, mut lights_m, mut holds, mut turns } = order.clone();
-        lights_m[vehicle] = lights::line_m(user.agent, seen_s);
-        turns[vehicle] = self.arrivals.turn(user.agent);
-        holds[vehicle] = held([&self.arrivals, &arrivals], users, vehicle, &lights_m);
-        waiting::release(&mut holds, &turns);
-        asked(&self.arrivals, user, users, &holds[vehicle], seen_s)
+        let mut held = held([&self.arrivals, arrivals], users, vehicle, &order.lights_m);
+        // A vehicle that waits for no other is in no circle.
+        if !held.is_empty() {
+            let (mut holds, mut turns) = (order.holds.clone(), order.turns.clone());
+            (holds[vehicle], turns[vehicle]) = (held, self.arrivals.turn(user.agent));
+            waiting::release(&mut holds, &turns);
+            held = holds.swap_remove(vehicle);
+        }
+        asked(&self.arrivals, user, users, &held, seen_s)
     }
 
     /// What has been noted of arrivals so far.
@@ -110,7 +121,6 @@ fn are_judged(users: &[Obliged<'_>]) -> bool {
 /// Which vehicles have to wait for which, before circles are broken.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Order {
-    arrivals: Arrivals,
     /// The lights at which each has to stop \[m\].
     lights_m: Vec<Option<f64>>,
     holds: Vec<Vec<Hold>>,
@@ -124,7 +134,7 @@ impl Order {
         let held = |vehicle: usize| held([arrivals; 2], users, vehicle, &lights_m);
         let holds = (0..users.len()).map(held).collect();
         let turns = users.iter().map(|user| arrivals.turn(user.agent)).collect();
-        Order { arrivals: arrivals.clone(), lights_m, holds, turns }
+        Order { lights_m, holds, turns }
     }
 }
 
@@ -139,7 +149,7 @@ fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lig
     let mut found = Vec::new();
     for (by, other) in users.iter().enumerate().filter(|(by, _)| *by != vehicle) {
         for conflict in ego.route.conflicts_with(&other.agent.route) {
-            // Who has to stop at a light before the conflict does not come.
+            // A vehicle that must stop at a light before the conflict does not arrive there.
             if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
                 continue;
             }
@@ -185,6 +195,6 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.
-fn beside_no_network(user: &Obliged<'_>) -> RoadRules {
+pub(crate) fn beside_no_network(user: &Obliged<'_>) -> RoadRules {
     RoadRules { are_kept: user.keeps_rules, ..RoadRules::default() }
 }

@@ -81,6 +81,19 @@ impl Agent {
         }
     }
 
+    /// The nearest of some vehicles that is ahead in the same lane.
+    pub(crate) fn leader_among<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> Option<&'a Agent> {
+        let ahead = others.into_iter().filter(|other| self.shares_lane_with(other) && self.lead_of(other) > 0.0);
+        ahead.min_by(|a, b| self.lead_of(a).total_cmp(&self.lead_of(b)))
+    }
+
+    /// Whether it is too near to what stands ahead to come past it by steering: on the tightest circle of the radius `R` it moves aside by
+    /// `L` on the way `√(2 R L)`.
+    pub(crate) fn is_too_near_to_swing_out(&self, room_m: f64, aside_m: f64) -> bool {
+        let radius_m = self.body.wheelbase_m() / libm::tan(self.limits.steering_max_rad);
+        room_m > 0.0 && room_m * room_m < 2.0 * radius_m * aside_m
+    }
+
     /// Whether two vehicles on one road overlap across it, so that one would run into the other.
     pub fn shares_lane_with(&self, other: &Agent) -> bool {
         let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());

@@ -20,7 +20,9 @@
 //! prediction); of one another they know the last plans only, so that no decision depends on which driver was asked before in the
 //! same tick. Sums and the search over homotopy classes still go through the others as they are listed: reversed, they differ in
 //! rounding, and in a near-tie by more (`docs/evidence/reliability.md`).
-//! A driver that infers plans ([`RoadUser::knows_plans`]) knows none: its scene has the states of the others only.
+//! A driver that infers plans ([`RoadUser::knows_plans`]) knows none: its scene has the states of the others only. A driver of people
+//! ([`RoadUser::observes`]) knows none either: its scene has the [`Observations`] of one reaction time ago, driven on to the present, and
+//! the rules that it obeys are judged from them.
 
 mod committed;
 mod limits;
@@ -43,11 +45,11 @@ pub use planning_order::planning_order;
 pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
 
-use crate::prediction::without_plans;
-use crate::rules::{Obliged, RoadRules, RuleBook};
+use crate::prediction::without_plan;
+use crate::rules::{Obliged, RoadRules, RuleBook, beside_no_network};
 use crate::scene::Knowledge;
 use crate::trajectory::Statistics;
-use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene};
+use crate::{Agent, Bicycle, Input, Plan, PlanError, Scene, Trajectory};
 use observation::{MadeOf, View};
 
 /// All road users at the start of a tick.
@@ -195,7 +197,9 @@ impl Traffic {
             rules[row] = rules[row].take().or_else(|| self.asked_of_observer(row));
         }
         for (user, rules) in self.road_users.iter_mut().zip(rules) {
-            user.agent.rules = rules.unwrap_or(std::mem::take(&mut user.agent.rules));
+            if let Some(rules) = rules {
+                user.agent.rules = rules;
+            }
         }
     }
 
@@ -203,7 +207,7 @@ impl Traffic {
     fn asked_of_observer(&self, row: usize) -> Option<RoadRules> {
         let (view, own) = (self.view(row)?, self.road_users[row].obliged());
         if !own.is_judged() {
-            return Some(RoadRules { are_kept: own.keeps_rules, ..RoadRules::default() });
+            return Some(beside_no_network(&own));
         }
         let place = view.rows.iter().position(|other| *other == row)?;
         let seen = view.rows.iter().zip(&view.wanted_mps).filter_map(|(other, wanted_mps)| {
@@ -212,7 +216,7 @@ impl Traffic {
         });
         let users: Vec<Obliged<'_>> =
             seen.enumerate().map(|(index, user)| if index == place { own } else { user }).collect();
-        Some(self.rule_book.judge_one(&view.order, &users, place, view.seen_s))
+        Some(self.rule_book.judge_one(&view.order, &view.arrivals, &users, place, view.seen_s))
     }
 
     /// What a vehicle on the road sees that observes the motion of the others only; none of another one.
@@ -223,29 +227,32 @@ impl Traffic {
             .flatten()
     }
 
+    /// The motion that the others expect of a vehicle without delay: of one that does not tell its plan, what its motion leads to expect.
+    pub fn expected_of(&self, row: usize) -> &Arc<Trajectory> {
+        let RoadUser { agent, tells_plan, .. } = &self.road_users[row];
+        let seen = if *tells_plan { None } else { self.observations.expected_of(row) };
+        seen.unwrap_or(&agent.prediction)
+    }
+
     /// The moment as one vehicle sees it: with the plans of those that tell them if it knows plans.
     pub fn scene(&self, vehicle: usize) -> Scene {
         let user = &self.road_users[vehicle];
         let Some(view) = self.view(vehicle) else {
-            let moment = self.moment(vehicle);
-            return if user.knows_plans { self.without_untold(moment) } else { without_plans(moment) };
+            let near = self.near.of(vehicle, &self.road_users).into_iter();
+            let known = near.map(|other| {
+                let RoadUser { agent, tells_plan, .. } = &self.road_users[other];
+                if user.knows_plans && *tells_plan {
+                    return agent.clone();
+                }
+                let seen = self.observations.present_of(other, self.horizon).filter(|_| !tells_plan);
+                seen.unwrap_or_else(|| without_plan(agent.clone(), self.horizon, self.step_s))
+            });
+            return Scene { others: known.collect(), ..self.moment_of(vehicle, &[]) };
         };
         let near = view.near.near_to(&user.agent, vehicle, |other| view.agents[other].as_ref());
         let others = near.into_iter().filter_map(|other| view.agents[other].clone()).collect();
         let knowledge = Knowledge::Motion { late_steps: user.late_steps(self.step_s) };
         Scene { others, knowledge, ..self.moment_of(vehicle, &[]) }
-    }
-
-    /// A moment without the plans of vehicles that do not tell them.
-    fn without_untold(&self, moment: Scene) -> Scene {
-        if self.road_users.iter().all(|user| user.tells_plan) {
-            return moment;
-        }
-        let tells = |name: &str| self.road_users.iter().any(|user| user.agent.name == name && user.tells_plan);
-        let told: Vec<bool> = moment.others.iter().map(|other| tells(&other.name)).collect();
-        let seen = without_plans(moment.clone());
-        let others = moment.others.into_iter().zip(seen.others).zip(told);
-        Scene { others: others.map(|((plan, seen), tells)| if tells { plan } else { seen }).collect(), ..seen }
     }
 
     /// The moment as it is around one vehicle, with the predictions as they stand of all who can matter to it within the horizon.

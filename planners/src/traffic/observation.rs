@@ -31,7 +31,7 @@ pub(super) struct View {
     pub seen_s: f64,
     /// One for each row, driven on to the present; none for a vehicle that is not on the road.
     pub agents: Vec<Option<Agent>>,
-    /// Who is near whom, by the states in `agents`.
+    /// Which vehicles can matter to which, by the states in `agents`.
     pub near: Neighbours,
     /// The rows of the vehicles on the road.
     pub rows: Vec<usize>,
@@ -39,6 +39,8 @@ pub(super) struct View {
     pub wanted_mps: Vec<f64>,
     /// Which of them have to wait for which, in the order of `rows`.
     pub order: Order,
+    /// What had been noted of their arrivals when they were observed.
+    pub arrivals: Arrivals,
 }
 
 /// The observations that some driver has yet to receive, and the views of the present plan.
@@ -59,6 +61,17 @@ impl Observations {
             self.made.pop_front();
         }
         self.views = late_steps.iter().map(|late| self.view(*late, tick, made_of)).collect();
+    }
+
+    /// What is expected of a vehicle by one who sees its motion without delay, over the horizon and the longest reaction time; none while no
+    /// driver observes.
+    pub(super) fn expected_of(&self, row: usize) -> Option<&Arc<Trajectory>> {
+        Some(&self.made.back()?.agents.get(row)?.as_ref()?.prediction)
+    }
+
+    /// A vehicle as one sees it without delay; none while no driver observes.
+    pub(super) fn present_of(&self, row: usize, horizon: usize) -> Option<Agent> {
+        Some(driven_on(self.made.back()?.agents.get(row)?.as_ref()?, 0, horizon))
     }
 
     /// The view of drivers with a reaction time in steps.
@@ -82,9 +95,10 @@ impl Observations {
         let wanted_mps = users.iter().map(|user| user.wanted_mps).collect();
         let made = self.made.get(seen);
         let seen_s = made.map_or(tick, |made| made.tick) as f64 * made_of.step_s;
-        let order = made.map(|made| Order::of(&made.arrivals, &users, seen_s)).unwrap_or_default();
+        let arrivals = made.map(|made| made.arrivals.clone()).unwrap_or_default();
+        let order = Order::of(&arrivals, &users, seen_s);
         let near = Neighbours::of_agents(agents.iter().map(Option::as_ref), made_of.horizon as f64 * made_of.step_s);
-        View { late_steps, seen_s, near, rows, wanted_mps, order, agents }
+        View { late_steps, seen_s, near, rows, wanted_mps, order, arrivals, agents }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use interplay_planners::prediction::spread_m;
 use interplay_planners::{Body, Proposal, Route, State, Trajectory};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Origin, VehicleFrame};
@@ -25,6 +26,10 @@ const PREDICTION_WIDTHS: f64 = 0.05;
 const BRANCH_WIDTHS: f64 = 0.06;
 const PLAN_WIDTHS: f64 = 0.07;
 const PROPOSAL_WIDTHS: f64 = 0.25;
+/// Half length of a bar at an end of the spread of a prediction, in widths of a body.
+const BAR_WIDTHS: f64 = 0.25;
+/// How far ahead the spread of a prediction is drawn \[s\].
+const SPREAD_S: [f64; 3] = [1.0, 2.0, 3.0];
 /// Radius of a light, in widths of a body.
 const LIGHT_WIDTHS: f64 = 0.1;
 /// The pose of a hidden object: too small to be visible, since the viewer refuses a scale of zero.
@@ -44,6 +49,8 @@ struct DrawnVehicle {
     vehicle_colour: NamedColour,
     body: Body,
     route: Arc<Route>,
+    /// The time step of its expected motion, if the others see its motion only \[s\].
+    seen_step_s: Option<f64>,
     last: Option<State>,
     /// Whether it was absent at the last tick.
     is_absent: bool,
@@ -74,6 +81,7 @@ impl VehicleLayer {
                 vehicle_colour: *vehicle_colour,
                 body: vehicle.body,
                 route: Arc::clone(&vehicle.route),
+                seen_step_s: (!vehicle.tells_plan()).then_some(scenario.step_s),
                 last: None,
                 is_absent: false,
                 shows_intent: false,
@@ -209,7 +217,11 @@ impl DrawnVehicle {
         let plan_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
         let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
-        stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS))))?;
+        let mut expected = dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS));
+        if let Some(step_s) = self.seen_step_s {
+            expected.extend(self.spread_bars(&vehicle.prediction, step_s));
+        }
+        stream.log(self.at("prediction"), &strips(expected))?;
         if !requests.is_empty() || self.has_request {
             self.has_request = !requests.is_empty();
             let dots = requests.iter().flat_map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
@@ -223,6 +235,24 @@ impl DrawnVehicle {
             stream.log(self.at("branches"), &strips(lines))?;
         }
         Ok(())
+    }
+
+    /// Bars across the way at the ends of where the others expect the vehicle who see its motion only, after some seconds.
+    fn spread_bars(&self, expected: &Trajectory, step_s: f64) -> impl Iterator<Item = Vec<[f32; 3]>> {
+        let (height_m, half_m) = (self.z(PREDICTION_WIDTHS), self.z(BAR_WIDTHS));
+        let after = move |time_s: f64| Some((time_s, expected.states.get((time_s / step_s).round() as usize)?));
+        SPREAD_S.into_iter().filter_map(after).flat_map(move |(time_s, state)| {
+            let reach_m = spread_m(&self.body, time_s);
+            let (sin, cos) = libm::sincos(state.heading_rad);
+            [-reach_m, reach_m].map(|along_m| {
+                let beside = |across_m: f64| {
+                    let (x_m, y_m) =
+                        (state.x_m + along_m * cos - across_m * sin, state.y_m + along_m * sin + across_m * cos);
+                    point(&State { x_m, y_m, ..*state }, height_m)
+                };
+                vec![beside(-half_m), beside(half_m)]
+            })
+        })
     }
 
     /// Logs brake lights and indicators where they change.

@@ -47,10 +47,9 @@ pub fn describe(
     traffic: Res<CurrentTraffic>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
-    let rows = traffic.0.road_users.iter().zip(&fleet.0);
-    let described = rows.map(|(user, entity)| {
+    let described = fleet.0.iter().enumerate().map(|(row, entity)| {
         let plan_ms = vehicles.get(*entity).map_or(0.0, |driving| driving.plan_ms);
-        VehicleFrame::of(user, plan_ms)
+        VehicleFrame::of(&traffic.0, row, plan_ms)
     });
     current_frame.0.vehicles = described.collect();
 }

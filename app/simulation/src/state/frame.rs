@@ -7,7 +7,7 @@ use interplay_planners::plan::diagnostic;
 use interplay_planners::rules::RoadRules;
 use interplay_planners::scene::IndicatorSide;
 pub use interplay_planners::traffic::Origin;
-use interplay_planners::traffic::RoadUser;
+use interplay_planners::traffic::Traffic;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
 use serde::Serialize;
 
@@ -102,7 +102,8 @@ pub struct VehicleFrame {
     /// Where the plan comes from.
     pub origin: Origin,
     /// The motion that the others expected when they planned: the plan itself if it plans first, otherwise the continuation of its last
-    /// plan. Vehicles ahead of it that also plan first had planned before it and knew only its last plan.
+    /// plan. Vehicles ahead of it that also plan first had planned before it and knew only its last plan. Of a vehicle that does not tell
+    /// its plan, this is what its motion leads others to expect who see it without delay.
     pub prediction: Arc<Trajectory>,
     /// The side on which it indicated a change of lane when it planned, among people.
     pub indicator: Option<IndicatorSide>,
@@ -115,8 +116,9 @@ pub struct VehicleFrame {
 }
 
 impl VehicleFrame {
-    /// A vehicle after its decision and before it moves; `plan_ms` is the wall time of its plan \[ms\].
-    pub(crate) fn of(user: &RoadUser, plan_ms: f64) -> Self {
+    /// A row of the traffic after its decision and before it moves; `plan_ms` is the wall time of its plan \[ms\].
+    pub(crate) fn of(traffic: &Traffic, row: usize, plan_ms: f64) -> Self {
+        let user = &traffic.road_users[row];
         let agent = &user.agent;
         VehicleFrame {
             name: agent.name.clone(),
@@ -125,7 +127,7 @@ impl VehicleFrame {
             input: if user.is_absent() { Input::default() } else { agent.previous_input },
             plan: Arc::clone(&user.plan),
             origin: user.origin,
-            prediction: Arc::clone(&agent.prediction),
+            prediction: Arc::clone(traffic.expected_of(row)),
             indicator: agent.indicator,
             rules: agent.rules.clone(),
             urgency: agent.urgency,

@@ -13,6 +13,9 @@
 //! applies its own part of the solution. The computation is deterministic and the vehicles are ordered by name, so all
 //! solutions are bit-identical as long as all vehicles have the same information.
 //!
+//! Among people no plan or goal is told, and the joint problem without other vehicles is that of the conservative planner; the planner says
+//! so. Vehicles with `tells_plan = true` cooperate.
+//!
 //! The starting guess determines which vehicle goes first. So at the first step the planner tries, for each vehicle, the guess
 //! in which it accelerates and the others brake.
 
@@ -29,7 +32,7 @@ use crate::problem::{JointVehicle, joint_problem};
 use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Diagnostic, Goal, Input, Plan, PlanError, PlanTime, Proposal, Scene, Trajectory};
+use crate::{Diagnostic, Goal, Input, Plan, PlanError, PlanEvent, PlanTime, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
 /// The vehicles of the joint problem with their goals, sorted by name: each of these vehicles computes a bit-identical
@@ -49,6 +52,8 @@ pub struct Cooperative {
     optimiser: Optimiser<Robust>,
     /// The last trajectory of each cooperating vehicle, with its name.
     last: Vec<(String, Trajectory)>,
+    /// Whether the last plan was made with no other vehicle, because none is linked.
+    was_alone: bool,
 }
 
 impl Settings {
@@ -67,7 +72,18 @@ impl Cooperative {
             settings,
             optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             last: Vec::new(),
+            was_alone: false,
         }
+    }
+
+    /// Says once when no vehicle is linked, and the joint problem is the conservative one. Among vehicles that tell their plans, the
+    /// diagnostic with the number of vehicles says as much.
+    fn remark(&mut self, scene: &Scene, vehicles: usize) -> Option<PlanEvent> {
+        let is_alone = scene.knowledge.is_of_motion() && vehicles == 1;
+        let remark = (is_alone && !self.was_alone)
+            .then(|| PlanEvent::note("no other vehicle is linked: plans are those of the conservative planner"));
+        self.was_alone = is_alone;
+        remark
     }
 }
 
@@ -122,7 +138,8 @@ impl Drive for Cooperative {
                 let parts = cooperators.iter().enumerate();
                 self.last = parts.map(|(i, part)| (part.agent.name.clone(), optimum.trajectory(i))).collect();
                 let answer = self.answer(&problem, &optimum, own);
-                Ok(Plan { problem: Some(Box::new(problem)), ..answer })
+                let events = self.remark(scene, cooperators.len()).into_iter().collect();
+                Ok(Plan { problem: Some(Box::new(problem)), events, ..answer })
             }
             Err(error) => {
                 let last = std::mem::take(&mut self.last);

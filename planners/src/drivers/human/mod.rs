@@ -204,7 +204,8 @@ impl Drive for Human {
             None
         };
         if scene.knowledge.is_of_motion() {
-            let leader = leader(&wanted, wanted.others.iter().filter(|other| is_minded(&wanted, met.as_ref(), other)));
+            let minded = wanted.others.iter().filter(|other| is_minded(&wanted, met.as_ref(), other));
+            let leader = wanted.ego.leader_among(minded);
             let followed = leader.and_then(|leader| wanted.followed(leader, self.settings.gap_share()));
             let followed = followed.or_else(|| wanted.before_lane_end());
             wanted.to_mut().ego.rules.follows = followed;
@@ -253,7 +254,7 @@ fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, setti
     let mut terms = scene.own_terms(0, &scene.goal);
     let others = scene.others.iter().zip(expected);
     let others: Vec<(&Agent, &Agent)> = others.filter(|(other, _)| is_minded(scene, met, other)).collect();
-    let leader = leader(scene, others.iter().map(|(other, _)| *other));
+    let leader = scene.ego.leader_among(others.iter().map(|(other, _)| *other));
     // Behind a vehicle that is followed by its motion, a line keeps it back.
     let ellipses_around = leader.filter(|_| scene.ego.rules.follows.is_none());
     let followed = ellipses_around.map(|leader| followed(scene, leader, settings)).unwrap_or_default();
@@ -309,7 +310,7 @@ fn followed(scene: &Scene, leader: &Agent, settings: &Settings) -> Vec<KeepOut> 
 /// Those who might cut in or cross, where the driver expects them; `others` are pairs of a vehicle and what is expected of it.
 fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
-    // Whom a leader parts from the driver who stays behind it comes in no one's way.
+    // A driver that stays behind its leader cannot reach a vehicle beyond the leader.
     let is_beyond = |other: &Agent| {
         let follows = leader.filter(|_| ego.rules.follows.is_some());
         follows.is_some_and(|leader| ego.shares_lane_with(other) && ego.lead_of(other) > ego.lead_of(leader))
@@ -348,10 +349,4 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
         }
     }
     keep_outs
-}
-
-/// The nearest of some vehicles that is ahead in the same lane.
-fn leader<'a>(scene: &Scene, others: impl Iterator<Item = &'a Agent>) -> Option<&'a Agent> {
-    let ahead = others.filter(|other| scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0);
-    ahead.min_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
 }

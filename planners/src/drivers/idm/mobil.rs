@@ -13,6 +13,7 @@
 use super::Settings;
 use crate::drivers::lanes::Leader;
 use crate::drivers::lanes::{RoadLanes, follower, leader};
+use crate::scene::relation::is_standing;
 use crate::{Agent, Scene};
 
 /// A lane and by how much it is better than staying, threshold included; negative for staying.
@@ -101,6 +102,19 @@ impl Change<'_> {
         let hardest = -self.settings.mobil.safe_braking_mps2;
         let new = follower(self.scene, &self.lanes, self.lane);
         let forced = new.map(|new| self.follower(new, self.ahead_of(new, self.lane)[0]));
-        forced.is_none_or(|acceleration| acceleration > hardest) && self.own(self.lane) > hardest
+        let is_gentle = forced.is_none_or(|acceleration| acceleration > hardest) && self.own(self.lane) > hardest;
+        is_gentle && self.has_room_to_swing_out()
+    }
+
+    /// Whether a driver that sees motion only comes past what stands ahead in its lane.
+    fn has_room_to_swing_out(&self) -> bool {
+        let Scene { ego, others, knowledge, .. } = self.scene;
+        let standing = ego.leader_among(others).filter(|leader| knowledge.is_of_motion() && is_standing(leader));
+        standing.is_none_or(|leader| {
+            let room_m = ego.lead_of(leader) - leader.body.rear_m - ego.body.front_m;
+            let beside_m = 0.5 * (ego.body.width_m + leader.body.width_m);
+            let apart_m = ego.route.across(leader.state.position()) - ego.route.across(ego.state.position());
+            !ego.is_too_near_to_swing_out(room_m, beside_m - apart_m.abs())
+        })
     }
 }

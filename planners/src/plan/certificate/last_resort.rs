@@ -128,11 +128,8 @@ pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
 }
 
-/// Whether a plan touches a vehicle before the own one could stand, no last resort is harmless, and one does less harm than the plan.
+/// Whether no last resort is harmless, and one does less harm than the plan.
 pub(super) fn is_worse_than_a_last_resort(scene: &Scene, plan: &Trajectory) -> bool {
-    if early_contact(scene, plan).is_none() {
-        return false;
-    }
     let planned = Harm::measure(scene, plan);
     let harms: Vec<Harm> = last_resorts(scene).map(|motion| Harm::measure(scene, &motion)).collect();
     !harms.iter().any(Harm::is_none) && harms.iter().any(|harm| harm.is_less_than(&planned))

@@ -62,5 +62,5 @@ fn spread(other: &Agent) -> Agent {
 
 /// The spread of the place of a vehicle after a second \[m\].
 fn longer_m(other: &Agent) -> f64 {
-    if other.is_obstacle { 0.0 } else { spread_m(other, other.body.real_ratio().sqrt()) }
+    if other.is_obstacle { 0.0 } else { spread_m(&other.body, other.body.real_ratio().sqrt()) }
 }

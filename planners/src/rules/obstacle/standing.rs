@@ -14,7 +14,7 @@ const SIDE_M: f64 = 0.09;
 const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 pub(super) const WAITING_LENGTHS: f64 = 2.2;
-/// Who would have to brake harder than this to stop there stops nearer \[m/s²\].
+/// A driver that would have to brake harder than this for the usual distance stops nearer to the obstacle \[m/s²\].
 const STOPPING_MPS2: f64 = 3.0;
 /// The guessed motion accelerates with at most this share of the strongest acceleration.
 const GUESSED_ACCELERATION_SHARE: f64 = 0.3;
@@ -72,14 +72,12 @@ impl Obstacle {
         motion.inputs
     }
 
-    /// Whether a driver who sees late that it is an obstacle has come so near that it cannot swing out beside it: on the tightest circle of
-    /// the radius `R` it moves aside by `L` on the way `√(2 R L)`.
+    /// Whether a driver who sees late that it is an obstacle has come so near that it cannot swing out beside it.
     pub(super) fn is_too_near_to_swing_out(&self, scene: &Scene) -> bool {
-        let Agent { body, state, route, limits, .. } = &scene.ego;
+        let Agent { body, state, route, .. } = &scene.ego;
         let room_m = self.along_m[0] - route.along(state.position()) - body.front_m;
         let aside_m = (self.reach_m[1] - (route.across(state.position()) - self.across_m).abs()).max(0.0);
-        let radius_m = body.wheelbase_m() / libm::tan(limits.steering_max_rad);
-        scene.knowledge.is_of_motion() && room_m > 0.0 && room_m * room_m < 2.0 * radius_m * aside_m
+        scene.knowledge.is_of_motion() && scene.ego.is_too_near_to_swing_out(room_m, aside_m)
     }
 
     /// Whether a plan leads less far than its vehicle is long. Behind an obstacle that may be passed, a descent that begins there stays

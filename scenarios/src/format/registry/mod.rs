@@ -28,7 +28,7 @@ use crate::text::name;
 /// own adds them to one:
 ///
 /// ```
-/// use interplay_planners::{Drive, DriverKind, scripted};
+/// use interplay_planners::drivers::{Drive, DriverKind, scripted};
 /// use interplay_scenarios::Registry;
 /// use schemars::JsonSchema;
 /// use serde::{Deserialize, Serialize};
