@@ -313,7 +313,7 @@ fn a_stated_model_error_prevents_alternating_inputs() {
 #[test]
 fn a_gain_that_overshoots_is_unstable_for_a_lighter_building() {
     let [model, _] = models(1.0);
-    let strong = nalgebra::DMatrix::from_element(1, 1, 2.5);
+    let strong = DMatrix::from_element(1, 1, 2.5);
     let radius = |error| worst_radius(&model, &strong, error).expect("simulated");
     assert!(radius(0.0) < 1.0 && radius(1.0) > 1.0, "{} {}", radius(0.0), radius(1.0));
 }

@@ -141,7 +141,7 @@ fn two_half_steps_equal_one_step_and_the_steady_state_is_kept() {
     assert!(distance(&once_c, &twice_c) < 1e-12);
 
     let driving_kw: Vec<f64> = heat_kw.iter().zip(network.ambient_kw_per_k()).map(|(u, k)| u + 30.0 * k).collect();
-    let steady = network.laplacian().lu().solve(&nalgebra::DVector::from_vec(driving_kw)).expect("heat has a way out");
+    let steady = network.laplacian().lu().solve(&DVector::from_vec(driving_kw)).expect("heat has a way out");
     let mut temperatures_c: Vec<f64> = steady.iter().copied().collect();
     exact(&network, 86_400.0).step(&mut temperatures_c, &heat_kw, 30.0, &none);
     assert!(distance(&temperatures_c, steady.as_slice()) < 1e-11);

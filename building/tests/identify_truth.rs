@@ -352,7 +352,7 @@ fn a_long_record_is_fitted_in_longer_steps_without_loss() {
     let telemetry = WALL_HOUSE.simulate(60.0, 42, 25);
     let settings = IdentifySettings {
         most_states: 2,
-        hidden: vec![interplay_building::identify::HiddenTemperature::Wall],
+        hidden: vec![HiddenTemperature::Wall],
         ..IdentifySettings::default()
     };
     let found = identify(&telemetry, &settings).expect("rich data").report;

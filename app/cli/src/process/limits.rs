@@ -55,7 +55,7 @@ const MOST_PER_CORE: usize = 4;
 /// # Errors
 /// [`CommandError::Threads`] if the system refuses them.
 pub(crate) fn pool(jobs: Option<NonZeroUsize>, runs: usize) -> Result<ThreadPool, CommandError> {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let cores = thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let jobs = jobs.map_or(cores, NonZeroUsize::get).min(MOST_PER_CORE * cores).min(runs.max(1));
     ThreadPoolBuilder::new().num_threads(jobs).build().map_err(|reason| CommandError::Threads { jobs, reason })
 }

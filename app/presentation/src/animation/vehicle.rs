@@ -191,9 +191,8 @@ pub fn brake_glow() -> Ink {
 mod tests {
     use super::*;
     use crate::animation::camera::WIDTH_PX;
-    use crate::figures::RecordedRun;
     use crate::palette::GLASS;
-    use interplay_scenarios::{from_text, load};
+    use interplay_scenarios::load;
 
     /// A picture of one vehicle at 60 px/m around it, and what has a colour in it.
     fn count(seen: &SeenVehicle, colour: Colour) -> usize {

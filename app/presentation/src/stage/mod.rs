@@ -80,7 +80,7 @@ pub struct StageFrame {
 
 /// The motion that a vehicle requests of another.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct StageProposal {
+pub struct StageProposal {
     pub from: String,
     pub to: String,
     /// The positions of the motion \[m\].
@@ -91,7 +91,7 @@ pub(crate) struct StageProposal {
 
 /// The belief of a driver about another one.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct StageBelief {
+pub struct StageBelief {
     /// The driver with the belief.
     pub of: String,
     /// The other driver.
@@ -104,7 +104,7 @@ pub(crate) struct StageBelief {
 
 /// An event.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct StageEvent {
+pub struct StageEvent {
     pub vehicle: String,
     /// `note`, `warning` or `alarm`.
     pub level: &'static str,
