@@ -6,6 +6,7 @@
 
 use crate::prediction;
 use crate::road::network::ConflictKind;
+use crate::scene::duties::owed_gap_m;
 use crate::scene::relation::Relation;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::KeepOut;
@@ -174,9 +175,18 @@ impl Scene {
             let time_s = (self.step_s * (stage + 1) as f64).min(SPREAD_S * ego.body.real_ratio().sqrt());
             if is_spread { prediction::spread_m(&other.body, time_s) } else { 0.0 }
         };
+        // Before a vehicle behind in another lane whose motion is seen, what is owed to it suffices at first.
+        let owed_m = (self.knowledge.is_of_motion() && !is_in_lane && lead_m < 0.0).then(|| {
+            let gap_m = owed_gap_m(&other.body, speed_mps, ego.state.speed_mps);
+            (self.half_axis_m(other, gap_m) - self.goal.safety.along_m).max(0.0)
+        });
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
-            if is_in_lane { wanted_m.min(now_m + opened_m) } else { wanted_m + spread_m(stage) }
+            match owed_m {
+                Some(owed_m) => wanted_m.min(owed_m + opened_m) + spread_m(stage),
+                None if is_in_lane => wanted_m.min(now_m + opened_m),
+                None => wanted_m + spread_m(stage),
+            }
         };
         let longer = |(stage, ellipse): (usize, &OrientedEllipse)| {
             let SafetyEllipse { along_m, across_m } = ellipse.shape();

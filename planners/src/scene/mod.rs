@@ -1,6 +1,7 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
 pub mod driver_estimate;
+pub mod duties;
 mod indicator;
 pub mod inferred_futures;
 pub(crate) mod input_record;

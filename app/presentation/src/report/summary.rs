@@ -55,7 +55,8 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     }
     for collision in &report.collisions {
         let [a, b] = &collision.between;
-        writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
+        write!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
+        writeln!(text, "{}", collision.fault.as_ref().map_or_else(String::new, |fault| format!(": {}", fault.why)))?;
     }
     for vehicle in report.vehicles.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
         let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();

@@ -6,6 +6,7 @@
 mod building;
 mod completion;
 mod digest;
+mod fault;
 mod metric;
 mod metrics;
 mod milestones;
@@ -26,6 +27,7 @@ use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
+pub use fault::{Fault, Faults};
 pub use metric::{
     Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
@@ -48,6 +50,8 @@ pub struct Measures {
     pub collisions: Vec<Collision>,
     /// Which vehicle went first where routes cross or merge.
     pub passages: Passages,
+    /// Which vehicle is at fault where two touch or come too near.
+    pub faults: Faults,
     /// Digest of the run, by phase.
     pub digest: Digest,
     /// Events for the log.
@@ -142,6 +146,7 @@ impl Measures {
         Measures {
             collisions: Vec::new(),
             passages: Passages::new(scenario, &along_m),
+            faults: Faults::new(&scenario.vehicles),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
             waits: Waits::new(scenario),
@@ -182,6 +187,7 @@ pub fn measure(
     for ((along_m, vehicle), state) in measures.along_m.iter_mut().zip(&*measures.stated).zip(&after) {
         *along_m = vehicle.route.locate(state.position(), Some(*along_m)).along_m;
     }
+    measures.faults.observe(frame, &after, clock.step_s);
     let end = ObservedMoment {
         time_s: clock.time_s(),
         vehicles: &measures.stated,

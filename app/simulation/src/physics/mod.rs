@@ -161,7 +161,7 @@ pub fn step(
         let between = [a, b].map(|row| road_users[row].agent.name.clone());
         let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
         frame.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
-        frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns });
+        frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns, fault: None });
         gaps.touch([a, b], share);
         for row in [a, b] {
             road_users[row].is_crashed |= dynamic.is_some();

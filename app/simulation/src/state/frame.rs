@@ -11,6 +11,8 @@ use interplay_planners::traffic::Traffic;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
 use serde::Serialize;
 
+use crate::measure::Fault;
+
 use crate::state::day::DayFigures;
 
 /// One tick of a run as plain values, the input of metrics, recorders and tests.
@@ -28,6 +30,8 @@ pub struct Frame {
     pub events: Vec<Event>,
     /// The contacts that began during the tick, in order.
     pub collisions: Vec<Collision>,
+    /// The vehicles that came during the tick into the lane of one behind with a shorter gap than they owe.
+    pub short_gaps: Vec<String>,
     /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
     pub gap_m: Option<f64>,
     /// The smallest such distance during the tick, its end included \[m\].
@@ -161,7 +165,7 @@ pub struct PairGap {
 }
 
 /// Two vehicles that began to touch.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Collision {
     /// Simulated time \[s\].
     pub time_s: f64,
@@ -169,6 +173,8 @@ pub struct Collision {
     pub between: [String; 2],
     /// Impulse of the contact \[N s\].
     pub impulse_ns: f64,
+    /// The vehicle at fault; none before it is measured.
+    pub fault: Option<Fault>,
 }
 
 /// An event of a run, for its log.

@@ -53,7 +53,7 @@ fn set(vehicle: &mut VehicleReport, name: &str, value: MetricValue) {
 }
 
 fn touch(between: [&str; 2], time_s: f64, impulse_ns: f64) -> Collision {
-    Collision { time_s, between: between.map(str::to_owned), impulse_ns }
+    Collision { time_s, between: between.map(str::to_owned), impulse_ns, fault: None }
 }
 
 fn expectation(what: &str, passed: bool) -> Expectation {

@@ -9,10 +9,12 @@
 //! 5. stays nearer to what it first proposed than to its first fallback, the more the better it was received
 //!    ([`persuasion()`], eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to each other that is asked at once (`proposal`, eq. 6.24);
-//! 7. goes behind instead, and asks no more, where that has become cheaper by what it concedes ([`Concedes::Order`]);
+//! 7. goes behind instead, and asks no more, where that has become cheaper by what it concedes ([`Concedes::Order`]); among people it may
+//!    ask once more after a pause;
 //! 8. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
+mod baseline;
 mod concession;
 pub mod diagnostics;
 mod filter;
@@ -50,6 +52,9 @@ use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_S
 use filter::Filter;
 use partner_selection::PartnerSelection;
 use state::{NegotiationRound, NegotiationState};
+
+/// Time after which a person can have answered: its reaction time, a plan, and what it takes until that shows \[s\].
+const ANSWER_S: f64 = 1.2;
 
 /// Most work of a descent of the fallback. One that takes more goes to and fro.
 const FALLBACK_WORK_LIMIT: usize = 1000;
@@ -117,7 +122,7 @@ impl DriverKind for Settings {
     }
 
     fn people_defaults(&self) -> Map<String, Json> {
-        Map::from_iter([("answer_s".to_owned(), json!(0.9)), ("concedes".to_owned(), json!("order"))])
+        Map::from_iter([("answer_s".to_owned(), json!(ANSWER_S)), ("concedes".to_owned(), json!("order"))])
     }
 
     fn replacement_in_why(&self) -> Option<StandardReplacement> {
@@ -162,10 +167,10 @@ impl Drive for Negotiation {
         {
             let names: Vec<&str> = partners.iter().map(|partner| &*partner.name).collect();
             events.push(PlanEvent::note(format!("concedes: goes behind {}", names.join(", "))));
-            self.selection.give_up();
+            self.selection.concede(scene);
             return Ok(Plan { events, ..conservative::answer(fallback.clone()) });
         }
-        self.remember(&optimum, &fallback, &partners);
+        self.remember(scene, &optimum, &fallback, &partners);
         let mut plan = self.to_plan(scene, &optimum, &partners, &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
@@ -210,27 +215,39 @@ impl Negotiation {
         partners
     }
 
-    /// How far each of the last proposals was accepted; the ego concedes accordingly. Before the first proposal it is 1.
-    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent], fallback_cost: Option<f64>) -> Vec<f64> {
+    /// How far each of the last proposals was accepted, none of one that is not answered yet; the ego concedes accordingly.
+    fn update_acceptance(
+        &mut self,
+        scene: &Scene,
+        partners: &[&Agent],
+        fallback_cost: Option<f64>,
+    ) -> Vec<Option<f64>> {
         let settings = &self.settings;
+        let answer_steps = (settings.answer_s / scene.step_s).round() as usize;
         let pairs = self.negotiations.iter_mut().zip(partners);
-        let answer = |((_, negotiation), partner): (&mut (String, NegotiationState), &&Agent)| {
-            let accepted = negotiation.acceptance(settings.acceptance, scene, partner)?;
-            if settings.concession {
+        let mut answers = Vec::new();
+        let mut answer = |((_, negotiation), partner): (&mut (String, NegotiationState), &&Agent)| {
+            negotiation.advance(scene, partner);
+            let accepted = negotiation.acceptance(settings.acceptance, scene, partner);
+            answers.push(accepted);
+            // Of a vehicle of which only the motion is seen, what it does before it can have answered is no answer.
+            let answered =
+                accepted.filter(|_| !scene.knowledge.is_of_motion() || negotiation.asked_steps >= answer_steps);
+            if let Some(accepted) = answered.filter(|_| settings.concession) {
                 negotiation.concession.concede(accepted, settings.beta, settings.least_weight());
             }
-            Some(accepted)
+            answered
         };
-        let answers: Vec<Option<f64>> = pairs.map(answer).collect();
-        let answer_steps = (settings.answer_s / scene.step_s).round() as usize;
+        let accepted = pairs.map(&mut answer).collect();
         self.selection.record(&answers, fallback_cost, settings, answer_steps);
-        answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
+        accepted
     }
 
     /// The persuasion constraint: of several negotiations, that of the vehicle which accepts least.
-    fn persuasion(&self, accepted: &[f64], scale: f64) -> Option<Persuasion> {
-        let least = accepted.iter().zip(&self.negotiations).min_by(|(a, _), (b, _)| a.total_cmp(b));
-        least.and_then(|(accepted, (_, state))| persuasion::next_constraint(&self.settings, state, *accepted, scale))
+    fn persuasion(&self, accepted: &[Option<f64>], scale: f64) -> Option<Persuasion> {
+        let accepted = accepted.iter().map(|accepted| accepted.unwrap_or(1.0));
+        let least = accepted.zip(&self.negotiations).min_by(|(a, _), (b, _)| a.total_cmp(b));
+        least.and_then(|(accepted, (_, state))| persuasion::next_constraint(&self.settings, state, accepted, scale))
     }
 
     /// The ego's plan and the proposals to the partners at their joint optimum.
@@ -288,15 +305,22 @@ impl Negotiation {
     }
 
     /// Keeps what this round led to for the next one.
-    fn remember(&mut self, optimum: &Optimum, fallback: &Result<Solved, PlanError>, partners: &[&Agent]) {
+    fn remember(
+        &mut self,
+        scene: &Scene,
+        optimum: &Optimum,
+        fallback: &Result<Solved, PlanError>,
+        partners: &[&Agent],
+    ) {
         let conservative = fallback.as_ref().ok().map(|fallback| fallback.optimum.trajectory(0));
         for (index, ((_, negotiation), partner)) in self.negotiations.iter_mut().zip(partners).enumerate() {
-            negotiation.remember(NegotiationRound {
+            let round = NegotiationRound {
                 cooperative: optimum.trajectory(0),
                 conservative: conservative.clone(),
                 proposal: optimum.trajectory(index + 1),
                 prediction: (*partner.prediction).clone(),
-            });
+            };
+            negotiation.remember(scene, partner, round);
         }
     }
 
@@ -306,7 +330,7 @@ impl Negotiation {
         scene: &Scene,
         optimum: &Optimum,
         partners: &[&Agent],
-        accepted: &[f64],
+        accepted: &[Option<f64>],
         persuasion: Option<&Persuasion>,
     ) -> Plan {
         let trajectory = optimum.trajectory(0);
@@ -315,7 +339,8 @@ impl Negotiation {
         let proposals = partners.iter().zip(accepted).enumerate().map(|(index, (partner, accepted))| Proposal {
             to: partner.name.clone(),
             trajectory: optimum.trajectory(index + 1),
-            acceptance: Some(*accepted),
+            // Among told plans a proposal counts as accepted until it is answered.
+            acceptance: accepted.or((!scene.knowledge.is_of_motion()).then_some(1.0)),
         });
         let weights = self.negotiations.iter().map(|(_, negotiation)| negotiation.concession.weight());
         Plan {
@@ -323,7 +348,7 @@ impl Negotiation {
             statistics: optimum.statistics,
             proposals: proposals.collect(),
             diagnostics: vec![
-                ACCEPTANCE.is(accepted.iter().copied().fold(1.0, f64::min)),
+                ACCEPTANCE.is(accepted.iter().flatten().copied().fold(1.0, f64::min)),
                 CONCESSION_WEIGHT.is(weights.fold(1.0, f64::min)),
                 PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 PERSUASION_ACTIVE.is(f64::from(u8::from(active))),

@@ -12,6 +12,9 @@ use super::settings::Settings;
 use crate::drivers::partner_choice::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
 
+/// For how long the ego asks no more after it has conceded, with real vehicles \[s\].
+const PAUSE_S: f64 = 3.0;
+
 /// The order in which vehicles are asked, and how long those that are asked have not accepted.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartnerSelection {
@@ -19,6 +22,8 @@ pub(super) struct PartnerSelection {
     order: Vec<String>,
     /// Vehicles that refused for too long and are no longer asked.
     refused: Vec<String>,
+    /// Vehicles to which the ego has conceded once, with the plan from which on they may be asked again, by number.
+    paused: Vec<(String, usize)>,
     asked: Vec<AskedVehicle>,
     fallback: FallbackPrice,
 }
@@ -41,6 +46,7 @@ impl PartnerSelection {
             .order
             .iter()
             .filter(|name| !self.refused.contains(name))
+            .filter(|name| self.paused.iter().all(|(paused, until)| paused != *name || scene.tick >= *until))
             .filter_map(|name| scene.others.iter().find(|other| other.name == *name))
             .filter(|other| other.can_be_asked && (self.asks(&other.name) || !passed.contains(&other.name)))
             .filter(|other| !is_settled(scene, other, settings.clear_lead_m));
@@ -56,9 +62,17 @@ impl PartnerSelection {
         self.asked.iter().any(|asked| asked.name == name)
     }
 
-    /// Asks those that are asked no more.
-    pub(super) fn give_up(&mut self) {
-        self.refused.extend(self.asked.drain(..).map(|asked| asked.name));
+    /// Asks those that are asked no more. Among people, of whom only the motion is seen, it asks each of them once more after a pause.
+    pub(super) fn concede(&mut self, scene: &Scene) {
+        let until = scene.tick + (PAUSE_S * scene.ego.body.real_ratio().sqrt() / scene.step_s).round() as usize;
+        for AskedVehicle { name, .. } in self.asked.drain(..) {
+            let is_first = self.paused.iter().all(|(paused, _)| *paused != name);
+            if scene.knowledge.is_of_motion() && is_first {
+                self.paused.push((name, until));
+            } else {
+                self.refused.push(name);
+            }
+        }
     }
 
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the

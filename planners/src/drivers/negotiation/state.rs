@@ -1,6 +1,7 @@
 //! What the ego remembers of its negotiation with one vehicle.
 
 use super::acceptance::{Acceptance, printed_acceptance, willingness};
+use super::baseline::Baseline;
 use super::concession::Concession;
 use super::references::References;
 use crate::{Agent, Scene, Trajectory};
@@ -14,17 +15,23 @@ pub(super) struct NegotiationState {
     pub first: Option<NegotiationRound>,
     /// The plans of the step before.
     pub last: Option<NegotiationRound>,
+    /// Of a vehicle of which only the motion is seen: how it would drive if it had not been asked.
+    baseline: Option<Baseline>,
+    /// How many steps it has been asked.
+    pub asked_steps: usize,
 }
 
 impl NegotiationState {
     /// How far the partner accepted the last proposal; none before the first.
     pub fn acceptance(&self, reading: Acceptance, scene: &Scene, partner: &Agent) -> Option<f64> {
         let (first, last) = (self.first.as_ref()?.continued(), self.last.as_ref()?.continued());
+        let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
+        if let Some(baseline) = &self.baseline {
+            let promised = willingness(&partner.prediction, baseline.expected(), &last.cooperative, ellipse);
+            return Some(promised.max(baseline.share_done(partner)));
+        }
         Some(match reading {
-            Acceptance::Willingness => {
-                let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
-                willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse)
-            }
+            Acceptance::Willingness => willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse),
             Acceptance::AsPrinted => {
                 let scale = partner.body.scale;
                 printed_acceptance(&partner.prediction, &last.prediction, &last.proposal, scale)
@@ -41,8 +48,19 @@ impl NegotiationState {
         round.map(NegotiationRound::continued)
     }
 
+    /// Drives the vehicle on that was not asked, where only motion is seen. To be called once a step, before acceptance is read.
+    pub fn advance(&mut self, scene: &Scene, partner: &Agent) {
+        if let Some(baseline) = &mut self.baseline {
+            baseline.advance(scene, partner);
+        }
+    }
+
     /// Stores the plans of a step for the next ones.
-    pub fn remember(&mut self, round: NegotiationRound) {
+    pub fn remember(&mut self, scene: &Scene, partner: &Agent, round: NegotiationRound) {
+        self.asked_steps += 1;
+        if scene.knowledge.is_of_motion() && self.baseline.is_none() {
+            self.baseline = Some(Baseline::new(partner, &round.proposal));
+        }
         self.first = Some(self.first.as_ref().map_or_else(|| round.clone(), NegotiationRound::continued));
         self.last = Some(round);
     }
