@@ -7,7 +7,7 @@ use interplay_building::identify::synthetic_classroom::{
     CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW,
 };
 use interplay_scenarios::embedded;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::command::{Outcome, contents, interplay, scratch};
 use crate::film::{authored, film};
@@ -134,23 +134,27 @@ fn a_clairvoyant_regrets_nothing() {
 /// Digests of whole runs, the same on every machine. `INTERPLAY_BLESS=1` renews them.
 #[test]
 fn golden_digests_of_buildings() {
-    for file in embedded().iter().filter(|file| file.name.starts_with("building/")) {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{}.json", file.name));
-        let [one, other] = [(); 2].map(|()| film(file.name, authored(file.name, &[])).report);
-        let digests = |report: &interplay_simulation::report::Report| {
-            json!(report.building.as_ref().expect("a building").digests)
-        };
-        assert_eq!(digests(&one), digests(&other), "{} is not the same twice", file.name);
-        assert_eq!(json!(one.digest), digests(&one)["balance"]);
-        if env::var_os("INTERPLAY_BLESS").is_some_and(|value| value == "1") {
-            fs::create_dir_all(path.parent().expect("a file is in a folder")).expect("golden folders can be made");
-            fs::write(&path, format!("{:#}\n", digests(&one))).expect("golden files can be written");
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let wanted: Value = serde_json::from_str(&text).expect("a golden file is JSON");
-        assert_eq!(digests(&one), wanted, "{}: if it is meant, INTERPLAY_BLESS=1", file.name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/buildings.json");
+    let found: Map<String, Value> = embedded()
+        .iter()
+        .filter(|file| file.name.starts_with("building/"))
+        .map(|file| {
+            let [one, other] = [(); 2].map(|()| film(file.name, authored(file.name, &[])).report);
+            let [digests, again] = [&one, &other].map(|run| json!(run.building.as_ref().expect("a building").digests));
+            assert_eq!(digests, again, "{} is not the same twice", file.name);
+            assert_eq!(json!(one.digest), digests["balance"]);
+            (file.name.to_owned(), digests)
+        })
+        .collect();
+    if env::var_os("INTERPLAY_BLESS").is_some_and(|value| value == "1") {
+        fs::write(&path, format!("{:#}\n", json!(found))).expect("golden files can be written");
     }
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let wanted: Map<String, Value> = serde_json::from_str(&text).expect("a golden file is JSON");
+    for (name, digests) in &found {
+        assert_eq!(Some(digests), wanted.get(name), "{name}: if it is meant, INTERPLAY_BLESS=1");
+    }
+    assert_eq!(found.len(), wanted.len(), "a scenario is gone: if it is meant, INTERPLAY_BLESS=1");
 }
 
 #[test]
