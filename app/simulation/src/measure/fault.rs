@@ -114,8 +114,10 @@ impl Faults {
             user.stood_s = if stands { user.stood_s + step_s } else { 0.0 };
         }
         for (index, vehicle) in frame.vehicles.iter().enumerate() {
-            for other in vehicle.rules.waits_for.iter().filter_map(|name| self.index_of(name)) {
-                self.waited_s.insert([index, other], frame.time_s);
+            for name in &vehicle.rules.waits_for {
+                if let Some(other) = self.index_of(name) {
+                    self.waited_s.insert([index, other], frame.time_s);
+                }
             }
         }
     }

@@ -162,7 +162,7 @@ mod tests {
         let model = idm::Settings { headway_s: draw.time_gap_s, ..idm::Settings::literature() };
         let mut negotiation = NegotiationState::default();
         let (mut wanted, mut read) = (Vec::new(), Vec::new());
-        for step in 0.. {
+        for step in 0_usize.. {
             let time_s = STEP_S * step as f64;
             if time_s > ANSWER_S + 2.0 {
                 return read;
@@ -174,7 +174,9 @@ mod tests {
             negotiation.advance(&scene, &partner);
             let accepted = negotiation.acceptance(Acceptance::Willingness, &scene, &partner);
             read.extend(accepted.filter(|_| time_s > ANSWER_S - 1e-9));
-            negotiation.remember(&scene, &partner, round(&ego, &partner));
+            let round = round(&ego, &partner);
+            negotiation.ask(&scene, &partner, &round.proposal);
+            negotiation.remember(round);
             let gap_m = partner.lead_of(&leader) - body.front_m - body.rear_m;
             wanted.push(model.acceleration_behind(
                 partner.state.speed_mps,

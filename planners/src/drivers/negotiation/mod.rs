@@ -320,7 +320,8 @@ impl Negotiation {
                 proposal: optimum.trajectory(index + 1),
                 prediction: (*partner.prediction).clone(),
             };
-            negotiation.remember(scene, partner, round);
+            negotiation.ask(scene, partner, &round.proposal);
+            negotiation.remember(round);
         }
     }
 

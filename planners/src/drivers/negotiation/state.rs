@@ -55,12 +55,16 @@ impl NegotiationState {
         }
     }
 
-    /// Stores the plans of a step for the next ones.
-    pub fn remember(&mut self, scene: &Scene, partner: &Agent, round: NegotiationRound) {
+    /// Keeps the partner as it is seen when it is first asked, where only its motion is seen.
+    pub fn ask(&mut self, scene: &Scene, partner: &Agent, proposal: &Trajectory) {
         self.asked_steps += 1;
         if scene.knowledge.is_of_motion() && self.baseline.is_none() {
-            self.baseline = Some(Baseline::new(partner, &round.proposal));
+            self.baseline = Some(Baseline::new(partner, proposal));
         }
+    }
+
+    /// Stores the plans of a step for the next ones.
+    pub fn remember(&mut self, round: NegotiationRound) {
         self.first = Some(self.first.as_ref().map_or_else(|| round.clone(), NegotiationRound::continued));
         self.last = Some(round);
     }
