@@ -350,11 +350,8 @@ fn a_time_constant_beyond_the_record_is_not_identified() {
 #[test]
 fn a_long_record_is_fitted_in_longer_steps_without_loss() {
     let telemetry = WALL_HOUSE.simulate(60.0, 42, 25);
-    let settings = IdentifySettings {
-        most_states: 2,
-        hidden: vec![HiddenTemperature::Wall],
-        ..IdentifySettings::default()
-    };
+    let settings =
+        IdentifySettings { most_states: 2, hidden: vec![HiddenTemperature::Wall], ..IdentifySettings::default() };
     let found = identify(&telemetry, &settings).expect("rich data").report;
     assert_eq!(found.rows, 42 * 1440);
     assert!(found.warnings[0].contains("in steps of"), "{:?}", found.warnings);

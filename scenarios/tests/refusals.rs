@@ -68,22 +68,22 @@ fn refused(table: &str) -> String {
 
 #[test]
 fn scenarios_of_vehicles() {
-    insta::assert_snapshot!("vehicles", refused(include_str!("refusals/vehicles.toml")));
+    insta::assert_snapshot!("vehicles", refused(include_str!("cases/vehicles.toml")));
 }
 
 #[test]
 fn networks_and_vehicles_on_them() {
-    insta::assert_snapshot!("networks", refused(include_str!("refusals/networks.toml")));
+    insta::assert_snapshot!("networks", refused(include_str!("cases/networks.toml")));
 }
 
 #[test]
 fn buildings() {
-    insta::assert_snapshot!("buildings", refused(include_str!("refusals/buildings.toml")));
+    insta::assert_snapshot!("buildings", refused(include_str!("cases/buildings.toml")));
 }
 
 #[test]
 fn counterfactuals() {
-    insta::assert_snapshot!("counterfactuals", refused(include_str!("refusals/counterfactuals.toml")));
+    insta::assert_snapshot!("counterfactuals", refused(include_str!("cases/counterfactuals.toml")));
 }
 
 #[test]

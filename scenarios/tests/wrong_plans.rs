@@ -22,7 +22,7 @@ struct Refusals {
 }
 
 fn all_are_refused(of: impl Fn(Refusals) -> Vec<[String; 3]>) {
-    let plans = toml::from_str(include_str!("refusals/plans.toml")).expect("a table of plans");
+    let plans = toml::from_str(include_str!("cases/plans.toml")).expect("a table of plans");
     let mut wrong = Vec::new();
     for [text, place, words] in of(plans) {
         let found = read(&text).err().map(|error| {

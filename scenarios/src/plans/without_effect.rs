@@ -22,8 +22,8 @@ use crate::text::error::{Fault, Place, quoted};
 /// The most values of a list that are laid over the scenario.
 const MAX_VALUES: usize = 100;
 
-/// The span and the last word of a value of the plan in a scenario.
-type Mark = (usize, usize, String);
+/// Where a value of a scenario is written: the document, by its address, the span, and the last word.
+type Mark = (usize, usize, usize, String);
 
 /// A change of a plan in one run: a setting with its value, or a factor with its different values.
 struct Change<'a> {
@@ -95,7 +95,7 @@ impl SweepPlan {
             if change.values[0].lay(&mut root, self.registry.complete()).is_err() {
                 return;
             }
-            let marks = self.marks(&root);
+            let marks = marks(&root);
             settings.retain(|setting| marks.contains(&setting.mark) || effects.undone(setting, change, &root));
             settings.extend(change.settings(&change.values[0], &root, &marks));
         }
@@ -116,11 +116,11 @@ impl SweepPlan {
         }
     }
 
-    /// The scenario with one more change, and the values of the plan in it.
+    /// The scenario with one more change, and the places of its values.
     fn laid_over(&self, root: &Table, change: &Assignment<'_>) -> Option<(Table, BTreeSet<Mark>)> {
         let mut root = root.clone();
         change.lay(&mut root, self.registry.complete()).ok()?;
-        let marks = self.marks(&root);
+        let marks = marks(&root);
         Some((root, marks))
     }
 
@@ -136,18 +136,16 @@ impl SweepPlan {
             })
         })
     }
+}
 
-    fn marks(&self, root: &Table) -> BTreeSet<Mark> {
-        let mut marks = BTreeSet::new();
-        for (key, entry) in root {
-            each_value(&mut vec![key.as_str()], &entry.node, &mut |words, place| {
-                if Arc::ptr_eq(&place.document, &self.place.document) {
-                    marks.insert(mark(words, place));
-                }
-            });
-        }
-        marks
+fn marks(root: &Table) -> BTreeSet<Mark> {
+    let mut marks = BTreeSet::new();
+    for (key, entry) in root {
+        each_value(&mut vec![key.as_str()], &entry.node, &mut |words, place| {
+            marks.insert(mark(words, place));
+        });
     }
+    marks
 }
 
 impl Effects {
@@ -200,16 +198,25 @@ impl Setting<'_> {
         let states = if self.change.is_varied() { "varies" } else { "is set" };
         let (verb, wins) = if other.is_varied() { ("varies", "varies here") } else { ("sets", "wins") };
         let whole = other.values[0].path(root);
-        let mut path = whole.clone();
+        let mut stated: Vec<String> = Vec::new();
         each_value(&mut whole.split('.').collect(), other.values[0].value(), &mut |words, _| {
-            if words.len() == self.path.split('.').count()
-                && words.iter().zip(self.path.split('.')).all(|(one, own)| *one == own || [*one, own].contains(&"*"))
-            {
-                path = words.join(".");
-            }
+            stated.push(words.join("."))
         });
+        // The same setting, the only one, or the table of several.
+        let is_same = |path: &String| {
+            path.split('.').count() == self.path.split('.').count()
+                && path.split('.').zip(self.path.split('.')).all(|(one, own)| one == own || [one, own].contains(&"*"))
+        };
+        let path = match (stated.iter().find(|path| is_same(path)), stated.as_slice()) {
+            (Some(path), _) | (None, [path]) => path,
+            (None, _) => &whole,
+        };
         let (setting, by) = (&self.path, other.by);
-        let message = format!("`{setting}` {states} here, and {by} {verb} `{path}`, which is laid over it");
+        let wins_by = match other.is_varied() && !self.change.is_varied() && *path == *setting {
+            true => "varies: what varies is laid over it".to_owned(),
+            false => format!("{by} {verb} `{path}`, which is laid over it"),
+        };
+        let message = format!("`{setting}` {states} here, and {wins_by}");
         Fault::at(self.change.key(), NO_EFFECT, message).also(other.key(), wins).help(HELP)
     }
 }
@@ -219,7 +226,8 @@ fn span(place: &Place) -> (usize, usize) {
 }
 
 fn mark(words: &[&str], place: &Place) -> Mark {
-    (place.span.start, place.span.end, words.last().copied().unwrap_or_default().to_owned())
+    let document = Arc::as_ptr(&place.document).addr();
+    (document, place.span.start, place.span.end, words.last().copied().unwrap_or_default().to_owned())
 }
 
 /// Visits each value that is not a table, with the words that lead to it.

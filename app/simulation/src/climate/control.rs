@@ -6,10 +6,8 @@ use std::time::Instant;
 use bevy_ecs::prelude::*;
 use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 use interplay_building::day::Heat;
-use thiserror::Error;
 
 use super::{Building, Equipment, Node, Temperature};
-use crate::plants::PlantError;
 use crate::state::components::CurrentFrame;
 use crate::state::frame::{Event, Level};
 
@@ -84,17 +82,6 @@ impl Control for HandedHeat {
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
         Ok(())
     }
-}
-
-/// Why the run of a building cannot continue.
-#[derive(Debug, Error)]
-pub enum BuildingFailure {
-    /// The controller failed.
-    #[error("the controller of the building gave up: {0}")]
-    Control(#[from] ControlError),
-    /// The program that simulates the building did not answer as agreed.
-    #[error(transparent)]
-    Plant(#[from] PlantError),
 }
 
 /// Lets the controller learn when the day is over, and advances the clock.

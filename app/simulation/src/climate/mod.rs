@@ -14,13 +14,14 @@ mod spawn;
 
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::{Agenda, Targets};
-use interplay_building::control::Control;
+use interplay_building::control::{Control, ControlError};
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
+use thiserror::Error;
 
-use crate::plants::ThermalPlant;
+use crate::plants::{PlantError, ThermalPlant};
 pub use balance::{balance, disturb};
-pub use control::{BuildingFailure, control, learn};
+pub use control::{control, learn};
 
 use crate::state::detail::NotCopied;
 pub use spawn::{BuildingError, ClimateState, people, surroundings_of};
@@ -65,6 +66,17 @@ pub struct NodeState {
     pub temperature: Temperature,
     /// Equipment and heat gains; none for a wall.
     pub zone: Option<(Equipment, Gains)>,
+}
+
+/// Why the run of a building cannot continue.
+#[derive(Debug, Error)]
+pub enum BuildingFailure {
+    /// The controller failed.
+    #[error("the controller of the building gave up: {0}")]
+    Control(#[from] ControlError),
+    /// The program that simulates the building did not answer as agreed.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
 }
 
 /// The building apart from its zones: physics, surroundings and controller.
