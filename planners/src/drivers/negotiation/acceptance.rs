@@ -80,7 +80,11 @@ pub fn willingness(
 }
 
 /// `Σ_t max(0, 1 − d²)` over the common horizon, the present step left out.
-fn intrusion(other: &Trajectory, proposed: &Trajectory, ellipse: &impl Fn([f64; 2]) -> OrientedEllipse) -> f64 {
+pub(super) fn intrusion(
+    other: &Trajectory,
+    proposed: &Trajectory,
+    ellipse: &impl Fn([f64; 2]) -> OrientedEllipse,
+) -> f64 {
     let pairs = proposed.states.iter().zip(&other.states).skip(1);
     let depth = |(own, other): (&State, &State)| {
         let [own, centre] = [own, other].map(|state| state.position());

@@ -5,35 +5,42 @@
 //! With the place `s` of the other along its way and `I` the intrusion into the room of the ego's proposed motion,
 //!
 //! ```text
-//! p_a = max(1 − I(seen)/I(baseline), p_m),    p_m = clip((s_B − s)(s_B − s_P)/((s_B − s_P)² + σ²), 0, 1)
+//! p_a = max((I(baseline) − I(seen))/(I(baseline) + 1), p_m),    p_m = clip((s_B − s)(s_B − s_P)/((s_B − s_P)² + σ²), 0, 1)
 //! ```
 //!
-//! The first is what its motion promises, as if it were its new plan in eq. 6.19; the second what it has already done of what was asked.
+//! The first is what its motion promises, as if it were its new plan in eq. 6.19, where that differs from the baseline by more than the
+//! spread of seen motion; the second what it has already done of what was asked.
 
 use std::sync::Arc;
 
+use super::acceptance::intrusion;
 use crate::perception::SeenMotion;
+use crate::prediction::spread_m;
+use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Scene, Trajectory};
 
 /// `σ`: distances along the road below this say little, of real vehicles \[m\].
 const SPREAD_M: f64 = 0.3;
+/// Intrusions below this say little: an ellipse at one step.
+const SPREAD_OF_INTRUSION: f64 = 1.0;
 
 /// A vehicle as it would drive if it had not been asked, and the motion that was proposed to it first.
 #[derive(Clone, Debug)]
 pub(super) struct Baseline {
     unasked: Agent,
-    proposal: Trajectory,
+    /// What was expected of it when it was asked first, and what was proposed then, from the present step on.
+    first: [Trajectory; 2],
 }
 
 impl Baseline {
     /// The baseline of a vehicle that is asked now.
     pub fn new(partner: &Agent, proposal: &Trajectory) -> Baseline {
-        Baseline { unasked: partner.clone(), proposal: proposal.clone() }
+        Baseline { unasked: partner.clone(), first: [(*partner.prediction).clone(), proposal.clone()] }
     }
 
     /// Drives on by one step, with what the rules and the leader ask of the vehicle now.
     pub fn advance(&mut self, scene: &Scene, partner: &Agent) {
-        self.proposal = self.proposal.shifted();
+        self.first = self.first.each_ref().map(Trajectory::shifted);
         let expected = &self.unasked.prediction;
         let (Some(state), Some(input)) = (expected.states.get(1), expected.inputs.first()) else { return };
         let mut unasked =
@@ -45,18 +52,45 @@ impl Baseline {
         self.unasked = unasked;
     }
 
-    /// What would be expected of it now.
-    pub fn expected(&self) -> &Trajectory {
-        &self.unasked.prediction
+    /// How far the vehicle accepts; `proposed` is the ego's motion in the last proposal, `ellipse` its ellipse around a place of the other.
+    pub fn acceptance(
+        &self,
+        partner: &Agent,
+        proposed: &Trajectory,
+        step_s: f64,
+        ellipse: impl Fn([f64; 2]) -> OrientedEllipse,
+    ) -> f64 {
+        let unasked = intrusion(&self.unasked.prediction, proposed, &ellipse);
+        let seen = intrusion(&self.within_spread(partner, step_s), proposed, &ellipse);
+        let promised = ((unasked - seen) / (unasked + SPREAD_OF_INTRUSION)).clamp(0.0, 1.0);
+        promised.max(self.share_done(partner))
+    }
+
+    /// What is expected of the vehicle, as near to the baseline as the spread of seen motion allows: what differs by less says nothing.
+    fn within_spread(&self, partner: &Agent, step_s: f64) -> Trajectory {
+        let mut motion = (*partner.prediction).clone();
+        for (stage, (state, unasked)) in motion.states.iter_mut().zip(&self.unasked.prediction.states).enumerate() {
+            let [dx_m, dy_m] = [unasked.x_m - state.x_m, unasked.y_m - state.y_m];
+            let apart_m = libm::hypot(dx_m, dy_m);
+            let spread_m = spread_m(&partner.body, step_s * stage as f64);
+            let share = if apart_m > spread_m { spread_m / apart_m } else { 1.0 };
+            (state.x_m, state.y_m) = (state.x_m + share * dx_m, state.y_m + share * dy_m);
+        }
+        motion
     }
 
     /// `p_m`: the share of what was proposed that the vehicle has done.
-    pub fn share_done(&self, partner: &Agent) -> f64 {
-        let Some(proposed) = self.proposal.states.first() else { return 0.0 };
-        let along = |place: [f64; 2]| partner.route.along(place);
-        let [unasked_m, here_m, proposed_m] =
-            [self.unasked.state, partner.state, *proposed].map(|state| along(state.position()));
+    fn share_done(&self, partner: &Agent) -> f64 {
+        let [Some(first), Some(proposed)] = self.first.each_ref().map(|motion| motion.states.first()) else {
+            return 0.0;
+        };
+        let [unasked_m, here_m, first_m, proposed_m] =
+            [self.unasked.state, partner.state, *first, *proposed].map(|state| partner.route.along(state.position()));
         let (moved_m, asked_m) = (unasked_m - here_m, unasked_m - proposed_m);
+        // It would do what was asked without being asked.
+        if asked_m * (first_m - proposed_m) <= 0.0 {
+            return 0.0;
+        }
         let spread_m = SPREAD_M * partner.body.real_ratio();
         (moved_m * asked_m / (asked_m * asked_m + spread_m * spread_m)).clamp(0.0, 1.0)
     }
@@ -154,12 +188,13 @@ mod tests {
         let mut ego = car("ego", [0.0, 0.0], draw.speed_mps - draw.faster_mps);
         let body = ego.body;
         let mut partner = car("partner", [-draw.gap_m - body.front_m - body.rear_m, 3.5], draw.speed_mps);
-        let ahead_m = draw.time_gap_s * draw.speed_mps + body.front_m + body.rear_m;
+        let model = idm::Settings { headway_s: draw.time_gap_s, ..idm::Settings::literature() };
+        // A gap that it keeps.
+        let ahead_m = model.gap_m + draw.time_gap_s * draw.speed_mps + body.front_m + body.rear_m;
         let mut leader = car("leader", [partner.state.x_m + ahead_m, 3.5], draw.speed_mps);
         leader = driven(&leader, 0.0, None);
         partner = driven(&partner, 0.0, Some(&leader));
         ego = driven(&ego, 0.0, None);
-        let model = idm::Settings { headway_s: draw.time_gap_s, ..idm::Settings::literature() };
         let mut negotiation = NegotiationState::default();
         let (mut wanted, mut read) = (Vec::new(), Vec::new());
         for step in 0_usize.. {
@@ -180,7 +215,7 @@ mod tests {
             let gap_m = partner.lead_of(&leader) - body.front_m - body.rear_m;
             wanted.push(model.acceleration_behind(
                 partner.state.speed_mps,
-                40.0,
+                f64::INFINITY,
                 Some((gap_m, leader.state.speed_mps)),
             ));
             let answered = time_s > REACTION_S;

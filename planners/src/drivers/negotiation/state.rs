@@ -27,8 +27,7 @@ impl NegotiationState {
         let (first, last) = (self.first.as_ref()?.continued(), self.last.as_ref()?.continued());
         let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
         if let Some(baseline) = &self.baseline {
-            let promised = willingness(&partner.prediction, baseline.expected(), &last.cooperative, ellipse);
-            return Some(promised.max(baseline.share_done(partner)));
+            return Some(baseline.acceptance(partner, &last.cooperative, scene.step_s, ellipse));
         }
         Some(match reading {
             Acceptance::Willingness => willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse),
