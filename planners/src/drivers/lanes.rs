@@ -52,6 +52,16 @@ impl RoadLanes {
         RoadLanes { right_m, width_m, count, ends: None }
     }
 
+    /// The same, with lanes that share a road without named ones evenly.
+    pub fn shared_evenly(scene: &Scene) -> RoadLanes {
+        let (lanes, road) = (RoadLanes::of_road(scene, None), &scene.ego.route);
+        if road.is_in_network() {
+            return lanes;
+        }
+        let [right_m, left_m] = road.edges_before_end_m(road.along(scene.ego.state.position()));
+        RoadLanes { width_m: (left_m - right_m) / lanes.count as f64, ..lanes }
+    }
+
     /// The lane that the route follows, and those beside it that have room between the edges.
     fn beside_route(scene: &Scene, along_m: f64) -> RoadLanes {
         let (ego, road) = (&scene.ego, &scene.ego.route);

@@ -4,7 +4,6 @@
 //! (`docs/guide/people.md`). A human keeps the more, the more safety weighs for it. No human pulls into a gap below a least one,
 //! ahead or behind.
 
-use crate::prediction;
 use crate::road::network::ConflictKind;
 use crate::scene::duties::owed_gap_m;
 use crate::scene::relation::Relation;
@@ -27,8 +26,6 @@ const ACCEPTED_SHARE: f64 = 0.85;
 pub(super) const PLANNER_SHARE: f64 = 0.7;
 /// A gap that is shorter grows by this much in a second.
 pub(super) const OPENING: f64 = 0.1;
-/// The spread of an expected place counts up to this time, of real vehicles \[s\].
-const SPREAD_S: f64 = 3.0;
 /// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
@@ -169,23 +166,18 @@ impl Scene {
         let speed_mps = if lead_m < 0.0 { other.state.speed_mps } else { ego.state.speed_mps };
         let wanted_m = PLANNER_SHARE * comfort.time_gap_s * speed_mps;
         let now_m = (lead_m - self.goal.safety.along_m).max(0.0);
-        // Of a vehicle of which only the motion is seen, the place is uncertain.
-        let spread_m = |stage: usize| {
-            let is_spread = self.knowledge.is_of_motion() && !is_in_lane;
-            let time_s = (self.step_s * (stage + 1) as f64).min(SPREAD_S * ego.body.real_ratio().sqrt());
-            if is_spread { prediction::spread_m(&other.body, time_s) } else { 0.0 }
-        };
-        // Before a vehicle behind in another lane whose motion is seen, what is owed to it suffices at first.
-        let owed_m = (self.knowledge.is_of_motion() && !is_in_lane && lead_m < 0.0).then(|| {
-            let gap_m = owed_gap_m(&other.body, speed_mps, ego.state.speed_mps);
+        // To come into another lane, what is owed suffices at first where the motion of the other is seen.
+        let owed_m = (self.knowledge.is_of_motion() && !is_in_lane).then(|| {
+            let [behind, ahead] = if lead_m < 0.0 { [other, ego] } else { [ego, other] };
+            let gap_m = owed_gap_m(&behind.body, behind.state.speed_mps, ahead.state.speed_mps);
             (self.half_axis_m(other, gap_m) - self.goal.safety.along_m).max(0.0)
         });
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
             match owed_m {
-                Some(owed_m) => wanted_m.min(owed_m + opened_m) + spread_m(stage),
+                Some(owed_m) => wanted_m.min(owed_m + opened_m),
                 None if is_in_lane => wanted_m.min(now_m + opened_m),
-                None => wanted_m + spread_m(stage),
+                None => wanted_m,
             }
         };
         let longer = |(stage, ellipse): (usize, &OrientedEllipse)| {

@@ -11,12 +11,13 @@
 use std::sync::Arc;
 
 use crate::drivers::conservative::problem;
+use crate::drivers::lanes::RoadLanes;
 use crate::plan::certificate::refused_by_motion;
 use crate::scene::duties::owed_gap_m;
 use crate::scene::relation::Relation;
 use crate::trajectory::HomotopySearch;
 use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
-use crate::{Agent, Scene, Trajectory};
+use crate::{Agent, Scene, State, Trajectory};
 
 /// Slack that a conservative plan may need after the step.
 pub(super) const MAX_VIOLATION: f64 = 2e-3;
@@ -26,6 +27,8 @@ const MAX_VIOLATION_GROWTH: f64 = 1.2;
 /// its descent has ended where nothing is solved.
 const MAX_OWN_VIOLATION: f64 = 0.05;
 
+/// A body beyond the line by less is at the line, for 1/10 scale cars \[m\].
+const OVER_LINE_M: f64 = 0.01;
 /// A plan is judged by where it comes within this time, of real vehicles \[s\].
 const SOON_S: f64 = 1.0;
 
@@ -50,11 +53,14 @@ impl Filter {
         if violates(Violation::RoadEdge, scene.ego.body.scale) {
             return Some("its proposal leaves the road");
         }
-        if scene.knowledge.is_of_motion() {
-            return breaks_duty(scene, &optimum.trajectory(0));
+        let is_of_motion = scene.knowledge.is_of_motion();
+        if is_of_motion && let Some(reason) = breaks_duty(scene, &optimum.trajectory(0)) {
+            return Some(reason);
         }
         let next = successor(scene, optimum);
-        let others: Vec<&Agent> = next.others.iter().collect();
+        // Of those on the same road whose motion is seen, duties are asked for, not comfort.
+        let is_judged = |other: &&Agent| !is_of_motion || !matches!(next.ego.relation(other), Relation::Alongside);
+        let others: Vec<&Agent> = next.others.iter().filter(is_judged).collect();
         let keep = fallback.trajectory(0).shifted().inputs;
         let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * fallback.cost.violation(Violation::Safety));
         let after = self.optimiser.optimise(&problem(&next, &others), &[keep]);
@@ -63,32 +69,43 @@ impl Filter {
     }
 }
 
-/// Why a plan does not do what is owed to others of whom only the motion is seen. Before it comes into the lane of a vehicle behind, that
-/// one has the gap that is owed to it ([`owed_gap_m`]); nudging to the line needs a way back only: after the first input some last resort
-/// touches no vehicle, if those behind in the lane do their duty, too.
+/// Why a plan does not do what is owed to others of whom only the motion is seen. Where it comes over the line into the lane of another
+/// vehicle, there is the gap that is owed ([`owed_gap_m`]); nudging to the line needs a way back only: after the first input some last
+/// resort touches no vehicle, if those behind in the lane do their duty, too.
 fn breaks_duty(scene: &Scene, plan: &Trajectory) -> Option<&'static str> {
-    if scene.others.iter().any(|other| comes_too_near_before(scene, plan, other)) {
-        return Some("the gap before the vehicle behind is too short");
+    let lanes = RoadLanes::shared_evenly(scene);
+    if scene.others.iter().any(|other| comes_too_near(scene, plan, &lanes, other)) {
+        return Some("the gap in the other lane is too short");
     }
     refused_by_motion(scene, plan, &[]).map(|_| "it would give away the last way out")
 }
 
-/// Whether a plan comes within a second into the lane of a vehicle behind that does not have its gap then.
-fn comes_too_near_before(scene: &Scene, plan: &Trajectory, other: &Agent) -> bool {
+/// Whether a plan comes within a second farther over the line into the lane of another vehicle where the gap between the two is shorter than
+/// the one behind owes or is owed. Once the middle of the ego is over the line, it is in that lane.
+fn comes_too_near(scene: &Scene, plan: &Trajectory, lanes: &RoadLanes, other: &Agent) -> bool {
     let ego = &scene.ego;
-    let is_beside = matches!(ego.relation(other), Relation::Alongside) && !ego.shares_lane_with(other);
-    if other.is_obstacle || !is_beside || !is_same_way(ego, other) {
+    if other.is_obstacle || !matches!(ego.relation(other), Relation::Alongside) || !is_same_way(ego, other) {
+        return false;
+    }
+    let lane = lanes.at(ego.route.across(other.state.position()));
+    let beyond_m = |state: &State| {
+        let apart_m = (ego.route.across(state.position()) - lanes.centre_m(lane)).abs();
+        0.5 * (ego.body.width_m + lanes.width_m()) - apart_m
+    };
+    let now_m = beyond_m(&ego.state);
+    if now_m > 0.5 * ego.body.width_m {
         return false;
     }
     let steps = (SOON_S * ego.body.real_ratio().sqrt() / scene.step_s).round() as usize;
-    let half_m = 0.5 * (ego.body.width_m + other.body.width_m);
-    let pairs = plan.states.iter().zip(&other.prediction.states).skip(1).take(steps);
-    let comes = pairs.map(|(own, their)| (own, their, [own, their].map(|state| ego.route.across(state.position()))));
-    let mut within = comes.filter(|(_, _, [own_m, their_m])| (own_m - their_m).abs() < half_m);
-    within.next().is_some_and(|(own, their, _)| {
+    let mut pairs = plan.states.iter().zip(&other.prediction.states).skip(1).take(steps);
+    pairs.any(|(own, their)| {
         let [own_m, their_m] = [own, their].map(|state| ego.route.along(state.position()));
-        let gap_m = own_m - ego.body.rear_m - their_m - other.body.front_m;
-        own_m > their_m && gap_m < owed_gap_m(&other.body, their.speed_mps, own.speed_mps)
+        let is_ahead = own_m > their_m;
+        let (front, rear) = if is_ahead { (&ego.body, &other.body) } else { (&other.body, &ego.body) };
+        let speeds_mps = if is_ahead { [their.speed_mps, own.speed_mps] } else { [own.speed_mps, their.speed_mps] };
+        let gap_m = (own_m - their_m).abs() - front.rear_m - rear.front_m;
+        beyond_m(own) > now_m.max(OVER_LINE_M * ego.body.scale)
+            && gap_m < owed_gap_m(rear, speeds_mps[0], speeds_mps[1])
     })
 }
 
