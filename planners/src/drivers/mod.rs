@@ -22,8 +22,10 @@ pub(crate) mod partner_choice;
 pub(crate) mod receding_horizon;
 pub mod recorded;
 pub mod scripted;
+mod seen_motion;
 pub mod walker;
 
 pub use drive::{Drive, DriverKind, StandardReplacement};
 pub use driver::{Driver, ForeignDriver};
 pub use driver_setting::DriverSettingError;
+pub use seen_motion::SeenMotion;

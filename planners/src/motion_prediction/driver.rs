@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use super::car_following::CarFollowing;
 use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
+use crate::drivers::SeenMotion;
 use crate::drivers::human::{self, Human};
-use crate::perception::SeenMotion;
 use crate::prediction::constant_velocity;
 use crate::rules::RoadRules;
 use crate::scene::Knowledge;
@@ -239,7 +239,7 @@ pub enum MotionModel {
     CarFollowing(CarFollowing),
     /// Our human driver.
     Driver(PredictedDriver),
-    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::perception::SeenMotion)).
+    /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::drivers::SeenMotion)).
     Seen,
 }
 

@@ -30,6 +30,8 @@ pub struct Plan {
     pub branches: Vec<PlanBranch>,
     /// The motions that the planner proposes to other vehicles, in the order in which it asks them.
     pub proposals: Vec<Proposal>,
+    /// The motion that the vehicle indicates in place of the plan: what it asks for while its filter keeps it from driving it.
+    pub announced: Option<Trajectory>,
     /// Its homotopy class: how it passes each vehicle that it comes near; empty for planners that keep out of no ellipses.
     pub homotopy_class: Vec<PlannedPassing>,
     /// Numbers that explain the plan, in a fixed order for each planner.

@@ -142,6 +142,21 @@ impl Scene {
         self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
     }
 
+    /// The ellipse that a planner asks another vehicle to leave it: the safety ellipse, and before or behind one in another lane of which
+    /// the motion is seen, what is owed at equal speeds.
+    pub(crate) fn room_asked_of(&self, other: &Agent) -> SafetyEllipse {
+        let SafetyEllipse { along_m, across_m } = self.goal.safety;
+        let ego = &self.ego;
+        let is_beside = matches!(ego.relation(other), Relation::Alongside) && !ego.shares_lane_with(other);
+        if !self.knowledge.is_of_motion() || !is_beside {
+            return self.goal.safety;
+        }
+        let behind = if ego.lead_of(other) < 0.0 { other } else { ego };
+        let (body, speed_mps) = (&behind.body, behind.state.speed_mps);
+        let owed_m = self.half_axis_m(other, owed_gap_m(body, speed_mps, speed_mps));
+        SafetyEllipse { along_m: along_m.max(owed_m), across_m }
+    }
+
     /// Whether the safety ellipse around another vehicle concerns the planning vehicle; for a driver that knows comfort it does not once
     /// their ways do not meet any more, nor where a line parts it from a vehicle that waits.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
@@ -175,7 +190,7 @@ impl Scene {
         let longer_m = |stage: usize| {
             let opened_m = OPENING * self.step_s * (stage + 1) as f64 * speed_mps;
             match owed_m {
-                Some(owed_m) => wanted_m.min(owed_m + opened_m),
+                Some(owed_m) => wanted_m.min(owed_m + opened_m).max(owed_m),
                 None if is_in_lane => wanted_m.min(now_m + opened_m),
                 None => wanted_m,
             }

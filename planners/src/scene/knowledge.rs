@@ -6,7 +6,7 @@ pub enum Knowledge {
     /// The plans of vehicles that tell them (the assumption of the dissertation).
     #[default]
     Plans,
-    /// What their motion leads one to expect ([`SeenMotion`](crate::perception::SeenMotion)).
+    /// What their motion leads one to expect ([`SeenMotion`](crate::drivers::SeenMotion)).
     Motion {
         /// How many steps ago the others were observed: the reaction time of the driver. Their states are continued to the present.
         late_steps: usize,

@@ -288,8 +288,8 @@ impl Traffic {
     fn indicate(&mut self) {
         let step_s = self.step_s;
         for user in self.road_users.iter_mut().filter(|user| !user.tells_plan && !user.is_absent()) {
-            let plan = user.committed.trajectory.as_ref().filter(|_| user.decides);
-            user.agent.indicator = user.agent.indicates(plan.map(|plan| &**plan), step_s);
+            let planned = user.plan.announced.as_ref().or(user.committed.trajectory.as_deref());
+            user.agent.indicator = user.agent.indicates(planned.filter(|_| user.decides), step_s);
         }
     }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::neighbours::Neighbours;
 use super::road_user::RoadUser;
-use crate::perception::SeenMotion;
+use crate::drivers::SeenMotion;
 use crate::rules::{Arrivals, Obliged, Order, RoadRules};
 use crate::{Agent, Input, Trajectory};
 

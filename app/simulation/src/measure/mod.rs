@@ -27,7 +27,7 @@ use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
-pub use fault::{Fault, Faults};
+pub use fault::Faults;
 pub use metric::{
     Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
@@ -146,7 +146,7 @@ impl Measures {
         Measures {
             collisions: Vec::new(),
             passages: Passages::new(scenario, &along_m),
-            faults: Faults::new(&scenario.vehicles),
+            faults: Faults::new(&scenario.vehicles, scenario.ego_index()),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
             waits: Waits::new(scenario),

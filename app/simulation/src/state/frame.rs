@@ -11,8 +11,6 @@ use interplay_planners::traffic::Traffic;
 use interplay_planners::{Input, Plan, PlanEventKind, State, Trajectory};
 use serde::Serialize;
 
-use crate::measure::Fault;
-
 use crate::state::day::DayFigures;
 
 /// One tick of a run as plain values, the input of metrics, recorders and tests.
@@ -30,8 +28,8 @@ pub struct Frame {
     pub events: Vec<Event>,
     /// The contacts that began during the tick, in order.
     pub collisions: Vec<Collision>,
-    /// The vehicles that came during the tick into the lane of one behind with a shorter gap than they owe.
-    pub short_gaps: Vec<String>,
+    /// The vehicles of people that came during the tick into the way of one behind with a shorter gap than they owe.
+    pub cut_ins: Vec<String>,
     /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
     pub gap_m: Option<f64>,
     /// The smallest such distance during the tick, its end included \[m\].
@@ -174,7 +172,16 @@ pub struct Collision {
     /// Impulse of the contact \[N s\].
     pub impulse_ns: f64,
     /// The vehicle at fault; none before it is measured.
-    pub fault: Option<Fault>,
+    pub fault: Option<ContactFault>,
+}
+
+/// The vehicle at fault in a contact, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactFault {
+    /// Its name.
+    pub vehicle: String,
+    /// What it did, in a sentence.
+    pub why: String,
 }
 
 /// An event of a run, for its log.

@@ -33,7 +33,7 @@ pub enum Acceptance {
 }
 
 /// Intrusion below which a motion leaves the room free: less than a tenth of an ellipse at one step.
-const MIN_INTRUSION: f64 = 0.1;
+pub(super) const MIN_INTRUSION: f64 = 0.1;
 
 /// Squared distance of proposal and old prediction below which nothing was asked, for 1/10 scale cars \[m²\].
 const MIN_ASKED_DEVIATION_M2: f64 = 1e-3;

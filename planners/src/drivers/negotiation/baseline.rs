@@ -1,7 +1,7 @@
 //! Acceptance where only motion is seen: how far the other is from where it would be if it had not been asked.
 //!
 //! At the first request the other is kept as it is seen, the **baseline** `B`, with what was proposed to it, `P`. At every step the
-//! baseline is driven on as seen motion leads one to expect, behind the *present* leader of the other: braking for a leader is no consent.
+//! baseline is driven on as seen motion leads one to expect, behind the *present* leader of the other, so that braking for it does not count as consent.
 //! With the place `s` of the other along its way and `I` the intrusion into the room of the ego's proposed motion,
 //!
 //! ```text
@@ -13,8 +13,8 @@
 
 use std::sync::Arc;
 
-use super::acceptance::intrusion;
-use crate::perception::SeenMotion;
+use super::acceptance::{MIN_INTRUSION, intrusion};
+use crate::drivers::SeenMotion;
 use crate::prediction::spread_m;
 use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Scene, Trajectory};
@@ -52,18 +52,22 @@ impl Baseline {
         self.unasked = unasked;
     }
 
-    /// How far the vehicle accepts; `proposed` is the ego's motion in the last proposal, `ellipse` its ellipse around a place of the other.
+    /// How far the vehicle accepts; none where the baseline leaves the room free, so that nothing is asked. `proposed` is the ego's motion in
+    /// the last proposal, `ellipse` its ellipse around a place of the other.
     pub fn acceptance(
         &self,
         partner: &Agent,
         proposed: &Trajectory,
         step_s: f64,
         ellipse: impl Fn([f64; 2]) -> OrientedEllipse,
-    ) -> f64 {
+    ) -> Option<f64> {
         let unasked = intrusion(&self.unasked.prediction, proposed, &ellipse);
+        if unasked < MIN_INTRUSION {
+            return None;
+        }
         let seen = intrusion(&self.within_spread(partner, step_s), proposed, &ellipse);
         let promised = ((unasked - seen) / (unasked + SPREAD_OF_INTRUSION)).clamp(0.0, 1.0);
-        promised.max(self.share_done(partner))
+        Some(promised.max(self.share_done(partner)))
     }
 
     /// What is expected of the vehicle, as near to the baseline as the spread of seen motion allows: what differs by less says nothing.
@@ -222,7 +226,7 @@ mod tests {
             let acceleration_mps2 = match answer {
                 Answer::Yields if answered => -draw.braking_mps2,
                 Answer::Yields => 0.0,
-                // A hand that is not quite steady.
+                // It does not hold its speed exactly.
                 Answer::DrivesOn => 0.2 * libm::sin(2.0 * time_s + draw.gap_m),
                 // As late as it sees everything else.
                 Answer::BrakesForItsLeader => wanted[step.saturating_sub(3)].min(0.0),

@@ -5,8 +5,9 @@
 //! intervention is recorded, with its reason. A plan that itself violates much is not applied either. Nothing but safety is judged: how
 //! well a plan persuades does not decide whether it is refused.
 //!
-//! Among people, whose plans are not told, the filter does not ask for the comfort of a conservative plan, but for what drivers owe one
-//! another.
+//! Among people, whose plans are not told, vehicles on the same road are not given the comfort of a conservative plan, but what drivers owe
+//! one another: the filter asks for the gaps ahead and behind where a plan comes into another lane. A conservative plan must still exist
+//! for vehicles whose way crosses or joins.
 
 use std::sync::Arc;
 
@@ -59,10 +60,24 @@ impl Filter {
         }
         let next = successor(scene, optimum);
         // Of those on the same road whose motion is seen, duties are asked for, not comfort.
-        let is_judged = |other: &&Agent| !is_of_motion || !matches!(next.ego.relation(other), Relation::Alongside);
-        let others: Vec<&Agent> = next.others.iter().filter(is_judged).collect();
+        let judged = |scene: &'_ Scene| -> Vec<Agent> {
+            let is_judged = |other: &&Agent| !is_of_motion || !matches!(scene.ego.relation(other), Relation::Alongside);
+            scene.others.iter().filter(is_judged).cloned().collect()
+        };
+        let others = judged(&next);
+        if is_of_motion && others.is_empty() {
+            return None;
+        }
+        let others: Vec<&Agent> = others.iter().collect();
         let keep = fallback.trajectory(0).shifted().inputs;
-        let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * fallback.cost.violation(Violation::Safety));
+        let needed = if is_of_motion {
+            let now = judged(scene);
+            let problem = problem(scene, &now.iter().collect::<Vec<_>>());
+            problem.cost(&problem.start(&[fallback.trajectory(0).inputs])).violation(Violation::Safety)
+        } else {
+            fallback.cost.violation(Violation::Safety)
+        };
+        let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * needed);
         let after = self.optimiser.optimise(&problem(&next, &others), &[keep]);
         let is_safe = after.is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed);
         (!is_safe).then_some("no cautious plan would be left after its next step")
@@ -87,25 +102,27 @@ fn comes_too_near(scene: &Scene, plan: &Trajectory, lanes: &RoadLanes, other: &A
     if other.is_obstacle || !matches!(ego.relation(other), Relation::Alongside) || !is_same_way(ego, other) {
         return false;
     }
-    let lane = lanes.at(ego.route.across(other.state.position()));
-    let beyond_m = |state: &State| {
-        let apart_m = (ego.route.across(state.position()) - lanes.centre_m(lane)).abs();
-        0.5 * (ego.body.width_m + lanes.width_m()) - apart_m
+    // How far its body is over the line of the lane in which the other one is then.
+    let beyond_m = |own: &State, their: &State| {
+        let [own_m, their_m] = [own, their].map(|state| ego.route.across(state.position()));
+        0.5 * (ego.body.width_m + lanes.width_m()) - (own_m - lanes.centre_m(lanes.at(their_m))).abs()
     };
-    let now_m = beyond_m(&ego.state);
+    let now_m = beyond_m(&ego.state, &other.state);
     if now_m > 0.5 * ego.body.width_m {
         return false;
     }
     let steps = (SOON_S * ego.body.real_ratio().sqrt() / scene.step_s).round() as usize;
     let mut pairs = plan.states.iter().zip(&other.prediction.states).skip(1).take(steps);
     pairs.any(|(own, their)| {
+        if beyond_m(own, their) <= now_m.max(OVER_LINE_M * ego.body.scale) {
+            return false;
+        }
         let [own_m, their_m] = [own, their].map(|state| ego.route.along(state.position()));
         let is_ahead = own_m > their_m;
         let (front, rear) = if is_ahead { (&ego.body, &other.body) } else { (&other.body, &ego.body) };
         let speeds_mps = if is_ahead { [their.speed_mps, own.speed_mps] } else { [own.speed_mps, their.speed_mps] };
         let gap_m = (own_m - their_m).abs() - front.rear_m - rear.front_m;
-        beyond_m(own) > now_m.max(OVER_LINE_M * ego.body.scale)
-            && gap_m < owed_gap_m(rear, speeds_mps[0], speeds_mps[1])
+        gap_m < owed_gap_m(rear, speeds_mps[0], speeds_mps[1])
     })
 }
 
@@ -124,4 +141,49 @@ fn successor(scene: &Scene, optimum: &Optimum) -> Scene {
         other.state = other.prediction.states.first().copied().unwrap_or(other.state);
     }
     next
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::fixture;
+    use crate::prediction::constant_velocity;
+
+    /// A real car that keeps its motion, on a road of three lanes of 3.5 m around the x axis.
+    fn car(x_m: f64, y_m: f64, heading_rad: f64) -> Agent {
+        let mut agent = fixture::real_car(x_m, 25.0);
+        (agent.state.y_m, agent.state.heading_rad) = (y_m, heading_rad);
+        agent.prediction = Arc::new(constant_velocity(&agent.state, 30, 0.1));
+        agent
+    }
+
+    /// Whether a plan that leads from the middle lane to the left is refused for another car, at a place and heading.
+    fn is_refused(from_m: f64, other: &Agent) -> bool {
+        let scene = fixture::scene(car(0.0, from_m, 0.04), vec![other.clone()]);
+        let plan = (*scene.ego.prediction).clone();
+        comes_too_near(&scene, &plan, &RoadLanes::shared_evenly(&scene), other)
+    }
+
+    #[test]
+    fn a_plan_over_the_line_needs_the_gap_that_is_owed() {
+        let length_m = 4.5;
+        // At 25 m/s 17 m are owed; the edge of the body is at the line.
+        for (gap_m, refused) in [(10.0, true), (20.0, false)] {
+            for side in [-1.0, 1.0] {
+                let other = car(side * (gap_m + length_m), 3.5, 0.0);
+                assert_eq!(is_refused(0.8, &other), refused, "{gap_m} m, {side}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plan_within_the_lane_or_in_the_other_one_already_needs_no_gap() {
+        let near = car(-8.0, 3.5, 0.0);
+        assert!(!is_refused(-1.0, &near), "it stays within its lane for a second");
+        assert!(!is_refused(1.8, &near), "its middle is over the line");
+        assert!(!is_refused(0.8, &car(8.0, 3.5, PI)), "the other one is oncoming");
+        assert!(!is_refused(0.8, &car(-8.0, -3.5, 0.0)), "the other one is in the lane on the other side");
+    }
 }

@@ -11,7 +11,8 @@
 //! 6. solves for its own plan and a proposal to each other that is asked at once (`proposal`, eq. 6.24);
 //! 7. goes behind instead, and asks no more, where that has become cheaper by what it concedes ([`Concedes::Order`]); among people it may
 //!    ask once more after a pause;
-//! 8. applies the first input only if a conservative plan still exists after it (`filter`).
+//! 8. applies the first input only if a conservative plan still exists after it, or, among people, if others have the gaps that it owes
+//!    them (`filter`).
 
 mod acceptance;
 mod baseline;
@@ -152,7 +153,7 @@ impl Drive for Negotiation {
             &partners,
             fallback.as_ref().ok().map(|fallback| fallback.optimum.cost.total),
         );
-        let persuasion = self.persuasion(&accepted, scene.ego.body.scale);
+        let persuasion = self.persuasion(scene, &accepted);
         let outcome = self.propose(scene, &partners, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
@@ -163,7 +164,7 @@ impl Drive for Negotiation {
             }
         };
         if let Some(fallback) =
-            fallback.as_ref().ok().filter(|fallback| self.concedes(scene, &partners, &optimum, fallback))
+            fallback.as_ref().ok().filter(|fallback| self.concedes(scene, &partners, &accepted, &optimum, fallback))
         {
             let names: Vec<&str> = partners.iter().map(|partner| &*partner.name).collect();
             events.push(PlanEvent::note(format!("concedes: goes behind {}", names.join(", "))));
@@ -230,7 +231,7 @@ impl Negotiation {
             negotiation.advance(scene, partner);
             let accepted = negotiation.acceptance(settings.acceptance, scene, partner);
             answers.push(accepted);
-            // Of a vehicle of which only the motion is seen, what it does before it can have answered is no answer.
+            // What a vehicle does before it can have answered does not count where only its motion is seen.
             let answered =
                 accepted.filter(|_| !scene.knowledge.is_of_motion() || negotiation.asked_steps >= answer_steps);
             if let Some(accepted) = answered.filter(|_| settings.concession) {
@@ -243,8 +244,13 @@ impl Negotiation {
         accepted
     }
 
-    /// The persuasion constraint: of several negotiations, that of the vehicle which accepts least.
-    fn persuasion(&self, accepted: &[Option<f64>], scale: f64) -> Option<Persuasion> {
+    /// The persuasion constraint: of several negotiations, that of the vehicle which accepts least. Where only motion is seen it waits for
+    /// the answers.
+    fn persuasion(&self, scene: &Scene, accepted: &[Option<f64>]) -> Option<Persuasion> {
+        if scene.knowledge.is_of_motion() && accepted.contains(&None) {
+            return None;
+        }
+        let scale = scene.ego.body.scale;
         let accepted = accepted.iter().map(|accepted| accepted.unwrap_or(1.0));
         let least = accepted.zip(&self.negotiations).min_by(|(a, _), (b, _)| a.total_cmp(b));
         least.and_then(|(accepted, (_, state))| persuasion::next_constraint(&self.settings, state, accepted, scale))
@@ -278,8 +284,16 @@ impl Negotiation {
 
     /// Whether the ego rather goes behind: at the weights that concession has left, its fallback, with the others as they are
     /// predicted, costs less than its proposal.
-    fn concedes(&self, scene: &Scene, partners: &[&Agent], proposal: &Optimum, fallback: &Solved) -> bool {
-        if self.settings.concedes != Concedes::Order || !self.settings.concession {
+    fn concedes(
+        &self,
+        scene: &Scene,
+        partners: &[&Agent],
+        accepted: &[Option<f64>],
+        proposal: &Optimum,
+        fallback: &Solved,
+    ) -> bool {
+        let awaits_answer = scene.knowledge.is_of_motion() && accepted.contains(&None);
+        if self.settings.concedes != Concedes::Order || !self.settings.concession || awaits_answer {
             return false;
         }
         let problem = problem(scene, &self.asked(partners), None, &self.settings);
@@ -343,19 +357,20 @@ impl Negotiation {
             // Among told plans a proposal counts as accepted until it is answered.
             acceptance: accepted.or((!scene.knowledge.is_of_motion()).then_some(1.0)),
         });
+        let has_answer = !scene.knowledge.is_of_motion() || accepted.iter().any(Option::is_some);
+        let acceptance = has_answer.then(|| ACCEPTANCE.is(accepted.iter().flatten().copied().fold(1.0, f64::min)));
         let weights = self.negotiations.iter().map(|(_, negotiation)| negotiation.concession.weight());
         Plan {
             trajectory,
             statistics: optimum.statistics,
             proposals: proposals.collect(),
-            diagnostics: vec![
-                ACCEPTANCE.is(accepted.iter().flatten().copied().fold(1.0, f64::min)),
+            diagnostics: Vec::from_iter(acceptance.into_iter().chain([
                 CONCESSION_WEIGHT.is(weights.fold(1.0, f64::min)),
                 PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
                 COST.is(optimum.cost.total),
                 SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
-            ],
+            ])),
             ..Plan::default()
         }
     }
@@ -369,7 +384,8 @@ impl Negotiation {
         plan.statistics.add(&fallback.statistics);
         let refused = if self.settings.safety_filter { self.filter.refuses(scene, optimum, fallback) } else { None };
         if let Some(reason) = refused {
-            plan.trajectory = fallback.trajectory(0);
+            let asked = std::mem::replace(&mut plan.trajectory, fallback.trajectory(0));
+            plan.announced = scene.knowledge.is_of_motion().then_some(asked);
             plan.events.push(PlanEvent::note(format!("drives cautiously: {reason}")));
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused.is_some()))));

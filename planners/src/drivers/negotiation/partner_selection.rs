@@ -64,6 +64,10 @@ impl PartnerSelection {
 
     /// Asks those that are asked no more. Among people, of whom only the motion is seen, it asks each of them once more after a pause.
     pub(super) fn concede(&mut self, scene: &Scene) {
+        if scene.knowledge.is_of_motion() {
+            // A second talk has a price of its own.
+            self.fallback = FallbackPrice::default();
+        }
         let until = scene.tick + (PAUSE_S * scene.ego.body.real_ratio().sqrt() / scene.step_s).round() as usize;
         for AskedVehicle { name, .. } in self.asked.drain(..) {
             let is_first = self.paused.iter().all(|(paused, _)| *paused != name);
@@ -95,5 +99,33 @@ impl PartnerSelection {
                 self.refused.push(asked.name.clone());
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture;
+    use crate::scene::Knowledge;
+
+    #[test]
+    fn one_to_whom_the_ego_conceded_is_asked_once_more_after_a_pause() {
+        let mut ahead = fixture::real_car(20.0, 20.0);
+        ahead.state.y_m = 3.5;
+        let mut scene = fixture::scene(fixture::real_car(0.0, 20.0), vec![ahead]);
+        (scene.step_s, scene.knowledge) = (0.2, Knowledge::Motion { late_steps: 0 });
+        scene.goal.target.y_m = 3.5;
+        let settings = Settings { clear_lead_m: 30.0, ..Settings::default() };
+        let mut selection = PartnerSelection::default();
+        let mut asks_at = |scene: &Scene, selection: &mut PartnerSelection, tick: usize| {
+            let scene = Scene { tick, ..scene.clone() };
+            !selection.choose(&scene, &settings, &[]).is_empty()
+        };
+        assert!(asks_at(&scene, &mut selection, 0));
+        selection.concede(&scene);
+        let asked = [1, 14, 15].map(|tick| asks_at(&scene, &mut selection, tick));
+        assert_eq!(asked, [false, false, true], "the pause takes 3 s");
+        selection.concede(&scene);
+        assert!(!asks_at(&scene, &mut selection, 100), "there is no third talk");
     }
 }

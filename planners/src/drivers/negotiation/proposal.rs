@@ -66,7 +66,7 @@ pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuas
         let vehicle = index + 1;
         let share = weight / own_weight * (1.0 - own_weight) / settings.other_normaliser;
         terms.extend(partner_terms(scene, agent, vehicle, share));
-        terms.push(scene.separation(scene.goal.safety, 0, vehicle, agent));
+        terms.push(scene.separation(scene.room_asked_of(agent), 0, vehicle, agent));
     }
     for (index, partner) in asked.iter().enumerate() {
         let before = asked[..index].iter().enumerate().filter(|(_, other)| other.agent.may_meet(partner.agent));

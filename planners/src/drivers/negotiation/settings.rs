@@ -17,7 +17,7 @@ pub enum Concedes {
     #[default]
     Cost,
     /// The choice between going first and going behind: the conceded weight compares the proposal with the conservative plan, and the
-    /// ego drives the latter, and asks no more, once it is the cheaper one. Within its way it drives as if it had conceded nothing.
+    /// ego drives the latter once it is the cheaper one, and asks no more; among people it may ask once more after 3 s. Within its way it drives as if it had conceded nothing.
     Order,
 }
 
@@ -38,8 +38,8 @@ pub struct Settings {
     /// Steps without progress after which the next vehicle is asked, or none if it was the last.
     #[schemars(range(min = 1))]
     pub patience_steps: usize,
-    /// Time in which the other cannot have answered: patience with it, and the price of patience, begin after it. At least its reaction
-    /// time, and three answers; 0 among drivers who react at once \[s\].
+    /// Time in which the other cannot have answered: patience with it, and the price of patience, begin after it. Its reaction time,
+    /// one plan and 0.4 s in which the answer shows; 0 among drivers who react at once \[s\].
     #[schemars(range(min = 0.0), extend("x-mechanism" = { "time to answer": 0.0 }))]
     pub answer_s: f64,
     /// By which share the conservative plan may be dearer than the cheapest one since the ego's first request. Where it is

@@ -22,12 +22,12 @@ pub(super) struct NegotiationState {
 }
 
 impl NegotiationState {
-    /// How far the partner accepted the last proposal; none before the first.
+    /// How far the partner accepted the last proposal; none before the first, and where only motion is seen and nothing is asked.
     pub fn acceptance(&self, reading: Acceptance, scene: &Scene, partner: &Agent) -> Option<f64> {
         let (first, last) = (self.first.as_ref()?.continued(), self.last.as_ref()?.continued());
         let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
         if let Some(baseline) = &self.baseline {
-            return Some(baseline.acceptance(partner, &last.cooperative, scene.step_s, ellipse));
+            return baseline.acceptance(partner, &last.cooperative, scene.step_s, ellipse);
         }
         Some(match reading {
             Acceptance::Willingness => willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse),
@@ -47,7 +47,7 @@ impl NegotiationState {
         round.map(NegotiationRound::continued)
     }
 
-    /// Drives the vehicle on that was not asked, where only motion is seen. To be called once a step, before acceptance is read.
+    /// Advances the baseline by one step, where only motion is seen; acceptance is read after it.
     pub fn advance(&mut self, scene: &Scene, partner: &Agent) {
         if let Some(baseline) = &mut self.baseline {
             baseline.advance(scene, partner);

@@ -1,4 +1,4 @@
-//! Contacts of which a vehicle is at fault, and gaps that it makes too short ([`Fault`](crate::measure::Fault) has the rules).
+//! Contacts of which a vehicle is at fault, and gaps that it makes too short ([`Faults`](crate::measure::Faults) has the rules).
 
 use interplay_scenarios::MetricKind::{Count, Flag};
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
@@ -8,10 +8,10 @@ use crate::measure::values::{Measured, MetricValue};
 use crate::state::frame::{Collision, Frame};
 
 const BY_EGO_DOC: &str = "Whether the ego is at fault in its first contact: it took the right of way of the other, came out of its lane \
-                          towards it, came into its lane with a shorter gap than it owes, or ran into it while it stood; where no \
+                          towards it, came into its way with a shorter gap than it owes, or ran into it while it stood; where no \
                           rule says so, it moved towards the other at least as fast as the other towards it";
 const AT_FAULT_DOC: &str = "In how many contacts it is at fault, by the rules of `contact_by_ego`";
-const SHORT_GAPS_DOC: &str = "How often it comes into the lane of a vehicle behind it with a shorter gap than it owes";
+const CUT_INS_DOC: &str = "How often it comes into the way of a vehicle behind it with a shorter gap than it owes, among people";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
     &ContactMetric {
@@ -25,10 +25,10 @@ pub(super) const METRICS: &[&dyn Metric] = &[
         value: |counts| MetricValue::Count(counts.at_fault),
     },
     &ContactMetric {
-        declaration: MetricDeclaration::of_vehicle("short_gaps", Count, SHORT_GAPS_DOC)
+        declaration: MetricDeclaration::of_vehicle("cut_ins", Count, CUT_INS_DOC)
             .compared(MetricComparison::Sum)
             .with_others(),
-        value: |counts| MetricValue::Count(counts.short_gaps),
+        value: |counts| MetricValue::Count(counts.cut_ins),
     },
 ];
 
@@ -44,7 +44,7 @@ impl Metric for ContactMetric {
     }
 
     fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
-        Box::new(Counts { value: self.value, vehicle, is_first_at_fault: None, at_fault: 0, short_gaps: 0 })
+        Box::new(Counts { value: self.value, vehicle, is_first_at_fault: None, at_fault: 0, cut_ins: 0 })
     }
 }
 
@@ -56,7 +56,7 @@ struct Counts {
     /// Whether it is at fault in its first contact; none before.
     is_first_at_fault: Option<bool>,
     at_fault: u64,
-    short_gaps: u64,
+    cut_ins: u64,
 }
 
 impl Counts {
@@ -67,7 +67,7 @@ impl Counts {
             self.is_first_at_fault.get_or_insert(is_at_fault(contact));
             self.at_fault += u64::from(is_at_fault(contact));
         }
-        self.short_gaps += frame.short_gaps.iter().filter(|one| *one == name).count() as u64;
+        self.cut_ins += frame.cut_ins.iter().filter(|one| *one == name).count() as u64;
     }
 }
 
