@@ -45,7 +45,7 @@ fn the_report_of_a_run_has_the_documented_keys() {
              peak_acceleration_mps2 peak_braking_mps2 peak_braking_share hard_braking peak_jerk_mps3 \
              peak_lateral_acceleration_mps2 off_road_m leaves_road speeding_mps peak_steering_rate_radps short_gap_share median_time_gap_s \
              accepted_lead_gap_s accepted_lag_gap_s follower_braking_mps2 follower_brakes post_encroachment_s emergency_braking \
-             rules_broken unexplained_standing_s deadlocks peak_times_s plans",
+             rules_broken unexplained_standing_s deadlocks contacts_at_fault cut_ins peak_times_s plans",
         );
         has_keys(
             &vehicle["peak_times_s"],
