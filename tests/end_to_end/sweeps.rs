@@ -286,7 +286,7 @@ fn wrong_sweep_flags_are_refused_by_name() {
         (&["--arm", "duration_s=3; duration_s=4"], &["states `duration_s` twice"]),
         (
             &["--vary", "duration_s=[8, 9]", "--set", "duration_s=8"],
-            &["is set here, and varies", "# --set", "# --vary"],
+            &["is set here, and the plan varies", "# --set", "# --vary"],
         ),
         (&["--arm", ""], &["--arm", "write PATH=VALUE"]),
         (&["--set", "duration_s"], &["--set", "write PATH=VALUE"]),

@@ -208,15 +208,12 @@ impl Setting<'_> {
                 && path.split('.').zip(self.path.split('.')).all(|(one, own)| one == own || [one, own].contains(&"*"))
         };
         let path = match (stated.iter().find(|path| is_same(path)), stated.as_slice()) {
-            (Some(path), _) | (None, [path]) => path,
+            (Some(path), _) => path,
+            (None, [path]) if !other.is_varied() => path,
             (None, _) => &whole,
         };
         let (setting, by) = (&self.path, other.by);
-        let wins_by = match other.is_varied() && !self.change.is_varied() && *path == *setting {
-            true => "varies: what varies is laid over it".to_owned(),
-            false => format!("{by} {verb} `{path}`, which is laid over it"),
-        };
-        let message = format!("`{setting}` {states} here, and {wins_by}");
+        let message = format!("`{setting}` {states} here, and {by} {verb} `{path}`, which is laid over it");
         Fault::at(self.change.key(), NO_EFFECT, message).also(other.key(), wins).help(HELP)
     }
 }
