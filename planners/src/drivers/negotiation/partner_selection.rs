@@ -117,7 +117,7 @@ mod tests {
         scene.goal.target.y_m = 3.5;
         let settings = Settings { clear_lead_m: 30.0, ..Settings::default() };
         let mut selection = PartnerSelection::default();
-        let mut asks_at = |scene: &Scene, selection: &mut PartnerSelection, tick: usize| {
+        let asks_at = |scene: &Scene, selection: &mut PartnerSelection, tick: usize| {
             let scene = Scene { tick, ..scene.clone() };
             !selection.choose(&scene, &settings, &[]).is_empty()
         };
