@@ -31,8 +31,7 @@ const WATCHED_S: f64 = 1.6;
 /// A street whose ego is of a kind.
 fn street(name: &str, kind: &str) -> Scenario {
     let kind = format!("vehicle.ego.driver.kind=\"{kind}\"");
-    let duration = format!("duration_s={}", CHANGE_S + WATCHED_S);
-    authored(name, &[&kind, &duration, "expect={}", "counterfactual=[]"])
+    authored(name, &[&kind, "expect={}", "counterfactual=[]"])
 }
 
 /// A person that wants half the speed of its goal.
@@ -64,10 +63,12 @@ fn change(simulation: &mut Simulation, vehicle: &str, what: &str) {
     changed.expect("a vehicle of the scenario");
 }
 
-/// The applied inputs of each vehicle until the end of a run.
+/// The applied inputs of each vehicle while a run is watched.
 fn inputs_of(mut simulation: Simulation) -> Vec<Vec<Input>> {
     let mut inputs = Vec::new();
-    while let Some(frame) = simulation.step().expect("the run goes on") {
+    while simulation.time_s() < CHANGE_S + WATCHED_S
+        && let Some(frame) = simulation.step().expect("the run goes on")
+    {
         inputs.push(frame.vehicles.iter().map(|vehicle| vehicle.input).collect());
     }
     inputs
