@@ -307,7 +307,7 @@ fn every_branch_stays_outside_the_safety_ellipses_of_its_future() {
                 plan.trajectory.inputs[..problem.shared_steps]
             );
         }
-        // Whose branch is whose is known by the probabilities; the likeliest future has the plan itself.
+        // Probabilities match branches to futures; the plan itself is the branch of the likeliest one.
         let mut rest = plan.branches.iter();
         let likeliest = found.iter().map(|future| future.probability).fold(0.0, f64::max);
         let mut is_taken = false;

@@ -217,7 +217,7 @@ fn basic_types_do_not_depend_on_cost_terms_certificates_or_the_optimiser() {
     for (noun, allowed) in NOUNS {
         let text = read(&root().join(noun));
         let code: String = text.lines().filter_map(|line| line.split("//").next()).collect();
-        for module in ["posing", "certificate"] {
+        for module in ["problem", "certificate"] {
             assert!(!code.contains(&format!("{module}::")), "{noun} names {module}");
         }
         for (at, path) in code.match_indices("trajectory::") {

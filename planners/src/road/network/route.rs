@@ -218,7 +218,7 @@ pub struct RouteConflict {
     pub their_meeting_m: f64,
     /// Whether the routes cross, merge, part or run against each other there.
     pub kind: ConflictKind,
-    /// Who goes first at the conflict.
+    /// Which of the two vehicles goes first at the conflict.
     pub precedence: Precedence,
 }
 

@@ -4,8 +4,8 @@ use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
 
 use crate::measure::metric::Metric;
-use crate::measure::vehicle_metric::LeastOfRun;
 use crate::measure::values::Measured;
+use crate::measure::vehicle_metric::LeastOfRun;
 
 const EGO_GAP_DOC: &str = "Smallest distance of the ego's footprint to another; none without others";
 const SMALLEST_GAP_DOC: &str = "Smallest distance of any two footprints; none without two vehicles";

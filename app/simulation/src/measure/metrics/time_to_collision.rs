@@ -4,8 +4,8 @@ use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{MetricComparison, MetricDeclaration};
 
 use crate::measure::metric::{Metric, ObservedTick};
-use crate::measure::vehicle_metric::LeastOfRun;
 use crate::measure::values::Measured;
+use crate::measure::vehicle_metric::LeastOfRun;
 use crate::physics::{MovingFootprint, near_pairs, radius_m, time_to_collision_s};
 
 /// Vehicles with a longer time to collision are not on a collision course \[s\].
