@@ -11,7 +11,8 @@ const BY_EGO_DOC: &str = "Whether the ego is at fault in its first contact: it t
                           towards it, came into its way with a shorter gap than it owes, or ran into it while it stood; where no \
                           rule says so, it moved towards the other at least as fast as the other towards it";
 const AT_FAULT_DOC: &str = "In how many contacts it is at fault, by the rules of `contact_by_ego`";
-const CUT_INS_DOC: &str = "How often it comes into the way of a vehicle behind it with a shorter gap than it owes, among people";
+const CUT_INS_DOC: &str =
+    "How often it comes into the way of a vehicle behind it with a shorter gap than it owes, among people";
 
 pub(super) const METRICS: &[&dyn Metric] = &[
     &ContactMetric {
