@@ -49,12 +49,18 @@ impl Idm {
         Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default(), obstacles: ObstacleMemory::default() }
     }
 
-    /// The lane it is in: the chosen one, while that is near.
+    /// The lane it is in: the chosen one, while that is near and it drives there. Where the plan that led there was refused, it does not.
     fn lane(&self, scene: &Scene, lanes: &RoadLanes) -> usize {
-        let route = &scene.ego.route;
-        let nearest = lanes.at(route.across(scene.ego.state.position()));
+        let Agent { route, state, prediction, .. } = &scene.ego;
+        let here_m = route.across(state.position());
+        let nearest = lanes.at(here_m);
         let is_near = |lane: &usize| !route.is_in_network() || lane.abs_diff(nearest) <= 1;
-        self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).unwrap_or(nearest)
+        let end_m = prediction.states.last().map_or(here_m, |end| route.across(end.position()));
+        let is_taken = |lane: &usize| {
+            let from_m = |across_m: f64| (across_m - lanes.centre_m(*lane)).abs();
+            *lane == nearest || !scene.knowledge.is_of_motion() || from_m(end_m) < from_m(here_m)
+        };
+        self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).filter(is_taken).unwrap_or(nearest)
     }
 }
 
