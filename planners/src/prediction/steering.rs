@@ -51,7 +51,7 @@ impl Agent {
     pub(crate) fn comfortably(&self, last: &Input, wanted: Input, speed_mps: f64, step_s: f64) -> Input {
         let Some(comfort) = self.limits.comfort else { return wanted };
         let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
-        let turn_rad = comfort.steering_rate_radps * self.urgency * step_s;
+        let turn_rad = self.limits.steering_rate_radps(self.urgency).map_or(f64::INFINITY, |rate| rate * step_s);
         let near = |last: f64, wanted: f64, most: f64| wanted.max(last - most).min(last + most);
         let next_mps = speed_mps + step_s * last.acceleration_mps2.min(0.0);
         let acceleration_mps2 = wanted.acceleration_mps2.max(-comfort.braking_at_mps2(self.urgency, next_mps));

@@ -1,9 +1,9 @@
 //! What a vehicle may do at each stage of a plan: what it can, what the rules permit, and what is comfortable.
 //!
 //! Comfort bounds how fast inputs change from the last one on: at stage `t` of the length `h` the acceleration is within
-//! `a₋₁ ± j h (t + 1)` of the last one `a₋₁`, and the steering angle likewise. Only the first input of a plan is applied, so that
-//! the driven motion keeps the bound, and a plan is free where it only promises. A vehicle that has to brake harder than is
-//! comfortable ([`urgency`](Agent::urgency)) has wider bounds, up to those of its body.
+//! `a₋₁ ± j h (t + 1)` of the last one `a₋₁`, and the steering angle likewise, no faster than its wheels turn. Only the first
+//! input of a plan is applied, so that the driven motion keeps the bound, and a plan is free where it only promises. A vehicle that has
+//! to brake harder than is comfortable ([`urgency`](Agent::urgency)) has wider bounds, up to those of its body.
 //!
 //! Speeds are bounded so that there is always a motion within all bounds: from each speed that is allowed at a stage, one that is
 //! allowed at the next stage can be reached.
@@ -20,16 +20,18 @@ impl Agent {
     /// body alone bound everything.
     pub(crate) fn stage_bounds(&self, horizon: usize, step_s: f64, caps_mps: &[f64]) -> Vec<StageBounds> {
         let limits = &self.limits;
-        if limits.lateral_acceleration_max_mps2.is_none() && limits.comfort.is_none() && caps_mps.is_empty() {
+        let steering_rate = limits.steering_rate_radps(self.urgency);
+        if limits.lateral_acceleration_max_mps2.is_none() && steering_rate.is_none() && caps_mps.is_empty() {
             return Vec::new();
         }
         let steering_max_rad = self.steering_bounds_rad(horizon);
         let mut bounds: Vec<StageBounds> = (0..horizon)
             .map(|t| {
                 let steering_max_rad = steering_max_rad.get(t).copied().unwrap_or(limits.steering_max_rad);
+                let turned_rad = steering_rate.map(|rate_radps| rate_radps * step_s * (t + 1) as f64);
                 let bounds = StageBounds {
                     acceleration_mps2: [limits.acceleration_min_mps2, limits.acceleration_max_mps2],
-                    steering_rad: [-steering_max_rad, steering_max_rad],
+                    steering_rad: self.steerable([-steering_max_rad, steering_max_rad], turned_rad),
                     speed_mps: [limits.speed_min_mps, self.highest_speed_mps(t, caps_mps)],
                 };
                 limits.comfort.map_or(bounds, |comfort| self.comfortable(bounds, &comfort, t, step_s))
@@ -67,7 +69,6 @@ impl Agent {
     /// Bounds of one stage, within what is comfortable.
     fn comfortable(&self, bounds: StageBounds, comfort: &ComfortLimits, t: usize, step_s: f64) -> StageBounds {
         let until_s = step_s * (t + 1) as f64;
-        let around = |last: f64, rate: f64| [last - rate * until_s, last + rate * until_s];
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
         let last = &self.previous_input;
         let jerk_mps3 = comfort.jerk_mps3 * self.urgency * self.urgency;
@@ -78,16 +79,18 @@ impl Agent {
         StageBounds {
             acceleration_mps2: shared(
                 [least_mps2, acceleration_max_mps2],
-                around(last.acceleration_mps2, jerk_mps3),
+                around(last.acceleration_mps2, jerk_mps3 * until_s),
                 [acceleration_min_mps2, acceleration_max_mps2],
-            ),
-            steering_rad: shared(
-                bounds.steering_rad,
-                around(last.steering_rad, comfort.steering_rate_radps * self.urgency),
-                [-self.limits.steering_max_rad, self.limits.steering_max_rad],
             ),
             ..bounds
         }
+    }
+
+    /// What can be reached of a range of steering angles, where the angle changes by no more than some other one \[rad\].
+    fn steerable(&self, wanted_rad: [f64; 2], turned_rad: Option<f64>) -> [f64; 2] {
+        let (last_rad, most_rad) = (self.previous_input.steering_rad, self.limits.steering_max_rad);
+        turned_rad
+            .map_or(wanted_rad, |turned_rad| shared(wanted_rad, around(last_rad, turned_rad), [-most_rad, most_rad]))
     }
 
     /// Widens bounds on the speed for a vehicle that is out of them now, as [`Limits::speeds_within_reach`] does, where the bounds on the
@@ -113,6 +116,11 @@ impl Agent {
             *slowest = slowest.max(next.speed_mps[0] - step_s * high).min(*fastest);
         }
     }
+}
+
+/// The range of a size around a value.
+fn around(value: f64, size: f64) -> [f64; 2] {
+    [value - size, value + size]
 }
 
 /// What two ranges have in common, within a third one; where the first two have nothing in common, the end of the second that is

@@ -29,8 +29,8 @@ pub struct Limits {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 100.0), example = 7.0)]
     pub lateral_acceleration_max_mps2: Option<f64>,
-    /// Largest change of the steering angle per second: what turns the wheels can do no more. Without it they turn at once; plans do not
-    /// know of it \[rad/s\].
+    /// Largest change of the steering angle per second: what turns the wheels can do no more. Without it they turn at once
+    /// \[rad/s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100.0), extend("exclusiveMinimum" = 0.0), example = 0.4)]
     pub steering_rate_max_radps: Option<f64>,
@@ -59,6 +59,13 @@ impl Limits {
     pub fn steering_towards_rad(&self, last_rad: f64, wanted_rad: f64, elapsed_s: f64) -> f64 {
         let most_rad = self.steering_rate_max_radps.map_or(f64::INFINITY, |most| most * elapsed_s);
         wanted_rad.clamp(last_rad - most_rad, last_rad + most_rad)
+    }
+
+    /// Largest change of the steering angle per second of a driver to whom it is that urgent: what is comfortable, and what turns the wheels;
+    /// none where they turn at once \[rad/s\].
+    pub(crate) fn steering_rate_radps(&self, urgency: f64) -> Option<f64> {
+        let comfortable = self.comfort.map(|comfort| comfort.steering_rate_radps * urgency);
+        comfortable.into_iter().chain(self.steering_rate_max_radps).min_by(f64::total_cmp)
     }
 
     /// Bounds on the speed some time after a speed. A vehicle that is out of bounds (a plant that is not the model may leave it so) is
@@ -154,6 +161,10 @@ mod tests {
         let after = |limits: Limits, wanted_rad: f64| limits.steering_towards_rad(0.1, wanted_rad, 0.1);
         assert!((after(limits, 0.5) - 0.14).abs() < 1e-12 && (after(limits, -0.5) - 0.06).abs() < 1e-12);
         assert_eq!([after(limits, 0.12), after(Limits::default(), -0.5)], [0.12, -0.5]);
+        let comfortable = Limits { comfort: Some(ComfortLimits::default()), ..limits };
+        assert_eq!(comfortable.steering_rate_radps(1.0), Some(0.4), "the wheels turn more slowly than is comfortable");
+        assert_eq!(Limits { steering_rate_max_radps: None, ..comfortable }.steering_rate_radps(2.0), Some(1.4));
+        assert_eq!(Limits::default().steering_rate_radps(1.0), None);
     }
 
     /// At the largest steering angle of a speed, `|v θ′|` of the bicycle is the limit; where the limit says nothing, so does it.

@@ -75,9 +75,10 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     let aside = ASIDE_WIDTHS.into_iter().flat_map(move |widths| {
         let across_m = here_m + widths * ego.body.width_m;
         accelerations.into_iter().map(move |mps2| {
-            let motion = roll_out(scene, |_, state| Input {
-                acceleration_mps2: admissible(ego, state, mps2, scene.step_s),
-                steering_rad: steer(ego, state, across_m),
+            let mut last_rad = ego.previous_input.steering_rad;
+            let motion = roll_out(scene, |_, state| {
+                last_rad = limits.steering_towards_rad(last_rad, steer(ego, state, across_m), scene.step_s);
+                Input { acceleration_mps2: admissible(ego, state, mps2, scene.step_s), steering_rad: last_rad }
             });
             if scene.knowledge.is_of_motion() { taken(scene, motion.inputs) } else { motion }
         })
