@@ -7,8 +7,7 @@
 //!
 //! `a₀` is its present acceleration and `v_n` its lateral speed. A vehicle that brakes hard is expected to brake for longer, as for a
 //! stop. Behind its leader, whose own seen motion is known, and before the line at which the rules hold it, it brakes by the intelligent
-//! driver model with the values of the literature and the time gap that it keeps now. A vehicle that would have to brake much harder
-//! than it does in order to stop before its line is expected to drive on. The motion is rolled out through the bicycle, so
+//! driver model with the values of the literature and the time gap that it keeps now. The motion is rolled out through the bicycle, so
 //! that its inputs reproduce it, on bends too.
 
 use crate::drivers::idm;
@@ -27,8 +26,6 @@ const LATERAL_DECAY_S: f64 = 1.0;
 const ALONG_RAD: f64 = 0.8;
 /// A gap is at least this, of real vehicles \[m\].
 const LEAST_GAP_M: f64 = 0.1;
-/// A vehicle that has to brake harder than it does by more than this to stop before its line is not expected to stop \[m/s²\].
-const EXPECTED_MPS2: f64 = 2.5;
 
 /// What is seen of a vehicle, and of what may hold it back.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +87,7 @@ struct Follower {
 
 impl Follower {
     fn new(seen: &SeenMotion<'_>, steps: usize) -> Follower {
-        let Agent { route, body, state, .. } = seen.vehicle;
+        let Agent { route, body, state, rules, .. } = seen.vehicle;
         let ratio = body.real_ratio();
         let mut model = idm::Settings::literature().scaled(ratio);
         let mut ahead = Vec::new();
@@ -109,14 +106,7 @@ impl Follower {
                 model.gap_m = model.gap_m.min(gap_m.max(LEAST_GAP_M * ratio));
             }
         }
-        let least_gap_m = LEAST_GAP_M * ratio;
-        Follower {
-            model,
-            front_m: body.front_m,
-            least_gap_m,
-            line_m: expected_line_m(seen.vehicle, least_gap_m),
-            ahead,
-        }
+        Follower { model, front_m: body.front_m, least_gap_m: LEAST_GAP_M * ratio, line_m: rules.stop_line_m, ahead }
     }
 
     /// The largest acceleration at a step, from a place and a speed.
@@ -132,17 +122,6 @@ impl Follower {
         let line_mps2 = self.line_m.map_or(f64::INFINITY, |line_m| behind(at_line, line_m, 0.0));
         following_mps2.min(line_mps2)
     }
-}
-
-/// The line at which a vehicle has to wait, while it brakes as one that will or need not brake hard yet.
-fn expected_line_m(vehicle: &Agent, least_gap_m: f64) -> Option<f64> {
-    let front_m = vehicle.route.along(vehicle.state.position()) + vehicle.body.front_m;
-    let braking_mps2 = (-vehicle.previous_input.acceleration_mps2).max(0.0);
-    let speed_mps = vehicle.state.speed_mps;
-    vehicle.rules.stop_line_m.filter(|line_m| {
-        let needed_mps2 = speed_mps * speed_mps / (2.0 * (line_m - front_m).max(least_gap_m));
-        needed_mps2 <= braking_mps2 + EXPECTED_MPS2
-    })
 }
 
 #[cfg(test)]
@@ -210,16 +189,6 @@ mod tests {
         vehicle.rules.stop_line_m = Some(70.0);
         let stopped = end(&expected(&vehicle, None));
         assert!(stopped.x_m + vehicle.body.front_m < 70.5 && stopped.speed_mps < 2.5, "{stopped:?}");
-    }
-
-    #[test]
-    fn a_vehicle_that_would_have_to_brake_hard_before_its_line_is_expected_to_drive_on() {
-        let towards_line = |acceleration_mps2| {
-            let mut vehicle = car(0.0, 10.0, acceleration_mps2);
-            vehicle.rules.stop_line_m = Some(vehicle.body.front_m + 14.0);
-            end(&expected(&vehicle, None)).speed_mps
-        };
-        assert!(towards_line(0.0) > 9.9 && towards_line(-2.0) < 0.5, "{} {}", towards_line(0.0), towards_line(-2.0));
     }
 
     #[test]

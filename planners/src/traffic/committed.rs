@@ -1,9 +1,10 @@
 //! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
 
+use std::borrow::Cow;
 use std::iter::repeat;
 use std::sync::Arc;
 
-use crate::plan::certificate::{last_resorts, least_harmful, rolled_out};
+use crate::plan::certificate::{as_spread, last_resorts, least_harmful, rolled_out};
 use crate::prediction::{steadily_along, steady_inputs};
 use crate::{Agent, Scene, Trajectory};
 
@@ -68,14 +69,15 @@ impl CommittedPlan {
     }
 
     /// The least harmful of the previous plan one step further, while inputs of it are left, and of the last resorts, of which
-    /// full braking is the first.
+    /// full braking is the first. It is judged as the plan was that has been refused.
     fn fallback(&self, scene: &Scene) -> (Trajectory, Origin) {
+        let judged = if scene.knowledge.is_of_motion() { Cow::Owned(as_spread(scene)) } else { Cow::Borrowed(scene) };
         let previous = self.trajectory.as_ref().filter(|_| self.remaining_inputs > 0);
         let continued = previous.map(|plan| rolled_out(scene, plan.shifted().inputs));
         let origins =
             continued.iter().map(|_| Origin::Continued).chain([Origin::Braking]).chain(repeat(Origin::Evading));
         let motions = continued.iter().cloned().chain(last_resorts(scene));
-        let (number, motion) = least_harmful(scene, motions).unwrap_or_else(|| (0, braking(scene)));
+        let (number, motion) = least_harmful(&judged, motions).unwrap_or_else(|| (0, braking(scene)));
         (motion, origins.into_iter().nth(number).unwrap_or(Origin::Braking))
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! At each plan an [`Observation`] is made of every vehicle on the road: its state, its acceleration (and so its brake light), its
 //! indicator, its body and its route, with the motion that follows from them ([`SeenMotion`]) and what the rules ask of it as far as others
-//! can tell. Its steering, its plan, its goal and its wishes are not in it. A driver with a reaction time receives the observation of that
+//! can tell: a vehicle that would have to brake much harder than it does to stop before its line does not look as if it will wait. Its
+//! steering, its plan, its goal and its wishes are not in it. A driver with a reaction time receives the observation of that
 //! long ago, each vehicle driven on along its expected motion: a [`View`].
 
 use std::collections::VecDeque;
@@ -13,6 +14,11 @@ use super::road_user::RoadUser;
 use crate::drivers::SeenMotion;
 use crate::rules::{Arrivals, Obliged, Order, RoadRules};
 use crate::{Agent, Input, Trajectory};
+
+/// A vehicle that has to brake harder than it does by more than this to stop before its line does not look as if it will \[m/s²\].
+const UNSEEN_BRAKING_MPS2: f64 = 2.5;
+/// Ways to a line are at least this, of real vehicles \[m\].
+const LEAST_WAY_M: f64 = 0.1;
 
 /// All road users as they could be seen at one plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +132,7 @@ impl<'a> MadeOf<'a> {
             prediction: Arc::default(),
             shared_goal: user.agent.shared_goal.filter(|_| user.tells_plan),
             can_be_asked: !user.agent.is_obstacle,
-            rules: RoadRules { passes: None, ..rules },
+            rules: as_it_shows(&user.agent, rules),
             urgency: 1.0,
             ..user.agent.clone()
         };
@@ -185,6 +191,19 @@ impl<'a> MadeOf<'a> {
     }
 }
 
+/// What the rules ask of a vehicle, as far as it looks as if it will do it.
+fn as_it_shows(vehicle: &Agent, rules: RoadRules) -> RoadRules {
+    let Agent { route, body, state, previous_input, .. } = vehicle;
+    let waits = rules.stop_line_m.is_none_or(|line_m| {
+        let way_m = (line_m - route.along(state.position()) - body.front_m).max(LEAST_WAY_M * body.real_ratio());
+        let unseen_mps2 =
+            state.speed_mps * state.speed_mps / (2.0 * way_m) - (-previous_input.acceleration_mps2).max(0.0);
+        unseen_mps2 <= UNSEEN_BRAKING_MPS2
+    });
+    let rules = RoadRules { passes: None, ..rules };
+    if waits { rules } else { RoadRules { stop_line_m: None, waits_for: Vec::new(), ..rules } }
+}
+
 /// A vehicle some steps after it was observed, with as much of its expected motion as a plan needs.
 fn driven_on(agent: &Agent, steps: usize, horizon: usize) -> Agent {
     let Agent { prediction, .. } = agent;
@@ -198,4 +217,25 @@ fn driven_on(agent: &Agent, steps: usize, horizon: usize) -> Agent {
     };
     let state = motion.states.first().copied().unwrap_or(agent.state);
     Agent { state, prediction: Arc::new(motion), ..agent.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::real_car;
+
+    #[test]
+    fn a_vehicle_that_would_have_to_brake_hard_before_its_line_does_not_look_as_if_it_will_wait() {
+        let waits = |speed_mps: f64, acceleration_mps2: f64| {
+            let mut vehicle = real_car(0.0, speed_mps);
+            vehicle.previous_input.acceleration_mps2 = acceleration_mps2;
+            let line_m = Some(vehicle.body.front_m + 14.0);
+            let rules = RoadRules { stop_line_m: line_m, waits_for: vec!["other".to_owned()], ..RoadRules::default() };
+            let shown = as_it_shows(&vehicle, rules);
+            assert_eq!(shown.stop_line_m.is_some(), !shown.waits_for.is_empty());
+            shown.stop_line_m.is_some()
+        };
+        // 100/28 = 3.6 m/s² are needed from 10 m/s.
+        assert_eq!([waits(10.0, 0.0), waits(10.0, -2.0), waits(8.0, 0.0), waits(0.0, 0.0)], [false, true, true, true]);
+    }
 }

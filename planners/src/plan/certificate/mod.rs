@@ -33,23 +33,28 @@ pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolat
     fault.or_else(|| contact.filter(|_| gives_away_the_last_way_out(scene, plan)))
 }
 
-/// The same for a driver who sees the motion of the others only, with the bodies of the others longer by their spread after a second. It is
-/// not refused for a vehicle behind it in its lane, which follows; and where no motion without a contact is left, it is refused if one with
-/// a weaker impact is.
+/// The same for a driver who sees the motion of the others only, by [`as_spread`]. Where no motion without a contact is left, a plan is
+/// refused if one with a weaker impact is.
 pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanViolation]) -> Option<PlanViolation> {
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.cloned().or_else(|| {
         if !comes_near(scene, plan, longer_m) {
             return None;
         }
-        let ego = &scene.ego;
-        let follows = |other: &Agent| ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
-        let others = scene.others.iter().filter(|other| !follows(other)).map(spread).collect();
-        let scene = Scene { others, ego: ego.clone(), ..*scene };
+        let scene = as_spread(scene);
         let (stage, other) = early_contact(&scene, plan)?;
         let is_refused = gives_away_the_last_way_out(&scene, plan) || is_worse_than_a_last_resort(&scene, plan);
         is_refused.then(|| PlanViolation { condition: PlanCondition::Clear(other.name.clone()), stage })
     })
+}
+
+/// The scene by which motions are judged where the motion of the others is all that is known: their bodies are longer by their spread
+/// after a second, and those that follow the planning vehicle in its lane are left out, since they keep their distance.
+pub(crate) fn as_spread(scene: &Scene) -> Scene {
+    let ego = &scene.ego;
+    let follows = |other: &Agent| ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
+    let others = scene.others.iter().filter(|other| !follows(other)).map(spread).collect();
+    Scene { others, ego: ego.clone(), ..*scene }
 }
 
 /// A vehicle as long as the places at which its body may be that is expected in a second.
