@@ -87,15 +87,21 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
 }
 
 /// Where inputs lead the planning vehicle. People change to the first of them evenly over the first step, so that half of the change counts
-/// there.
-fn taken(scene: &Scene, mut inputs: Vec<Input>) -> Trajectory {
-    if let Some(first) = inputs.first_mut().filter(|_| scene.knowledge.is_of_motion()) {
-        let last = &scene.ego.previous_input;
-        first.acceleration_mps2 = 0.5 * (first.acceleration_mps2 + last.acceleration_mps2);
-        first.steering_rad = 0.5 * (first.steering_rad + last.steering_rad);
-        first.acceleration_mps2 = admissible(&scene.ego, &scene.ego.state, first.acceleration_mps2, scene.step_s);
-    }
-    rolled_out(scene, inputs)
+/// for the motion; the input itself is the one to which they change.
+fn taken(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
+    let Some(first) = inputs.first().copied().filter(|_| scene.knowledge.is_of_motion()) else {
+        return rolled_out(scene, inputs);
+    };
+    let (ego, mut on_average) = (&scene.ego, inputs);
+    let half = |last: f64, next: f64| 0.5 * (last + next);
+    on_average[0] = Input {
+        acceleration_mps2: half(first.acceleration_mps2, ego.previous_input.acceleration_mps2),
+        steering_rad: half(first.steering_rad, ego.previous_input.steering_rad),
+    };
+    on_average[0].acceleration_mps2 = admissible(ego, &ego.state, on_average[0].acceleration_mps2, scene.step_s);
+    let mut motion = rolled_out(scene, on_average);
+    motion.inputs[0] = first;
+    motion
 }
 
 /// The least harmful of some motions with its index, the first of equals; `None` without motions.
