@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::drivers::recorded::Record;
+use interplay_planners::road::network::RightOfWay;
 use interplay_scenarios::{
     ImportOptions, Imported, LoadError, Registry, Replacement, Scenario, files_below, import_commonroad, is_commonroad,
     load,
@@ -67,6 +68,22 @@ fn lanes_signs_vehicles_and_the_planning_problem_are_imported() {
     ] {
         assert!(imported.notes.iter().any(|note| note.starts_with(line)), "no {line:?} in {:#?}", imported.notes);
     }
+}
+
+#[test]
+fn the_ego_of_a_map_without_a_problem_starts_on_a_lane_for_vehicles() {
+    let scenario = resolved(&imported("crosswalk-is-longest.xml"));
+    let ego = scenario.ego().expect("an ego");
+    assert_eq!(ego.route.legs.iter().map(|leg| leg.lane.as_str()).collect::<Vec<_>>(), ["l1"]);
+}
+
+#[test]
+fn the_plaque_of_an_all_way_stop_is_read() {
+    let imported = imported("all-way-stop.xml");
+    assert!(!imported.notes.iter().any(|note| note.contains("R1-3")), "{:?}", imported.notes);
+    let scenario = resolved(&imported);
+    let network = scenario.network.as_ref().expect("a network");
+    assert_eq!(network.lane("l1").map(|lane| lane.right_of_way), Some(RightOfWay::AllWayStop));
 }
 
 /// Coordinates of UTM are moved; the records are those of the file, to the rounding of a table.

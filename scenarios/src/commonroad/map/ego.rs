@@ -1,6 +1,6 @@
 //! The ego of a planning problem.
 
-use interplay_planners::road::network::{Lane, RoadNetwork};
+use interplay_planners::road::network::{Lane, LaneUser, RoadNetwork};
 use interplay_planners::{Body, State};
 
 use super::super::model::{CommonRoad, PlanningProblem, Region};
@@ -55,8 +55,8 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
     }
     let [x_m, y_m] = initial.position;
     let state = State { x_m, y_m, heading_rad: initial.orientation_rad, speed_mps };
-    let network = &lanes.network;
-    let goals = goal_lanes(problem, lanes);
+    let network = &lanes.network.open_to(LaneUser::Car);
+    let goals = goal_lanes(problem, network, lanes);
     let near = places::near(network, &state, MAX_AWAY_M);
     if near.is_empty() {
         let what = ["planning problem far from every lane", "planning problems far from every lane"];
@@ -129,7 +129,7 @@ impl Ego {
 
 /// The ego of a map without a planning problem and without vehicles: at the start of the longest lane.
 pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
-    let network = &lanes.network;
+    let network = &lanes.network.open_to(LaneUser::Car);
     let body = VehicleClass::Car.dimensions().body;
     let mut by_length: Vec<_> = network.lanes().iter().collect();
     by_length.sort_by(|a, b| b.centre.length_m().total_cmp(&a.centre.length_m()));
@@ -155,8 +155,8 @@ fn to_lane(network: &RoadNetwork, from: &Lane, goal: &str, state: &State, body: 
     places::on(network, names, state, body).filter(|found| found.lanes.len() == count)
 }
 
-/// The names of the lanes that are goals, or in which goals lie.
-fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
+/// The names of the lanes for cars that are goals, or in which goals lie.
+fn goal_lanes(problem: &PlanningProblem<'_>, network: &RoadNetwork, lanes: &Lanes) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for goal in &problem.goals {
         let heading_rad = goal.orientation_rad.map_or(problem.initial.orientation_rad, |[from, to]| 0.5 * (from + to));
@@ -164,7 +164,7 @@ fn goal_lanes(problem: &PlanningProblem<'_>, lanes: &Lanes) -> Vec<String> {
             match (region, region.middle()) {
                 (Region::Lanelets(ids), _) => found.extend(ids.iter().filter_map(|id| lanes.names.get(id)).cloned()),
                 (_, Some(middle)) => {
-                    let places = lanes.network.locate(middle, heading_rad);
+                    let places = network.locate(middle, heading_rad);
                     found.extend(places.into_iter().map(|place| place.lane));
                 }
                 (_, None) => {}

@@ -58,7 +58,7 @@ impl<'a> Signs<'a> {
 
     /// The right of way at the end of a lanelet.
     pub(super) fn right_of_way(&self, lanelet: &Lanelet<'_>) -> RightOfWay {
-        if self.all_stop.contains(&lanelet.id.as_str()) {
+        if self.all_stop.contains(&lanelet.id.as_str()) || self.says(lanelet, &SignMeaning::AllWayStop) {
             RightOfWay::AllWayStop
         } else if self.says(lanelet, &SignMeaning::Stop) {
             RightOfWay::Stop

@@ -18,6 +18,8 @@ pub(crate) enum SignMeaning {
     SpeedLimit(f64),
     /// Stop, and give way.
     Stop,
+    /// Every approach has a stop sign.
+    AllWayStop,
     /// Give way.
     Yield,
     /// Others give way.
@@ -29,6 +31,8 @@ pub(crate) enum SignMeaning {
 /// Speed limits by country, by the sign numbers of its law.
 const SPEED_LIMITS: [&str; 5] = ["274", "274.1", "R2-1", "r301", "C14"];
 const STOPS: [&str; 3] = ["206", "R1-1", "r2"];
+/// The plaque below the stop signs of an all-way stop, by its number in the United States and its names in CommonRoad.
+const ALL_WAY_STOPS: [&str; 2] = ["R1-3", "R1-3P"];
 const YIELDS: [&str; 3] = ["205", "R1-2", "r1"];
 const PRIORITIES: [&str; 3] = ["301", "306", "r3"];
 /// The largest number on a sign that is read as metres per second.
@@ -43,6 +47,7 @@ impl Sign {
             match (limit, number) {
                 (Some(limit_mps), number) if SPEED_LIMITS.contains(&number) => SignMeaning::SpeedLimit(limit_mps),
                 (_, number) if STOPS.contains(&number) => SignMeaning::Stop,
+                (_, number) if ALL_WAY_STOPS.contains(&number) => SignMeaning::AllWayStop,
                 (_, number) if YIELDS.contains(&number) => SignMeaning::Yield,
                 (_, number) if PRIORITIES.contains(&number) => SignMeaning::Priority,
                 (_, number) => SignMeaning::Other(number.to_owned()),
