@@ -106,19 +106,39 @@ pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
     states.get(stage).or(states.last())
 }
 
-/// The first stage at which the body touches that of another where it is expected to be.
+/// The first stage at which the body touches that of another where it is expected to be. Where only motion is seen, it may also touch it
+/// halfway from the stage before: fast vehicles pass one that crosses between two stages.
 pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> Option<usize> {
     let tolerance_m = PLACE_TOLERANCE * length_m(&scene.ego);
     let reach_m = reach_m(&scene.ego, other);
-    let touches = |stage: usize| {
-        let here = &plan.states[stage];
-        expected(other, stage).is_some_and(|there| {
-            !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
-                && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
-        })
+    let overlap = |here: &State, there: &State| {
+        !is_farther(here.x_m - there.x_m, here.y_m - there.y_m, reach_m)
+            && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
+    };
+    let touches = |stage: usize| expected(other, stage).is_some_and(|there| overlap(&plan.states[stage], there));
+    let touches_before = |stage: usize| {
+        scene.knowledge.is_of_motion()
+            && expected(other, stage - 1).zip(expected(other, stage)).is_some_and(|(last, there)| {
+                overlap(&halfway(&plan.states[stage - 1], &plan.states[stage]), &halfway(last, there))
+            })
     };
     let mut stages = 0..plan.states.len();
-    if stages.next().is_none_or(touches) { None } else { stages.find(|stage| touches(*stage)) }
+    if stages.next().is_none_or(touches) {
+        None
+    } else {
+        stages.find(|stage| touches(*stage) || touches_before(*stage))
+    }
+}
+
+/// The state in the middle between two.
+fn halfway(one: &State, other: &State) -> State {
+    let turn_rad = libm::remainder(other.heading_rad - one.heading_rad, std::f64::consts::TAU);
+    State {
+        x_m: 0.5 * (one.x_m + other.x_m),
+        y_m: 0.5 * (one.y_m + other.y_m),
+        heading_rad: one.heading_rad + 0.5 * turn_rad,
+        speed_mps: 0.5 * (one.speed_mps + other.speed_mps),
+    }
 }
 
 /// Whether a motion of the planning vehicle touches another where that is expected to be, and that one is ahead then.
@@ -128,4 +148,34 @@ pub(crate) fn touches_ahead(scene: &Scene, motion: &Trajectory, other: &Agent) -
         let (sin, cos) = libm::sincos(here.heading_rad);
         there.is_some_and(|there| (there.x_m - here.x_m) * cos + (there.y_m - here.y_m) * sin > 0.0)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::fixture::{self, real_car};
+    use crate::prediction::constant_velocity;
+    use crate::scene::Knowledge;
+
+    /// A bicycle comes before a fast car and leaves its way between two stages.
+    #[test]
+    fn a_contact_between_two_stages_is_found_where_only_motion_is_seen() {
+        let (step_s, ego) = (0.2, real_car(0.0, 13.0));
+        let mut bicycle = Agent { name: "bicycle".to_owned(), ..real_car(0.0, 5.7) };
+        bicycle.body = Body { front_m: 0.9, rear_m: 0.9, width_m: 0.6, ..bicycle.body };
+        bicycle.state.heading_rad = FRAC_PI_2;
+        // 0.1 m ahead of the car at stage 3, and 0.05 m beside it at stage 4.
+        bicycle.state.x_m = 13.0 * 3.0 * step_s + ego.body.front_m + 0.1 + 0.3;
+        bicycle.state.y_m = 0.5 * ego.body.width_m + 0.05 + 0.9 - 5.7 * 4.0 * step_s;
+        bicycle.prediction = Arc::new(constant_velocity(&bicycle.state, 10, step_s));
+        let plan = constant_velocity(&ego.state, 10, step_s);
+        let mut scene = fixture::scene(ego, vec![bicycle.clone()]);
+        (scene.step_s, scene.horizon) = (step_s, 10);
+        assert_eq!(first_contact(&scene, &plan, &bicycle), None, "at the stages alone");
+        scene.knowledge = Knowledge::Motion { late_steps: 0 };
+        assert_eq!(first_contact(&scene, &plan, &bicycle), Some(4));
+    }
 }
