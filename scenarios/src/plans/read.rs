@@ -26,8 +26,9 @@ use crate::text::error::{Document, Fault, LoadError, Place, quoted};
 static SCHEMA: LazyLock<Json> = LazyLock::new(json_schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 11] = [
+const EMBEDDED: [(&str, &str); 12] = [
     ("quick", include_str!("../../plans/quick.toml")),
+    ("people-encounters", include_str!("../../plans/people-encounters.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
     ("inferred", include_str!("../../plans/inferred.toml")),
