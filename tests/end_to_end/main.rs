@@ -5,7 +5,7 @@
 //! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
 //! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`],
-//!   [`causality`], [`seen_streets`]
+//!   [`causality`], [`seen_streets`], [`next_street`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
@@ -49,6 +49,7 @@ mod lines;
 mod measures;
 mod modules;
 mod mutation;
+mod next_street;
 mod output;
 mod own;
 mod packages;

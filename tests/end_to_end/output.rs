@@ -43,13 +43,16 @@ fn the_report_of_a_run_has_the_documented_keys() {
             vehicle,
             "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
              peak_acceleration_mps2 peak_braking_mps2 peak_braking_share hard_braking peak_jerk_mps3 \
-             peak_lateral_acceleration_mps2 off_road_m leaves_road speeding_mps peak_steering_rate_radps short_gap_share median_time_gap_s \
+             peak_lateral_acceleration_mps2 peak_urgency peak_calm_jerk_mps3 peak_urgent_jerk_mps3 \
+             peak_calm_lateral_acceleration_mps2 wanted_speed_share astride_s longest_astride_s oncoming_s longest_oncoming_s \
+             oncoming_past_queue_s min_gap_at_rest_m max_gap_at_rest_m blocks_junction_s off_road_m leaves_road speeding_mps peak_steering_rate_radps short_gap_share median_time_gap_s \
              accepted_lead_gap_s accepted_lag_gap_s follower_braking_mps2 follower_brakes post_encroachment_s emergency_braking \
              rules_broken unexplained_standing_s deadlocks contacts_at_fault cut_ins peak_times_s plans",
         );
         has_keys(
             &vehicle["peak_times_s"],
-            "acceleration braking braking_share jerk lateral_acceleration off_road speeding steering_rate",
+            "acceleration braking braking_share calm_jerk calm_lateral_acceleration jerk lateral_acceleration off_road speeding \
+             steering_rate urgency urgent_jerk",
         );
         assert_eq!(vehicle["speeding_mps"], Value::Null, "this road has no limits");
         has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");

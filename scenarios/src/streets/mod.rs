@@ -10,7 +10,11 @@
 mod draft;
 mod junctions;
 mod lanes;
+mod narrow_places;
 mod obstacles;
+mod passing;
+mod queues;
+mod surprises;
 
 use draft::Draft;
 
@@ -23,7 +27,8 @@ struct StreetKind {
     draw: fn(&mut Draft),
 }
 
-const KINDS: [StreetKind; 15] = [
+/// Streets are drawn by the place of their kind in this list, so new kinds are added at its end.
+const KINDS: [StreetKind; 30] = [
     StreetKind { word: "van", shows: "A van stands in the ego's lane", draw: obstacles::standing_van },
     StreetKind {
         word: "parked",
@@ -51,6 +56,33 @@ const KINDS: [StreetKind; 15] = [
     StreetKind { word: "crossing", shows: "A minor road crosses a main one", draw: junctions::crossing },
     StreetKind { word: "equal", shows: "Four roads meet without signs: right before left", draw: junctions::equal },
     StreetKind { word: "stop", shows: "An all-way stop", draw: junctions::all_way_stop },
+    StreetKind { word: "queue-light", shows: "Vehicles wait at a red light", draw: queues::light },
+    StreetKind { word: "queue-zebra", shows: "Vehicles wait at a zebra crossing", draw: queues::zebra },
+    StreetKind { word: "queue-turn", shows: "Vehicles wait behind one that turns left", draw: queues::turn },
+    StreetKind {
+        word: "keep-clear",
+        shows: "The light is green, but the queue behind the junction stands",
+        draw: queues::keep_clear,
+    },
+    StreetKind { word: "beside", shows: "A cyclist rides straight on beside the turning ego", draw: queues::beside },
+    StreetKind { word: "gate", shows: "Two vans leave a gap that a car fits", draw: narrow_places::gate },
+    StreetKind {
+        word: "rows",
+        shows: "Cars are parked on both sides, with traffic in both directions",
+        draw: narrow_places::rows,
+    },
+    StreetKind { word: "head-on", shows: "An oncoming vehicle drives in the ego's lane", draw: surprises::head_on },
+    StreetKind { word: "sudden-stop", shows: "The leader stops for no visible reason", draw: surprises::sudden_stop },
+    StreetKind { word: "cut-in", shows: "A slower vehicle changes into the ego's lane", draw: surprises::cut_in },
+    StreetKind { word: "child", shows: "A child runs out between parked cars", draw: surprises::child },
+    StreetKind {
+        word: "backing",
+        shows: "A car backs out and stands across the ego's lane",
+        draw: surprises::backing_out,
+    },
+    StreetKind { word: "overtake", shows: "A slow vehicle on a country road", draw: passing::overtake },
+    StreetKind { word: "parallel", shows: "Dense traffic on parallel lanes", draw: passing::parallel },
+    StreetKind { word: "two-lanes", shows: "The ego wants to be two lanes further", draw: passing::two_lanes },
 ];
 
 /// The most numbers of each kind that a pattern stands for.

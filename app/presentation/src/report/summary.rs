@@ -62,6 +62,9 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
         let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();
         writeln!(text, "  {} {}", vehicle.name, waits.join(", "))?;
     }
+    for broken in &report.broken_rules {
+        writeln!(text, "  RULE BROKEN at {:.2} s: {}", broken.time_s, broken.sentence())?;
+    }
     for deadlock in &report.deadlocks {
         writeln!(text, "  DEADLOCK at {:.2} s: {}", deadlock.time_s, deadlock.sentence())?;
     }

@@ -3,10 +3,12 @@
 //! A [`Metric`] has one value for a vehicle or a run. Other measures do not: reaching a goal is also an event, plans are counted and
 //! timed together, the right of way is a list of pairs, beliefs and digests are not numbers, and a building is measured day by day.
 
+mod broken_rules;
 mod building;
 mod completion;
 mod digest;
 mod fault;
+mod lane_use;
 mod metric;
 mod metrics;
 mod milestones;
@@ -24,6 +26,7 @@ use bevy_ecs::prelude::*;
 use interplay_planners::{Input, State};
 use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 
+pub use broken_rules::BrokenRules;
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
@@ -52,6 +55,8 @@ pub struct Measures {
     pub passages: Passages,
     /// Which vehicle is at fault where two touch or come too near.
     pub faults: Faults,
+    /// The rules of the road that were broken.
+    pub broken_rules: BrokenRules,
     /// Digest of the run, by phase.
     pub digest: Digest,
     /// Events for the log.
@@ -147,6 +152,7 @@ impl Measures {
             collisions: Vec::new(),
             passages: Passages::new(scenario, &along_m),
             faults: Faults::new(&scenario.vehicles, scenario.ego_index()),
+            broken_rules: BrokenRules::new(scenario, &start),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
             waits: Waits::new(scenario),
@@ -194,6 +200,8 @@ pub fn measure(
         states: &after,
         along_m: &measures.along_m,
     };
+    frame.broken_rules = measures.broken_rules.observe(frame, &end);
+    frame.events.extend(frame.broken_rules.iter().map(broken_rules::event));
     let (step_s, previous_inputs) = (clock.step_s, measures.previous_inputs.as_slice());
     let shared = SharedStates::default();
     let tick = ObservedTick { frame, step_s, shared: &shared, previous_inputs, end };

@@ -47,6 +47,7 @@ impl Report {
             collisions: measures.collisions.clone(),
             metrics: measures.metrics.values(),
             right_of_way: measures.passages.passages(),
+            broken_rules: measures.broken_rules.all().to_vec(),
             deadlocks: measures.waits.deadlocks().to_vec(),
             order: order(scenario, measures),
             vehicles,

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::building::BuildingReport;
 use crate::measure::{Deadlock, HeldBelief, MetricValues, Passage, PhaseDigests, VehicleMeasures, Wait};
-use crate::state::frame::Collision;
+use crate::state::frame::{BrokenRule, Collision};
 
 /// The outcome of one run; its serialisation is the output contract of `--json`. It omits keys about vehicles if there
 /// are none, and `building` without a building.
@@ -43,6 +43,9 @@ pub struct Report {
     pub metrics: MetricValues,
     /// Which vehicle went first in each zone where the routes of two vehicles cross or merge and that one of them entered.
     pub right_of_way: Vec<Passage>,
+    /// The rules of the road that vehicles broke, with times and places.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub broken_rules: Vec<BrokenRule>,
     /// The deadlocks, with the times at which they were detected.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub deadlocks: Vec<Deadlock>,

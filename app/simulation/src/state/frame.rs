@@ -28,6 +28,8 @@ pub struct Frame {
     pub events: Vec<Event>,
     /// The contacts that began during the tick, in order.
     pub collisions: Vec<Collision>,
+    /// The rules of the road that were broken during the tick.
+    pub broken_rules: Vec<BrokenRule>,
     /// The vehicles of people that came during the tick into the way of one behind with a shorter gap than they owe.
     pub cut_ins: Vec<String>,
     /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
@@ -182,6 +184,71 @@ pub struct ContactFault {
     pub vehicle: String,
     /// What it did, in a sentence.
     pub why: String,
+}
+
+/// A rule of the road that a vehicle broke, with time and place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BrokenRule {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// The rule.
+    pub rule: RoadRule,
+    /// Position of its mass centre along the world's x axis \[m\].
+    pub x_m: f64,
+    /// Position of its mass centre along the world's y axis \[m\].
+    pub y_m: f64,
+    /// The lane of its route there; none without a network.
+    pub lane: Option<String>,
+    /// Arc length of its mass centre along that lane, or along its road \[m\].
+    pub along_m: f64,
+}
+
+/// A rule of the road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RoadRule {
+    /// A vehicle stands before a stop sign.
+    StopSign,
+    /// A vehicle does not pass a red light.
+    RedLight,
+    /// A vehicle lets those with priority go first.
+    RightOfWay,
+    /// A vehicle keeps the limit of its lane.
+    SpeedLimit,
+    /// A vehicle does not overtake one that waits in a queue.
+    OvertakingQueue,
+    /// A vehicle does not overtake at a zebra crossing.
+    OvertakingAtZebra,
+    /// A vehicle does not overtake in a junction.
+    OvertakingInJunction,
+    /// A vehicle does not overtake before a traffic light.
+    OvertakingBeforeLight,
+}
+
+impl RoadRule {
+    /// What a vehicle does that breaks the rule, in words that follow its name.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            RoadRule::StopSign => "passes a stop sign without standing",
+            RoadRule::RedLight => "passes a red light",
+            RoadRule::RightOfWay => "takes the right of way of another vehicle",
+            RoadRule::SpeedLimit => "exceeds the speed limit",
+            RoadRule::OvertakingQueue => "overtakes a vehicle that waits",
+            RoadRule::OvertakingAtZebra => "overtakes at a zebra crossing",
+            RoadRule::OvertakingInJunction => "overtakes in a junction",
+            RoadRule::OvertakingBeforeLight => "overtakes before a traffic light",
+        }
+    }
+}
+
+impl BrokenRule {
+    /// In words: `ego passes a red light (lane in, 112.0 m)`.
+    pub fn sentence(&self) -> String {
+        let lane = self.lane.as_ref().map(|lane| format!("lane {lane}, ")).unwrap_or_default();
+        format!("{} {} ({lane}{:.1} m)", self.vehicle, self.rule.sentence(), self.along_m)
+    }
 }
 
 /// An event of a run, for its log.

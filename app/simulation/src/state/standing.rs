@@ -18,6 +18,10 @@ const LEAST_WANTED_MPS: f64 = 0.5;
 const NEAR_M: f64 = 15.0;
 /// Distance up to which oncoming traffic prevents a real car from passing an obstacle \[m\].
 const ONCOMING_M: f64 = 150.0;
+/// Maximum distance to a stationary vehicle ahead behind which a real car stands \[m\].
+const REST_M: f64 = 30.0;
+/// A slower real car may be part of a queue \[m/s\].
+const QUEUE_MPS: f64 = 2.0;
 /// Lateral clearance needed for passing, beside both bodies, for a real car \[m\].
 const ASIDE_M: f64 = 0.7;
 
@@ -74,6 +78,12 @@ impl std::fmt::Display for StandingReason {
 pub struct Standing<'a> {
     vehicles: &'a [Vehicle],
     frame: &'a Frame,
+}
+
+/// Whether a vehicle wants to move: pedestrians may stand, and so may vehicles without a desired speed.
+pub(crate) fn wants_to_drive(vehicle: &Vehicle) -> bool {
+    let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
+    !matches!(vehicle.driver, Driver::Walker(_)) && wanted_mps > LEAST_WANTED_MPS * vehicle.body.real_ratio().sqrt()
 }
 
 impl<'a> Standing<'a> {
@@ -194,8 +204,41 @@ impl<'a> Standing<'a> {
         Some(StandingReason::Passing { waits_for: self.vehicles[waits_for].name.clone(), obstacle: name() })
     }
 
+    /// The nearest vehicle ahead in the same lane that is stationary, less than 30 m of a real car ahead, and its distance between
+    /// bumpers \[m\].
+    pub(crate) fn stationary_ahead(&self, index: usize) -> Option<(usize, f64)> {
+        let found = self.nearest_ahead(index, REST_M * self.scale(index));
+        found.filter(|(other, _)| self.state(*other).speed_mps < STANDING_MPS * self.scale(*other).sqrt())
+    }
+
+    /// A vehicle that waits for a visible reason in the lane of a vehicle's route, beside that vehicle or close ahead of it.
+    pub(crate) fn queue_beside(&self, index: usize) -> Option<usize> {
+        let (own, own_m, scale) = (&self.vehicles[index], self.along_m(index), self.scale(index));
+        self.others(index).find(|other| {
+            let (theirs, state) = (&self.vehicles[*other], self.state(*other));
+            let at = own.route.locate(state.position(), None);
+            let (ahead_m, half_m) = (at.along_m - own_m, own.route.half_width.value(at.along_m));
+            let is_along = libm::cos(state.heading_rad - at.heading_rad) > std::f64::consts::FRAC_1_SQRT_2;
+            let reach_m = own.body.front_m + theirs.body.rear_m + NEAR_M * scale;
+            let is_near = (-own.body.rear_m - theirs.body.front_m..reach_m).contains(&ahead_m);
+            is_along && is_near && at.across_m.abs() < half_m && self.queues(*other)
+        })
+    }
+
+    /// Whether a vehicle that wants to move stands, or moves slowly, for a visible reason that will end.
+    pub(crate) fn queues(&self, index: usize) -> bool {
+        let is_slow = self.state(index).speed_mps <= QUEUE_MPS * self.scale(index).sqrt();
+        let ends = |reason: &StandingReason| !matches!(reason, StandingReason::NoRoom(_));
+        self.wants_to_drive(index) && is_slow && self.plain_reason(index).as_ref().is_some_and(ends)
+    }
+
     /// The nearest vehicle ahead in the same lane, within a distance between bumpers.
     fn ahead(&self, index: usize, within_m: f64) -> Option<usize> {
+        self.nearest_ahead(index, within_m).map(|(other, _)| other)
+    }
+
+    /// The nearest vehicle ahead in the same lane, within a distance between bumpers, and that distance \[m\].
+    fn nearest_ahead(&self, index: usize, within_m: f64) -> Option<(usize, f64)> {
         let (own, own_m) = (&self.vehicles[index], self.along_m(index));
         let across_m = own.route.across(self.state(index).position());
         let others = self.others(index).filter_map(|other| {
@@ -206,7 +249,7 @@ impl<'a> Standing<'a> {
             let is_ahead = at.along_m > own_m && gap_m < within_m && (at.across_m - across_m).abs() < reach_m;
             is_ahead.then_some((other, gap_m))
         });
-        others.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+        others.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The other vehicles on the road.
@@ -219,13 +262,7 @@ impl<'a> Standing<'a> {
     }
 
     fn wants_to_drive(&self, index: usize) -> bool {
-        let vehicle = &self.vehicles[index];
-        // A pedestrian may stand.
-        if matches!(vehicle.driver, Driver::Walker(_)) {
-            return false;
-        }
-        let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
-        wanted_mps > LEAST_WANTED_MPS * self.scale(index).sqrt()
+        wants_to_drive(&self.vehicles[index])
     }
 
     fn state(&self, index: usize) -> &State {

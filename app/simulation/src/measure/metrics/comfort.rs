@@ -12,6 +12,9 @@ use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
 /// Braking is hard from this share of a vehicle's strongest braking on.
 const HARD_BRAKING_SHARE: f64 = 0.75;
 
+/// Urgencies above 1 by less than this are rounding.
+const URGENCY_ROUNDING: f64 = 1e-9;
+
 pub(super) const METRICS: &[&dyn Metric] = &[
     &MEAN_ACCELERATION,
     &MEAN_JERK,
@@ -21,6 +24,10 @@ pub(super) const METRICS: &[&dyn Metric] = &[
     &HARD_BRAKING,
     &PEAK_JERK,
     &PEAK_LATERAL_ACCELERATION,
+    &PEAK_URGENCY,
+    &PEAK_CALM_JERK,
+    &PEAK_URGENT_JERK,
+    &PEAK_CALM_LATERAL_ACCELERATION,
 ];
 
 const MEAN_ACCELERATION: VehicleMetric = VehicleMetric::new(
@@ -88,6 +95,49 @@ const PEAK_LATERAL_ACCELERATION: VehicleMetric = VehicleMetric::new(
     Fold::Peak,
     VehicleQuantity::OverTick(lateral_acceleration),
 );
+
+const PEAK_URGENCY: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration::of_vehicle(
+        "peak_urgency",
+        Number,
+        "Largest factor by which the braking that a line, a leader or an imminent contact required exceeded comfortable braking; 1 if \
+         comfortable braking sufficed",
+    ),
+    Fold::Peak,
+    VehicleQuantity::OverTick(|tick| Some(tick.frame.urgency)),
+);
+const PEAK_CALM_JERK: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration::of_vehicle(
+        "peak_calm_jerk_mps3",
+        Number,
+        "Largest magnitude of the jerk while its urgency is 1",
+    ),
+    Fold::Peak,
+    VehicleQuantity::OverTick(|tick| if is_urgent(tick) { None } else { jerk(tick) }),
+);
+const PEAK_URGENT_JERK: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration::of_vehicle(
+        "peak_urgent_jerk_mps3",
+        Number,
+        "Largest magnitude of the jerk while its urgency is above 1",
+    ),
+    Fold::Peak,
+    VehicleQuantity::OverTick(|tick| if is_urgent(tick) { jerk(tick) } else { None }),
+);
+const PEAK_CALM_LATERAL_ACCELERATION: VehicleMetric = VehicleMetric::new(
+    MetricDeclaration::of_vehicle(
+        "peak_calm_lateral_acceleration_mps2",
+        Number,
+        "Largest magnitude of the lateral acceleration while its urgency is 1",
+    ),
+    Fold::Peak,
+    VehicleQuantity::OverTick(|tick| if is_urgent(tick) { None } else { lateral_acceleration(tick) }),
+);
+
+/// Whether braking is required that is harder than comfortable.
+fn is_urgent(tick: &VehicleTick<'_>) -> bool {
+    tick.frame.urgency > 1.0 + URGENCY_ROUNDING
+}
 
 fn acceleration(tick: &VehicleTick<'_>) -> f64 {
     tick.frame.input.acceleration_mps2

@@ -23,10 +23,12 @@ metrics! {
     mod steering_rate;
     mod time_gap;
     mod lane_gaps;
+    mod lane_use;
     mod post_encroachment;
     mod emergency_braking;
     mod rules;
     mod standing;
+    mod rest;
 }
 
 #[cfg(test)]
