@@ -41,8 +41,6 @@ use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::partner_choice::partner_event;
 use crate::drivers::receding_horizon::Solved;
 use crate::plan::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
-use crate::plan::homotopy::homotopy_class;
-use crate::plan::planned_passing::PassingSide;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
@@ -51,7 +49,7 @@ use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanEventKind, PlanTime, P
 use concession::Concession;
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
-use partner_selection::PartnerSelection;
+use partner_selection::{PartnerSelection, passed_by};
 use state::{NegotiationRound, NegotiationState};
 
 /// Time after which a person can have answered: its reaction time, a plan, and what it takes until that shows \[s\].
@@ -390,15 +388,4 @@ impl Negotiation {
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused.is_some()))));
     }
-}
-
-/// The names of the vehicles that a fallback passes ahead of, if it is safe.
-fn passed_by(scene: &Scene, fallback: &Result<Solved, PlanError>) -> Vec<String> {
-    let Ok(Solved { optimum, .. }) = fallback else { return Vec::new() };
-    if optimum.cost.violation(Violation::Safety) > filter::MAX_VIOLATION {
-        return Vec::new();
-    }
-    let plan = Plan { trajectory: optimum.trajectory(0), ..Plan::default() };
-    let ahead = homotopy_class(scene, &plan).into_iter().filter(|passing| passing.side == PassingSide::Ahead);
-    ahead.map(|order| order.of).collect()
 }

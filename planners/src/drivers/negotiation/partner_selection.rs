@@ -7,10 +7,15 @@
 //! is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the
 //! same time. When all have refused the ego asks no vehicle and drives by its fallback.
 
+use super::filter::MAX_VIOLATION;
 use super::patience::{FallbackPrice, Patience};
 use super::settings::Settings;
 use crate::drivers::partner_choice::{from_front_to_rear, is_settled};
-use crate::{Agent, Scene};
+use crate::drivers::receding_horizon::Solved;
+use crate::plan::homotopy::homotopy_class;
+use crate::plan::planned_passing::PassingSide;
+use crate::trajectory::Violation;
+use crate::{Agent, Plan, PlanError, Scene};
 
 /// For how long the ego asks no more after it has conceded, with real vehicles \[s\].
 const PAUSE_S: f64 = 3.0;
@@ -100,6 +105,17 @@ impl PartnerSelection {
             }
         }
     }
+}
+
+/// The names of the vehicles that a fallback passes ahead of, if it is safe.
+pub(super) fn passed_by(scene: &Scene, fallback: &Result<Solved, PlanError>) -> Vec<String> {
+    let Ok(Solved { optimum, .. }) = fallback else { return Vec::new() };
+    if optimum.cost.violation(Violation::Safety) > MAX_VIOLATION {
+        return Vec::new();
+    }
+    let plan = Plan { trajectory: optimum.trajectory(0), ..Plan::default() };
+    let ahead = homotopy_class(scene, &plan).into_iter().filter(|passing| passing.side == PassingSide::Ahead);
+    ahead.map(|order| order.of).collect()
 }
 
 #[cfg(test)]

@@ -273,11 +273,11 @@ mod tests {
     }
 
     #[test]
-    fn on_a_road_without_rules_the_vehicle_that_closes_in_is_at_fault() {
-        let at = |ego_mps: f64| {
-            at_fault("lane-change/front-nice", [("ego", 0.0, 0.185, ego_mps), ("front", 0.42, 0.185, 0.5)])
+    fn on_a_road_without_rules_the_vehicle_behind_is_at_fault() {
+        let at = |[ego_m, front_m]: [f64; 2]| {
+            at_fault("lane-change/front-nice", [("ego", ego_m, 0.185, 0.6), ("front", front_m, 0.185, 0.5)])
         };
-        assert_eq!([at(1.0), at(0.4)], ["ego", "front"], "the one that is faster drives into the other");
+        assert_eq!([at([0.0, 0.42]), at([0.42, 0.0])], ["ego", "front"]);
     }
 
     /// The middle of the place where the routes of two vehicles meet, on the route of each \[m\].
