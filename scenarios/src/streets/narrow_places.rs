@@ -9,7 +9,7 @@ const VAN_WIDTH_M: f64 = 2.1;
 fn traffic(draft: &mut Draft, limit_mps: f64, oncoming: [usize; 2]) {
     let (along_m, speed_mps) = (draft.between(5.0, 30.0), draft.between(0.6, 0.9) * limit_mps);
     draft.ego("east", along_m, speed_mps, None, 0.95 * limit_mps);
-    let mut along_m = draft.between(5.0, 90.0);
+    let mut along_m = draft.between(60.0, 85.0);
     let count = draft.count(oncoming[0], oncoming[1]);
     for name in ["west-a", "west-b", "west-c", "west-d"].iter().take(count) {
         let speed_mps = draft.between(0.7, 0.95) * limit_mps;
@@ -23,7 +23,7 @@ fn traffic(draft: &mut Draft, limit_mps: f64, oncoming: [usize; 2]) {
             wanted_mps: speed_mps,
             driver: None,
         });
-        along_m += draft.between(15.0, 40.0);
+        along_m -= draft.between(12.0, 18.0);
     }
 }
 
@@ -59,7 +59,7 @@ pub(super) fn rows(draft: &mut Draft) {
     draft.lane("east", [[0.0, -1.75], [length_m, -1.75]], 3.5, &more("west"));
     draft.lane("west", [[length_m, 1.75], [0.0, 1.75]], 3.5, &more("east"));
     for (lane, name) in [("east", "right"), ("west", "left")] {
-        let mut along_m = draft.between(60.0, 180.0);
+        let mut along_m = draft.between(100.0, 190.0);
         for place in 0..draft.count(2, 6) {
             let aside_m = draft.between(-1.3, -0.9);
             let name = format!("{name}-{place}");

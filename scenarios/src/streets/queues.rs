@@ -136,7 +136,7 @@ pub(super) fn turn(draft: &mut Draft) {
     }
     let speed_mps = draft.between(0.6, 0.9) * limit_mps;
     draft.ego("east-in", along_m, speed_mps, Some("east-out"), 0.95 * limit_mps);
-    let mut along_m = draft.between(60.0, 95.0);
+    let mut along_m = draft.between(95.0, 125.0);
     let count = draft.count(2, 4);
     for name in ONCOMING.iter().take(count) {
         let speed_mps = draft.between(0.7, 0.9) * limit_mps;

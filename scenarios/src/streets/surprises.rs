@@ -54,7 +54,7 @@ pub(super) fn sudden_stop(draft: &mut Draft) {
     let limit_mps = draft.between(12.0, 25.0);
     street(draft, 600.0, limit_mps);
     draft.duration_s = 30.0;
-    let (along_m, speed_mps) = (draft.between(40.0, 70.0), draft.between(0.75, 0.95) * limit_mps);
+    let (along_m, speed_mps) = (draft.between(80.0, 110.0), draft.between(0.75, 0.95) * limit_mps);
     draft.ego("east", along_m, speed_mps, None, speed_mps);
     let gap_m = 4.6 + draft.between(1.2, 3.0) * speed_mps;
     let (from_s, braking_mps2) = (draft.between(2.0, 5.0), draft.between(4.0, 7.0));
@@ -83,7 +83,7 @@ pub(super) fn cut_in(draft: &mut Draft) {
     draft.lane("right", [[0.0, 0.0], [1200.0, 0.0]], 3.5, &more("left = { lane = \"left\" }"));
     draft.lane("left", [[0.0, 3.5], [1200.0, 3.5]], 3.5, &more("right = { lane = \"right\" }"));
     draft.duration_s = 25.0;
-    let (along_m, speed_mps) = (draft.between(60.0, 90.0), draft.between(0.75, 0.95) * limit_mps);
+    let (along_m, speed_mps) = (draft.between(100.0, 130.0), draft.between(0.75, 0.95) * limit_mps);
     let (own, other, aside_m) = if draft.chance(0.5) { ("right", "left", -3.5) } else { ("left", "right", 3.5) };
     draft.ego(own, along_m, speed_mps, None, speed_mps);
     let (from_s, slower_mps) = (draft.between(1.0, 4.0), draft.between(0.0, 6.0));
