@@ -165,8 +165,7 @@ mod tests {
         let model = one_state(-0.05, 0.05);
         let step_s = 3600.0;
         let sampled = model.sampled(step_s).expect("sound");
-        let partial =
-            PartialHeat { zone: 0, column: 0, swing_kw: 1.0, on_parts: 24, placement: Placement::AtEnd };
+        let partial = PartialHeat { zone: 0, column: 0, swing_kw: 1.0, on_parts: 24, placement: Placement::AtEnd };
         let rows = HeatRows { of_row: Vec::new(), classes: vec![vec![], vec![], vec![partial]] };
         let effects = row_effects(&model, &sampled, &rows, step_s).expect("sound");
         assert!((effects[2].shift[0].re - 0.5).abs() < 1e-6, "{}", effects[2].shift[0]);

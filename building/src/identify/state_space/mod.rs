@@ -17,6 +17,7 @@ mod gains;
 mod heat_balance;
 mod heat_rows;
 mod heat_timing;
+mod innovations;
 mod likelihood;
 mod linear_model;
 mod model_average;
