@@ -129,7 +129,7 @@ impl Economic {
         let (discomfort, margin_k) = (self.discomfort(ahead), self.margin_k());
         let prices = Prices {
             discomfort: &discomfort,
-            empty_c: (self.settings.empty_c[0], self.settings.empty_c[1]),
+            empty_c: (self.settings.frost_c, self.settings.overheating_c),
             emissions_per_kg: self.settings.emission_price_per_kg,
             margin_k: &margin_k,
             has_peak: demand_per_kw > 0.0,

@@ -23,15 +23,20 @@ pub struct EconomicSettings {
     pub block_h: f64,
     /// Price of discomfort: a kelvin beyond the band of a zone for an hour \[currency/(K·h)\]. Left out, it is 25 times what the zone loses
     /// for a kelvin in an hour costs at the mean price of the day, or 25 kilowatt-hours if that is more.
-    #[schemars(range(min = 0.0), extend("x-unit" = "currency/(K·h)"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), example = 5.0, extend("x-unit" = "currency/(K·h)"))]
     pub discomfort_price: Option<f64>,
     /// How far plans stay within the comfort band \[K\], at most half of it: room for errors of the forecast. Left out, it is twice the
     /// standard deviation of what the last day's predictions missed by the next step, zone by zone.
-    #[schemars(range(min = 0.0, max = 5.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 5.0), example = 0.1)]
     pub margin_k: Option<f64>,
-    /// Least and largest temperature of empty rooms \[°C\]: against frost and overheating.
-    #[schemars(inner(range(min = -50.0, max = 100.0)))]
-    pub empty_c: [f64; 2],
+    /// Least temperature of empty rooms, against frost \[°C\].
+    #[schemars(range(min = -50.0, max = 100.0))]
+    pub frost_c: f64,
+    /// Largest temperature of empty rooms, against overheating \[°C\]; above `frost_c`.
+    #[schemars(range(min = -50.0, max = 200.0))]
+    pub overheating_c: f64,
     /// Price of emissions, added to that of electricity \[currency/kg\]; `tariff.emissions_kg_per_kwh` states them.
     #[schemars(range(min = 0.0), extend("x-unit" = "currency/kg"))]
     pub emission_price_per_kg: f64,
@@ -64,7 +69,8 @@ impl Default for EconomicSettings {
             block_h: 1.0,
             discomfort_price: None,
             margin_k: None,
-            empty_c: [EMPTY_ROOM_C.0, EMPTY_ROOM_C.1],
+            frost_c: EMPTY_ROOM_C.0,
+            overheating_c: EMPTY_ROOM_C.1,
             emission_price_per_kg: 0.0,
             persistence_h: 6.0,
             heat_noise_kw: 0.1,
@@ -80,7 +86,7 @@ impl EconomicSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
         setting::check(self)?;
-        setting::check_bound("empty_c.1", self.empty_c[1], Bound::AtLeast(self.empty_c[0]))
+        setting::check_bound("overheating_c", self.overheating_c, Bound::AtLeast(self.frost_c))
     }
 
     /// The number of steps of `step_s` in a plan, at least one.

@@ -28,9 +28,9 @@ pub(super) const UNKNOWN: usize = 1;
 /// Where in a row the heat is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Placement {
-    /// Off before the row and on after it.
+    /// Off before the row and on after it, or in the next row.
     AtEnd,
-    /// On before the row and off after it.
+    /// On before the row, or in the one before, and off after it.
     AtStart,
     /// Anywhere, with equal probability.
     Anywhere,
@@ -140,8 +140,8 @@ impl Levels {
         if !is_between(share) {
             return None;
         }
-        let beside = |other: Option<usize>| other.filter(|other| segment.contains(other)).map(|other| heat_kw[other]);
-        let (before, after) = (beside(row.checked_sub(1)), beside(Some(row + 1)));
+        let at = |other: Option<usize>| other.filter(|other| segment.contains(other)).map(|other| heat_kw[other]);
+        let (before, after) = (at(row.checked_sub(1)), at(Some(row + 1)));
         let is_same = |other: f64| (other - heat_kw[row]).abs() <= SAME_SHARE * (self.largest - self.least);
         if [before, after].into_iter().flatten().any(is_same) {
             return None;
@@ -152,9 +152,15 @@ impl Levels {
             share if share >= 1.0 - LEVEL_SHARE => Some(true),
             _ => None,
         };
+        // Between two rows of one state, two partial rows are one interval that goes over from the first into the second.
+        let (long_before, long_after) = (state(at(row.checked_sub(2))), state(at(Some(row + 2))));
         let placement = match (state(before), state(after)) {
             (Some(false), Some(true)) => Placement::AtEnd,
             (Some(true), Some(false)) => Placement::AtStart,
+            (Some(false), None) if long_after == Some(false) => Placement::AtEnd,
+            (Some(true), None) if long_after == Some(true) => Placement::AtStart,
+            (None, Some(false)) if long_before == Some(false) => Placement::AtStart,
+            (None, Some(true)) if long_before == Some(true) => Placement::AtEnd,
             _ => Placement::Anywhere,
         };
         let steps = PARTS / PARTS_OF_ON_TIME;
@@ -174,7 +180,7 @@ mod tests {
         let zone = &mut telemetry.zones[0];
         zone.supply_air.clear();
         zone.power_hold = Hold::ZeroOrder;
-        let pattern = [0.0, 0.5, 2.0, 2.0, 1.5, 0.0, 0.0, 1.0, 0.0, 0.7, 0.7, 0.7, 2.0];
+        let pattern = [0.0, 0.5, 2.0, 2.0, 1.5, 0.0, 0.0, 1.0, 0.0, 0.7, 0.7, 0.7, 2.0, 0.0, 0.3, 0.6, 0.0];
         (0..zone.power_kw.len()).for_each(|row| zone.power_kw[row] = pattern[row % pattern.len()]);
         telemetry
     }
@@ -187,9 +193,10 @@ mod tests {
         assert_eq!(of(1), Some((12, Placement::AtEnd)));
         assert_eq!(of(4), Some((36, Placement::AtStart)));
         assert_eq!(of(7), Some((24, Placement::Anywhere)));
+        assert_eq!((of(14).map(|it| it.1), of(15).map(|it| it.1)), (Some(Placement::AtEnd), Some(Placement::AtStart)));
         assert_eq!([of(0), of(2), of(9), of(10), of(11)], [None; 5], "levels are held");
         assert_eq!((rows.of_row[5], rows.of_row[6]), (HELD, UNKNOWN));
-        assert_eq!(rows.of_row[14], rows.of_row[1], "the same heat is one class");
+        assert_eq!(rows.of_row[18], rows.of_row[1], "the same heat is one class");
         assert_eq!(rows.classes[rows.of_row[1]][0].swing_kw, 2.0);
     }
 
