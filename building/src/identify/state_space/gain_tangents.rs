@@ -35,17 +35,29 @@ pub(super) fn follow(
     let of_arrow = gains
         .chunks_mut((model.outputs.len() * n * k).max(1))
         .zip(variances.chunks_mut((model.outputs.len() * k).max(1)));
-    for (arrow, (gains, variances)) in schedule.arrows.iter().zip(of_arrow) {
+    let last_use = last_uses(schedule);
+    for (index, (arrow, (gains, variances))) in schedule.arrows.iter().zip(of_arrow).enumerate() {
         follower.step(schedule, arrow, gains, variances);
+        if last_use[arrow.from] == index {
+            follower.kept[arrow.from] = Vec::new();
+        }
     }
     (gains, variances)
+}
+
+/// The last arrow that begins at each covariance: its derivatives are needed no longer afterwards.
+fn last_uses(schedule: &Schedule) -> Vec<usize> {
+    let made = schedule.arrows.iter().filter_map(|arrow| arrow.made).max().map_or(1, |last| last + 1);
+    let mut last = vec![usize::MAX; made];
+    schedule.arrows.iter().enumerate().for_each(|(index, arrow)| last[arrow.from] = index);
+    last
 }
 
 struct Follower<'a> {
     model: &'a CovarianceModel,
     tangents: &'a CovarianceTangents,
-    /// Derivatives of all covariances that were kept, one after the other.
-    kept: Vec<f64>,
+    /// Derivatives of each covariance that was kept; empty where they are needed no longer.
+    kept: Vec<Vec<f64>>,
     /// P and ∂P after the updates of the arrow at hand.
     covariance: Vec<f64>,
     change: Vec<f64>,
@@ -59,15 +71,15 @@ struct Follower<'a> {
 impl<'a> Follower<'a> {
     fn new(model: &'a CovarianceModel, tangents: &'a CovarianceTangents) -> Self {
         let (n, k) = (model.n, tangents.count);
-        let mut kept = vec![0.0; n * n * k];
+        let mut first = vec![0.0; n * n * k];
         for i in 0..n {
             let entry = (i * n + i) * k;
-            kept[entry..entry + k].copy_from_slice(&tangents.initial[i * k..(i + 1) * k]);
+            first[entry..entry + k].copy_from_slice(&tangents.initial[i * k..(i + 1) * k]);
         }
         Self {
             model,
             tangents,
-            kept,
+            kept: vec![first],
             covariance: vec![0.0; n * n],
             change: vec![0.0; n * n * k],
             half: vec![0.0; n * n],
@@ -78,10 +90,9 @@ impl<'a> Follower<'a> {
     }
 
     fn step(&mut self, schedule: &Schedule, arrow: &Arrow, gains: &mut [f64], variances: &mut [f64]) {
-        let (n, k) = (self.model.n, self.tangents.count);
-        let size = n * n;
+        let (n, k, size) = (self.model.n, self.tangents.count, self.model.n * self.model.n);
         self.covariance.copy_from_slice(&schedule.covariances[arrow.from * size..(arrow.from + 1) * size]);
-        self.change.copy_from_slice(&self.kept[arrow.from * size * k..(arrow.from + 1) * size * k]);
+        self.change.copy_from_slice(&self.kept[arrow.from]);
         for output in (0..self.model.outputs.len()).filter(|output| arrow.kind.measured >> output & 1 == 1) {
             let variance = &mut variances[output * k..(output + 1) * k];
             self.update(output, &mut gains[output * n * k..(output + 1) * n * k], variance);
@@ -127,34 +138,76 @@ impl<'a> Follower<'a> {
     /// The derivative of the next covariance, which is kept.
     fn predict(&mut self, heat: usize) {
         let (n, k) = (self.model.n, self.tangents.count);
-        let entry = |matrix: usize, i: usize, j: usize| matrix + (i * n + j) * k..matrix + (i * n + j + 1) * k;
+        let entry = |i: usize, j: usize| (i * n + j) * k..(i * n + j + 1) * k;
         self.half_change.fill(0.0);
         for i in 0..n {
             for j in 0..n {
-                let slot = &mut self.half_change[entry(0, i, j)];
+                let slot = &mut self.half_change[entry(i, j)];
                 let mut half = 0.0;
                 for l in 0..n {
                     let transition = self.model.transition[i * n + l];
                     half += transition * self.covariance[l * n + j];
-                    add(slot, transition, &self.change[entry(0, l, j)]);
-                    add(slot, self.covariance[l * n + j], &self.tangents.transition[entry(0, i, l)]);
+                    add(slot, transition, &self.change[entry(l, j)]);
+                    add(slot, self.covariance[l * n + j], &self.tangents.transition[entry(i, l)]);
                 }
                 self.half[i * n + j] = half;
             }
         }
-        let first = self.kept.len();
-        self.kept.extend_from_slice(&self.tangents.noise[heat]);
+        let mut next = self.tangents.noise[heat].clone();
         for i in 0..n {
             for j in i..n {
-                let slot = &mut self.kept[entry(first, i, j)];
+                let slot = &mut next[entry(i, j)];
                 for l in 0..n {
-                    add(slot, self.model.transition[j * n + l], &self.half_change[entry(0, i, l)]);
-                    add(slot, self.half[i * n + l], &self.tangents.transition[entry(0, j, l)]);
+                    add(slot, self.model.transition[j * n + l], &self.half_change[entry(i, l)]);
+                    add(slot, self.half[i * n + l], &self.tangents.transition[entry(j, l)]);
                 }
                 if i != j {
-                    self.kept.copy_within(entry(first, i, j), entry(first, j, i).start);
+                    next.copy_within(entry(i, j), entry(j, i).start);
                 }
             }
+        }
+        self.kept.push(next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::identify::state_space::elements::{Extension, HiddenNode};
+    use crate::identify::state_space::exponential::Number;
+    use crate::identify::state_space::likelihood::{evaluate, log_likelihood};
+    use crate::identify::state_space::observations::{InputLayout, observations};
+    use crate::identify::state_space::starts::Guess;
+    use crate::identify::state_space::structure::Structure;
+    use crate::identify::synthetic_classroom::Classroom;
+    use crate::identify::telemetry::Hold;
+
+    /// Heat that switches inside of rows, a missing measurement and a row of unknown heat: the gradient is that of the likelihood.
+    #[test]
+    fn the_gradient_is_the_central_difference_of_the_likelihood() {
+        let mut telemetry = Classroom { days: 3, ..Classroom::default() }.simulate();
+        let zone = &mut telemetry.zones[0];
+        zone.supply_air.clear();
+        zone.power_hold = Hold::ZeroOrder;
+        let pattern = [0.0, 0.5, 2.0, 1.5, 0.0, 0.0, 1.0, 0.0, 0.7, 2.0, 0.3, 1.1, 0.6];
+        (0..zone.power_kw.len()).for_each(|row| zone.power_kw[row] = pattern[row % pattern.len()]);
+        zone.temperature_c[40] = f64::NAN;
+        let layout = InputLayout::new(&telemetry);
+        assert!(layout.switches[0]);
+        let rows = observations(&telemetry, &layout, &telemetry.segments, &[60]).expect("one zone");
+        let structure = Structure::new(&telemetry, &[Extension::Node(HiddenNode::Interior)]);
+        let model = |theta: &[Number]| structure.model(theta);
+        let guess = Guess::new(&telemetry);
+        let theta = guess.of_smallest(&telemetry, &structure)[1].clone();
+        let found = evaluate(&model, &theta, &rows).expect("a likelihood").gradient;
+        for (j, found) in found.iter().enumerate() {
+            let at = |change: f64| {
+                let mut moved = theta.clone();
+                moved[j] += change;
+                log_likelihood(&model, &moved, &rows).expect("a likelihood")
+            };
+            let difference = (at(1e-5) - at(-1e-5)) / 2e-5;
+            let close = (found - difference).abs() <= 1e-4 * (1.0 + difference.abs());
+            assert!(close, "{:?}: {found} and {difference}", structure.parameters[j]);
         }
     }
 }
