@@ -6,7 +6,6 @@
 //! ```
 
 use super::gains::{Arrow, CovarianceModel, Schedule};
-use super::tangents::add;
 
 /// The derivatives by k parameters of what the covariances are made of. Arrays end with k numbers for each entry.
 pub(super) struct CovarianceTangents {
@@ -51,6 +50,11 @@ fn last_uses(schedule: &Schedule) -> Vec<usize> {
     let mut last = vec![usize::MAX; made];
     schedule.arrows.iter().enumerate().for_each(|(index, arrow)| last[arrow.from] = index);
     last
+}
+
+/// out += factor · numbers.
+pub(super) fn add(out: &mut [f64], factor: f64, numbers: &[f64]) {
+    out.iter_mut().zip(numbers).for_each(|(out, number)| *out += factor * number);
 }
 
 struct Follower<'a> {

@@ -126,7 +126,8 @@ impl<'a> Filter<'a> {
 
     /// The derivatives by parameters, from one model with an infinitesimal change of each.
     fn tangents(&self, models: Vec<ContinuousModel>) -> Option<Tangents> {
-        Tangents::new(models, self.observations, &self.covariances, &self.schedule)
+        let Observations { step_s, heat, widths, .. } = self.observations;
+        Tangents::new(models, (widths.1, *step_s), heat, &self.covariances, &self.schedule)
     }
 
     /// The state at the start of a segment, as `part` of the numbers of `model`.

@@ -8,6 +8,7 @@
 
 #[cfg(test)]
 mod armadillo_test;
+mod ceilings;
 mod elements;
 mod exponential;
 mod export;

@@ -6,12 +6,12 @@
 
 use std::cell::RefCell;
 
+use super::ceilings::{Ceiling, ceiling};
 use super::likelihood::Observations;
 use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
 use super::scoring::{Ascent, Constraint};
 use super::selection::{Fit, Sandwich};
-use super::wrong_world::ceilings::{Ceiling, ceiling};
 use crate::identify::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
 use crate::identify::telemetry::Telemetry;
 

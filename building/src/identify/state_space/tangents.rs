@@ -4,10 +4,10 @@
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number};
-use super::gain_tangents::{CovarianceTangents, follow};
+use super::gain_tangents::{CovarianceTangents, add, follow};
 use super::gains::{CovarianceModel, Schedule};
+use super::heat_rows::HeatRows;
 use super::heat_timing::{RowEffect, row_effects};
-use super::likelihood::Observations;
 use super::linear_model::{ContinuousModel, SampledModel};
 use crate::staged::dense::dot;
 
@@ -90,15 +90,16 @@ pub(super) struct Tangents {
 }
 
 impl Tangents {
-    /// The derivatives of these models; `None` if one of the models cannot be sampled.
+    /// The derivatives of these models with m inputs; `None` if one of the models cannot be sampled.
     pub fn new(
         models: Vec<ContinuousModel>,
-        observations: &Observations,
+        (m, step_s): (usize, f64),
+        heat: &HeatRows,
         base: &CovarianceModel,
         schedule: &Schedule,
     ) -> Option<Self> {
         let count = models.len();
-        let (n, m) = (base.n, observations.widths.1);
+        let n = base.n;
         let zeros = |entries: usize| vec![0.0; entries * count];
         let mut tangents = Self {
             count,
@@ -121,8 +122,8 @@ impl Tangents {
             initial: zeros(n),
         };
         for (parameter, model) in models.iter().enumerate() {
-            let sampled = model.sampled(observations.step_s)?;
-            let effects = row_effects(model, &sampled, &observations.heat, observations.step_s)?;
+            let sampled = model.sampled(step_s)?;
+            let effects = row_effects(model, &sampled, heat, step_s)?;
             let put = |array: &mut [f64], numbers: &mut dyn Iterator<Item = &Number>| {
                 // `skip` instead of a slice: an array without entries has no parameters either.
                 array
@@ -192,9 +193,4 @@ impl Tangents {
         }
         (&self.innovation, &self.variances[which * count..(which + 1) * count])
     }
-}
-
-/// out += factor · numbers.
-pub(super) fn add(out: &mut [f64], factor: f64, numbers: &[f64]) {
-    out.iter_mut().zip(numbers).for_each(|(out, number)| *out += factor * number);
 }

@@ -6,7 +6,7 @@
 //! 4. the heat balance over the record agrees with it, where it is a conductance,
 //! 5. the next larger model does not move it by more than its interval,
 //! 6. the two halves of the record agree on it,
-//! 7. a building can have it, and the record can show it ([`super::wrong_world::ceilings`]),
+//! 7. a building can have it, and the record can show it ([`super::ceilings`]),
 //! 8. the data contradict nothing that every model takes for granted ([`super::wrong_world`]).
 //!
 //! Differences below [`MATERIAL`] of a number contradict nothing.

@@ -10,7 +10,6 @@
 //! [`MATERIAL`] is not worth an alarm.
 
 mod alternatives;
-pub(super) mod ceilings;
 pub(super) mod halves;
 mod heavy_tail;
 mod score_test;

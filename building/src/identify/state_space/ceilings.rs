@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use crate::identify::state_space::elements::{HiddenNode, Place};
-use crate::identify::state_space::exponential::Number;
-use crate::identify::state_space::likelihood::{Observations, numbers};
-use crate::identify::state_space::quantities::QuantityKind;
-use crate::identify::state_space::selection::Fit;
+use super::elements::{HiddenNode, Place};
+use super::exponential::Number;
+use super::likelihood::{Observations, numbers};
+use super::quantities::QuantityKind;
+use super::selection::Fit;
 use crate::identify::telemetry::Telemetry;
 
 /// The least that a façade loses for each square metre through which the sun comes in \[kW/(m² K)\]: the best windows have
@@ -19,13 +19,13 @@ const FASTEST_SHARE_OF_ROW: f64 = 0.02;
 
 /// The largest value of a quantity that a building can have and the record can show, and why.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::identify::state_space) struct Ceiling {
+pub(super) struct Ceiling {
     pub most: f64,
     pub reason: String,
 }
 
 /// The ceiling of a quantity of a zone; `None` if it has none.
-pub(in crate::identify::state_space) fn ceiling(
+pub(super) fn ceiling(
     telemetry: &Telemetry,
     observations: &Observations,
     fit: &Fit,
