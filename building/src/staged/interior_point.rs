@@ -33,7 +33,7 @@ struct Iterate<'a> {
 }
 
 /// Solves a problem until its cost is certainly above the least one by less than `tolerance` times what is paid in it: for inputs, for
-/// soft bounds, for the peak and for the change of temperatures that have a price. Limits of inputs are no part of that scale.
+/// soft bounds, for the peak and for the change of temperatures that have a price. Limits of inputs do not belong to that scale.
 pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
     program.check()?;
     let mut iterate = Iterate::start(program);
