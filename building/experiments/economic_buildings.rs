@@ -6,6 +6,9 @@
 //!
 //! Buildings have 2 to 12 zones; weather, people and their deviations, prices and forecast errors follow from the seed. The economic
 //! controller wins in a building if no controller with at most its discomfort pays less.
+//!
+//! With `scales` as the second argument only the economic controller runs, in the same buildings with limits of 20, 1e3 and 1e6 kW,
+//! and with prices multiplied by 1e-3 and 1e3: its money should be the same share of the optimum.
 
 #![allow(clippy::print_stdout, reason = "an example talks to its user")]
 
@@ -28,18 +31,38 @@ use interplay_common::random::Random;
 
 const BUILDINGS: u64 = 10;
 const DAYS: usize = 7;
+/// What differs from a building as it is drawn.
+#[derive(Clone, Copy)]
+struct Variation {
+    name: &'static str,
+    /// Heating limit of all zones \[kW\].
+    limit_kw: Option<f64>,
+    /// Factor of all prices.
+    price: f64,
+}
+
+const USUAL: Variation = Variation { name: "as drawn", limit_kw: None, price: 1.0 };
+const SCALES: [Variation; 6] = [
+    USUAL,
+    Variation { name: "limits of 20 kW", limit_kw: Some(20.0), ..USUAL },
+    Variation { name: "limits of 1e3 kW", limit_kw: Some(1e3), ..USUAL },
+    Variation { name: "limits of 1e6 kW", limit_kw: Some(1e6), ..USUAL },
+    Variation { name: "prices times 1e-3", price: 1e-3, ..USUAL },
+    Variation { name: "prices times 1e3", price: 1e3, ..USUAL },
+];
+
 const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;
 
 /// Zones in a random tree of inner walls, each with an outer wall; two of three walls store heat.
-fn network(random: &mut Random, count: usize) -> Result<Network, Box<dyn Error>> {
+fn network(random: &mut Random, count: usize, limit_kw: Option<f64>) -> Result<Network, Box<dyn Error>> {
     let name = |zone: usize| format!("z{zone}");
     let (mut zones, mut walls) = (Vec::new(), Vec::new());
     for zone in 0..count {
         let resistance = random.uniform(8.0, 25.0);
         let capacity_kj_per_k = random.uniform(800.0, 4000.0);
         // Twice what it takes to keep 20 K above the weather.
-        let (heating_limit_kw, cooling_limit_kw) = (Some(40.0 / resistance), Some(0.0));
+        let (heating_limit_kw, cooling_limit_kw) = (limit_kw.or(Some(40.0 / resistance)), Some(0.0));
         let solar_aperture_m2 = random.uniform(0.2, 1.5);
         zones.push(Zone {
             capacity_kj_per_k,
@@ -61,10 +84,10 @@ fn network(random: &mut Random, count: usize) -> Result<Network, Box<dyn Error>>
     Ok(Network::new(&zones, &walls)?)
 }
 
-fn world(seed: u64) -> Result<World, Box<dyn Error>> {
+fn world(seed: u64, variation: Variation) -> Result<World, Box<dyn Error>> {
     let mut random = Random::new(seed, 77);
     let count = 2 + (seed as usize * 7) % 11;
-    let model = Model::exact(&network(&mut random, count)?, STEP_S)?;
+    let model = Model::exact(&network(&mut random, count, variation.limit_kw)?, STEP_S)?;
     let setpoints = Setpoints {
         occupied_c: (0..count).map(|_| random.uniform(20.5, 22.5)).collect(),
         from_h: 7.0,
@@ -83,7 +106,7 @@ fn world(seed: u64) -> Result<World, Box<dyn Error>> {
         .map(|hour| {
             let hour = (hour % 24) as f64;
             let peaks = libm::exp(-(hour - 8.0).powi(2) / 6.0) + 1.3 * libm::exp(-(hour - 18.5).powi(2) / 6.0);
-            0.16 + 0.16 * peaks + random.normal(0.0, 0.02)
+            variation.price * (0.16 + 0.16 * peaks + random.normal(0.0, 0.02))
         })
         .collect();
     let tariff = Tariff { prices_per_kwh, ..Tariff::default() };
@@ -106,6 +129,29 @@ fn world(seed: u64) -> Result<World, Box<dyn Error>> {
     })
 }
 
+/// The economic controller under each variation of each building.
+fn scales(buildings: u64) -> Result<(), Box<dyn Error>> {
+    println!("| building | zones | variation | money over its factor | discomfort [K·h] | above the optimum |");
+    println!("|---|---|---|---|---|---|");
+    for seed in 0..buildings {
+        for variation in SCALES {
+            let world = world(seed, variation)?;
+            let totals = world.run(&Controller::EconomicMpc(EconomicSettings::default()))?;
+            let best = world.least_money(&totals)?;
+            println!(
+                "| {} | {} | {} | {:.4} | {:.3} | {:.2} % |",
+                seed + 1,
+                world.model.network().zone_count(),
+                variation.name,
+                totals.money / variation.price,
+                totals.discomfort_k_h,
+                100.0 * (totals.money / best.energy_cost - 1.0)
+            );
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let economic = EconomicSettings::default();
     let predictive = PredictiveSettings::default();
@@ -124,11 +170,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("distributed", Controller::Distributed(Default::default())),
     ];
     let buildings = std::env::args().nth(1).map_or(Ok(BUILDINGS), |count| count.parse())?;
+    if std::env::args().nth(2).is_some_and(|mode| mode == "scales") {
+        return scales(buildings);
+    }
     let mut wins = 0;
     println!("| building | zones | controller | EUR | discomfort [K·h] | above the optimum | design of a day [ms] |");
     println!("|---|---|---|---|---|---|---|");
     for seed in 0..buildings {
-        let world = world(seed)?;
+        let world = world(seed, USUAL)?;
         let (mut own, mut is_beaten) = ((f64::INFINITY, 0.0), false);
         for (place, (name, controller)) in controllers.iter().enumerate() {
             let head = format!("| {} | {} | {name} |", seed + 1, world.model.network().zone_count());

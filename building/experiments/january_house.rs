@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("pid", Controller::Pid(Default::default())),
         ("model-predictive", Controller::ModelPredictive(predictive)),
         ("economic-mpc", Controller::EconomicMpc(economic)),
-        ("without margin", Controller::EconomicMpc(EconomicSettings { margin_k: 0.0, ..economic })),
+        ("without margin", Controller::EconomicMpc(EconomicSettings { margin_k: Some(0.0), ..economic })),
         ("without learning", Controller::EconomicMpc(EconomicSettings { learn_forecast: false, ..economic })),
         ("without blocks", Controller::EconomicMpc(EconomicSettings { block_h: 0.0, ..economic })),
         ("12 h ahead", Controller::EconomicMpc(EconomicSettings { horizon_h: 12.0, ..economic })),

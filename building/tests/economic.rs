@@ -98,7 +98,7 @@ fn economic(settings: EconomicSettings) -> Box<dyn Control> {
 
 /// Accuracy without room for errors that do not occur.
 fn exact() -> EconomicSettings {
-    EconomicSettings { margin_k: 0.0, ..EconomicSettings::default() }
+    EconomicSettings { margin_k: Some(0.0), ..EconomicSettings::default() }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Thermal parameters from telemetry.
 
 use interplay_building::identify::{Mapping, Telemetry};
+use interplay_presentation::report::{Believed, identified_scenario};
 use pyo3::prelude::*;
 
 use crate::errors::refused_text;
@@ -21,10 +22,10 @@ pub fn identify(
         let found = interplay_building::identify::identify(&telemetry, &mapping.identify);
         let found = found.map_err(|error| refused(&format!("{}: {error}", names.0)))?;
         let report = serde_json::to_string(&found.report).map_err(|error| refused(&error))?;
-        let summary = interplay_presentation::report::identification(&names.0, &found);
+        let summary = interplay_presentation::report::identified_summary(&names.0, &found);
         let network = found.network.as_ref().ok();
-        let scenario = network
-            .map(|network| interplay_presentation::report::identified_scenario(&names.0, &found.report, network, None));
+        let scenario =
+            network.map(|network| identified_scenario(&names.0, &found.report, network, None, Believed::Estimate));
         Ok((report, summary, scenario))
     })
 }

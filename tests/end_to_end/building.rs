@@ -338,7 +338,13 @@ fn identification_recovers_a_known_truth() {
 #[test]
 fn identify_prints_a_table_and_draws_plots() {
     let folder = classroom("identify-plots");
-    let outcome = interplay(&folder, &["identify", "room.csv", "--out", "plots/new"]);
+    let outcome = interplay(&folder, &["identify", "room.csv"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    for piece in ["what is known", "heat capacity", "kJ/K", "24 h ahead", "--details"] {
+        assert!(outcome.stdout.contains(piece), "{piece}: {}", outcome.stdout);
+    }
+    assert!(outcome.stdout.lines().count() <= 40, "{}", outcome.stdout);
+    let outcome = interplay(&folder, &["identify", "room.csv", "--details", "--out", "plots/new"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
     for piece in ["zone classroom", "heat capacity", "kJ/K", "identified", "Ljung-Box", "free runs of 24 h"] {
         assert!(outcome.stdout.contains(piece), "{piece}: {}", outcome.stdout);

@@ -86,7 +86,14 @@ fn written(path: &Path) -> toml::Table {
 #[test]
 fn an_identified_house_runs_under_any_controller() {
     let folder = house("identify-scenario");
-    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
+    let plain = interplay(&folder, &["identify", "house.csv", "--scenario", "plain.toml"]);
+    assert_eq!(plain.code, Some(0), "{plain:?}");
+    assert!(
+        written(&folder.join("plain.toml"))["building"].get("believed").is_none(),
+        "the controller believes the estimate"
+    );
+    let arguments = ["identify", "house.csv", "--details", "--scenario", "found.toml", "--believe-upper-ends"];
+    let outcome = interplay(&folder, &arguments);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
     for piece in ["air, wall to outdoor", "log-likelihood", "conductance to outdoor", "mean of the data"] {
         assert!(outcome.stdout.contains(piece), "{piece}: {}", outcome.stdout);
@@ -124,7 +131,7 @@ fn identify_overwrites_no_file_and_omits_unknown_values() {
     fs::write(folder.join("house.toml"), MAPPING.replace("'kw'", "'unknown'")).expect("written");
     let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
     assert_eq!(outcome.code, Some(2), "{outcome:?}");
-    assert!(outcome.stdout.contains("not identifiable"), "what was found says why: {}", outcome.stdout);
+    assert!(outcome.stdout.contains("the record does not tell"), "what was found says why: {}", outcome.stdout);
     assert!(outcome.stderr.contains("no scale") && !folder.join("found.toml").exists(), "{}", outcome.stderr);
 }
 
@@ -132,7 +139,7 @@ fn identify_overwrites_no_file_and_omits_unknown_values() {
 #[test]
 fn sun_on_a_wall_is_identified_as_sun_on_a_wall() {
     let folder = sunny_house("identify-sun");
-    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
+    let outcome = interplay(&folder, &["identify", "house.csv", "--details", "--scenario", "found.toml"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
     assert!(outcome.stdout.contains("sun on the wall to outdoor"), "{}", outcome.stdout);
     let wall = &written(&folder.join("found.toml"))["building"]["wall"][0];

@@ -3,6 +3,7 @@
 use interplay_building::identify::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
 use interplay_common::random::Random;
 
+use super::heater::{Heat, Heater, Way};
 use super::world::{Unmeasured, World};
 
 const MINUTES_PER_DAY: usize = 1440;
@@ -90,17 +91,16 @@ impl House {
         self.air + self.wall + self.interior
     }
 
-    /// Heat is constant over a sampling step, weather a straight line, and random heat acts on the air.
-    pub fn simulate(&self, world: World, random: &mut Random) -> Telemetry {
+    /// Telemetry under a heater that is controlled in this way, and the same with the mean heat of each row held in it.
+    ///
+    /// Weather is a straight line over a sampling step, and random heat acts on the air.
+    pub fn simulate(&self, world: World, way: Way, random: &mut Random) -> [Telemetry; 2] {
         let stride = (self.step_s / 60.0) as usize;
         let silent = self.kind == Kind::Silent;
         let rows = self.days * MINUTES_PER_DAY / stride + 1;
         let design_kw = self.ua() * 20.0;
         let (mut drift_c, mut cloud) = (0.0, 0.5);
-        let (mut outdoor_c, mut sun_kw, mut heat_kw) = (Vec::new(), Vec::new(), Vec::new());
-        let mut true_sun_kw = Vec::new();
-        let mut on = false;
-        let hold_h = random.uniform(1.0, 4.0);
+        let (mut outdoor_c, mut sun_kw, mut true_sun_kw) = (Vec::new(), Vec::new(), Vec::new());
         let step_h = self.step_s / 3600.0;
         for row in 0..rows {
             let hour = row as f64 * step_h % 24.0;
@@ -116,27 +116,25 @@ impl House {
             });
             sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * day });
             true_sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * true_day });
-            if random.chance((step_h / hold_h).min(0.7)) {
-                on = !on;
-            }
-            heat_kw.push(if silent {
-                0.75 * design_kw
-            } else if on {
-                1.4 * design_kw
-            } else {
-                0.1 * design_kw
-            });
         }
         let minutes = (rows - 1) * stride + 1;
         let unmeasured = Unmeasured::new(world, minutes, self.ua(), random);
-        let inputs = (outdoor_c.as_slice(), true_sun_kw.as_slice(), heat_kw.as_slice());
-        let temperature_c = self.temperatures(random, stride, inputs, (design_kw, world, &unmeasured));
-        let temperature_c = temperature_c.into_iter().map(|value| world.sensed_c(value)).collect();
         let meter = world.meter(random);
-        heat_kw.iter_mut().for_each(|heat| *heat *= meter);
         let late = world.clock_rows(self.step_s, random);
+        let heater = Heater::random(way, design_kw, random);
+        let weather = (outdoor_c.as_slice(), true_sun_kw.as_slice());
+        let steady = vec![0.75 * design_kw; rows];
+        let heat = if silent { Heat::Held(&steady) } else { Heat::Heater(heater) };
+        let mut again = random.clone();
+        let (switching_c, heat_kw) = self.temperatures(random, stride, weather, (design_kw, world, &unmeasured), heat);
+        let held = Heat::Held(&heat_kw);
+        let (held_c, _) = self.temperatures(&mut again, stride, weather, (design_kw, world, &unmeasured), held);
+        let recorded_kw = world.recorded_kw(&heat_kw, &outdoor_c, self.step_s, meter);
         let (outdoor_c, sun_kw) = (World::shifted(&outdoor_c, late), World::shifted(&sun_kw, late));
-        self.telemetry(temperature_c, heat_kw, outdoor_c, sun_kw)
+        [switching_c, held_c].map(|temperature_c| {
+            let sensed_c = temperature_c.into_iter().map(|value| world.sensed_c(value)).collect();
+            self.telemetry(sensed_c, recorded_kw.clone(), outdoor_c.clone(), sun_kw.clone())
+        })
     }
 
     fn telemetry(
@@ -168,14 +166,18 @@ impl House {
         }
     }
 
-    /// Measured temperature in each row. Random heat changes every minute.
+    /// Measured temperature and mean heat in each row. Random heat changes every minute.
     fn temperatures(
         &self,
         random: &mut Random,
         stride: usize,
-        (outdoor_c, sun_kw, heat_kw): (&[f64], &[f64], &[f64]),
+        (outdoor_c, sun_kw): (&[f64], &[f64]),
         (design_kw, world, unmeasured): (f64, World, &Unmeasured),
-    ) -> Vec<f64> {
+        mut heat: Heat<'_>,
+    ) -> (Vec<f64>, Vec<f64>) {
+        // The stream of the heater is its own, so that the same house with its heat held has the same random heat.
+        let mut chance = Random::new(1 + (1e6 * self.aperture) as u64, 78);
+        let mut given_kw = vec![0.0; outdoor_c.len()];
         let (colour_h, mut colour) = (random.uniform(1.0, 4.0), 0.0);
         let (disturbance_kw, sensor_k) = (design_kw * random.uniform(0.01, 0.05), random.uniform(0.01, 0.05));
         let (mut air, mut wall, mut interior) = (18.0, 13.0, 18.5);
@@ -201,13 +203,26 @@ impl House {
             let lost = unmeasured.conductance_kw_per_k[seen.min(unmeasured.heat_kw.len() - 1)] * (outdoor - air);
             let noise = noise + unmeasured.heat_kw[seen.min(unmeasured.heat_kw.len() - 1)] + lost;
             let on_mass = self.on_mass * self.aperture * sun;
-            let gains = heat_kw[row] + (self.aperture * sun - on_mass) + noise;
+            let heat_kw = match &mut heat {
+                Heat::Heater(heater) => heater.next_kw(minute, air, &mut chance),
+                // Before the first row the mean of a day, in place of a row that may be off or fully on.
+                Heat::Held(kw) if minute < 2 * MINUTES_PER_DAY => mean(&kw[..(MINUTES_PER_DAY / stride).min(kw.len())]),
+                Heat::Held(kw) => kw[row],
+            };
+            if minute >= 2 * MINUTES_PER_DAY {
+                given_kw[row] += heat_kw / stride as f64;
+            }
+            let gains = heat_kw + (self.aperture * sun - on_mass) + noise;
             for _ in 0..SUBSTEPS {
                 [air, wall, interior] = self.next([air, wall, interior], (gains, on_mass), outdoor);
             }
         }
-        measured
+        (measured, given_kw)
     }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 impl House {

@@ -1,5 +1,5 @@
 //! How often the intervals of the method `state-space` hold the truth, and how often "identified" is wrong: houses with one, two
-//! and three temperatures, simulated with random parameters, weather, heating, disturbances and sampling times.
+//! and three temperatures, simulated with random parameters, weather, heaters, disturbances and sampling times.
 //!
 //! ```sh
 //! cargo run --release -p interplay-building --example identify_coverage -- 100
@@ -9,6 +9,8 @@
 //! (0), and the third one the only kind, or `worlds` for all but those with a right world. The houses are simulated in steps of
 //! six seconds; telemetry is sampled every 5 to 60 minutes.
 //!
+//! - Heaters switch, or change their power, inside of rows ([`heater::Heater`]). Each house in the right world is also identified with the
+//!   mean heat of each row held in it, for comparison.
 //! - Houses with one, two and three temperatures.
 //! - `two states, silent`: heated and mild all the time alike, so that the data say next to nothing of the capacity.
 //! - 30 to 100 % of the sun fall on the wall, or on the interior mass.
@@ -16,11 +18,16 @@
 
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
 
+mod heater;
 mod house;
+mod summary;
 mod world;
 
+use heater::Way;
 use house::{House, Kind};
-use interplay_building::identify::{Confidence, IdentificationReport, IdentifySettings, SuspectedCause, identify};
+use interplay_building::identify::{
+    Confidence, IdentificationReport, IdentifySettings, SuspectedCause, Telemetry, identify,
+};
 use interplay_common::random::Random;
 use rayon::prelude::*;
 use world::World;
@@ -32,17 +39,22 @@ struct Outcome {
     value: Option<f64>,
     interval: (Option<f64>, Option<f64>),
     confidence: Confidence,
+}
+
+/// What one house showed.
+struct HouseOutcome {
+    quantities: Vec<Outcome>,
+    /// The same quantities with the heat of each row held, in the right world.
+    held: Vec<Outcome>,
+    way: Way,
     states: usize,
     /// Whether the chosen model has sun on a mass.
     sunlit: bool,
-    /// What the data are said to contradict.
+    /// What the data are said to contradict, the most probable cause first.
     causes: Vec<SuspectedCause>,
 }
 
-fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
-    let chosen = report.models.iter().find(|model| model.chosen);
-    let states = chosen.map_or(0, |model| model.states);
-    let sunlit = chosen.is_some_and(|model| model.model.contains("sun on"));
+fn quantities(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
     let truths = [
         ("heat capacity", house.capacity()),
         ("conductance to outdoor", house.ua()),
@@ -58,9 +70,6 @@ fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
                 value: found.value,
                 interval: found.interval,
                 confidence: found.verdict.confidence,
-                states,
-                sunlit,
-                causes: report.suspicions.iter().map(|it| it.cause).collect(),
             })
         })
         .collect()
@@ -84,77 +93,44 @@ fn main() {
         (11, Kind::Wall, World::Clock, "clock one hour off"),
         (12, Kind::Wall, World::People, "people unmeasured"),
         (13, Kind::Wall, World::Meter, "heat meter 10 % off"),
+        (14, Kind::Wall, World::LateHeat, "heat late"),
+        (15, Kind::Wall, World::Electricity, "electricity for heat"),
     ] {
         let is_wanted = |only: &str| only == name || (only == "worlds" && world != World::Matched);
         if only.as_deref().is_some_and(|only| !is_wanted(only)) {
             continue;
         }
         let count = if kind == Kind::Silent { houses / 4 } else { houses };
-        let found: Vec<Outcome> = (first..first + count)
+        let found: Vec<HouseOutcome> = (first..first + count)
             .into_par_iter()
-            .flat_map_iter(|house| of_house((kind, world), 10_000 * label + house))
+            .filter_map(|house| of_house((kind, world), house, 10_000 * label + house))
             .collect();
-        print_kind(name, &found);
+        summary::print(name, world, &found);
     }
 }
 
-fn of_house((kind, world): (Kind, World), seed: u64) -> Vec<Outcome> {
+fn of_house((kind, world): (Kind, World), number: u64, seed: u64) -> Option<HouseOutcome> {
     let mut random = Random::new(seed, 77);
     let house = House::random(kind, &mut random);
-    let telemetry = house.simulate(world, &mut random);
-    match identify(&telemetry, &IdentifySettings::default()) {
-        Ok(found) => outcomes(&house, &found.report),
+    let way = Way::of_house(number);
+    let [switching, held] = house.simulate(world, way, &mut random);
+    let report = |telemetry: &Telemetry| match identify(telemetry, &IdentifySettings::default()) {
+        Ok(found) => Some(found.report),
         Err(error) => {
             println!("seed {seed}: {error}");
-            Vec::new()
+            None
         }
-    }
-}
-
-fn print_kind(name: &str, found: &[Outcome]) {
-    let houses = found.iter().filter(|outcome| outcome.quantity == "heat capacity");
-    let states: Vec<usize> =
-        (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
-    let sunlit = houses.clone().filter(|house| house.sunlit).count();
-    println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}, sun on a mass in {sunlit}", houses.clone().count());
-    let warned = houses.clone().filter(|house| !house.causes.is_empty()).count();
-    let of = |cause| houses.clone().filter(|house| house.causes.contains(&cause)).count();
-    use SuspectedCause::{Clock, Halves, People, Sun, Windows};
-    println!(
-        "  warned of a wrong world {warned}: clock {}, sun {}, people {}, windows {}, halves {}",
-        of(Clock),
-        of(Sun),
-        of(People),
-        of(Windows),
-        of(Halves)
-    );
-    for quantity in ["heat capacity", "conductance to outdoor", "aperture to the sun"] {
-        let of: Vec<&Outcome> = found.iter().filter(|outcome| outcome.quantity == quantity).collect();
-        let bounded: Vec<&&Outcome> =
-            of.iter().filter(|it| it.interval.0.is_some() || it.interval.1.is_some()).collect();
-        let holds = |it: &Outcome| {
-            it.interval.0.is_none_or(|low| low <= it.truth) && it.interval.1.is_none_or(|high| it.truth <= high)
-        };
-        let by_states: Vec<String> = (1..=3)
-            .map(|states| {
-                let of: Vec<&&&Outcome> = bounded.iter().filter(|it| it.states == states).collect();
-                format!("{}/{}", of.iter().filter(|it| holds(it)).count(), of.len())
-            })
-            .collect();
-        let covered = bounded.iter().filter(|it| holds(it)).count();
-        let identified: Vec<&&Outcome> = of.iter().filter(|it| it.confidence == Confidence::Identified).collect();
-        let is_off = |it: &Outcome| it.value.is_none_or(|value| (value / it.truth - 1.0).abs() > 0.25);
-        let wrong = identified.iter().filter(|it| is_off(it)).count();
-        let outside = identified.iter().filter(|it| !holds(it)).count();
-        let errors: Vec<f64> = of.iter().filter_map(|it| Some(it.value? / it.truth - 1.0)).collect();
-        let largest = errors.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()));
-        println!(
-            "  {quantity:24} {covered} of {} intervals hold the truth ({}); {} identified, of them {wrong} off by more than 25 %, \
-             {outside} outside of their interval; largest error {:.0} %",
-            bounded.len(),
-            by_states.join(", "),
-            identified.len(),
-            100.0 * largest
-        );
-    }
+    };
+    let found = report(&switching)?;
+    let held =
+        if world == World::Matched && kind != Kind::Silent { quantities(&house, &report(&held)?) } else { Vec::new() };
+    let chosen = found.models.iter().find(|model| model.chosen);
+    Some(HouseOutcome {
+        quantities: quantities(&house, &found),
+        held,
+        way,
+        states: chosen.map_or(0, |model| model.states),
+        sunlit: chosen.is_some_and(|model| model.model.contains("sun on")),
+        causes: found.suspicions.iter().map(|it| it.cause).collect(),
+    })
 }

@@ -27,6 +27,10 @@ pub enum World {
     People,
     /// The heat meter is 10 % off.
     Meter,
+    /// Heat is recorded a row late.
+    LateHeat,
+    /// The electricity of a heat pump is recorded as its heat.
+    Electricity,
 }
 
 impl World {
@@ -49,6 +53,17 @@ impl World {
             Self::Meter if random.chance(0.5) => 1.1,
             Self::Meter => 0.9,
             _ => 1.0,
+        }
+    }
+
+    /// Heat as it is recorded, with the factor of a meter \[kW\].
+    pub fn recorded_kw(self, heat_kw: &[f64], outdoor_c: &[f64], step_s: f64, meter: f64) -> Vec<f64> {
+        let all = 0..heat_kw.len();
+        match self {
+            // A row, or half an hour where rows are shorter.
+            Self::LateHeat => Self::shifted(heat_kw, (1800.0 / step_s).ceil().max(1.0) as isize),
+            Self::Electricity => all.map(|row| heat_kw[row] / (3.2 + 0.08 * outdoor_c[row])).collect(),
+            _ => all.map(|row| meter * heat_kw[row]).collect(),
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! minimise    Σ h (price + emission price · emissions) (u⁺/COP_heating + u⁻/COP_cooling) + c h Σ s + ϖ p + terminal value
-//! subject to  |r − T| ≤ band − margin + s  while occupied,   0 ≤ u⁺ ≤ heating limit,   0 ≤ u⁻ ≤ cooling limit
+//! subject to  |r − T| ≤ band − margin + s  while occupied,   frost − s ≤ T ≤ heat + s  while empty
+//!             0 ≤ u⁺ ≤ heating limit,   0 ≤ u⁻ ≤ cooling limit
 //! ```
 //!
 //! If electricity has a negative price, simultaneous heating and cooling would pay in this problem but not in reality.
@@ -16,14 +17,19 @@ use crate::staged::{HeatInput, PlanStage, SoftBound};
 
 use super::Disturbance;
 
+/// Least and largest temperature of empty rooms \[°C\]: no pipe freezes, and no negative price heats a room without limit.
+pub(crate) const EMPTY_ROOM_C: (f64, f64) = (5.0, 40.0);
+
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Prices {
-    /// A kelvin beyond the band of a zone for an hour.
-    pub discomfort: f64,
+pub(crate) struct Prices<'a> {
+    /// A kelvin beyond the band of a zone for an hour, of each zone.
+    pub discomfort: &'a [f64],
+    /// Least and largest temperature of empty rooms \[°C\].
+    pub empty_c: (f64, f64),
     /// A kilogram of emissions.
     pub emissions_per_kg: f64,
-    /// How far plans stay within the comfort band \[K\].
-    pub margin_k: f64,
+    /// How far plans stay within the comfort band \[K\], of each zone.
+    pub margin_k: &'a [f64],
     pub has_peak: bool,
 }
 
@@ -48,7 +54,7 @@ pub(crate) fn stage(
     model: &Model,
     inputs: &[HeatInput],
     (targets, disturbance): (&Targets, &Disturbance),
-    prices: Prices,
+    prices: Prices<'_>,
     span: Span,
 ) -> PlanStage {
     let limits = model.network().limits();
@@ -87,26 +93,37 @@ pub(crate) fn stage(
     }
 }
 
+/// What a kelvin beyond the band of each zone costs for an hour, at a price of `per_kwh`: `factor` times that of what the zone
+/// loses for a kelvin in an hour, or of a kilowatt-hour if that is less.
+pub(crate) fn discomfort_prices(network: &Network, factor: f64, per_kwh: f64) -> Vec<f64> {
+    let laplacian = network.laplacian();
+    let loss = |zone: usize| laplacian[(zone, zone)].max(1.0);
+    // If all electricity is free, any price of discomfort is right.
+    let per_kwh = if per_kwh > 0.0 { per_kwh } else { 1.0 };
+    (0..network.zone_count()).map(|zone| factor * per_kwh * loss(zone)).collect()
+}
+
 /// The price of electricity in a step, with that of its emissions \[currency/kWh\]; 1 without a tariff.
 pub(crate) fn energy_price(supply: &EnergySupply, step: usize, emissions_per_kg: f64) -> f64 {
     let price = supply.price_per_kwh.as_ref().and_then(|prices| prices.get(step)).copied().unwrap_or(1.0);
     price + emissions_per_kg * supply.emissions_kg_per_kwh.as_ref().and_then(|all| all.get(step)).unwrap_or(&0.0)
 }
 
-/// The comfort band at the end of a span.
-fn band(targets: &Targets, prices: Prices, span: Span, hours: f64) -> Vec<SoftBound> {
+/// The comfort band at the end of a span, and the limits of empty rooms.
+fn band(targets: &Targets, prices: Prices<'_>, span: Span, hours: f64) -> Vec<SoftBound> {
     let last = span.first + span.steps - 1;
     let mut soft = Vec::new();
     for node in 0..targets.zones {
         let i = last * targets.zones + node;
-        if targets.occupied[i] {
-            let band_k = targets.band_k[i] - prices.margin_k.min(0.5 * targets.band_k[i]);
-            let linear = prices.discomfort * hours * span.steps as f64;
-            for sign in [1.0, -1.0] {
-                let bound = sign * targets.reference_c[i] + band_k;
-                soft.push(SoftBound { node, sign, bound, linear, quadratic: 0.0 });
-            }
-        }
+        let (low, high) = if targets.occupied[i] {
+            let band_k = targets.band_k[i] - prices.margin_k[node].min(0.5 * targets.band_k[i]);
+            (targets.reference_c[i] - band_k, targets.reference_c[i] + band_k)
+        } else {
+            prices.empty_c
+        };
+        let linear = prices.discomfort[node] * hours * span.steps as f64;
+        soft.push(SoftBound { node, sign: 1.0, bound: high, linear, quadratic: 0.0 });
+        soft.push(SoftBound { node, sign: -1.0, bound: -low, linear, quadratic: 0.0 });
     }
     soft
 }

@@ -13,7 +13,7 @@
 use crate::comfort::Targets;
 use crate::control::{ControlError, Disturbance, money_stages};
 use crate::discretise::Model;
-use crate::energy::EnergySupply;
+use crate::energy::{EnergySupply, mean_size};
 use crate::staged::{self, HeatInput, PlanStage, SoftBound, StageMap, StagedProgram, StagedSolution};
 
 /// The most operations that the optimum of a run may take: some seconds.
@@ -47,6 +47,8 @@ pub struct RunOptimum {
     pub cost: f64,
     /// What its electricity costs, with the demand charge \[currency\]; the electricity \[kWh\] without a tariff.
     pub energy_cost: f64,
+    /// The part of it that is the demand charge \[currency\].
+    pub demand_cost: f64,
     /// Discomfort \[K·h per zone\].
     pub discomfort_k_h: f64,
 }
@@ -68,9 +70,9 @@ impl RunHistory {
         OPERATIONS_PER_CUBE * (self.initial_c.len() as f64).powi(3).max(100.0) * steps as f64 <= MAX_OPERATIONS
     }
 
-    /// Whether the highest power has a price.
-    pub fn has_demand_charge(&self) -> bool {
-        self.days.iter().any(|(targets, _)| targets.supply.demand_per_kw > 0.0)
+    /// The price of the highest electric power of the run \[currency/kW\]; 0 without a demand charge.
+    pub fn demand_per_kw(&self) -> f64 {
+        self.days.iter().map(|(targets, _)| targets.supply.demand_per_kw).fold(0.0, f64::max)
     }
 
     /// The least cost J (3.2) of the whole run.
@@ -116,12 +118,14 @@ impl RunHistory {
         let (targets, disturbance) = self.joined();
         let supply = &targets.supply;
         let prices = supply.price_per_kwh.clone().unwrap_or_else(|| vec![1.0]);
-        let mean = prices.iter().map(|price| price.abs()).sum::<f64>() / prices.len().max(1) as f64;
         let demand_per_kw = supply.demand_per_kw;
+        let discomfort = money_stages::discomfort_prices(model.network(), DISCOMFORT_PRICES, mean_size(&prices));
+        let margin_k = vec![0.0; targets.zones];
         let plan_prices = money_stages::Prices {
-            discomfort: DISCOMFORT_PRICES * mean,
+            discomfort: &discomfort,
+            empty_c: money_stages::EMPTY_ROOM_C,
             emissions_per_kg: 0.0,
-            margin_k: 0.0,
+            margin_k: &margin_k,
             has_peak: demand_per_kw > 0.0,
         };
         let inputs = money_stages::inputs(model.network());
@@ -182,6 +186,7 @@ impl RunHistory {
         RunOptimum {
             cost: targets.cost(&temperatures_c, &heat_kw),
             energy_cost: energy_cost + supply.demand_per_kw * peak_kw,
+            demand_cost: supply.demand_per_kw * peak_kw,
             discomfort_k_h: hours * beyond_k / zones as f64,
             heat_kw,
             temperatures_c,

@@ -12,4 +12,5 @@ mod heat_pump;
 mod tariff;
 
 pub use heat_pump::{CopPoint, HeatPump};
+pub(crate) use tariff::mean_size;
 pub use tariff::{EnergySupply, Tariff, TariffError};

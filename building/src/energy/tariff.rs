@@ -81,7 +81,7 @@ pub struct TariffError {
 }
 
 impl Tariff {
-    /// Refuses a tariff that states no prices, or with a mean price that is not positive.
+    /// Refuses a tariff that states no prices. They may be zero or negative.
     pub fn check(&self) -> Result<(), TariffError> {
         let refused = |key: &str, problem: String| Err(TariffError { key: key.into(), problem });
         if let Err(error) = setting::check(self) {
@@ -99,16 +99,12 @@ impl Tariff {
             let problem = format!("a day is not a whole number of {} s: 900, 1800 and 3600 work", self.interval_s);
             return refused("interval_s", problem);
         }
-        let mean = self.mean_per_kwh();
-        if mean.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
-            return refused("prices_per_kwh", format!("the mean price is {:.6}; it must be above 0", mean));
-        }
         Ok(())
     }
 
-    /// The mean of all prices \[currency/kWh\].
-    pub(crate) fn mean_per_kwh(&self) -> f64 {
-        self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
+    /// The mean size of all prices \[currency/kWh\].
+    pub fn mean_size_per_kwh(&self) -> f64 {
+        mean_size(&self.prices_per_kwh)
     }
 
     /// The number of days that the prices cover.
@@ -150,11 +146,20 @@ impl Tariff {
         (!stated.is_empty()).then(|| by_step((stated, HOUR_S), day, step_s, steps))
     }
     /// How much more than on average a kilowatt-hour counts in a plan in each step of a day: the ratio of its price to the mean
-    /// one, at least a twentieth.
+    /// size of prices, at least a twentieth; 1 where all prices are zero.
     pub(crate) fn day_weights(&self, day_per_kwh: &[f64]) -> Vec<f64> {
-        let mean_per_kwh = self.mean_per_kwh();
-        day_per_kwh.iter().map(|price_per_kwh| (price_per_kwh / mean_per_kwh).max(MIN_PRICE_RATIO)).collect()
+        let mean_per_kwh = self.mean_size_per_kwh();
+        let weight = |price_per_kwh: &f64| match mean_per_kwh > 0.0 {
+            true => (price_per_kwh / mean_per_kwh).max(MIN_PRICE_RATIO),
+            false => 1.0,
+        };
+        day_per_kwh.iter().map(weight).collect()
     }
+}
+
+/// The mean size of prices, which is positive unless all of them are zero.
+pub(crate) fn mean_size(prices: &[f64]) -> f64 {
+    prices.iter().map(|price| price.abs()).sum::<f64>() / prices.len().max(1) as f64
 }
 
 /// The mean over each step of a day of a quantity that is stated for intervals of such a length \[s\], and repeated.

@@ -41,7 +41,7 @@ pub struct IdentificationReport {
     /// The models that were compared to choose the order, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelRow>,
-    /// Assumptions of every model that the data contradict, by `state-space`.
+    /// Assumptions of every model that the data contradict, the cause that explains most first, by `state-space`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub suspicions: Vec<Suspicion>,
     /// Warnings that a reader must know before using a number.
@@ -55,6 +55,8 @@ pub struct Suspicion {
     pub zone: Option<String>,
     /// The probable cause.
     pub cause: SuspectedCause,
+    /// By how much the log-likelihood is higher if the cause is allowed for.
+    pub explains: f64,
     /// The same in words, with the figures.
     pub words: String,
 }
@@ -71,6 +73,10 @@ pub enum SuspectedCause {
     People,
     /// Heat is lost at times, as through open windows.
     Windows,
+    /// The heat is recorded at another time than it is given.
+    LateHeat,
+    /// A recorded kilowatt heats more or less by the outdoor temperature, as if electricity of a heat pump were recorded.
+    VaryingGain,
     /// The two halves of the record contradict each other.
     Halves,
 }

@@ -12,8 +12,12 @@ const STEP_SHARE: f64 = 0.995;
 /// Limits of the slack of soft bounds at the start \[K\].
 const LEAST_FIRST_SLACK_K: f64 = 0.01;
 const MOST_FIRST_SLACK_K: f64 = 10.0;
+/// Inputs whose limits are further apart begin where they change the temperature of their zone by this much in a stage \[K\].
+const FIRST_REACH_K: f64 = 5.0;
 /// The cost of inputs is taken for at least this share of that of a kelvin beyond all soft bounds.
 const LEAST_SCALE_SHARE: f64 = 1e-6;
+/// What is paid is taken for at least this share of what a change of all zones by [`FIRST_REACH_K`] in all stages costs.
+const LEAST_PAID_SHARE: f64 = 1e-2;
 /// A shorter step does not count as progress.
 const LEAST_STEP: f64 = 1e-8;
 /// How much larger than the accepted one the gap may be where rounding ends the iterations.
@@ -28,15 +32,16 @@ struct Iterate<'a> {
     groups: Groups,
 }
 
-/// Solves a problem until the relative error of its cost is certainly below `tolerance`.
+/// Solves a problem until its cost is certainly above the least one by less than `tolerance` times what is paid in it: for inputs, for
+/// soft bounds, for the peak and for the change of temperatures that have a price. Limits of inputs do not belong to that scale.
 pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, StagedError> {
     program.check()?;
     let mut iterate = Iterate::start(program);
-    let scale = cost_scale(program);
+    let least = LEAST_PAID_SHARE * cost_scale(program);
     let count = iterate.groups.count().max(1) as f64;
     let mut gap = iterate.groups.gap();
     for iterations in 0..MAX_ITERATIONS {
-        let accepted = tolerance * (scale + iterate.objective().abs());
+        let accepted = tolerance * iterate.paid().max(least);
         let (residual, _) = iterate.largest_residual();
         gap = iterate.groups.gap();
         if gap <= accepted && residual <= tolerance.sqrt() * iterate.gradient_scale() {
@@ -56,12 +61,15 @@ pub fn solve(program: &StagedProgram, tolerance: f64) -> Result<StagedSolution, 
 }
 
 impl<'a> Iterate<'a> {
-    /// Inputs in the middle of their limits, and slacks that keep all soft bounds.
+    /// Inputs within their limits, in the middle if these are not far apart, and slacks that keep all soft bounds.
     fn start(program: &'a StagedProgram) -> Self {
         let stages = &program.stages;
-        let v: Vec<f64> =
-            stages.iter().flat_map(|stage| stage.lower.iter().zip(&stage.upper).map(|(l, u)| 0.5 * (l + u))).collect();
         let (n, m) = (program.initial_c.len(), program.inputs.len());
+        let v: Vec<f64> = stages
+            .iter()
+            .flat_map(|stage| (0..m).map(move |j| (stage.lower[j], stage.upper[j], reach_kw(program, stage, j))))
+            .map(|(lower, upper, reach)| (upper - reach).min(0.0).max(lower + reach))
+            .collect();
         let product = cost_scale(program) / v.len().max(1) as f64;
         let x = program.states(&v);
         let mut s = Vec::new();
@@ -117,6 +125,32 @@ impl<'a> Iterate<'a> {
             stage.linear.iter().map(|q| q.abs()).chain(soft).chain(stage.quadratic.iter().copied()).fold(0.0, f64::max)
         };
         self.program.stages.iter().map(of_stage).fold(1e-9, f64::max)
+    }
+
+    /// What is paid: the sizes of all parts of the cost, without those that no input changes.
+    fn paid(&self) -> f64 {
+        let program = self.program;
+        let (n, m) = (program.initial_c.len(), program.inputs.len());
+        let mut paid = program.peak.map_or(0.0, |peak| (peak.price * self.p).abs());
+        let mut k = 0;
+        for (t, stage) in program.stages.iter().enumerate() {
+            for (j, v) in self.v[t * m..(t + 1) * m].iter().enumerate() {
+                paid += (stage.linear[j] * v).abs() + 0.5 * stage.quadratic[j] * v * v;
+            }
+            for &(node, linear, quadratic) in &stage.nodes {
+                let x = self.x[t * n + node];
+                // A quadratic cost is that of the distance from its minimum, and a price that of the change from the start.
+                paid += match quadratic > 0.0 {
+                    true => 0.5 * quadratic * (x + linear / quadratic) * (x + linear / quadratic),
+                    false => (linear * (x - program.initial_c[node])).abs(),
+                };
+            }
+            for soft in &stage.soft {
+                paid += soft.linear * self.s[k] + 0.5 * soft.quadratic * self.s[k] * self.s[k];
+                k += 1;
+            }
+        }
+        paid
     }
 
     fn objective(&self) -> f64 {
@@ -303,13 +337,21 @@ fn cost_scale(program: &StagedProgram) -> f64 {
     let mut scale = 0.0;
     for stage in &program.stages {
         for j in 0..stage.linear.len() {
-            let reach = 0.5 * (stage.upper[j] - stage.lower[j]);
+            let reach = reach_kw(program, stage, j);
             scale += stage.linear[j].abs() * reach + stage.quadratic[j] * reach * reach;
         }
     }
     // If heat costs almost nothing, the cost of discomfort determines the scale.
     let discomfort: f64 = program.stages.iter().flat_map(|stage| &stage.soft).map(|soft| soft.linear).sum();
     scale.max(LEAST_SCALE_SHARE * discomfort).max(1e-9)
+}
+
+/// Half of the room between the limits of an input, or what changes the temperature of its zone by [`FIRST_REACH_K`] in a stage, if
+/// that is less \[kW\].
+fn reach_kw(program: &StagedProgram, stage: &PlanStage, j: usize) -> f64 {
+    let zone = program.inputs[j].zone;
+    let response_k_per_kw = program.maps[stage.map].gain[(zone, zone)].abs();
+    (0.5 * (stage.upper[j] - stage.lower[j])).min(FIRST_REACH_K / response_k_per_kw.max(f64::MIN_POSITIVE))
 }
 
 /// The slack of a soft bound at the start \[K\], so that its product with half of its cost is `product`.

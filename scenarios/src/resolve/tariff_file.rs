@@ -14,8 +14,10 @@ use crate::text::readable::readable;
 const MAX_PRICES: usize = 100_000;
 /// The largest price, as of a list in the scenario \[currency/kWh\].
 const MAX_PRICE_PER_KWH: f64 = 1000.0;
-/// Prices above this get a remark: they are probably per megawatt-hour \[currency/kWh\].
+/// Prices above this get a remark: they are probably in cents \[currency/kWh\] …
 const MAX_USUAL_PRICE_PER_KWH: f64 = 5.0;
+/// … and above this per megawatt-hour.
+const MAX_PRICE_IN_CENTS_PER_KWH: f64 = 60.0;
 /// Errors in prices are listed after those in the scenario.
 const RANK: usize = 1001;
 /// The title of the column of prices; a table with one series may use another.
@@ -60,7 +62,7 @@ fn unusual(file: &SeriesFile, column: &SeriesColumn) -> Option<Fault> {
     let row = column.values.iter().position(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
     let problem = in_words(column.values[row]);
     let remark = file.remark(&SeriesError { line: file.table.lines[row], problem });
-    Some(remark.help(format!("`{PRICE}` is a price per kilowatt-hour; divide prices per megawatt-hour by 1000")))
+    Some(remark.help(format!("`{PRICE}` is a price per kilowatt-hour; {}", conversion(column.values[row]))))
 }
 
 /// The same for the list in the scenario.
@@ -68,11 +70,17 @@ fn unusual_in_list(tariff: &Tariff, tree: &TomlNode) -> Option<Fault> {
     const KEY: &str = "tariff.prices_per_kwh";
     let price = tariff.prices_per_kwh.iter().copied().find(|price| *price > MAX_USUAL_PRICE_PER_KWH)?;
     let remark = Fault::at(tree.place_of(KEY), "per kWh", in_words(price));
-    Some(remark.help(format!("`{KEY}` has prices per kilowatt-hour; divide prices per megawatt-hour by 1000")))
+    Some(remark.help(format!("`{KEY}` has prices per kilowatt-hour; {}", conversion(price))))
 }
 
 fn in_words(price: f64) -> String {
-    format!("the price is {} per kWh: is it per MWh?", readable(price))
+    let question = if price <= MAX_PRICE_IN_CENTS_PER_KWH { "is it in cents?" } else { "is it per MWh?" };
+    format!("the price is {} per kWh: {question}", readable(price))
+}
+
+/// How an unusually high price becomes one per kilowatt-hour.
+fn conversion(price: f64) -> &'static str {
+    if price <= MAX_PRICE_IN_CENTS_PER_KWH { "divide cents by 100" } else { "divide prices per megawatt-hour by 1000" }
 }
 
 /// The prices from the first midnight of the run on.

@@ -9,7 +9,8 @@ use interplay_building::identify::{
     Identification, IdentifyError, Mapping, RecordedDays, Telemetry, TelemetryError, expected_processor_s,
     identify_with_progress,
 };
-use interplay_presentation::{plot, report, shell};
+use interplay_presentation::report::{self, Believed};
+use interplay_presentation::{plot, shell};
 use interplay_scenarios::{Fault, read_regular};
 use thiserror::Error;
 
@@ -24,6 +25,7 @@ use crate::output::{json, print, print_error};
     interplay identify assets/telemetry/cabin.csv        (a sample; its mapping is cabin.toml beside it)\n  \
     interplay identify office.csv --mapping columns.toml --out plots/ --json\n  \
     interplay identify office.csv --validate             (the error a day ahead on days that were not trained on)\n  \
+    interplay identify office.csv --details              (models, tests and reasons)\n  \
     interplay identify office.csv --scenario office-scenario.toml\n\n\
     A mapping:\n  \
     walls = [[\"office\", \"outdoor\"]]\n  \
@@ -52,10 +54,18 @@ pub(crate) struct Identify {
     #[arg(long)]
     validate: bool,
 
-    /// Write a scenario with the network that was found and its uncertainty, and beside it NAME-weather.csv, the recorded weather; a
-    /// file that exists is never overwritten
+    /// Print all numbers, the models that were compared, the tests of residuals, and every reason
+    #[arg(long, conflicts_with = "json")]
+    details: bool,
+
+    /// Write a scenario with the network that was found, and beside it NAME-weather.csv, the recorded weather; a file that exists is
+    /// never overwritten
     #[arg(long, value_name = "FILE.toml")]
     scenario: Option<PathBuf>,
+
+    /// Let the controller of the scenario believe in the upper ends of the 95 % intervals, to see what a wrong model costs
+    #[arg(long, requires = "scenario")]
+    believe_upper_ends: bool,
 }
 
 impl Identify {
@@ -99,7 +109,8 @@ impl Identify {
             .as_ref()
             .map_err(|reason| InputError::NoNetwork { table: table.clone(), reason: reason.clone() })?;
         // Only the network can be wrong here: the table of weather is not written yet.
-        let text = report::identified_scenario(&table, &found.report, network, None);
+        let believed = if self.believe_upper_ends { Believed::UpperEnds } else { Believed::Estimate };
+        let text = report::identified_scenario(&table, &found.report, network, None, believed);
         if let Err(error) = interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
             let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
             let reason = format!("no scenario can hold it: {}", faults.join("; "));
@@ -108,7 +119,7 @@ impl Identify {
         let weather = self.weather_path().zip(recorded);
         let Some((weather_path, recorded)) = weather else { return Ok(Some(ScenarioTexts { text, weather: None })) };
         let name = weather_path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let text = report::identified_scenario(&table, &found.report, network, Some((&name, &recorded)));
+        let text = report::identified_scenario(&table, &found.report, network, Some((&name, &recorded)), believed);
         Ok(Some(ScenarioTexts { text, weather: Some((weather_path, recorded.csv)) }))
     }
 
@@ -184,7 +195,11 @@ impl Identify {
         let text = if self.json {
             json("the findings", &found.report)?
         } else {
-            let mut text = report::identification(&self.table.display().to_string(), found);
+            let table = self.table.display().to_string();
+            let mut text = match self.details {
+                true => report::identification(&table, found),
+                false => report::identified_summary(&table, found),
+            };
             if self.validate {
                 text.push_str(&held_out(found));
             }

@@ -98,9 +98,12 @@ fn write_whole_run(text: &mut String, building: &BuildingReport) -> std::fmt::Re
     if let (Some(cost), Some(least), Some(currency)) = (run.energy_cost, run.least_energy_cost, &building.currency) {
         let currency = currency.replace(char::is_control, " ");
         let discomfort = run.discomfort_k_h;
+        let what = if run.demand_cost.is_some() { "energy and demand charge" } else { "energy" };
+        let cost = cost + run.demand_cost.unwrap_or(0.0);
+        let least = least + run.least_demand_cost.unwrap_or(0.0);
         writeln!(
             text,
-            "  energy: {cost:.2} {currency} at {discomfort:.2} K·h of discomfort, the least without any {least:.2} {currency}"
+            "  {what}: {cost:.2} {currency} at {discomfort:.2} K·h of discomfort, the least without any {least:.2} {currency}"
         )?;
     }
     Ok(())

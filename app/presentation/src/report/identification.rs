@@ -10,7 +10,7 @@ use interplay_common::spelling::counted;
 
 use super::columns::{Align, write_table, written};
 
-/// The findings as text: parameters with uncertainty and verdict, residuals, errors, and warnings.
+/// All findings as text: parameters with uncertainty and verdict, residuals, errors, and warnings.
 pub fn identification(file: &str, found: &Identification) -> String {
     written(|text| write_report(text, file, &found.report))
 }
@@ -113,10 +113,10 @@ fn row(quantity: &Quantity) -> Vec<String> {
     let known = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
     let (low, high) = quantity.interval;
     let interval = match (low, high) {
+        (Some(low), Some(high)) => format!("{} … {}", number(low), number(high)),
+        (Some(low), None) => format!("at least {}", number(low)),
+        (None, Some(high)) => format!("at most {}", number(high)),
         (None, None) => "-".to_owned(),
-        (low, high) => {
-            format!("{} … {}", low.map_or_else(|| "-∞".to_owned(), number), high.map_or_else(|| "∞".to_owned(), number))
-        }
     };
     vec![
         quantity.name.clone(),
@@ -162,7 +162,7 @@ fn word(confidence: Confidence) -> &'static str {
 }
 
 /// Four significant digits, without an exponent where it can be avoided.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         "0".to_owned()

@@ -12,15 +12,24 @@ const BELIEVED: (f64, f64) = (0.1, 10.0);
 /// Most days that a scenario takes from a record.
 const MAX_DAYS: usize = 14;
 
-/// Returns a scenario file with the network that was identified from `file`. Its table `[building.believed]` holds the largest errors
-/// that the data allow. `weather` is the path of a table of recorded weather, and its days; without it, the weather is synthetic.
+/// What the controller of a scenario believes its building to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Believed {
+    /// The estimate, which is also what is simulated.
+    Estimate,
+    /// The upper ends of the 95 % intervals, while the estimate is simulated: a test of how much a wrong model costs.
+    UpperEnds,
+}
+
+/// Returns a scenario file with the network that was identified from `file`, which its controller believes or not. `weather` is the path of a table of recorded weather, and its days; without it, the weather is synthetic.
 pub fn identified_scenario(
     file: &str,
     report: &IdentificationReport,
     network: &IdentifiedNetwork,
     weather: Option<(&str, &RecordedDays)>,
+    believed: Believed,
 ) -> String {
-    written(|text| write_scenario(text, file, (report, network), weather))
+    written(|text| write_scenario(text, file, (report, network), weather, believed))
 }
 
 fn write_scenario(
@@ -28,6 +37,7 @@ fn write_scenario(
     file: &str,
     (report, network): (&IdentificationReport, &IdentifiedNetwork),
     weather: Option<(&str, &RecordedDays)>,
+    believed: Believed,
 ) -> fmt::Result {
     let file = file.replace(char::is_control, " ");
     writeln!(text, "# A building as identified from {file}.")?;
@@ -47,12 +57,15 @@ fn write_scenario(
     let step_s = weather.and_then(|(_, recorded)| recorded.step_s).unwrap_or(1800.0);
     writeln!(text, "step_s = {step_s:?}")?;
     writeln!(text, "initial_c = {:?}\n", rounded(network.mean_c.0))?;
-    write_believed(text, network)?;
+    if believed == Believed::UpperEnds {
+        write_believed(text, network)?;
+    }
     for zone in &network.zones {
         writeln!(text, "[[building.zone]]")?;
         writeln!(text, "name = {}", quoted(&zone.name))?;
         writeln!(text, "capacity_kj_per_k = {:?}", zone.capacity_kj_per_k)?;
-        writeln!(text, "limit_kw = {:?}", zone.limit_kw)?;
+        writeln!(text, "heating_limit_kw = {:?}", zone.heating_limit_kw.unwrap_or(zone.limit_kw))?;
+        writeln!(text, "cooling_limit_kw = {:?}", zone.cooling_limit_kw.unwrap_or(zone.limit_kw))?;
         writeln!(text, "solar_aperture_m2 = {:?}\n", zone.solar_aperture_m2)?;
     }
     for wall in &network.walls {

@@ -5,6 +5,7 @@ mod columns;
 mod comparison;
 mod identification;
 mod identified_scenario;
+mod identified_summary;
 mod junit;
 mod prediction;
 mod suite;
@@ -13,7 +14,8 @@ mod why;
 
 pub use comparison::{comparison, comparison_page, version_comparison, version_comparison_page};
 pub use identification::identification;
-pub use identified_scenario::identified_scenario;
+pub use identified_scenario::{Believed, identified_scenario};
+pub use identified_summary::identified_summary;
 pub use junit::junit;
 pub use prediction::prediction;
 pub use suite::{Case, table};

@@ -21,9 +21,15 @@ pub struct WholeRun {
     /// Cost of the run's electricity \[currency\]; none without a tariff. Without the demand charge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_cost: Option<f64>,
-    /// Least cost of electricity without discomfort \[currency\]; none without a tariff or with a demand charge.
+    /// The demand charge of the run \[currency\]; none without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub demand_cost: Option<f64>,
+    /// Least cost of electricity without discomfort \[currency\], without the demand charge of that run; none without a tariff.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_energy_cost: Option<f64>,
+    /// The demand charge of the run with the least cost of both \[currency\]; none without a demand charge.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_demand_cost: Option<f64>,
     /// Unavoidable discomfort, which remains even in that run \[K·h per zone\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_discomfort_k_h: Option<f64>,
@@ -38,15 +44,19 @@ impl WholeRun {
         let cost: f64 = days.iter().map(|day| day.figures.cost).sum();
         let energy_cost: Option<f64> = days.iter().map(|day| day.figures.energy_cost).sum();
         let least_cost = history.least_cost(model).ok()?.cost;
-        let cheapest =
-            energy_cost.filter(|_| !history.has_demand_charge()).and_then(|_| history.least_money(model).ok());
+        let cheapest = energy_cost.and_then(|_| history.least_money(model).ok());
+        let demand_per_kw = history.demand_per_kw();
+        let peak_kw = days.iter().map(|day| day.figures.electric_peak_kw).fold(0.0, f64::max);
+        let charged = |cost: f64| (demand_per_kw > 0.0).then_some(cost);
         Some(Self {
             cost,
             least_cost,
             regret: cost - least_cost,
             discomfort_k_h: days.iter().map(|day| day.figures.discomfort_k_h).sum(),
             energy_cost,
-            least_energy_cost: cheapest.as_ref().map(|cheapest| cheapest.energy_cost),
+            demand_cost: charged(demand_per_kw * peak_kw).filter(|_| energy_cost.is_some()),
+            least_energy_cost: cheapest.as_ref().map(|cheapest| cheapest.energy_cost - cheapest.demand_cost),
+            least_demand_cost: cheapest.as_ref().and_then(|cheapest| charged(cheapest.demand_cost)),
             least_discomfort_k_h: cheapest.as_ref().map(|cheapest| cheapest.discomfort_k_h),
         })
     }

@@ -13,6 +13,7 @@
 use nalgebra::DMatrix;
 
 use super::EconomicSettings;
+use super::spread::Spread;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::staged::dense::product;
@@ -37,19 +38,23 @@ pub(super) struct Kalman {
     pub missed_kw: Vec<f64>,
     /// The missed heat that went into the last prediction; `None` before the first prediction.
     predicted_with_kw: Option<Vec<f64>>,
+    /// What the predictions of the next step miss.
+    pub spread: Spread,
 }
 
 impl Kalman {
-    /// A filter before the first midnight.
-    pub fn new(model: &Model, settings: &EconomicSettings) -> Self {
+    /// A filter before the first midnight of days of `steps` steps.
+    pub fn new(model: &Model, settings: &EconomicSettings, steps: usize) -> Self {
         let persistence = libm::exp(-model.step_s() / (3600.0 * settings.persistence_h));
+        let (gain, variance_k2) = steady_gain(model, settings, persistence);
         Self {
             one_step: Lifted::new(model, 1),
-            gain: steady_gain(model, settings, persistence),
+            gain,
             persistence,
             nodes_c: Vec::new(),
             missed_kw: vec![0.0; model.network().zone_count()],
             predicted_with_kw: None,
+            spread: Spread::new(variance_k2, steps),
         }
     }
 
@@ -78,6 +83,7 @@ impl Kalman {
             return None;
         };
         let innovation_k: Vec<f64> = zones_c.iter().zip(&self.nodes_c).map(|(t, expected)| t - expected).collect();
+        self.spread.note(&innovation_k);
         let unexplained = self.one_step.solve(&innovation_k);
         let nodes = self.nodes_c.len();
         for (j, innovation_k) in innovation_k.iter().enumerate() {
@@ -101,8 +107,8 @@ impl Kalman {
     }
 }
 
-/// The steady gain K = P Cᵀ (C P Cᵀ + R)⁻¹, with P the covariance of the prediction.
-fn steady_gain(model: &Model, settings: &EconomicSettings, persistence: f64) -> DMatrix<f64> {
+/// The steady gain K = P Cᵀ (C P Cᵀ + R)⁻¹, with P the covariance of the prediction, and the variance of each innovation \[K²\].
+fn steady_gain(model: &Model, settings: &EconomicSettings, persistence: f64) -> (DMatrix<f64>, Vec<f64>) {
     let (n, zones) = (model.network().node_count(), model.network().zone_count());
     let order = n + zones;
     let mut a = DMatrix::zeros(order, order);
@@ -123,11 +129,14 @@ fn steady_gain(model: &Model, settings: &EconomicSettings, persistence: f64) -> 
     for zone in 0..zones {
         seen[(zone, zone)] += sensor;
     }
+    let variance_k2 = seen.diagonal().iter().copied().collect();
     let rows = p.view((0, 0), (zones, order)).into_owned();
     // The sum has an inverse, because P is a covariance and R is positive; without one, the measurement would be taken as it is.
-    seen.lu()
+    let gain = seen
+        .lu()
         .solve(&rows)
-        .map_or_else(|| DMatrix::from_fn(order, zones, |i, j| if i == j { 1.0 } else { 0.0 }), |gain| gain.transpose())
+        .map_or_else(|| DMatrix::from_fn(order, zones, |i, j| if i == j { 1.0 } else { 0.0 }), |gain| gain.transpose());
+    (gain, variance_k2)
 }
 
 /// P = A P Aᵀ − A P Cᵀ (C P Cᵀ + R)⁻¹ C P Aᵀ + Q, by doubling, where C picks the first `zones` entries and R = `sensor` I.

@@ -13,6 +13,9 @@
 //! the last plan, so that heat a day ahead is worth as much as heat now. Without it, every plan would end with a cold
 //! building. It is limited to the highest price of heat in the horizon.
 //!
+//! The margin follows from what predictions of the next step missed (`spread`): errors further ahead are corrected by later plans. Prices
+//! of discomfort are multiples of those of energy, so that plans do not depend on the currency.
+//!
 //! Learns the heat that the forecast misses at the same hour of every day.
 //!
 //! ```text
@@ -26,21 +29,27 @@
 
 mod kalman;
 mod settings;
+mod spread;
 
 pub use settings::EconomicSettings;
 
 use super::interface::ControllerKind;
-use super::money_stages::{Prices, Span, energy_price, inputs, stage};
+use super::money_stages::{Prices, Span, discomfort_prices, energy_price, inputs, stage};
 use super::optimum::check_size;
 use super::planning::RecedingPlan;
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
+use crate::energy::mean_size;
 use crate::staged::{HeatInput, Peak, StageMap, StagedProgram, solve};
 use kalman::Kalman;
 
 /// Accuracy of a plan: its cost is that of the cheapest to this share.
 const PLAN_TOLERANCE: f64 = 1e-5;
+/// Price of discomfort, in what a zone loses for a kelvin.
+const DISCOMFORT_FACTOR: f64 = 25.0;
+/// The margin, in standard deviations of what predictions of the next step miss.
+const MARGIN_DEVIATIONS: f64 = 2.0;
 
 /// An economic model predictive controller with its estimates.
 #[derive(Clone, Debug)]
@@ -77,7 +86,7 @@ impl Economic {
             settings,
             inputs: inputs(network),
             maps: (1..=longest).map(|span| StageMap::new(model, span)).collect(),
-            filter: Kalman::new(model, &settings),
+            filter: Kalman::new(model, &settings, steps),
             learned: LearnedForecast::new(steps * network.zone_count(), rate),
             forecast: Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() },
             steps,
@@ -117,10 +126,12 @@ impl Economic {
     /// The problem of a plan.
     fn program(&self, ahead: &Targets, expected: &Disturbance, spans: &[usize]) -> StagedProgram {
         let demand_per_kw = ahead.supply.demand_per_kw;
+        let (discomfort, margin_k) = (self.discomfort(ahead), self.margin_k());
         let prices = Prices {
-            discomfort: self.settings.discomfort_price,
+            discomfort: &discomfort,
+            empty_c: (self.settings.frost_c, self.settings.overheating_c),
             emissions_per_kg: self.settings.emission_price_per_kg,
-            margin_k: self.settings.margin_k,
+            margin_k: &margin_k,
             has_peak: demand_per_kw > 0.0,
         };
         let mut first = 0;
@@ -139,6 +150,26 @@ impl Economic {
             initial_c: self.filter.nodes_c.clone(),
             stages,
             peak: prices.has_peak.then_some(Peak { price: demand_per_kw, least_kw: self.peak_kw }),
+        }
+    }
+
+    /// Price of a kelvin beyond the band for an hour, of each zone.
+    fn discomfort(&self, ahead: &Targets) -> Vec<f64> {
+        if let Some(price) = self.settings.discomfort_price {
+            return vec![price; ahead.zones];
+        }
+        let emission_price = self.settings.emission_price_per_kg;
+        let prices: Vec<f64> =
+            (0..ahead.steps()).map(|step| energy_price(&ahead.supply, step, emission_price)).collect();
+        discomfort_prices(self.model.network(), DISCOMFORT_FACTOR, mean_size(&prices))
+    }
+
+    /// How far plans stay within the band \[K\], of each zone.
+    fn margin_k(&self) -> Vec<f64> {
+        let deviations_k = self.filter.spread.deviations_k();
+        match self.settings.margin_k {
+            Some(margin_k) => vec![margin_k; deviations_k.len()],
+            None => deviations_k.iter().map(|deviation_k| MARGIN_DEVIATIONS * deviation_k).collect(),
         }
     }
 

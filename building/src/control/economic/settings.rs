@@ -1,8 +1,11 @@
 //! Settings of the economic model predictive controller.
 
+use interplay_common::bounds::Bound;
 use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::control::money_stages::EMPTY_ROOM_C;
 
 /// Economic model predictive control: at every step the plan that costs the least money within the comfort band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,12 +21,22 @@ pub struct EconomicSettings {
     /// blocks. A value up to a step holds none.
     #[schemars(range(min = 0.0, max = 6.0))]
     pub block_h: f64,
-    /// Price of discomfort: a kelvin beyond the band of a zone for an hour \[currency/(K·h)\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "currency/(K·h)"))]
-    pub discomfort_price: f64,
-    /// How far plans stay within the comfort band \[K\], at most half of it: room for errors of the forecast.
-    #[schemars(range(min = 0.0, max = 5.0))]
-    pub margin_k: f64,
+    /// Price of discomfort: a kelvin beyond the band of a zone for an hour \[currency/(K·h)\]. Left out, it is 25 times what the zone loses
+    /// for a kelvin in an hour costs at the mean price of the day, or 25 kilowatt-hours if that is more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), example = 5.0, extend("x-unit" = "currency/(K·h)"))]
+    pub discomfort_price: Option<f64>,
+    /// How far plans stay within the comfort band \[K\], at most half of it: room for errors of the forecast. Left out, it is twice the
+    /// standard deviation of what the last day's predictions missed by the next step, zone by zone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 5.0), example = 0.1)]
+    pub margin_k: Option<f64>,
+    /// Least temperature of empty rooms, against frost \[°C\].
+    #[schemars(range(min = -50.0, max = 100.0))]
+    pub frost_c: f64,
+    /// Largest temperature of empty rooms, against overheating \[°C\]; above `frost_c`.
+    #[schemars(range(min = -50.0, max = 200.0))]
+    pub overheating_c: f64,
     /// Price of emissions, added to that of electricity \[currency/kg\]; `tariff.emissions_kg_per_kwh` states them.
     #[schemars(range(min = 0.0), extend("x-unit" = "currency/kg"))]
     pub emission_price_per_kg: f64,
@@ -54,8 +67,10 @@ impl Default for EconomicSettings {
             horizon_h: 24.0,
             fine_h: 6.0,
             block_h: 1.0,
-            discomfort_price: 5.0,
-            margin_k: 0.1,
+            discomfort_price: None,
+            margin_k: None,
+            frost_c: EMPTY_ROOM_C.0,
+            overheating_c: EMPTY_ROOM_C.1,
             emission_price_per_kg: 0.0,
             persistence_h: 6.0,
             heat_noise_kw: 0.1,
@@ -70,7 +85,8 @@ impl Default for EconomicSettings {
 impl EconomicSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
-        setting::check(self)
+        setting::check(self)?;
+        setting::check_bound("overheating_c", self.overheating_c, Bound::AtLeast(self.frost_c))
     }
 
     /// The number of steps of `step_s` in a plan, at least one.

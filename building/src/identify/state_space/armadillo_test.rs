@@ -5,6 +5,7 @@
 use nalgebra::DMatrix;
 
 use super::exponential::{Number, exponential, real};
+use super::heat_rows::HeatRows;
 use super::likelihood::{Observations, evaluate, log_likelihood};
 use super::linear_model::{ContinuousModel, InitialState};
 use super::scoring::{Ascent, LEAST_GAIN};
@@ -26,6 +27,7 @@ fn two_states(theta: &[Number]) -> ContinuousModel {
         outputs: vec![1],
         sensor_variance: vec![sigma_v * sigma_v],
         unknown_heat_variance: vec![0.0; 2],
+        heat_swing: Vec::new(),
         initial: InitialState {
             offset: vec![theta[6], real(26.7)],
             from_outputs: DMatrix::zeros(2, 1),
@@ -48,7 +50,7 @@ fn record() -> Observations {
     let inputs: Vec<f64> = rows.iter().flat_map(|row| [row[1], row[2]]).collect();
     let slope = |index: usize| if index + 2 < inputs.len() { (inputs[index + 2] - inputs[index]) / step } else { 0.0 };
     Observations {
-        unknown_heat: Vec::new(),
+        heat: HeatRows::held(rows.len()),
         step_s: step,
         segments: std::iter::once(0..rows.len()).collect(),
         outputs: rows.iter().map(|row| row[4]).collect(),

@@ -86,6 +86,8 @@ pub(super) enum ParameterKind {
     HiddenAperture(usize, HiddenNode),
     /// Heat per unit of a signal without unit \[kW\].
     HeatGain(usize),
+    /// Share of the full swing of a zone's heat within a row, where it switches inside of rows.
+    HeatSwing(usize),
     /// Correlation time τ of a zone's coloured heat \[h\]; its [`ParameterKind::RandomHeat`] is its standard deviation \[K/h\].
     CorrelationTime(usize),
     /// Standard deviation of a zone's sensor \[K\].

@@ -38,9 +38,9 @@ pub(super) fn identified_network(profiler: &Profiler<'_>, scale_is_known: bool) 
         let sun = structure.index(ParameterKind::Aperture(index)).map(|_| value(ParameterKind::Aperture(index)));
         zones.push(Zone {
             capacity_kj_per_k: capacity,
-            limit_kw: limit_kw(telemetry, index),
-            heating_limit_kw: None,
-            cooling_limit_kw: None,
+            limit_kw: limit_kw(telemetry, index, 1.0).max(limit_kw(telemetry, index, -1.0)),
+            heating_limit_kw: Some(limit_kw(telemetry, index, 1.0)),
+            cooling_limit_kw: Some(limit_kw(telemetry, index, -1.0)),
             solar_aperture_m2: sun.unwrap_or(0.0),
             ..Zone::named(measured.name.clone())
         });
@@ -62,10 +62,10 @@ pub(super) fn identified_network(profiler: &Profiler<'_>, scale_is_known: bool) 
     })
 }
 
-/// The largest heat that was measured, rounded up to a tenth of a kilowatt.
-fn limit_kw(telemetry: &Telemetry, zone: usize) -> f64 {
+/// The largest heat that was measured with this sign, rounded up to a tenth of a kilowatt.
+fn limit_kw(telemetry: &Telemetry, zone: usize, sign: f64) -> f64 {
     let measured = &telemetry.zones[zone];
-    let heats = (0..telemetry.rows()).map(|row| measured.heat_kw(row, measured.temperature_c[row]).abs());
+    let heats = (0..telemetry.rows()).map(|row| sign * measured.heat_kw(row, measured.temperature_c[row]));
     let largest = heats.filter(|heat| heat.is_finite()).fold(0.0_f64, f64::max);
     libm::ceil(10.0 * largest) / 10.0
 }

@@ -7,6 +7,7 @@ use interplay_common::spelling::counted;
 
 use super::export::identified_network;
 use super::heat_balance;
+use super::innovations::whiteness;
 use super::likelihood::{Filtered, Observations, filter};
 use super::network_run::{FreeRunErrors, NetworkRun};
 use super::profile::{Estimated, Profiler};
@@ -14,13 +15,13 @@ use super::quantities::{Precision, QuantityKind};
 use super::selection::{Choice, Sandwich};
 use super::trust::{QuantityEvidence, ZoneEvidence, judge};
 use super::wrong_world::halves::{Agreement, Halves};
-use super::wrong_world::{self, World, ceilings};
+use super::wrong_world::{self, World};
 use crate::identify::IdentifyError;
-use crate::identify::diagnostics::{Confidence, ParameterVerdict, Whiteness, whiteness};
+use crate::identify::diagnostics::{Confidence, ParameterVerdict};
 use crate::identify::free_run::ResidualForecast;
 use crate::identify::report::{
-    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, SuspectedCause, Suspicion,
-    WallReport, ZoneReport, ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, Suspicion, WallReport,
+    ZoneReport, ZoneSeries,
 };
 use crate::identify::settings::{IdentifySettings, TrainTestSplit};
 use crate::identify::telemetry::{Neighbour, Telemetry};
@@ -70,10 +71,20 @@ impl StateSpaceFindings<'_> {
             sandwich: Sandwich::new(fit, self.train),
             known: RefCell::default(),
         };
-        let world = World { telemetry: self.telemetry, observations: self.train, fit, filtered: &filtered };
         let halves = Halves::new(fit, self.train);
-        let mut suspicions = wrong_world::suspicions(&world);
-        suspicions.extend(self.contradictions(&profiler, halves.as_ref()));
+        let contradictions = match &halves {
+            Some(halves) if self.scale_is_known() => halves.explanations(&profiler),
+            _ => Vec::new(),
+        };
+        let world = World {
+            telemetry: self.telemetry,
+            observations: self.train,
+            fit,
+            smaller: &self.choice.smaller,
+            precision: &profiler.precision,
+            filtered: &filtered,
+        };
+        let suspicions = wrong_world::suspicions(&world, contradictions);
         let doubts = Doubts { suspicions, halves };
         let zones: Vec<ZoneReport> = (0..self.telemetry.zones.len())
             .map(|zone| self.zone(zone, (&profiler, &doubts), &filtered, (&train, test.as_ref())))
@@ -102,7 +113,7 @@ impl StateSpaceFindings<'_> {
         filtered: &Filtered,
         (train, test): (&Errors, Option<&Errors>),
     ) -> ZoneReport {
-        let whiteness = self.whiteness(zone, filtered);
+        let whiteness = whiteness(self.train, &self.choice.chosen, filtered, zone);
         let free_run_k = (train.free.runs > 0).then(|| (train.free.network_k[zone], train.free.mean_k[zone]));
         let evidence = ZoneEvidence { whiteness: &whiteness, free_run_k, suspicions: self.words_of(zone, doubts) };
         let kinds = QuantityKind::of_zone(self.telemetry, &profiler.fit.structure, zone);
@@ -121,23 +132,6 @@ impl StateSpaceFindings<'_> {
             test: test.map(|test| self.error_report(test, zone)),
             whiteness,
         }
-    }
-
-    /// Whether the innovations of the training rows are white.
-    fn whiteness(&self, zone: usize, filtered: &Filtered) -> Whiteness {
-        let p = self.all.widths.0;
-        let values: Vec<f64> = filtered.standardised.iter().skip(zone).step_by(p).copied().collect();
-        let mut pieces: Vec<Range<usize>> = Vec::new();
-        for segment in &self.train.segments {
-            for row in segment.clone().filter(|&row| values[row].is_finite()) {
-                match pieces.last_mut() {
-                    Some(piece) if piece.end == row && segment.contains(&(row - 1)) => piece.end += 1,
-                    _ => pieces.push(row..row + 1),
-                }
-            }
-        }
-        // A model with n states is an ARMA(n, n).
-        whiteness(&values, &pieces, 2 * self.choice.chosen.structure.order())
     }
 
     fn quantity(
@@ -162,7 +156,7 @@ impl StateSpaceFindings<'_> {
                 .agreement(profiler, doubts.halves.as_ref(), (kind, zone))
                 .filter(Agreement::is_contradiction)
                 .map(|agreement| agreement.values),
-            ceiling: ceilings::exceeded(self.telemetry, self.train, profiler.fit, (kind, zone)),
+            scales_with_heat: kind.needs_scale(),
         };
         let verdict = judge(&name, &estimated, zone_evidence, &evidence);
         let mut checks = Vec::new();
@@ -188,30 +182,6 @@ impl StateSpaceFindings<'_> {
         quantity: (QuantityKind, usize),
     ) -> Option<Agreement> {
         halves?.agreement(self.telemetry, quantity, profiler.inflation_of(quantity))
-    }
-
-    /// Zones on which the halves of the record contradict each other.
-    fn contradictions(&self, profiler: &Profiler<'_>, halves: Option<&Halves>) -> Vec<Suspicion> {
-        let of_zone = |zone: usize| {
-            let boundaries = (0..self.telemetry.boundaries.len()).map(Neighbour::Boundary);
-            let conductances = boundaries.map(QuantityKind::Conductance);
-            let found = conductances.chain([QuantityKind::Capacity]).find_map(|kind| {
-                let agreement = self.agreement(profiler, halves, (kind, zone)).filter(Agreement::is_suspicious)?;
-                Some((kind, agreement))
-            });
-            found.map(|(kind, agreement)| {
-                let (name, _, unit) = kind.labels(self.telemetry);
-                let [first, second] = agreement.values;
-                let words = format!(
-                    "the halves of the record contradict each other: {name} {first:.3} {unit} in the first, {second:.3} {unit} in the second"
-                );
-                Suspicion { zone: Some(self.telemetry.zones[zone].name.clone()), cause: SuspectedCause::Halves, words }
-            })
-        };
-        if !self.scale_is_known() {
-            return Vec::new();
-        }
-        (0..self.telemetry.zones.len()).filter_map(of_zone).collect()
     }
 
     /// What speaks against all numbers of a zone.
@@ -305,7 +275,8 @@ impl StateSpaceFindings<'_> {
             Some(zone) => format!("{zone}: {}", it.words),
             None => it.words.clone(),
         };
-        let mut warnings: Vec<String> = suspicions.iter().map(of).collect();
+        let mut warnings: Vec<String> = zones.iter().filter_map(useless_for_control).collect();
+        warnings.extend(suspicions.iter().map(of));
         for row in self.choice.table.iter().filter(|row| row.search_failed) {
             warnings
                 .push(format!("the search for the best `{}` failed: it contains a model that is better", row.model));
@@ -355,6 +326,18 @@ impl StateSpaceFindings<'_> {
         };
         free.into_iter().enumerate().map(draw).collect()
     }
+}
+
+/// Says that the network alone predicts a zone worse than the mean of the data, if it does: then no number matters.
+fn useless_for_control(zone: &ZoneReport) -> Option<String> {
+    let free = &zone.train.free_run;
+    let network_k = free.errors_k.iter().find_map(|(_, error_k)| *error_k)?;
+    let mean_k = free.mean_of_data_k.filter(|mean_k| network_k >= *mean_k)?;
+    Some(format!(
+        "{}: do not use this model for control: over {:.0} h it errs by {network_k:.2} K, and the mean of the data by \
+         {mean_k:.2} K",
+        zone.name, free.horizon_h
+    ))
 }
 
 fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {

@@ -15,7 +15,9 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number, real};
-use super::gains::{Measured, Schedule, UNKNOWN_HEAT, schedule};
+use super::gains::{CovarianceModel, Gains, Measured, RowKind, Schedule, schedule};
+use super::heat_rows::HeatRows;
+use super::heat_timing::row_effects;
 use super::linear_model::ContinuousModel;
 use super::tangents::{StepMatrices, Tangents, derivative, value};
 
@@ -32,8 +34,8 @@ pub(super) struct Observations {
     pub inputs: Vec<f64>,
     /// Their rates of change until the next row \[1/s\]; zero for inputs that are held.
     pub slopes: Vec<f64>,
-    /// Rows from which on the heat is not known until the next row, sorted.
-    pub unknown_heat: Vec<usize>,
+    /// What is known of the timing of heat within each row.
+    pub heat: HeatRows,
     /// p and m.
     pub widths: (usize, usize),
 }
@@ -92,19 +94,14 @@ pub(super) struct Filtered {
 /// From parameters to a model.
 pub(super) type Parametrisation<'a> = dyn Fn(&[Number]) -> ContinuousModel + 'a;
 
-/// Real gains of all arrows, as [`Gains`](super::gains::Gains).
-struct RealGains {
-    gains: Vec<f64>,
-    variances: Vec<f64>,
-}
-
 /// The filter at one set of parameters.
 struct Filter<'a> {
     observations: &'a Observations,
     model: ContinuousModel,
     matrices: StepMatrices,
+    covariances: CovarianceModel,
     schedule: Schedule,
-    gains: RealGains,
+    gains: Gains,
     /// Logarithms of 2π S.
     logarithms: Vec<f64>,
     measured: Vec<Measured>,
@@ -116,21 +113,21 @@ impl<'a> Filter<'a> {
         let measured = measured(observations, &model);
         let mut starts = vec![false; measured.len()];
         observations.segments.iter().for_each(|segment| starts[segment.start] = true);
+        let effects = row_effects(&model, &sampled, &observations.heat, observations.step_s)?;
+        let covariances = CovarianceModel::new(&model, &sampled, &effects);
         let rows: Vec<usize> = observations.segments.iter().flat_map(Clone::clone).collect();
-        let of = |row: &usize| (measured[*row], starts[*row]);
-        let (of_rows, starts): (Vec<_>, Vec<_>) = rows.iter().map(of).unzip();
-        let (schedule, gains) = schedule(&model, &sampled, &of_rows, &starts)?;
-        let parts = |numbers: &[Number]| numbers.iter().map(|entry| value(*entry)).collect::<Vec<f64>>();
-        let gains = RealGains { gains: parts(&gains.gains), variances: parts(&gains.variances) };
+        let kind = |row: usize| RowKind { measured: measured[row], heat: observations.heat.of_row[row] };
+        let (kinds, starts): (Vec<_>, Vec<_>) = rows.iter().map(|&row| (kind(row), starts[row])).unzip();
+        let (schedule, gains) = schedule(&covariances, &kinds, &starts)?;
         let logarithms = gains.variances.iter().map(|&variance| libm::log(TAU * variance)).collect();
-        let matrices = StepMatrices::new(&sampled);
-        Some(Self { observations, model, matrices, schedule, gains, logarithms, measured })
+        let matrices = StepMatrices::new(&sampled, &effects);
+        Some(Self { observations, model, matrices, covariances, schedule, gains, logarithms, measured })
     }
 
     /// The derivatives by parameters, from one model with an infinitesimal change of each.
     fn tangents(&self, models: Vec<ContinuousModel>) -> Option<Tangents> {
-        let widths = (self.matrices.n, self.observations.widths.1, self.observations.widths.0);
-        Tangents::new(widths, models, self.observations.step_s, &self.schedule)
+        let Observations { step_s, heat, widths, .. } = self.observations;
+        Tangents::new(models, (widths.1, *step_s), heat, &self.covariances, &self.schedule)
     }
 
     /// The state at the start of a segment, as `part` of the numbers of `model`.
@@ -171,8 +168,9 @@ impl<'a> Filter<'a> {
                 visit(row, &x, &found);
                 let u = &self.observations.inputs[row * m..(row + 1) * m];
                 let slope = &self.observations.slopes[row * m..(row + 1) * m];
-                tangents.advance(&self.matrices, &x, u, slope);
-                next.fill(0.0);
+                let heat = self.observations.heat.of_row[row];
+                tangents.advance(&self.matrices, &x, (u, slope), heat);
+                next.copy_from_slice(self.matrices.shift(heat));
                 self.matrices.add_states(&mut next, &x);
                 self.matrices.add_inputs(&mut next, u, slope);
                 x.copy_from_slice(&next);
@@ -212,7 +210,6 @@ fn measured(observations: &Observations, model: &ContinuousModel) -> Vec<Measure
     if model.initial.contains_first_outputs {
         observations.segments.iter().for_each(|segment| measured[segment.start] = 0);
     }
-    observations.unknown_heat.iter().for_each(|&row| measured[row] |= UNKNOWN_HEAT);
     measured
 }
 

@@ -34,6 +34,8 @@ pub(super) struct ContinuousModel {
     pub sensor_variance: Vec<Number>,
     /// What each state gains in variance in a row of which the heat is unknown \[K²\].
     pub unknown_heat_variance: Vec<f64>,
+    /// Of each zone, the share s in \[0, 1\] of the full swing of heat within a row ([`super::heat_timing`]); 0 for heat that is held.
+    pub heat_swing: Vec<Number>,
     /// How a segment begins.
     pub initial: InitialState,
 }
@@ -105,29 +107,34 @@ impl ContinuousModel {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// dx = (a x + b u) dt + dw with a full swing of heat.
+    pub fn one_state(rate: f64, input: f64) -> ContinuousModel {
+        ContinuousModel {
+            dynamics: DMatrix::from_element(1, 1, real(rate)),
+            inputs: DMatrix::from_element(1, 1, real(input)),
+            diffusion: vec![real(0.3)],
+            outputs: vec![0],
+            sensor_variance: vec![real(1.0)],
+            unknown_heat_variance: vec![0.0],
+            heat_swing: vec![real(1.0)],
+            initial: InitialState {
+                offset: vec![real(0.0)],
+                from_outputs: DMatrix::zeros(1, 1),
+                from_inputs: DMatrix::zeros(1, 1),
+                variance: vec![real(1.0)],
+                contains_first_outputs: false,
+            },
+        }
+    }
 
     /// One state: Φ = e⁻ᵃʰ, Γ₀ = (1−Φ)/a, Γ₁ = (h − Γ₀)/a, Q = q (1−Φ²)/2a.
     #[test]
     fn a_model_with_one_state_is_sampled_by_its_closed_forms() {
         for (rate, step) in [(0.01, 60.0), (0.01, 3600.0), (1e-5, 900.0)] {
-            let model = ContinuousModel {
-                dynamics: DMatrix::from_element(1, 1, real(-rate)),
-                inputs: DMatrix::from_element(1, 1, real(2.0)),
-                diffusion: vec![real(0.3)],
-                outputs: vec![0],
-                sensor_variance: vec![real(1.0)],
-                unknown_heat_variance: vec![0.0],
-                initial: InitialState {
-                    offset: vec![real(0.0)],
-                    from_outputs: DMatrix::zeros(1, 1),
-                    from_inputs: DMatrix::zeros(1, 1),
-                    variance: vec![real(1.0)],
-                    contains_first_outputs: false,
-                },
-            };
-            let sampled = model.sampled(step).expect("sound");
+            let sampled = one_state(-rate, 2.0).sampled(step).expect("sound");
             let decay = libm::exp(-rate * step);
             let integral = -libm::expm1(-rate * step) / rate;
             let close =

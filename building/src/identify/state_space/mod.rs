@@ -8,12 +8,17 @@
 
 #[cfg(test)]
 mod armadillo_test;
+mod ceilings;
 mod elements;
 mod exponential;
 mod export;
 mod findings;
+mod gain_tangents;
 mod gains;
 mod heat_balance;
+mod heat_rows;
+mod heat_timing;
+mod innovations;
 mod likelihood;
 mod linear_model;
 mod model_average;

@@ -1,6 +1,7 @@
 //! Converts telemetry to rows of outputs and inputs.
 
 use super::gains::MOST_OUTPUTS;
+use super::heat_rows::{HeatRows, Levels};
 use super::likelihood::Observations;
 use crate::identify::error::IdentifyError;
 use crate::identify::telemetry::{Hold, MeasuredZone, Telemetry};
@@ -12,6 +13,8 @@ pub(super) struct InputLayout {
     pub heat: Vec<Option<usize>>,
     /// The irradiance of each zone, if it is measured.
     pub sun: Vec<Option<usize>>,
+    /// Whether the heat of each zone switches inside of rows, or may.
+    pub switches: Vec<bool>,
     pub count: usize,
 }
 
@@ -29,7 +32,8 @@ impl InputLayout {
         };
         let heat = columns(&MeasuredZone::has_heat);
         let sun = columns(&|zone| zone.irradiance_kw_per_m2.as_ref().is_some_and(|sun| sun.iter().any(|&s| s != 0.0)));
-        Self { heat, sun, count }
+        let switches = telemetry.zones.iter().map(|zone| Levels::new(zone).is_some()).collect();
+        Self { heat, sun, switches, count }
     }
 }
 
@@ -83,7 +87,7 @@ pub(super) fn observations(
         outputs,
         inputs,
         slopes,
-        unknown_heat: unknown_heat.to_vec(),
+        heat: HeatRows::new(telemetry, &layout.heat, &telemetry.segments, unknown_heat),
         widths: (zones.len(), layout.count),
     })
 }

@@ -6,6 +6,7 @@
 
 use std::cell::RefCell;
 
+use super::ceilings::{Ceiling, ceiling};
 use super::likelihood::Observations;
 use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
@@ -30,13 +31,15 @@ const KNOWN_LOG_ERROR: f64 = 0.25;
 const MOST_LOG_RATIO: f64 = 4.6;
 
 /// Estimate and interval of a quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Estimated {
     pub value: f64,
     /// Standard error of ln f; infinite where the data do not determine it.
     pub log_error: f64,
     /// Ends of the interval of 95 %; `None` where there is none.
     pub interval: (Option<f64>, Option<f64>),
+    /// Why the record does not tell it, or its upper end (of an inverse: the lower end): the value would exceed a ceiling.
+    pub beyond: Option<String>,
 }
 
 impl Estimated {
@@ -45,6 +48,18 @@ impl Estimated {
         let inverse = |end: Option<f64>| end.map(|end| 1.0 / end);
         let interval = (inverse(self.interval.1), inverse(self.interval.0));
         Self { value: 1.0 / self.value, interval, ..self }
+    }
+
+    /// Without what exceeds a ceiling: the upper end, or all of it.
+    fn below(self, ceiling: Option<Ceiling>) -> Self {
+        let Some(Ceiling { most, reason }) = ceiling else { return self };
+        if self.value > most {
+            return Self { interval: (None, None), beyond: Some(reason), ..self };
+        }
+        match self.interval {
+            (low, Some(high)) if high > most => Self { interval: (low, None), beyond: Some(reason), ..self },
+            _ => self,
+        }
     }
 }
 
@@ -70,12 +85,14 @@ impl Profiler<'_> {
         if let QuantityKind::Resistance(neighbour) = kind {
             return self.estimated(QuantityKind::Conductance(neighbour), zone).map(Estimated::inverse);
         }
-        let known = self.known.borrow().iter().find(|(quantity, _)| *quantity == (kind, zone)).map(|(_, found)| *found);
+        let known =
+            self.known.borrow().iter().find(|(quantity, _)| *quantity == (kind, zone)).map(|(_, found)| found.clone());
         if known.is_some() {
             return known;
         }
-        let found = self.find(kind, zone)?;
-        self.known.borrow_mut().push(((kind, zone), found));
+        let ceiling = ceiling(self.telemetry, self.observations, self.fit, (kind, zone));
+        let found = self.find(kind, zone)?.below(ceiling);
+        self.known.borrow_mut().push(((kind, zone), found.clone()));
         Some(found)
     }
 
@@ -85,7 +102,7 @@ impl Profiler<'_> {
         let value = libm::exp(log_value);
         let log_error = self.precision.standard_error(&gradient);
         if !log_error.is_finite() {
-            return Some(Estimated { value, log_error, interval: (None, None) });
+            return Some(Estimated { value, log_error, interval: (None, None), beyond: None });
         }
         let rivals = self.rivals((kind, zone), log_value);
         let inflation = self.inflation(&gradient, log_error);
@@ -107,6 +124,7 @@ impl Profiler<'_> {
             value,
             log_error: (inflation * log_error).max(widest / STANDARD_ERRORS_OF_95_PERCENT),
             interval: (below.map(|d| value * libm::exp(-d)), above.map(|d| value * libm::exp(d))),
+            beyond: None,
         })
     }
 

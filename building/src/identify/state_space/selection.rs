@@ -53,6 +53,8 @@ const SCREENING_GAIN: f64 = 5e-3;
 /// optimum of a house with three temperatures was missed in one case of ten.
 const FINISHED_STARTS: usize = 7;
 const MOST_STEPS: usize = 200;
+/// How many smaller models are kept.
+const KEPT_SMALLER: usize = 2;
 
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
@@ -68,6 +70,8 @@ pub(super) struct Choice {
     pub larger: Option<Fit>,
     /// All models with one more hidden node or with more sun: intervals allow for each.
     pub rivals: Vec<Fit>,
+    /// The best models by Schwarz's criterion among those with fewer parameters: another world may need no more.
+    pub smaller: Vec<Fit>,
     pub table: Vec<ModelRow>,
 }
 
@@ -115,10 +119,19 @@ pub(super) fn choose(
                 let larger = tried.iter().max_by(by_criterion).map(|(_, fit)| fit.clone());
                 table[chosen_row].chosen = true;
                 let rivals = tried.into_iter().map(|(_, fit)| fit).collect();
-                return Some(Choice { chosen, larger, rivals, table });
+                let smaller = smaller(known, &chosen, penalty);
+                return Some(Choice { chosen, larger, rivals, smaller, table });
             }
         }
     }
+}
+
+/// The best models with fewer parameters than the chosen one.
+fn smaller(mut known: Vec<Fit>, chosen: &Fit, penalty: f64) -> Vec<Fit> {
+    known.retain(|fit| fit.structure.parameters.len() < chosen.structure.parameters.len());
+    known.sort_by(|a, b| criterion(b, penalty).total_cmp(&criterion(a, penalty)));
+    known.truncate(KEPT_SMALLER);
+    known
 }
 
 fn likelihood(fit: &Fit) -> f64 {

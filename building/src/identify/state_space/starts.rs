@@ -17,6 +17,9 @@ const SENSOR_RANGE: (f64, f64) = (1e-4, 5.0);
 /// Correlation time of coloured heat \[h\].
 const CORRELATION_RANGE_H: (f64, f64) = (0.3, 48.0);
 const CORRELATION_TIME_H: f64 = 3.0;
+/// Share of the full swing of heat within a row: 1 for a heater that switches on once in a row, 0 for heat that is held.
+const HEAT_SWING: f64 = 0.7;
+const HEAT_SWING_RANGE: (f64, f64) = (0.02, 1.0);
 /// Capacity of the zone that sets the scale where no heat has a unit \[kJ/K\].
 const UNIT_CAPACITY_KJ_PER_K: f64 = 1000.0;
 
@@ -114,6 +117,7 @@ impl Guess {
             }
             ParameterKind::Aperture(zone) | ParameterKind::HiddenAperture(zone, _) => self.aperture[zone],
             ParameterKind::HeatGain(zone) => self.heat_gain[zone],
+            ParameterKind::HeatSwing(_) => HEAT_SWING,
             ParameterKind::CorrelationTime(_) => CORRELATION_TIME_H,
             ParameterKind::Sensor(zone) => 0.2 * self.change_k[zone] * libm::sqrt(telemetry.step_s / HOUR_S),
         };
@@ -142,6 +146,7 @@ impl Guess {
             }
             ParameterKind::HeatGain(zone) => around(self.heat_gain[zone], CONDUCTANCE_RANGE),
             ParameterKind::CorrelationTime(_) => (libm::log(CORRELATION_RANGE_H.0), libm::log(CORRELATION_RANGE_H.1)),
+            ParameterKind::HeatSwing(_) => (libm::log(HEAT_SWING_RANGE.0), libm::log(HEAT_SWING_RANGE.1)),
             ParameterKind::Sensor(zone) => (libm::log(self.least_sensor_k[zone]), libm::log(SENSOR_RANGE.1)),
         };
         structure.parameters.iter().map(bound).collect()

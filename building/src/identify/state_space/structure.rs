@@ -113,6 +113,9 @@ impl Structure {
             if structure.layout.heat[zone].is_some() && !measured.power_has_unit {
                 structure.parameter(ParameterKind::HeatGain(zone));
             }
+            if structure.layout.switches[zone] {
+                structure.parameter(ParameterKind::HeatSwing(zone));
+            }
             structure.parameter(ParameterKind::Sensor(zone));
         }
         structure
@@ -234,9 +237,15 @@ impl Structure {
             diffusion: self.nodes.iter().map(random).collect(),
             outputs: (0..self.zones).collect(),
             sensor_variance: (0..self.zones).map(sensor).collect(),
+            heat_swing: (0..self.zones).map(|zone| self.heat_swing(theta, zone)).collect(),
             initial: self.initial(theta, sensor),
             unknown_heat_variance: (0..self.nodes.len()).map(|index| self.unknown_heat_variance(index)).collect(),
         }
+    }
+
+    /// Share of the full swing of a zone's heat within a row.
+    fn heat_swing(&self, theta: &[Number], zone: usize) -> Number {
+        self.index(ParameterKind::HeatSwing(zone)).map_or(real(0.0), |index| exponential(theta[index]))
     }
 
     /// Correlation time of a zone's coloured heat \[s\].

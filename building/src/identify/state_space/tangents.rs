@@ -4,7 +4,10 @@
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number};
-use super::gains::{Schedule, follow};
+use super::gain_tangents::{CovarianceTangents, add, follow};
+use super::gains::{CovarianceModel, Schedule};
+use super::heat_rows::HeatRows;
+use super::heat_timing::{RowEffect, row_effects};
 use super::linear_model::{ContinuousModel, SampledModel};
 use crate::staged::dense::dot;
 
@@ -25,10 +28,12 @@ pub(super) struct StepMatrices {
     transition: Vec<f64>,
     gain: Vec<f64>,
     slope_gain: Vec<f64>,
+    /// The shift of the states by each class of heat, n numbers a class.
+    shifts: Vec<f64>,
 }
 
 impl StepMatrices {
-    pub fn new(sampled: &SampledModel) -> Self {
+    pub fn new(sampled: &SampledModel, effects: &[RowEffect]) -> Self {
         let rows = |matrix: &DMatrix<Number>| matrix.transpose().iter().map(|entry| value(*entry)).collect();
         Self {
             n: sampled.transition.nrows(),
@@ -36,7 +41,13 @@ impl StepMatrices {
             transition: rows(&sampled.transition),
             gain: rows(&sampled.gain),
             slope_gain: rows(&sampled.slope_gain),
+            shifts: effects.iter().flat_map(|effect| &effect.shift).map(|entry| value(*entry)).collect(),
         }
+    }
+
+    /// The shift of the states by a class of heat.
+    pub fn shift(&self, heat: usize) -> &[f64] {
+        &self.shifts[heat * self.n..(heat + 1) * self.n]
     }
 
     /// Adds the effect of the states: out += Φ x.
@@ -66,6 +77,8 @@ pub(super) struct Tangents {
     transition: Vec<f64>,
     gain: Vec<f64>,
     slope_gain: Vec<f64>,
+    /// Derivatives of the shifts by each class of heat.
+    shifts: Vec<f64>,
     /// ∂K and ∂S along each arrow, as in [`super::gains::Gains`].
     gains: Vec<f64>,
     variances: Vec<f64>,
@@ -77,31 +90,42 @@ pub(super) struct Tangents {
 }
 
 impl Tangents {
-    /// The derivatives of models with n states, m inputs and p outputs; `None` if one of the models cannot be sampled.
+    /// The derivatives of these models with m inputs; `None` if one of the models cannot be sampled.
     pub fn new(
-        (n, m, p): (usize, usize, usize),
         models: Vec<ContinuousModel>,
-        step_s: f64,
+        (m, step_s): (usize, f64),
+        heat: &HeatRows,
+        base: &CovarianceModel,
         schedule: &Schedule,
     ) -> Option<Self> {
         let count = models.len();
+        let n = base.n;
         let zeros = |entries: usize| vec![0.0; entries * count];
         let mut tangents = Self {
             count,
             transition: zeros(n * n),
             gain: zeros(n * m),
             slope_gain: zeros(n * m),
-            gains: zeros(schedule.arrow_count() * p * n),
-            variances: zeros(schedule.arrow_count() * p),
+            shifts: zeros(n * base.noise.len()),
+            gains: Vec::new(),
+            variances: Vec::new(),
             states: zeros(n),
             next: zeros(n),
             innovation: zeros(1),
             models: Vec::new(),
         };
+        let mut covariances = CovarianceTangents {
+            count,
+            transition: Vec::new(),
+            noise: vec![zeros(n * n); base.noise.len()],
+            sensor: zeros(base.outputs.len()),
+            initial: zeros(n),
+        };
         for (parameter, model) in models.iter().enumerate() {
             let sampled = model.sampled(step_s)?;
+            let effects = row_effects(model, &sampled, heat, step_s)?;
             let put = |array: &mut [f64], numbers: &mut dyn Iterator<Item = &Number>| {
-                // `skip` instead of a slice: a record of single rows has no arrows at all.
+                // `skip` instead of a slice: an array without entries has no parameters either.
                 array
                     .iter_mut()
                     .skip(parameter)
@@ -112,11 +136,16 @@ impl Tangents {
             put(&mut tangents.transition, &mut sampled.transition.transpose().iter());
             put(&mut tangents.gain, &mut sampled.gain.transpose().iter());
             put(&mut tangents.slope_gain, &mut sampled.slope_gain.transpose().iter());
-            if moves_covariances(model, &sampled) {
-                let found = follow(schedule, model, &sampled)?;
-                put(&mut tangents.gains, &mut found.gains.iter());
-                put(&mut tangents.variances, &mut found.variances.iter());
+            put(&mut tangents.shifts, &mut effects.iter().flat_map(|effect| &effect.shift));
+            for (noise, effect) in covariances.noise.iter_mut().zip(&effects) {
+                put(noise, &mut effect.noise.iter());
             }
+            put(&mut covariances.sensor, &mut model.sensor_variance.iter());
+            put(&mut covariances.initial, &mut model.initial.variance.iter());
+        }
+        covariances.transition.clone_from(&tangents.transition);
+        if count > 0 {
+            (tangents.gains, tangents.variances) = follow(schedule, base, &covariances);
         }
         Some(Self { models, ..tangents })
     }
@@ -129,15 +158,16 @@ impl Tangents {
         }
     }
 
-    /// Advances the derivatives of the states by a step: ∂x ← Φ ∂x + ∂Φ x + ∂Γ₀ u + ∂Γ₁ u'.
-    pub fn advance(&mut self, matrices: &StepMatrices, x: &[f64], u: &[f64], slope: &[f64]) {
+    /// Advances the derivatives of the states by a step with inputs u and u', and a class of heat: ∂x ← Φ ∂x + ∂Φ x + ∂Γ₀ u +
+    /// ∂Γ₁ u' + the derivative of the class's shift.
+    pub fn advance(&mut self, matrices: &StepMatrices, x: &[f64], (u, slope): (&[f64], &[f64]), heat: usize) {
         let (n, m, count) = (matrices.n, u.len(), self.count);
         if count == 0 {
             return;
         }
         let of = |entry: usize| entry * count..(entry + 1) * count;
         for (i, next) in self.next.chunks_exact_mut(count).enumerate() {
-            next.fill(0.0);
+            next.copy_from_slice(&self.shifts[of(heat * n + i)]);
             for j in 0..n {
                 add(next, matrices.transition[i * n + j], &self.states[of(j)]);
                 add(next, x[j], &self.transition[of(i * n + j)]);
@@ -163,15 +193,4 @@ impl Tangents {
         }
         (&self.innovation, &self.variances[which * count..(which + 1) * count])
     }
-}
-
-/// out += factor · numbers.
-fn add(out: &mut [f64], factor: f64, numbers: &[f64]) {
-    out.iter_mut().zip(numbers).for_each(|(out, number)| *out += factor * number);
-}
-
-/// Whether a change of the model changes the covariances of its filter.
-fn moves_covariances(model: &ContinuousModel, sampled: &SampledModel) -> bool {
-    let numbers = sampled.transition.iter().chain(&sampled.noise).chain(&model.sensor_variance);
-    numbers.chain(&model.initial.variance).any(|number| number.im != 0.0)
 }

@@ -6,11 +6,14 @@
 //! 4. the heat balance over the record agrees with it, where it is a conductance,
 //! 5. the next larger model does not move it by more than its interval,
 //! 6. the two halves of the record agree on it,
-//! 7. a building can have it, and the record can show it,
+//! 7. a building can have it, and the record can show it ([`super::ceilings`]),
 //! 8. the data contradict nothing that every model takes for granted ([`super::wrong_world`]).
+//!
+//! Differences below [`MATERIAL`] of a number contradict nothing.
 
 use super::heat_balance::BalancedConductance;
 use super::profile::Estimated;
+use super::wrong_world::MATERIAL;
 use crate::identify::diagnostics::{Confidence, ParameterVerdict, STANDARD_ERRORS_OF_95_PERCENT, Whiteness};
 
 /// Half of the longest interval that is called short, as a share of the estimate.
@@ -58,8 +61,8 @@ pub(super) struct QuantityEvidence {
     pub larger: Option<f64>,
     /// Its values by the halves of the record, if they contradict each other.
     pub halves: Option<[f64; 2]>,
-    /// Why it is none that a building can have or the record can show.
-    pub ceiling: Option<String>,
+    /// Whether it is proportional to the recorded heat, or inversely so.
+    pub scales_with_heat: bool,
 }
 
 impl QuantityEvidence {
@@ -68,20 +71,20 @@ impl QuantityEvidence {
         let (Some(low), Some(high)) = estimated.interval else { return doubts };
         if let Some(balance) = self.balance {
             let margin = STANDARD_ERRORS_OF_95_PERCENT * balance.standard_error;
-            if balance.value + margin < low || balance.value - margin > high {
+            let is_far = libm::log(balance.value / estimated.value).abs() > MATERIAL;
+            if (balance.value + margin < low || balance.value - margin > high) && (is_far || balance.value <= 0.0) {
                 doubts.push(format!("the heat balance over the record gives {:.3}", balance.value));
             }
         }
         if let Some(larger) = self.larger {
             let half = libm::log(high / estimated.value).max(libm::log(estimated.value / low));
-            if libm::log(larger / estimated.value).abs() > half {
+            if libm::log(larger / estimated.value).abs() > half.max(MATERIAL) {
                 doubts.push(format!("the next larger model gives {larger:.4}"));
             }
         }
         if let Some([first, second]) = self.halves {
             doubts.push(format!("the first half of the record gives {first:.4}, and the second {second:.4}"));
         }
-        doubts.extend(self.ceiling.clone());
         doubts
     }
 }
@@ -94,22 +97,24 @@ pub(super) fn judge(
     evidence: &QuantityEvidence,
 ) -> ParameterVerdict {
     let verdict = |confidence, words| ParameterVerdict { confidence, words };
+    let because = estimated.beyond.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
     let (low, high) = match estimated.interval {
         (Some(low), Some(high)) => (low, high),
         (None, Some(high)) => {
             return verdict(
                 Confidence::NotDistinguishableFromZero,
-                format!("{name} is at most {high:.3}, and may be zero"),
+                format!("{name} is at most {high:.3}, and may be zero{because}"),
             );
         }
         (Some(low), None) => {
-            return verdict(Confidence::Weak, format!("{name} is at least {low:.3}; no upper limit is known"));
+            return verdict(Confidence::Weak, format!("{name} is at least {low:.3}; no upper limit is known{because}"));
         }
         (None, None) => {
-            return verdict(Confidence::NotIdentifiable, format!("{name} cannot be identified from these data"));
+            return verdict(Confidence::NotIdentifiable, format!("the record does not tell the {name}{because}"));
         }
     };
     let half = (high - low) / (2.0 * estimated.value);
+    let heat = if evidence.scales_with_heat { " if the recorded heat is right" } else { "" };
     let known = format!("{name} is known to ±{:.1} %", 100.0 * half);
     if half > SHORT {
         return verdict(Confidence::Weak, format!("{name} is known only to ±{:.0} %", 100.0 * half));
@@ -117,7 +122,7 @@ pub(super) fn judge(
     let mut doubts = zone.doubts();
     doubts.extend(evidence.doubts(estimated));
     if doubts.is_empty() {
-        return verdict(Confidence::Identified, known);
+        return verdict(Confidence::Identified, format!("{known}{heat}"));
     }
     verdict(Confidence::Disputed, format!("{known} if the model is right, but {}", doubts.join(", and ")))
 }

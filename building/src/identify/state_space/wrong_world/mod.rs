@@ -1,114 +1,129 @@
 //! Tests whether the data contradict the assumptions of every model: that the weather's clock is that of the building, that all
-//! heat except white or coloured noise is measured, that walls do not change, and that one model is valid for the whole record.
+//! heat except white or coloured noise is measured, when it comes and as heat, that walls do not change, and that one model is valid
+//! for the whole record.
 //!
 //! The estimate itself does not show this: false assumptions also have best parameters, with short intervals and often
 //! with white residuals.
+//!
+//! Every possible cause is fitted together with the model ([`alternatives`]). Causes are ranked by the log-likelihood that each of them
+//! explains, less half of Schwarz's penalty for its parameters. A cause that changes no known number by more than
+//! [`MATERIAL`] is not worth an alarm.
 
-pub(super) mod ceilings;
+mod alternatives;
 pub(super) mod halves;
+mod heavy_tail;
 mod score_test;
+mod widened;
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::likelihood::{Filtered, Observations};
+use super::quantities::{Precision, QuantityKind, logarithm};
 use super::selection::Fit;
+use super::structure::Structure;
 use crate::identify::report::{SuspectedCause, Suspicion};
-use crate::identify::telemetry::Telemetry;
+use crate::identify::telemetry::{Neighbour, Telemetry};
+
+/// A cause counts if some known number changes by more than this share of it when the cause is allowed for.
+pub(in crate::identify::state_space) const MATERIAL: f64 = 0.02;
+/// Largest standard error of the logarithm of a number that counts as known.
+const KNOWN_LOG_ERROR: f64 = 0.25;
+/// Causes beside the first are named if they explain at least this share of what it explains.
+const NAMED_SHARE: f64 = 0.5;
 
 /// A fit, and what it is judged by.
 pub(in crate::identify::state_space) struct World<'a> {
     pub telemetry: &'a Telemetry,
     pub observations: &'a Observations,
     pub fit: &'a Fit,
+    /// Fits with fewer parameters, which another world may make better.
+    pub smaller: &'a [Fit],
+    pub precision: &'a Precision,
     pub filtered: &'a Filtered,
 }
 
-/// What the data contradict, by tests of which each refuses a right world in less than one of a hundred records.
-pub(super) fn suspicions(world: &World<'_>) -> Vec<Suspicion> {
-    let mut found: Vec<Suspicion> = better_shift(world).into_iter().map(of_clock).collect();
-    for zone in 0..world.telemetry.zones.len() {
-        let name = world.telemetry.zones[zone].name.clone();
-        let scored = score_test::score_tests(world, zone);
-        let tails = score_test::heavy_tail(world, zone);
-        let mut add = |cause, words| found.push(Suspicion { zone: Some(name.clone()), cause, words });
-        if let Some(tail) = tails {
-            add(tail.cause, tail.words);
-        }
-        for (cause, words) in scored {
-            add(cause, words);
-        }
+/// A cause that explains what the model does not.
+pub(in crate::identify::state_space) struct Explanation {
+    pub zone: Option<usize>,
+    pub cause: SuspectedCause,
+    pub words: String,
+    /// By how much the log-likelihood is higher.
+    pub gain: f64,
+    /// How many parameters the cause has.
+    pub parameters: usize,
+}
+
+impl World<'_> {
+    /// Number of rows that count.
+    fn rows(&self) -> f64 {
+        self.observations.segments.iter().map(Range::len).sum::<usize>() as f64
     }
+
+    /// The largest change of the logarithm of a known number from the estimate to `theta` of a structure; infinite if none is known.
+    fn change(&self, structure: &Structure, theta: &[f64]) -> f64 {
+        let parameters = structure.parameters.len();
+        let boundaries = (0..self.telemetry.boundaries.len()).map(Neighbour::Boundary);
+        let kinds: Vec<QuantityKind> =
+            boundaries.map(QuantityKind::Conductance).chain([QuantityKind::Capacity, QuantityKind::Aperture]).collect();
+        let all = (0..self.telemetry.zones.len()).flat_map(|zone| kinds.iter().map(move |&kind| (kind, zone)));
+        let change = |quantity| {
+            let (before, gradient) = logarithm(self.telemetry, &self.fit.structure, quantity, &self.fit.maximum.theta)?;
+            let (after, _) = logarithm(self.telemetry, structure, quantity, &theta[..parameters])?;
+            (self.precision.standard_error(&gradient) <= KNOWN_LOG_ERROR).then_some((after - before).abs())
+        };
+        let changes: Vec<f64> = all.filter_map(change).collect();
+        if changes.is_empty() { f64::INFINITY } else { changes.into_iter().fold(0.0, f64::max) }
+    }
+
+    /// Whether allowing for a cause, with which the parameters become `theta`, changes a known number.
+    fn is_material(&self, structure: &Structure, theta: &[f64]) -> bool {
+        self.change(structure, theta) > MATERIAL
+    }
+}
+
+/// What the data contradict, the cause that explains most first; `more` are explanations that were found elsewhere.
+pub(super) fn suspicions(world: &World<'_>, more: Vec<Explanation>) -> Vec<Suspicion> {
+    let mut found = alternatives::of_shifts(world);
+    for zone in 0..world.telemetry.zones.len() {
+        found.extend(score_test::explanations(world, zone));
+        found.extend(heavy_tail::explanation(world, zone));
+    }
+    found.extend(more);
+    ranked(found, world.rows())
+        .into_iter()
+        .map(|it| Suspicion {
+            zone: it.zone.map(|zone| world.telemetry.zones[zone].name.clone()),
+            cause: it.cause,
+            explains: it.gain,
+            words: it.words,
+        })
+        .collect()
+}
+
+/// Explanations that are worth their parameters, and at least a share of the best one.
+fn ranked(mut found: Vec<Explanation>, rows: f64) -> Vec<Explanation> {
+    let worth = |it: &Explanation| it.gain - 0.5 * it.parameters as f64 * libm::log(rows.max(2.0));
+    found.retain(|it| worth(it) > 0.0);
+    found.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    let best = found.first().map_or(0.0, worth);
+    found.retain(|it| worth(it) >= NAMED_SHARE * best);
     found
 }
 
-fn of_clock((hours, gain): (f64, f64)) -> Suspicion {
-    let way = if hours > 0.0 { "earlier" } else { "later" };
-    let words = format!(
-        "the weather fits better when it is taken {:.1} h {way} (log-likelihood higher by {gain:.0}): check the clocks and time zones",
-        hours.abs()
-    );
-    Suspicion { zone: None, cause: SuspectedCause::Clock, words }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Shifts that are tried \[h\].
-const SHIFTS_H: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
-/// Gain of the log-likelihood from which on a shift wins: the best of six would gain so much by chance in one of a thousand
-/// records (χ² with one degree of freedom).
-const LEAST_GAIN: f64 = 7.0;
-const MOST_STEPS: usize = 12;
-
-/// The shift of the weather \[h\] that fits best and by how much the log-likelihood is higher; `None` if none fits better.
-fn better_shift(world: &World<'_>) -> Option<(f64, f64)> {
-    let layout = &world.fit.structure.layout;
-    let boundaries = world.telemetry.boundaries.len();
-    let weather: Vec<usize> = (0..boundaries).chain(layout.sun.iter().flatten().copied()).collect();
-    if weather.is_empty() {
-        return None;
+    #[test]
+    fn the_cause_that_explains_most_is_first_and_small_ones_are_not_named() {
+        let of = |cause, gain, parameters| Explanation { zone: None, cause, words: String::new(), gain, parameters };
+        let all = vec![
+            of(SuspectedCause::People, 60.0, 7),
+            of(SuspectedCause::Clock, 50.0, 1),
+            of(SuspectedCause::Sun, 20.0, 2),
+            of(SuspectedCause::Windows, 6.0, 2),
+        ];
+        let causes: Vec<SuspectedCause> = ranked(all, 1344.0).iter().map(|it| it.cause).collect();
+        assert_eq!(causes, [SuspectedCause::Clock, SuspectedCause::People]);
     }
-    let step_s = world.observations.step_s;
-    let margin = libm::ceil(SHIFTS_H[SHIFTS_H.len() - 1] * 3600.0 / step_s) as usize;
-    let of_shift = |rows: isize| -> Option<f64> {
-        let shifted = shifted(world.observations, &weather, rows, margin);
-        Some(world.fit.refit(&shifted, MOST_STEPS)?.maximum.evaluation.log_likelihood)
-    };
-    let as_recorded = of_shift(0)?;
-    let shifts: Vec<isize> = SHIFTS_H.iter().map(|hours| libm::round(hours * 3600.0 / step_s) as isize).collect();
-    let fits = |rows: isize, hours: f64| rows != 0 && (rows as f64 * step_s / 3600.0 - hours).abs() < 0.1;
-    let tried: Vec<Option<(f64, f64)>> = shifts
-        .par_iter()
-        .zip(&SHIFTS_H)
-        .map(|(&rows, &hours)| if fits(rows, hours) { Some((hours, of_shift(rows)? - as_recorded)) } else { None })
-        .collect();
-    let best = tried.into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (best.1 > LEAST_GAIN).then_some(best)
-}
-
-/// Observations whose inputs `columns` are those of `rows` rows later, without `margin` rows at both ends of each segment.
-fn shifted(observations: &Observations, columns: &[usize], rows: isize, margin: usize) -> Observations {
-    let (_, m) = observations.widths;
-    let mut shifted = observations.clone();
-    for segment in &observations.segments {
-        let last = segment.end as isize - 1;
-        for row in segment.clone() {
-            let from = (row as isize + rows).clamp(segment.start as isize, last) as usize;
-            for &column in columns {
-                shifted.inputs[row * m + column] = observations.inputs[from * m + column];
-                shifted.slopes[row * m + column] = observations.slopes[from * m + column];
-            }
-        }
-    }
-    let inner = |segment: &Range<usize>| segment.start + margin..segment.end.saturating_sub(margin);
-    let is_complete = |row: &usize| {
-        let p = observations.widths.0;
-        observations.outputs[row * p..(row + 1) * p].iter().all(|value| value.is_finite())
-    };
-    let from_first = |segment: Range<usize>| {
-        let first = segment.clone().find(is_complete)?;
-        (segment.end >= first + 2).then_some(first..segment.end)
-    };
-    shifted.segments = observations.segments.iter().map(inner).filter_map(from_first).collect();
-    shifted.unknown_heat.retain(|row| shifted.segments.iter().any(|segment| segment.contains(row)));
-    shifted
 }

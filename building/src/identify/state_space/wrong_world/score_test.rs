@@ -1,4 +1,5 @@
-//! Score tests (Lagrange multipliers) for heat that no model contains: they predict the gain in likelihood without a fit.
+//! Score tests (Lagrange multipliers) for heat that no model contains: they predict the gain in likelihood without a fit. What they
+//! call for is fitted.
 //!
 //! ```text
 //! LM = g_βᵀ (I_ββ − I_βθ I_θθ⁻¹ I_θβ)⁻¹ g_β        at β = 0, chi-squared with as many degrees of freedom as β has entries
@@ -9,14 +10,12 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::World;
+use super::widened::{HeatColumn, Widened};
+use super::{Explanation, World};
 use crate::identify::diagnostics::survival;
 use crate::identify::report::SuspectedCause;
-use crate::identify::state_space::exponential::{Number, real};
-use crate::identify::state_space::likelihood::{Evaluation, Observations, evaluate};
-use crate::identify::state_space::linear_model::ContinuousModel;
+use crate::identify::state_space::likelihood::Evaluation;
 use crate::identify::state_space::scoring::free_parameters;
-use crate::identify::state_space::structure::{ParameterKind, Place};
 use crate::identify::telemetry::Neighbour;
 
 const LEVEL: f64 = 0.002;
@@ -26,88 +25,125 @@ const HARMONICS: usize = 3;
 const RIDGE: f64 = 1e-8;
 /// Directions of β of which more than this share is explained by θ are not tested.
 const LEAST_OWN_SHARE: f64 = 1e-4;
+/// Kelvins of outdoor temperature over which the gain of the heat is stated.
+const GAIN_PER_K: f64 = 10.0;
 
-/// What heat of a zone the data call for, with the words to say so.
-pub(super) fn score_tests(world: &World<'_>, zone: usize) -> Vec<(SuspectedCause, String)> {
-    let columns = columns(world, zone);
-    let Some(evaluation) = evaluated(world, zone, &columns.values) else { return Vec::new() };
-    let test = |range: Range<usize>| statistic(world, &evaluation, range);
+/// Heat that a zone's data call for.
+pub(super) fn explanations(world: &World<'_>, zone: usize) -> Vec<Explanation> {
+    let groups = groups(world, zone);
+    let all: Vec<HeatColumn> = groups.iter().flat_map(|group| group.columns.iter().cloned()).collect();
+    let Some(evaluation) = Widened::new(world, &all).at_zero() else { return Vec::new() };
+    let mut first = 0;
     let mut found = Vec::new();
-    let people = test(columns.daily.clone());
-    let p_value = survival(people.0, people.1 as f64);
-    if p_value < LEVEL {
-        let words = format!(
-            "the data call for heat that comes at the same hours each day and is in no column (p = {p_value:.1e}): people or machines?"
-        );
-        found.push((SuspectedCause::People, words));
-    }
-    let sun = test(columns.sun.clone());
-    let p_value = survival(sun.0, sun.1 as f64);
-    if p_value < LEVEL {
-        let words = format!(
-            "the sun's heat comes at other hours than its irradiance (p = {p_value:.1e}): another side or shade?"
-        );
-        found.push((SuspectedCause::Sun, words));
+    for group in &groups {
+        let range = first..first + group.columns.len();
+        first = range.end;
+        let (statistic, degrees) = statistic(world, &evaluation, range);
+        if survival(statistic, degrees as f64) < LEVEL {
+            found.extend(group.explanation(world, zone));
+        }
     }
     found
 }
 
-/// Heats into a zone's air, one after the other \[kW, up to a factor\], and which are what.
-struct Columns {
-    values: Vec<Vec<f64>>,
-    daily: Range<usize>,
-    sun: Range<usize>,
+/// Columns that belong to one cause.
+struct Group {
+    cause: SuspectedCause,
+    columns: Vec<HeatColumn>,
 }
 
-fn columns(world: &World<'_>, zone: usize) -> Columns {
+/// Heats into a zone's air, up to a factor, in multiples of its mean heat.
+fn groups(world: &World<'_>, zone: usize) -> Vec<Group> {
     let times = &world.telemetry.time_s;
+    let scale = mean_heat_kw(world, zone);
     let wave = |harmonic: usize, phase: f64| -> Vec<f64> {
-        times.iter().map(|time| libm::sin(TAU * (harmonic as f64 * time / 86_400.0 + phase))).collect()
+        times.iter().map(|time| scale * libm::sin(TAU * (harmonic as f64 * time / 86_400.0 + phase))).collect()
     };
-    let mut values: Vec<Vec<f64>> = vec![vec![1.0; times.len()]];
-    values.extend((1..=HARMONICS).flat_map(|harmonic| [wave(harmonic, 0.0), wave(harmonic, 0.25)]));
-    let daily = 0..values.len();
+    let column = |kw: Vec<f64>| HeatColumn { kw, node: zone };
+    let mut daily = vec![column(vec![scale; times.len()])];
+    let harmonics = (1..=HARMONICS).flat_map(|harmonic| [wave(harmonic, 0.0), wave(harmonic, 0.25)]);
+    daily.extend(harmonics.map(column));
+    let mut groups = vec![Group { cause: SuspectedCause::People, columns: daily }];
     if let Some(sun) = &world.telemetry.zones[zone].irradiance_kw_per_m2 {
-        for phase in [0.0, 0.25] {
-            values.push(wave(1, phase).iter().zip(sun).map(|(wave, sun)| wave * sun).collect());
-        }
+        let of_phase = |phase| column(wave(1, phase).iter().zip(sun).map(|(wave, sun)| wave * sun).collect());
+        groups.push(Group { cause: SuspectedCause::Sun, columns: vec![of_phase(0.0), of_phase(0.25)] });
     }
-    let sun = daily.end..values.len();
-    Columns { values, daily, sun }
+    groups.extend(varying_gain(world, zone));
+    groups
 }
 
-/// The likelihood with its derivatives by θ and by β, at β = 0.
-fn evaluated(world: &World<'_>, zone: usize, columns: &[Vec<f64>]) -> Option<Evaluation> {
-    let (p, m) = world.observations.widths;
-    let rows = world.observations.outputs.len() / p;
-    let wider = |values: &[f64], added: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
-        let row = |row: usize| {
-            let known = values[row * m..(row + 1) * m].iter().copied();
-            known.chain((0..columns.len()).map(move |column| added(row, column)))
-        };
-        (0..rows).flat_map(row).collect()
-    };
-    let observations = Observations {
-        inputs: wider(&world.observations.inputs, &|row, column| columns[column][row]),
-        slopes: wider(&world.observations.slopes, &|_, _| 0.0),
-        widths: (p, m + columns.len()),
-        ..world.observations.clone()
-    };
-    let structure = &world.fit.structure;
-    let parameters = world.fit.maximum.theta.len();
-    let model = |theta: &[Number]| -> ContinuousModel {
-        let mut model = structure.model(&theta[..parameters]);
-        let capacity = structure.value(&theta[..parameters], ParameterKind::Capacity(zone, Place::Air));
-        let resized = |matrix: &DMatrix<Number>| matrix.clone().resize_horizontally(m + columns.len(), real(0.0));
-        model.inputs = resized(&model.inputs);
-        model.initial.from_inputs = resized(&model.initial.from_inputs);
-        for (column, strength) in theta[parameters..].iter().enumerate() {
-            model.inputs[(zone, m + column)] = *strength / capacity;
+/// The recorded heat times the outdoor temperature less its mean; `None` without either.
+fn varying_gain(world: &World<'_>, zone: usize) -> Option<Group> {
+    let heat = world.fit.structure.layout.heat[zone]?;
+    let outdoors = world.telemetry.neighbours(zone).into_iter().find_map(|place| match place {
+        Neighbour::Boundary(boundary) => Some(&world.telemetry.boundaries[boundary].temperature_c),
+        Neighbour::Zone(_) => None,
+    })?;
+    let finite = || outdoors.iter().filter(|value| value.is_finite());
+    let mean_c = finite().sum::<f64>() / finite().count().max(1) as f64;
+    let m = world.observations.widths.1;
+    let kw = outdoors
+        .iter()
+        .enumerate()
+        .map(|(row, outdoor_c)| world.observations.inputs[row * m + heat] * (outdoor_c - mean_c) / GAIN_PER_K);
+    let node = world.fit.structure.heated_node(zone);
+    let columns = vec![HeatColumn { kw: kw.collect(), node }];
+    Some(Group { cause: SuspectedCause::VaryingGain, columns })
+}
+
+/// Mean size of a zone's heat \[kW\]; 1 without any.
+fn mean_heat_kw(world: &World<'_>, zone: usize) -> f64 {
+    let Some(column) = world.fit.structure.layout.heat[zone] else { return 1.0 };
+    let m = world.observations.widths.1;
+    let rows = world.observations.segments.iter().flat_map(Clone::clone);
+    let heats = rows.map(|row| world.observations.inputs[row * m + column].abs()).filter(|heat| heat.is_finite());
+    let (sum, count) = heats.fold((0.0, 0_usize), |(sum, count), heat| (sum + heat, count + 1));
+    if sum > 0.0 { sum / count as f64 } else { 1.0 }
+}
+
+impl Group {
+    /// The fit with these columns, if it gains likelihood and changes a known number.
+    fn explanation(&self, world: &World<'_>, zone: usize) -> Option<Explanation> {
+        let maximum = Widened::new(world, &self.columns).fit()?;
+        let gain = maximum.evaluation.log_likelihood - world.fit.maximum.evaluation.log_likelihood;
+        if !world.is_material(&world.fit.structure, &maximum.theta) {
+            return None;
         }
-        model
-    };
-    let theta: Vec<f64> = world.fit.maximum.theta.iter().copied().chain(columns.iter().map(|_| 0.0)).collect();
-    evaluate(&model, &theta, &observations)
+        let strengths = &maximum.theta[world.fit.maximum.theta.len()..];
+        let words = match self.cause {
+            SuspectedCause::People => {
+                let kw = self.root_mean_square_kw(strengths);
+                format!(
+                    "the data call for heat of about {kw:.2} kW that comes at the same hours each day and is in no column \
+                     (log-likelihood higher by {gain:.0}): people or machines?"
+                )
+            }
+            SuspectedCause::Sun => format!(
+                "the sun's heat comes at other hours than its irradiance (log-likelihood higher by {gain:.0}): another side \
+                 or shade?"
+            ),
+            _ => {
+                let percent = 100.0 * strengths.first().copied().unwrap_or(0.0);
+                let (way, cause) = if percent > 0.0 {
+                    ("warmer", "is it the electricity of a heat pump?")
+                } else {
+                    ("colder", "is a part of it lost outdoors?")
+                };
+                format!(
+                    "a recorded kilowatt heats {:.0} % more when it is {GAIN_PER_K:.0} K {way} outdoors (log-likelihood \
+                     higher by {gain:.0}): {cause}",
+                    percent.abs()
+                )
+            }
+        };
+        Some(Explanation { zone: Some(zone), cause: self.cause, words, gain, parameters: self.columns.len() })
+    }
+
+    fn root_mean_square_kw(&self, strengths: &[f64]) -> f64 {
+        let rows = self.columns.first().map_or(0, |column| column.kw.len());
+        let heat = |row: usize| self.columns.iter().zip(strengths).map(|(it, beta)| beta * it.kw[row]).sum::<f64>();
+        libm::sqrt((0..rows).map(|row| heat(row) * heat(row)).sum::<f64>() / rows.max(1) as f64)
+    }
 }
 
 /// LM of the columns `range`, and how many directions of them θ leaves free.
@@ -143,62 +179,4 @@ fn statistic(world: &World<'_>, evaluation: &Evaluation, range: Range<usize>) ->
         }
     }
     (sum.0, sum.1.max(1))
-}
-
-/// Rows at the beginning of a segment are left out while the filter comes to know the hidden temperatures \[s\].
-const SETTLING_S: f64 = 86_400.0;
-/// Standard errors of the kurtosis, or of the skewness, of normal numbers beyond which tails are heavy.
-const LIMIT: f64 = 4.5;
-const LEAST_ROWS: usize = 100;
-
-/// A finding, with the words to say so.
-pub(super) struct HeavyTail {
-    pub cause: SuspectedCause,
-    pub words: String,
-}
-
-/// What the innovations of a zone show; `None` if they are like normal numbers.
-pub(super) fn heavy_tail(world: &World<'_>, zone: usize) -> Option<HeavyTail> {
-    let values = settled(world, zone);
-    if values.len() < LEAST_ROWS {
-        return None;
-    }
-    let count = values.len() as f64;
-    let mean = values.iter().map(|(value, _)| value).sum::<f64>() / count;
-    let moment = |power: i32| values.iter().map(|(value, _)| (value - mean).powi(power)).sum::<f64>() / count;
-    let variance = moment(2).max(f64::MIN_POSITIVE);
-    let kurtosis = (moment(4) / (variance * variance) - 3.0) / libm::sqrt(24.0 / count);
-    let skewness = moment(3) / (variance * libm::sqrt(variance)) / libm::sqrt(6.0 / count);
-    if kurtosis < LIMIT && skewness.abs() < LIMIT {
-        return None;
-    }
-    // Positive if the air follows the outdoor temperature more than the walls explain.
-    let outward = values.iter().map(|(value, to_outdoor)| (value - mean).powi(3) * to_outdoor.signum()).sum::<f64>();
-    let times = format!(
-        "innovations are at times far larger than in general (kurtosis {kurtosis:.0} standard errors too large)"
-    );
-    Some(if outward > 0.0 {
-        let words = format!("{times}, and towards the temperature outdoors: were windows opened?");
-        HeavyTail { cause: SuspectedCause::Windows, words }
-    } else {
-        let words =
-            format!("{times}, and away from the temperature outdoors: did people or machines give off heat at times?");
-        HeavyTail { cause: SuspectedCause::People, words }
-    })
-}
-
-/// Standardised innovations of a zone, each with the difference of outdoor and indoor temperature \[K\].
-fn settled(world: &World<'_>, zone: usize) -> Vec<(f64, f64)> {
-    let p = world.observations.widths.0;
-    let settling = libm::round(SETTLING_S / world.observations.step_s) as usize;
-    let outdoors = world.telemetry.neighbours(zone).into_iter().find(|place| matches!(place, Neighbour::Boundary(_)));
-    let difference = |row: usize| {
-        let inside = world.telemetry.zones[zone].temperature_c[row];
-        outdoors.map_or(-1.0, |place| world.telemetry.temperature_c(place)[row] - inside)
-    };
-    let rows =
-        world.observations.segments.iter().flat_map(|segment| (segment.start + settling).min(segment.end)..segment.end);
-    rows.map(|row| (world.filtered.standardised[row * p + zone], difference(row)))
-        .filter(|(value, difference)| value.is_finite() && difference.is_finite())
-        .collect()
 }
