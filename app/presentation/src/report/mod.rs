@@ -11,11 +11,11 @@ mod suite;
 mod summary;
 mod why;
 
-pub use comparison::{comparison, comparison_page, version_comparison, version_comparison_page};
+pub use comparison::{ShownFigures, comparison, comparison_page, version_comparison, version_comparison_page};
 pub use identification::identification;
 pub use identified_scenario::identified_scenario;
 pub use junit::junit;
 pub use prediction::prediction;
-pub use suite::{Case, table};
+pub use suite::{Case, CaseError, table};
 pub use summary::summary;
 pub use why::why;

@@ -15,13 +15,15 @@ pub fn summary(title: &str, report: &Report) -> String {
 }
 
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
-    let factor = report.simulated_s / report.wall_s.max(1e-9);
+    // A building is simulated so fast that the factor says nothing.
+    let factor = Some(report.simulated_s / report.wall_s.max(1e-9)).filter(|_| !report.vehicles.is_empty());
+    let factor = factor.map_or_else(String::new, |factor| format!(" ({factor:.0} times real time)"));
     let simulated = match &report.building {
         Some(building) if report.vehicles.is_empty() => counted(building.iterations.len(), "day"),
         _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
     };
     writeln!(text, "{title}  [{}]", report.scenario)?;
-    writeln!(text, "  {simulated} simulated in {:.2} s ({factor:.0} times real time)", report.wall_s)?;
+    writeln!(text, "  {simulated} simulated in {:.2} s{factor}", report.wall_s)?;
     if !report.vehicles.is_empty() {
         write_driving(text, report)?;
     }
@@ -57,6 +59,9 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
         let [a, b] = &collision.between;
         write!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
         writeln!(text, "{}", collision.fault.as_ref().map_or_else(String::new, |fault| format!(": {}", fault.why)))?;
+    }
+    for broken in &report.broken_rules {
+        writeln!(text, "  RULE BROKEN at {:.2} s: {} {}", broken.time_s, broken.vehicle, broken.words())?;
     }
     for vehicle in report.vehicles.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
         let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();

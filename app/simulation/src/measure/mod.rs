@@ -3,6 +3,7 @@
 //! A [`Metric`] has one value for a vehicle or a run. Other measures do not: reaching a goal is also an event, plans are counted and
 //! timed together, the right of way is a list of pairs, beliefs and digests are not numbers, and a building is measured day by day.
 
+mod broken_rules;
 mod building;
 mod completion;
 mod digest;
@@ -24,6 +25,7 @@ use bevy_ecs::prelude::*;
 use interplay_planners::{Input, State};
 use interplay_scenarios::{MetricDeclaration, MetricSubject, Scenario, Vehicle};
 
+pub use broken_rules::RuleWatch;
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
@@ -40,7 +42,7 @@ pub use vehicle_metric::{Fold, LeastOfRun, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};
-use crate::state::frame::Collision;
+use crate::state::frame::{BrokenRule, Collision};
 use crate::state::standing::Standing;
 
 /// All measures of a run.
@@ -52,6 +54,10 @@ pub struct Measures {
     pub passages: Passages,
     /// Which vehicle is at fault where two touch or come too near.
     pub faults: Faults,
+    /// Watches the rules of the road.
+    rules: RuleWatch,
+    /// The rules that were broken, in order.
+    pub broken_rules: Vec<BrokenRule>,
     /// Digest of the run, by phase.
     pub digest: Digest,
     /// Events for the log.
@@ -147,6 +153,8 @@ impl Measures {
             collisions: Vec::new(),
             passages: Passages::new(scenario, &along_m),
             faults: Faults::new(&scenario.vehicles, scenario.ego_index()),
+            rules: RuleWatch::new(&start),
+            broken_rules: Vec::new(),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
             waits: Waits::new(scenario),
@@ -194,6 +202,10 @@ pub fn measure(
         states: &after,
         along_m: &measures.along_m,
     };
+    let broken = measures.rules.observe(&end, |vehicle| frame.vehicles[vehicle].is_absent);
+    frame.events.extend(broken.iter().map(broken_rules::event));
+    measures.broken_rules.extend_from_slice(&broken);
+    frame.broken_rules = broken;
     let (step_s, previous_inputs) = (clock.step_s, measures.previous_inputs.as_slice());
     let shared = SharedStates::default();
     let tick = ObservedTick { frame, step_s, shared: &shared, previous_inputs, end };

@@ -30,6 +30,8 @@ pub struct Frame {
     pub collisions: Vec<Collision>,
     /// The vehicles of people that came during the tick into the way of one behind with a shorter gap than they owe.
     pub cut_ins: Vec<String>,
+    /// The rules of the road that were broken during the tick.
+    pub broken_rules: Vec<BrokenRule>,
     /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
     pub gap_m: Option<f64>,
     /// The smallest such distance during the tick, its end included \[m\].
@@ -182,6 +184,56 @@ pub struct ContactFault {
     pub vehicle: String,
     /// What it did, in a sentence.
     pub why: String,
+}
+
+/// A rule of the road that a vehicle broke, with time and place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BrokenRule {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// The name of the vehicle that broke it.
+    pub vehicle: String,
+    /// The rule.
+    pub rule: Rule,
+    /// The vehicle whose right of way was taken; none for other rules.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
+    /// The name of the lane; none on a road without named lanes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lane: Option<String>,
+    /// Arc length along that lane, otherwise along the route \[m\].
+    pub along_m: f64,
+}
+
+/// A rule of the road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// To stand at a stop sign.
+    StopSign,
+    /// To stop at a red light.
+    RedLight,
+    /// To give way.
+    RightOfWay,
+    /// To keep the speed limit.
+    SpeedLimit,
+}
+
+impl BrokenRule {
+    /// What the vehicle did, and where: `passed the red light of lane in`.
+    pub fn words(&self) -> String {
+        let place = match (&self.lane, self.rule) {
+            (Some(lane), Rule::StopSign | Rule::RedLight) => format!(" of lane {lane}"),
+            (Some(lane), _) => format!(" on lane {lane}, {:.0} m along it", self.along_m),
+            (None, _) => format!(" {:.0} m along its route", self.along_m),
+        };
+        match self.rule {
+            Rule::StopSign => format!("passed the stop sign{place} without standing"),
+            Rule::RedLight => format!("passed the red light{place}"),
+            Rule::RightOfWay => format!("took the right of way of {}{place}", self.of.as_deref().unwrap_or("another")),
+            Rule::SpeedLimit => format!("exceeded the speed limit{place}"),
+        }
+    }
 }
 
 /// An event of a run, for its log.

@@ -49,6 +49,7 @@ impl Override {
                 if !has_vehicles(root) {
                     return Err(no_vehicles(root, &place));
                 }
+                refuse_unfit_planner(root, kind, &place)?;
                 return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) }, schema);
             }
         };
@@ -284,6 +285,29 @@ fn no_vehicles(root: &Table, place: &Place) -> Fault {
         return fault.help("the building has a controller, which `--set controller.kind=KIND` chooses");
     }
     fault.help("add a `[[vehicle]]`, or name another scenario: `interplay list` shows them")
+}
+
+/// Refuses kinds of drivers that need more than their name, unless the ego has such a driver already.
+fn refuse_unfit_planner(root: &Table, kind: &str, place: &Place) -> Result<(), Fault> {
+    let (reason, help) = match kind {
+        "walker" => ("a walker moves a pedestrian, not a vehicle", "state `class = \"pedestrian\"` and the driver in the file"),
+        "recorded" => ("a recorded driver needs a record", "state `driver = { kind = \"recorded\", file = FILE }` in the file"),
+        "inputs" => ("a driver of inputs needs inputs that were recorded", "`interplay play` records them in a file of its own"),
+        "external" => ("an external driver waits for inputs from a program of your own", "Python and `Simulation::apply` hand them in"),
+        _ => return Ok(()),
+    };
+    let ego = ego_name(root);
+    let vehicles = root.get("vehicle").and_then(|entry| match &entry.node.value {
+        TomlValue::Array(vehicles) => Some(vehicles),
+        _ => None,
+    });
+    let driver = vehicles.into_iter().flatten().find(|vehicle| vehicle.label() == Some(&*ego));
+    let stated = driver.and_then(|vehicle| vehicle.at("driver.kind")).and_then(TomlNode::text);
+    if stated == Some(kind) {
+        return Ok(());
+    }
+    let message = format!("`--planner {kind}` cannot drive `{ego}`: {reason}");
+    Err(Fault::at(place, "not a planner of a vehicle", message).help(help))
 }
 
 fn ego_name(root: &Table) -> String {

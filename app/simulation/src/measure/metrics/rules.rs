@@ -1,27 +1,10 @@
-//! Rules of the road that a vehicle breaks, determined from its driven motion, independently of planners.
-//!
-//! - **Stop signs**: it drives past the line of a stop sign without having stood within a car's length of it.
-//! - **Traffic lights**: its front passes the line of a red light.
-//! - **Right of way**: a vehicle with priority reaches a conflict less than a second of a real car after the vehicle has left it, or is
-//!   in it together with the vehicle, although the vehicle was not in it while it could still have yielded.
-//! - **Speed limits**: it exceeds the limit of its lane by more than 0.5 m/s of a real car, and has not done so since the start.
+//! The number of rules of the road that a vehicle breaks ([`RuleWatch`](crate::measure::RuleWatch) finds them).
 
-use std::sync::Arc;
-
-use interplay_planners::road::network::{
-    ConflictKind, LightColour, LightCycle, Precedence, RightOfWay, RouteConflict, RouteLeg,
-};
 use interplay_scenarios::MetricKind::Count;
-use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario, Vehicle};
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
-use crate::state::standing::STANDING_MPS;
-
-/// A real car is speeding if it exceeds a limit by this \[m/s\].
-const SPEEDING_MPS: f64 = 0.5;
-/// Minimum time between leaving a conflict and the arrival of the vehicle with priority, for a real car \[s\].
-const SPARE_S: f64 = 1.0;
 
 const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, \
                    takes another vehicle's right of way, or exceeds a speed limit";
@@ -36,166 +19,29 @@ impl Metric for RulesBroken {
         MetricDeclaration::of_vehicle("rules_broken", Count, DOC).compared(MetricComparison::Sum).with_others()
     }
 
-    fn begin(&self, _: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
-        let stated = &start.vehicles[vehicle];
-        let scale = stated.body.real_ratio();
-        let signs = stop_signs(stated).into_iter().map(|line_m| Sign { line_m, has_stood: false, is_past: false });
-        let others = start.vehicles.iter().enumerate().filter(|(other, _)| *other != vehicle);
-        let taken = others.flat_map(|(other, theirs)| {
-            let conflicts = stated.route.conflicts_with(&theirs.route).filter(|conflict| is_theirs(conflict));
-            conflicts.map(move |conflict| Crossing {
-                other,
-                conflict: conflict.clone(),
-                was_entered: false,
-                left_s: None,
-                is_settled: false,
-            })
-        });
-        let mut broken = Broken {
-            vehicle,
-            scale,
-            signs: signs.collect(),
-            lights: lights(stated, start.along_m[vehicle]),
-            crossings: taken.collect(),
-            // Violations that exist at the start, by speed or position, are not counted.
-            is_speeding: speeding_mps(stated, start.along_m[vehicle], start.states[vehicle].speed_mps) > 0.0,
-            count: 0,
-        };
-        for sign in &mut broken.signs {
-            sign.is_past = start.along_m[vehicle] + stated.body.front_m > sign.line_m;
-        }
-        for crossing in &mut broken.crossings {
-            crossing.is_settled = start.along_m[vehicle] + stated.body.front_m > crossing.conflict.own_line_m;
-        }
-        Box::new(broken)
+    fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
+        Box::new(BrokenSoFar { vehicle, count: 0 })
     }
 }
 
-/// The traffic lights ahead on a vehicle's route.
-fn lights(vehicle: &Vehicle, along_m: f64) -> Vec<LightAhead> {
-    let front_m = along_m + vehicle.body.front_m;
-    let lit = vehicle.route.legs.iter().filter_map(|leg| Some((leg.to_m, leg.light.clone()?)));
-    lit.filter(|(line_m, _)| *line_m > front_m).map(|(line_m, cycle)| LightAhead { line_m, cycle }).collect()
-}
-
-/// The lines of stop signs on a vehicle's route \[m\].
-fn stop_signs(vehicle: &Vehicle) -> Vec<f64> {
-    let is_signed =
-        |leg: &&RouteLeg| leg.light.is_none() && matches!(leg.right_of_way, RightOfWay::Stop | RightOfWay::AllWayStop);
-    vehicle.route.legs.iter().filter(is_signed).map(|leg| leg.to_m).collect()
-}
-
-/// Whether the other vehicle has priority at a conflict that only one can occupy.
-fn is_theirs(conflict: &RouteConflict) -> bool {
-    conflict.precedence == Precedence::Other && conflict.kind != ConflictKind::Diverging
-}
-
-/// By how much a speed exceeds the limit of its lane; negative below the limit and without one \[m/s\].
-fn speeding_mps(vehicle: &Vehicle, along_m: f64, speed_mps: f64) -> f64 {
-    let limit_mps = vehicle.route.leg(along_m).and_then(|leg| leg.speed_limit_mps);
-    limit_mps.map_or(f64::NEG_INFINITY, |limit_mps| speed_mps - limit_mps)
-}
-
+/// The rules that one vehicle has broken so far.
 #[derive(Clone, Copy, Debug)]
-struct Sign {
-    line_m: f64,
-    has_stood: bool,
-    is_past: bool,
-}
-
-/// The line of a traffic light that a vehicle has not passed.
-#[derive(Clone, Debug)]
-struct LightAhead {
-    line_m: f64,
-    cycle: Arc<LightCycle>,
-}
-
-/// A conflict at which another vehicle has priority.
-#[derive(Clone, Debug)]
-struct Crossing {
-    other: usize,
-    conflict: RouteConflict,
-    /// Whether the vehicle had entered it before.
-    was_entered: bool,
-    /// Time at which the vehicle's rear left it; for merging routes, at which its front reached it \[s\].
-    left_s: Option<f64>,
-    /// Whether a violation has become impossible.
-    is_settled: bool,
-}
-
-/// The violations of one vehicle so far.
-#[derive(Clone, Debug)]
-struct Broken {
+struct BrokenSoFar {
     vehicle: usize,
-    /// Ratio of its lengths to those of a real car.
-    scale: f64,
-    signs: Vec<Sign>,
-    lights: Vec<LightAhead>,
-    crossings: Vec<Crossing>,
-    is_speeding: bool,
-    count: u64,
+    count: usize,
 }
 
-impl Measurement for Broken {
+impl Measurement for BrokenSoFar {
     fn observe(&mut self, tick: &ObservedTick<'_>) {
-        let moment = &tick.end;
-        let (vehicle, along_m) = (&moment.vehicles[self.vehicle], moment.along_m[self.vehicle]);
-        let speed_mps = moment.states[self.vehicle].speed_mps;
-        let excess_mps = speeding_mps(vehicle, along_m, speed_mps);
-        let is_fast = excess_mps > SPEEDING_MPS * self.scale.sqrt();
-        self.count += u64::from(is_fast && !self.is_speeding);
-        self.is_speeding = is_fast || (self.is_speeding && excess_mps > 0.0);
-        let front_m = along_m + vehicle.body.front_m;
-        let near_m = vehicle.body.front_m + vehicle.body.rear_m;
-        for sign in self.signs.iter_mut().filter(|sign| !sign.is_past) {
-            sign.has_stood |= speed_mps < STANDING_MPS * self.scale.sqrt() && front_m > sign.line_m - near_m;
-            sign.is_past = front_m > sign.line_m + 0.5 * self.scale;
-            self.count += u64::from(sign.is_past && !sign.has_stood);
-        }
-        let passes = |light: &LightAhead| front_m > light.line_m;
-        let is_red = |light: &LightAhead| {
-            matches!(light.cycle.colour_at(moment.time_s), LightColour::Red | LightColour::RedAmber)
-        };
-        self.count += self.lights.iter().filter(|light| passes(light) && is_red(light)).count() as u64;
-        self.lights.retain(|light| !passes(light));
-        let spare_s = SPARE_S * self.scale.sqrt();
-        for crossing in self.crossings.iter_mut().filter(|crossing| !crossing.is_settled) {
-            self.count += u64::from(crossing.is_taken(moment, self.vehicle, spare_s));
-        }
+        let name = tick.frame.vehicles.get(self.vehicle).map(|vehicle| &vehicle.name);
+        self.count += tick.frame.broken_rules.iter().filter(|broken| Some(&broken.vehicle) == name).count();
     }
 
     fn measured(&self) -> Measured {
-        Measured { value: Some(MetricValue::Count(self.count)), ..Measured::default() }
+        Measured { value: Some(MetricValue::Count(self.count as u64)), ..Measured::default() }
     }
 
     fn fork(&self) -> Box<dyn Measurement> {
-        Box::new(self.clone())
-    }
-}
-
-impl Crossing {
-    /// Whether the vehicle has violated the other's right of way by now.
-    fn is_taken(&mut self, moment: &ObservedMoment<'_>, vehicle: usize, spare_s: f64) -> bool {
-        let ends_m = |vehicle: usize| {
-            let (along_m, body) = (moment.along_m[vehicle], &moment.vehicles[vehicle].body);
-            [along_m - body.rear_m, along_m + body.front_m]
-        };
-        let ([own_rear_m, own_front_m], [_, their_front_m]) = (ends_m(vehicle), ends_m(self.other));
-        let (own_m, their_m) = (self.conflict.own_m, self.conflict.their_m);
-        let has_entered = own_front_m > own_m[0];
-        if !has_entered {
-            return false;
-        }
-        let is_merging = self.conflict.kind == ConflictKind::Merging;
-        if self.left_s.is_none() && (is_merging || own_rear_m > own_m[1]) {
-            self.left_s = Some(moment.time_s);
-        }
-        let within_s = self.left_s.map_or(0.0, |left_s| moment.time_s - left_s);
-        let is_there = their_front_m > their_m[0];
-        // If the other vehicle entered before this one, its right of way was respected.
-        let was_there = !self.was_entered && is_there;
-        self.was_entered = true;
-        self.is_settled = was_there || is_there || within_s >= spare_s;
-        is_there && !was_there && within_s < spare_s
+        Box::new(*self)
     }
 }
