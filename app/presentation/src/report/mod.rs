@@ -3,6 +3,7 @@
 mod building;
 mod columns;
 mod comparison;
+mod crowd;
 mod identification;
 mod identified_scenario;
 mod junit;

@@ -7,6 +7,7 @@ use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
+use super::crowd::{Crowd, flow_of};
 use super::columns::{Align, write_table, written};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
@@ -40,12 +41,16 @@ fn to_milliseconds(time_s: f64) -> f64 {
 }
 
 fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
-    for vehicle in &report.vehicles {
+    let (crowds, alone) = Crowd::split(&report.vehicles);
+    for crowd in &crowds {
+        writeln!(text, "  {}", crowd.sentence())?;
+    }
+    for vehicle in &alone {
         if let Some(time_s) = vehicle.completed_s {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    writeln!(text, "  order at the end: {}", report.order_of_driven().join(", "))?;
+    writeln!(text, "  order at the end: {}", order_in_words(report, &crowds))?;
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is the only vehicle")?,
@@ -63,14 +68,28 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     for broken in &report.broken_rules {
         writeln!(text, "  RULE BROKEN at {:.2} s: {} {}", broken.time_s, broken.vehicle, broken.words())?;
     }
-    for vehicle in report.vehicles.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
+    for vehicle in alone.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
         let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();
         writeln!(text, "  {} {}", vehicle.name, waits.join(", "))?;
     }
     for deadlock in &report.deadlocks {
         writeln!(text, "  DEADLOCK at {:.2} s: {}", deadlock.time_s, deadlock.sentence())?;
     }
-    write_vehicles(text, &report.vehicles)
+    write_vehicles(text, &crowds, &alone)
+}
+
+/// The order at the end; the vehicles of a crowd that follow one another are counted.
+fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> String {
+    let mut places: Vec<(&str, usize)> = Vec::new();
+    for name in report.order_of_driven() {
+        let crowd = flow_of(name).filter(|flow| crowds.iter().any(|crowd| crowd.name == *flow));
+        match (places.last_mut(), crowd) {
+            (Some((last, count)), Some(crowd)) if *last == crowd => *count += 1,
+            (_, crowd) => places.push((crowd.unwrap_or(name), usize::from(crowd.is_some()))),
+        }
+    }
+    let place = |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
+    places.iter().map(place).collect::<Vec<_>>().join(", ")
 }
 
 /// The belief of a driver about another one: the likely kinds of driver, and the one that it plans for.
@@ -129,7 +148,7 @@ fn remarks(plans: &PlansReport) -> String {
     failed.into_iter().chain(slow).collect::<Vec<_>>().join(", ")
 }
 
-fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
+fn write_vehicles(text: &mut String, crowds: &[Crowd<'_>], alone: &[&VehicleReport]) -> std::fmt::Result {
     use Align::{Left, Right};
     let header = [
         ("vehicle", Left),
@@ -154,8 +173,34 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
             remarks(plans),
         ]
     };
-    let driven = vehicles.iter().filter(|vehicle| !vehicle.is_obstacle);
-    write_table(text, &header, driven.map(row))
+    let driven = alone.iter().filter(|vehicle| !vehicle.is_obstacle);
+    write_table(text, &header, driven.map(|vehicle| row(vehicle)).chain(crowds.iter().map(crowd_row)))
+}
+
+/// The row of a crowd: ranges over its vehicles, sums of plans, and the slowest median of planning times.
+fn crowd_row(crowd: &Crowd<'_>) -> Vec<String> {
+    let came = || crowd.vehicles.iter().filter(|vehicle| vehicle.travel.has_come());
+    let [least, most] = came().fold([f64::INFINITY, 0.0_f64], |[least, most], vehicle| {
+        let [low, high] = vehicle.speed_range_mps();
+        [least.min(low), most.max(high)]
+    });
+    let mean = came().filter_map(|vehicle| vehicle.metrics.number("mean_abs_acceleration")).sum::<f64>();
+    let worst = |of: fn(&PlansReport) -> f64| came().map(|vehicle| of(&vehicle.plans)).fold(0.0, f64::max);
+    let total = |of: fn(&PlansReport) -> usize| came().map(|vehicle| of(&vehicle.plans)).sum::<usize>();
+    let mut drivers: Vec<&str> = crowd.vehicles.iter().map(|vehicle| vehicle.driver.as_str()).collect();
+    drivers.sort_unstable();
+    drivers.dedup();
+    let failed = total(|plans| plans.failed);
+    vec![
+        format!("{} ({})", crowd.name, crowd.vehicles.len()),
+        drivers.join(", "),
+        format!("{:.2}-{most:.2}", least.min(most)),
+        format!("{:.2}", mean / came().count().max(1) as f64),
+        total(|plans| plans.count).to_string(),
+        format!("{:.2}", worst(|plans| plans.median_ms)),
+        format!("{:.2}", worst(|plans| plans.p99_ms)),
+        if failed > 0 { format!("{failed} FAILED") } else { String::new() },
+    ]
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::building::BuildingReport;
-use crate::measure::{Deadlock, HeldBelief, MetricValues, Passage, PhaseDigests, VehicleMeasures, Wait};
+use crate::measure::{Deadlock, HeldBelief, MetricValues, Passage, PhaseDigests, Travel, VehicleMeasures, Wait};
 use crate::state::frame::{BrokenRule, Collision};
 
 /// The outcome of one run; its serialisation is the output contract of `--json`. It omits keys about vehicles if there
@@ -116,6 +116,9 @@ pub struct VehicleReport {
     /// Ratio of its lengths to those of a real car.
     #[serde(skip)]
     pub scale: f64,
+    /// How it travelled.
+    #[serde(skip)]
+    pub travel: Travel,
     /// Its last state.
     #[serde(rename = "final")]
     pub last: State,
@@ -195,6 +198,7 @@ impl VehicleReport {
             scale: vehicle.body.real_ratio(),
             completed_s: measured.completion.completed_s,
             has_task: measured.completion.has_task(),
+            travel: measured.travel,
             last: measured.last,
             metrics: measured.metrics.values(),
             standing,

@@ -178,7 +178,8 @@ impl SettingPath {
     pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
         if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
-            return Err(Fault::at(&self.0[1].place, "no vehicle here", message));
+            let fault = Fault::at(&self.0[1].place, "no vehicle here", message);
+            return Err(flow_help(root).map_or(fault.clone(), |help| fault.help(help)));
         }
         let mut paths = self.in_scenario(root).into_iter();
         paths.try_for_each(|path| lay(Some(schema), root, (&path.0, 0), value.clone()))
@@ -281,10 +282,20 @@ fn has_vehicles(root: &Table) -> bool {
 fn no_vehicles(root: &Table, place: &Place) -> Fault {
     let message = "the scenario has no vehicles, so `--planner` has nothing to change";
     let fault = Fault::at(place, "no vehicle to drive", message);
+    if let Some(help) = flow_help(root) {
+        return fault.help(help);
+    }
     if root.contains_key("building") {
         return fault.help("the building has a controller, which `--set controller.kind=KIND` chooses");
     }
     fault.help("add a `[[vehicle]]`, or name another scenario: `interplay list` shows them")
+}
+
+/// Which key changes the drivers of a scenario whose vehicles come from flows; none without flows.
+fn flow_help(root: &Table) -> Option<String> {
+    let TomlValue::Array(flows) = &root.get("flow")?.node.value else { return None };
+    let name = flows.iter().find_map(TomlNode::label)?;
+    Some(format!("its vehicles come from flows: `flow.{name}.vehicle.driver.kind` and `.style` choose their drivers"))
 }
 
 /// Refuses kinds of drivers that need more than their name, unless the ego has such a driver already.

@@ -1,7 +1,16 @@
 //! The check of detectors: whether their lanes and the detectors before them exist.
 
 use super::checker::Checker;
+use crate::model::traffic::lane_reference::LaneReference;
 use crate::text::error::quoted;
+
+/// A lane as its file names it.
+fn lane_words(lane: &LaneReference) -> String {
+    match lane {
+        LaneReference::Number(number) => number.to_string(),
+        LaneReference::Name(name) => quoted(name),
+    }
+}
 
 impl Checker<'_> {
     pub(super) fn detectors(&mut self) {
@@ -16,6 +25,12 @@ impl Checker<'_> {
                     format!("there are two detectors {name}"),
                     "name one otherwise",
                 );
+            }
+            if let Some((at, lane)) =
+                detector.lanes.iter().enumerate().find(|(at, lane)| detector.lanes[..*at].contains(lane))
+            {
+                let message = format!("detector {name} lists lane {lane} twice", lane = lane_words(lane));
+                self.refuse(&key(&format!("lanes.{at}")), "the second", message, "list each lane once: it counts its vehicles once");
             }
             let is_missing = |lane| self.scenario.detector_line(lane, detector.along_m).is_none();
             if detector.lanes.iter().any(is_missing) {
