@@ -75,11 +75,13 @@ impl New {
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
         // A comment must stay one line, even if the name of the file contains a line break.
         let command = shell::line(words.iter().map(String::as_str)).replace(char::is_control, "·");
-        let head = format!(
-            "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
-             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
-             # and that of the `#[table]` above them.\n\n"
-        );
+        let how = if self.all {
+            "# Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
+             # and that of the `#[table]` above them.\n"
+        } else {
+            "# `interplay new --all` writes the keys that are not stated here, too, with their defaults.\n"
+        };
+        let head = format!("#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n{how}\n");
         let folders = NewFolders::make_above(&self.file).map_err(unwritable(&self.file))?;
         // The schema is written first: if the scenario file exists, its schema exists too.
         let schema = folder.join(SCHEMA_FILE);

@@ -164,7 +164,7 @@ impl Waits {
     /// The vehicles for which a vehicle waits, and why. A vehicle that waits for a deadlocked one is not deadlocked itself.
     fn wait(&self, standing: &Standing<'_>, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
         if let Some(told_by) = standing.told_by(index) {
-            return (Vec::new(), format!("as {told_by} says"));
+            return (Vec::new(), told_by.to_owned());
         }
         let setting_off_s = SETTING_OFF_S * self.times[index];
         match &self.last[index] {

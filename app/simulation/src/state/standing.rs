@@ -91,12 +91,12 @@ impl<'a> Standing<'a> {
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
     }
 
-    /// What tells a vehicle to stand, whatever happens around it: its script, its record, or inputs from outside.
+    /// What makes a vehicle stand whatever happens around it, in words: its script, its record, or inputs from outside.
     pub(crate) fn told_by(&self, index: usize) -> Option<&'static str> {
         match &self.vehicles[index].driver {
-            Driver::Scripted(_) => Some("its script"),
-            Driver::Recorded(_) => Some("its record"),
-            driver => driver.is_driven_from_outside().then_some("its inputs"),
+            Driver::Scripted(_) => Some("as its script says"),
+            Driver::Recorded(_) => Some("as its record says"),
+            driver => driver.is_driven_from_outside().then_some("as its inputs say"),
         }
     }
 
