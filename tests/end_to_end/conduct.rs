@@ -76,12 +76,7 @@ fn the_command_reports_conduct_in_words_and_as_json() {
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "70.0")).expect("a scratch file can be written");
     let said = interplay(&folder, &["run", "street.toml", "--no-record"]);
     assert_eq!(said.code, Some(0), "{}", said.stdout);
-    for piece in [
-        "ego stood ",
-        " s (sign)",
-        "idle stood 14.0 s (as its script says)",
-        "ok   rules_kept",
-    ] {
+    for piece in ["ego stood ", " s (sign)", "idle stood 14.0 s (as its script says)", "ok   rules_kept"] {
         assert!(said.stdout.contains(piece), "{piece:?} is not in\n{}", said.stdout);
     }
     let report = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]).json();

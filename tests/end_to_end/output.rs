@@ -116,7 +116,9 @@ fn list_names_every_authored_scenario() {
     assert!(headings.contains(&"intersection") && headings.len() < names.len() / 2, "{headings:?}");
     let family = interplay(&folder, &["list", "intersection"]).stdout;
     let of_family = |line: &&str| line.starts_with("  intersection/");
-    assert!(family.starts_with("intersection\n") && family.lines().filter(of_family).count() + 1 == family.lines().count());
+    assert!(
+        family.starts_with("intersection\n") && family.lines().filter(of_family).count() + 1 == family.lines().count()
+    );
     assert_eq!(interplay(&folder, &["list", "nowhere"]).code, Some(2));
     let list = interplay(&folder, &["list", "--json"]).json();
     for (row, file) in list.as_array().expect("a list").iter().zip(embedded()) {

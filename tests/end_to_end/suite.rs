@@ -68,7 +68,14 @@ fn a_failed_expectation_fails_the_suite_and_is_named() {
     let outcome = interplay(&folder, &["suite", "sub/good.toml", "sub", "--junit", "out.xml"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(1), ""), "{outcome:?}");
     let lines: Vec<&str> = outcome.stdout.lines().collect();
-    let starts = ["scenario ", "good ", "bad ", "  FAIL min_gap_m: wanted: at least 9.0 m; got: 0.", "good ", "FAILED: 2 of 3 met "];
+    let starts = [
+        "scenario ",
+        "good ",
+        "bad ",
+        "  FAIL min_gap_m: wanted: at least 9.0 m; got: 0.",
+        "good ",
+        "FAILED: 2 of 3 met ",
+    ];
     assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
     for (line, start) in lines.iter().zip(starts) {
         assert!(line.starts_with(start), "`{line}` does not start with `{start}`");
@@ -93,14 +100,19 @@ fn a_suite_reports_all_invalid_files_and_runs_the_others() {
         ("plan.toml", "scenario = ['good.toml']\nplanner = ['idm']\n"),
         ("sweeps/quick/plan.toml", "scenario = ['good.toml']\n"),
         ("base.toml", "title = 'A street'\n[road]\nkind = 'two-way'\n"),
-        ("two-way.toml", "extends = 'base.toml'\nshows = 'A car'\nduration_s = 0.5\n[[vehicle]]\nname = 'ego'\nclass = 'car'\n\
-         start = { lane = 'east', along_m = 5.0, speed_mps = 5.0 }\n"),
+        (
+            "two-way.toml",
+            "extends = 'base.toml'\nshows = 'A car'\nduration_s = 0.5\n[[vehicle]]\nname = 'ego'\nclass = 'car'\n\
+         start = { lane = 'east', along_m = 5.0, speed_mps = 5.0 }\n",
+        ),
     ] {
         fs::write(folder.join(name), text).expect("a file can be written");
     }
     let outcome = interplay(&folder, &["suite", ".", "missing.toml", "empty", "--json", "--junit", "out.xml"]);
     assert_eq!((outcome.code, names(&outcome.json())), (Some(2), vec!["good", "two-way"]), "{outcome:?}");
-    for piece in ["one.toml", "two.toml", "missing.toml", "no scenario in folder `empty`", "left out", "base.toml", "plan.toml"] {
+    for piece in
+        ["one.toml", "two.toml", "missing.toml", "no scenario in folder `empty`", "left out", "base.toml", "plan.toml"]
+    {
         assert!(outcome.stderr.contains(piece), "{piece}: {}", outcome.stderr);
     }
     assert!(!outcome.stderr.contains("sweeps"), "{}", outcome.stderr);
@@ -146,7 +158,8 @@ fn a_contact_that_the_ego_begins_fails_a_run_without_expectations() {
     fs::write(folder.join("contact.toml"), CONTACT).expect("a file can be written");
     for command in [&["run", "contact.toml", "--no-record"][..], &["suite", "contact.toml"]] {
         let outcome = interplay(&folder, command);
-        let said = "FAIL no_contact_by_ego: wanted: no contact that the ego begins, where nothing else is expected; got: ego ";
+        let said =
+            "FAIL no_contact_by_ego: wanted: no contact that the ego begins, where nothing else is expected; got: ego ";
         assert!(outcome.code == Some(1) && outcome.stdout.contains(said), "{outcome:?}");
         let allowed = interplay(&folder, &[command, &["--allow-contacts"]].concat());
         assert_eq!(allowed.code, Some(0), "{allowed:?}");
@@ -163,7 +176,8 @@ fn a_suite_takes_families_patterns_and_changes() {
     let changed = run(&["mine.toml", "--planner", "idm", "--seed", "7", "--set", "duration_s=0.3"]).json();
     assert_eq!((&changed[0]["seed"], &changed[0]["simulated_s"]), (&7.into(), &0.3.into()));
     assert_eq!(changed[0]["vehicles"][0]["driver"], "idm");
-    let family = run(&["intersection/n*", "--set", "duration_s=0.3", "--set", "expect={}", "--set", "counterfactual=[]"]);
+    let family =
+        run(&["intersection/n*", "--set", "duration_s=0.3", "--set", "expect={}", "--set", "counterfactual=[]"]);
     assert!(names(&family.json()).iter().all(|name| name.starts_with("intersection/n")), "{family:?}");
     for planner in ["walker", "recorded", "inputs", "external"] {
         let refused = run(&["mine.toml", "--planner", planner]);

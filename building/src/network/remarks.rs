@@ -34,7 +34,9 @@ impl Network {
         }
         let time_constants = self.node_time_constants_s();
         let capacities = self.capacities_kj_per_k.iter().copied();
-        for ((zone, &time_constant_s), capacity_kj_per_k) in self.names[..self.zone_count].iter().zip(&time_constants).zip(capacities) {
+        for ((zone, &time_constant_s), capacity_kj_per_k) in
+            self.names[..self.zone_count].iter().zip(&time_constants).zip(capacities)
+        {
             let zone = zone.clone();
             let cools_by_k = COLDER_K * (1.0 - libm::exp(-NIGHT_S / time_constant_s));
             if time_constant_s < FAST_S {

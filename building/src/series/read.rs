@@ -69,7 +69,8 @@ impl SeriesTable {
     /// intervals.
     pub fn parse(text: &str) -> Result<Self, SeriesError> {
         // Carriage returns would make the reader count lines wrongly.
-        let text = home_assistant::table(text).unwrap_or_else(|| text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
+        let text =
+            home_assistant::table(text).unwrap_or_else(|| text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
         let text = text.as_str();
         let before = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
         let Some(header_line) = text.lines().nth(before) else {

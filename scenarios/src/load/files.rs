@@ -111,10 +111,8 @@ pub fn files_below(folder: &Path) -> io::Result<FolderContents> {
         _ => None,
     });
     let extended: Vec<PathBuf> = parents.collect();
-    let scenario = |path: PathBuf| FolderScenario {
-        is_extended: real(&path).is_some_and(|path| extended.contains(&path)),
-        path,
-    };
+    let scenario =
+        |path: PathBuf| FolderScenario { is_extended: real(&path).is_some_and(|path| extended.contains(&path)), path };
     Ok(FolderContents { scenarios: scenarios.into_iter().map(scenario).collect(), plans })
 }
 

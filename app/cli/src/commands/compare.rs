@@ -126,7 +126,14 @@ fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
 
 /// Compares the rows of a folder and writes their page, as a sweep does at its end.
 pub(crate) fn after_sweep(folder: &Path, registry: &Registry) -> ExitStatus {
-    let compare =
-        Compare { first: folder.to_owned(), second: None, baseline: None, by: By::Family, all: false, page: None, json: false };
+    let compare = Compare {
+        first: folder.to_owned(),
+        second: None,
+        baseline: None,
+        by: By::Family,
+        all: false,
+        page: None,
+        json: false,
+    };
     compare.execute(registry)
 }

@@ -31,9 +31,10 @@ impl Completions {
     pub(crate) fn execute(self, mut interplay: clap::Command, registry: &Registry) -> ExitStatus {
         for name in with_planner(&interplay) {
             let kinds = registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(&&**kind));
-            let kinds = PossibleValuesParser::new(kinds.map(|kind| PossibleValue::new(kind.to_owned())).collect::<Vec<_>>());
-            interplay =
-                interplay.mut_subcommand(name, |command| command.mut_arg("planner", |planner| planner.value_parser(kinds)));
+            let kinds =
+                PossibleValuesParser::new(kinds.map(|kind| PossibleValue::new(kind.to_owned())).collect::<Vec<_>>());
+            interplay = interplay
+                .mut_subcommand(name, |command| command.mut_arg("planner", |planner| planner.value_parser(kinds)));
         }
         for (name, argument) in TAKES_SCENARIOS {
             let names = embedded().iter().map(|file| PossibleValue::new(file.name));

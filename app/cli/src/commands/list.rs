@@ -26,7 +26,9 @@ impl List {
         for pattern in &self.names {
             let found = names_matching(pattern);
             if found.is_empty() {
-                print_error(&format!("no scenario is called `{pattern}`; `interplay list` without it shows all of them"));
+                print_error(&format!(
+                    "no scenario is called `{pattern}`; `interplay list` without it shows all of them"
+                ));
                 return ExitStatus::BadInput;
             }
             names.extend(found);

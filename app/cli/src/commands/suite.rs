@@ -91,10 +91,8 @@ impl Suite {
             return ExitStatus::BadInput;
         }
         let began = Instant::now();
-        let scenarios: Vec<(String, Scenario)> = loaded
-            .iter()
-            .filter_map(|(name, outcome)| Some((name.clone(), outcome.as_ref().ok()?.clone())))
-            .collect();
+        let scenarios: Vec<(String, Scenario)> =
+            loaded.iter().filter_map(|(name, outcome)| Some((name.clone(), outcome.as_ref().ok()?.clone()))).collect();
         let cases = match self.run(loaded) {
             Ok(cases) => cases,
             Err(error) => {

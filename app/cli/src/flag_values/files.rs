@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use interplay_scenarios::{FolderScenario, LoadError, Override, Registry, Scenario, embedded, files_below, names_matching};
+use interplay_scenarios::{
+    FolderScenario, LoadError, Override, Registry, Scenario, embedded, files_below, names_matching,
+};
 use thiserror::Error;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,8 +101,8 @@ fn find(argument: &str) -> Result<(Vec<ScenarioArgument>, Vec<PathBuf>), FolderE
         };
         return Ok((found, Vec::new()));
     }
-    let found = files_below(folder)
-        .map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
+    let found =
+        files_below(folder).map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
     if found.scenarios.is_empty() {
         return Err(FolderError::Empty { folder: argument.to_owned() });
     }

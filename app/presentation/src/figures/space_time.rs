@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use interplay_planners::State;
-use interplay_planners::road::network::Lane;
 use interplay_planners::road::CentreLine;
+use interplay_planners::road::network::Lane;
 use interplay_scenarios::{LaneReference, Scenario};
 
 use super::recorded_run::RecordedRun;

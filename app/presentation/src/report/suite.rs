@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_scenarios::LoadError;
+use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_simulation::run::RunError;
 use thiserror::Error;
 

@@ -7,8 +7,8 @@ use interplay_simulation::measure::Wait;
 use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
-use super::crowd::{Crowd, flow_of};
 use super::columns::{Align, write_table, written};
+use super::crowd::{Crowd, flow_of};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -88,7 +88,8 @@ fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> String {
             (_, crowd) => places.push((crowd.unwrap_or(name), usize::from(crowd.is_some()))),
         }
     }
-    let place = |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
+    let place =
+        |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
     places.iter().map(place).collect::<Vec<_>>().join(", ")
 }
 

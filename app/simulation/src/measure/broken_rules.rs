@@ -172,9 +172,8 @@ impl WatchedVehicle {
                 add(Rule::StopSign, sign.line_m, None);
             }
         }
-        let is_red = |light: &&LightAhead| {
-            matches!(light.cycle.colour_at(end.time_s), LightColour::Red | LightColour::RedAmber)
-        };
+        let is_red =
+            |light: &&LightAhead| matches!(light.cycle.colour_at(end.time_s), LightColour::Red | LightColour::RedAmber);
         for light in self.lights.iter().filter(|light| front_m > light.line_m).filter(is_red) {
             add(Rule::RedLight, light.line_m, None);
         }

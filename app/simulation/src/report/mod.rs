@@ -75,8 +75,10 @@ impl Report {
     pub fn without_contacts_by_ego(mut self) -> Self {
         let expects_nothing = self.expectations.is_empty() && self.counterfactuals.is_empty();
         if expects_nothing && self.metrics.number("contact_by_ego").is_some_and(|begun| begun > 0.0) {
-            let why = self.collisions.iter().filter_map(|contact| Some((contact.time_s, contact.fault.as_ref()?))).next();
-            let why = why.map_or_else(|| "a contact".to_owned(), |(time_s, fault)| format!("{} at {time_s:.1} s", fault.why));
+            let why =
+                self.collisions.iter().filter_map(|contact| Some((contact.time_s, contact.fault.as_ref()?))).next();
+            let why =
+                why.map_or_else(|| "a contact".to_owned(), |(time_s, fault)| format!("{} at {time_s:.1} s", fault.why));
             let want = json!("no contact that the ego begins, where nothing else is expected");
             self.expectations.push(Expectation::new("no_contact_by_ego", want, json!(why), false));
             self.passed = false;

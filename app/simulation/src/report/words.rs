@@ -51,8 +51,7 @@ fn rules(kept: &Value) -> String {
         return if kept == &Value::Bool(true) { "all rules kept" } else { "a rule broken" }.to_owned();
     };
     let times = |count: &Value| if count == 1 { "once".to_owned() } else { format!("{count} times") };
-    let all: Vec<String> =
-        broken.iter().map(|(name, count)| format!("{name} broke a rule {}", times(count))).collect();
+    let all: Vec<String> = broken.iter().map(|(name, count)| format!("{name} broke a rule {}", times(count))).collect();
     all.join(", ")
 }
 
@@ -164,18 +163,37 @@ mod tests {
             "post_encroachment_s": 4.0, "yielded": true });
         let strict = json!({ "first": "ego", "second": "oncoming", "yielded": true });
         for (what, want, got, words) in [
-            ("yields.oncoming.to.ego", strict, passage, "wanted: oncoming lets ego go first; got: oncoming first, 6.0 s before ego"),
+            (
+                "yields.oncoming.to.ego",
+                strict,
+                passage,
+                "wanted: oncoming lets ego go first; got: oncoming first, 6.0 s before ego",
+            ),
             ("no_collision", json!(true), json!(false), "wanted: no contact; got: a contact"),
             ("collisions", json!([]), json!([["a", "b"]]), "wanted: no contact; got: a with b"),
-            ("completes.ego", json!({ "before_s": 9.0 }), json!(null), "wanted: ego reaches its goal by 9.0 s; got: never"),
+            (
+                "completes.ego",
+                json!({ "before_s": 9.0 }),
+                json!(null),
+                "wanted: ego reaches its goal by 9.0 s; got: never",
+            ),
             ("completes.ego", json!("any time"), json!(4.5), "wanted: ego reaches its goal; got: at 4.5 s"),
             ("min_gap_m", json!(9.0), json!(0.5), "wanted: at least 9.0 m; got: 0.5 m"),
             ("speed.ego.min_above_mps", json!(1.0), json!(0.5), "wanted: above 1.0 m/s; got: 0.5 m/s"),
             ("metric.cut_ins.ego.at_most", json!(0), json!(2), "wanted: at most 0; got: 2"),
-            ("rules_kept", json!(true), json!({ "rules_broken": { "ego": 1 } }), "wanted: all rules kept; got: ego broke a rule once"),
+            (
+                "rules_kept",
+                json!(true),
+                json!({ "rules_broken": { "ego": 1 } }),
+                "wanted: all rules kept; got: ego broke a rule once",
+            ),
             ("order_differs", json!(true), json!(false), "wanted: another order; got: the same order"),
-            ("gap_at_least_m", json!(0.5), json!({ "m": 0.3, "between": ["a", "b"], "time_s": 16.6 }),
-                "wanted: at least 0.5 m; got: 0.3 m between a and b at 16.6 s"),
+            (
+                "gap_at_least_m",
+                json!(0.5),
+                json!({ "m": 0.3, "between": ["a", "b"], "time_s": 16.6 }),
+                "wanted: at least 0.5 m; got: 0.3 m between a and b at 16.6 s",
+            ),
         ] {
             assert_eq!(line(what, want, got), format!("{what}: {words}"));
         }

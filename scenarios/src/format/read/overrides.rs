@@ -301,10 +301,19 @@ fn flow_help(root: &Table) -> Option<String> {
 /// Refuses kinds of drivers that need more than their name, unless the ego has such a driver already.
 fn refuse_unfit_planner(root: &Table, kind: &str, place: &Place) -> Result<(), Fault> {
     let (reason, help) = match kind {
-        "walker" => ("a walker moves a pedestrian, not a vehicle", "state `class = \"pedestrian\"` and the driver in the file"),
-        "recorded" => ("a recorded driver needs a record", "state `driver = { kind = \"recorded\", file = FILE }` in the file"),
-        "inputs" => ("a driver of inputs needs inputs that were recorded", "`interplay play` records them in a file of its own"),
-        "external" => ("an external driver waits for inputs from a program of your own", "Python and `Simulation::apply` hand them in"),
+        "walker" => {
+            ("a walker moves a pedestrian, not a vehicle", "state `class = \"pedestrian\"` and the driver in the file")
+        }
+        "recorded" => {
+            ("a recorded driver needs a record", "state `driver = { kind = \"recorded\", file = FILE }` in the file")
+        }
+        "inputs" => {
+            ("a driver of inputs needs inputs that were recorded", "`interplay play` records them in a file of its own")
+        }
+        "external" => (
+            "an external driver waits for inputs from a program of your own",
+            "Python and `Simulation::apply` hand them in",
+        ),
         _ => return Ok(()),
     };
     let ego = ego_name(root);

@@ -36,8 +36,7 @@ const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
 ];
 
 /// The columns that the first look shows, with those of [`BRIEF_METRIC`].
-const BRIEF: [&str; 6] =
-    ["planner", "runs", "success % (95 %)", "time s (95 %)", "first %", "yields %: ego, others"];
+const BRIEF: [&str; 6] = ["planner", "runs", "success % (95 %)", "time s (95 %)", "first %", "yields %: ego, others"];
 /// The metric that the first look shows.
 const BRIEF_METRIC: &str = "contacts_at_fault";
 /// The first columns of differences are success, the later ones the time; the first look shows these.
@@ -135,9 +134,8 @@ pub(super) fn figures(group: &GroupFigures, shown: ShownFigures) -> Vec<TextRows
     let buildings: Vec<(&PlannerFigures, &BuildingFigures)> =
         planners.iter().filter_map(|planner| Some((*planner, planner.building.as_ref()?))).collect();
     let is_brief = shown == ShownFigures::First;
-    let is_other = |named: &&NamedFigure| {
-        !COVERED.contains(&named.key.as_str()) && (!is_brief || named.key == BRIEF_METRIC)
-    };
+    let is_other =
+        |named: &&NamedFigure| !COVERED.contains(&named.key.as_str()) && (!is_brief || named.key == BRIEF_METRIC);
     let others = planners.first().into_iter().flat_map(|planner| planner.figures.0.iter().filter(is_other));
     let metrics = others.map(metric_column).collect();
     let columns: Vec<_> = TRAFFIC.into_iter().filter(|(title, _)| !is_brief || BRIEF.contains(title)).collect();

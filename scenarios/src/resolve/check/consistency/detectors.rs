@@ -30,7 +30,12 @@ impl Checker<'_> {
                 detector.lanes.iter().enumerate().find(|(at, lane)| detector.lanes[..*at].contains(lane))
             {
                 let message = format!("detector {name} lists lane {lane} twice", lane = lane_words(lane));
-                self.refuse(&key(&format!("lanes.{at}")), "the second", message, "list each lane once: it counts its vehicles once");
+                self.refuse(
+                    &key(&format!("lanes.{at}")),
+                    "the second",
+                    message,
+                    "list each lane once: it counts its vehicles once",
+                );
             }
             let is_missing = |lane| self.scenario.detector_line(lane, detector.along_m).is_none();
             if detector.lanes.iter().any(is_missing) {
