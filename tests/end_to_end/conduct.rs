@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use interplay_scenarios::from_text;
+use interplay_scenarios::{from_text, load};
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};
@@ -86,11 +86,30 @@ fn the_command_reports_conduct_in_words_and_as_json() {
     fs::write(folder.join("street.toml"), STREET.replace("EGO_M", "140.0")).expect("a scratch file can be written");
     let broken = interplay(&folder, &["run", "street.toml", "--no-record", "--json"]);
     assert_eq!(broken.code, Some(1), "{}", broken.stdout);
+    let rule = broken.json()["broken_rules"][0].clone();
+    assert_eq!([&rule["vehicle"], &rule["rule"], &rule["lane"]], ["ego", "stop-sign", "in"], "{rule}");
+    assert!((rule["along_m"].as_f64().expect("a number") - 150.0).abs() < 1e-6, "{rule}");
+    let said = interplay(&folder, &["run", "street.toml", "--no-record"]).stdout;
+    assert!(said.contains(" s: ego passed the stop sign of lane in without standing\n"), "{said}");
     let expectations = broken.json()["expectations"].clone();
     let wanted: Value = json!([{
         "what": "rules_kept", "want": true, "got": { "rules_broken": { "ego": 1 } }, "passed": false
     }]);
     assert_eq!(expectations, wanted);
+}
+
+/// A bus at its stop and a car whose record pauses: neither is deadlocked, nor what waits behind them.
+#[test]
+fn vehicles_that_stand_as_their_script_or_record_says_are_not_deadlocked() {
+    for (name, vehicle, reason) in
+        [("bus-stop-no-deadlock", "bus", "as its script says"), ("pause", "front", "as its record says")]
+    {
+        let path = format!("{}/cases/streets2/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let film = film(name, load(&path, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults())));
+        assert!(film.report.deadlocks.is_empty(), "{name}: {:?}", film.report.deadlocks);
+        let standing = &film.report.vehicle(vehicle).expect("a vehicle").standing;
+        assert!(standing.iter().any(|wait| wait.reason == reason && wait.waited_s > 10.0), "{name}: {standing:?}");
+    }
 }
 
 /// A driver that waits for an oncoming car before it passes a van names that car.

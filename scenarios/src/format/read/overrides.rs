@@ -9,6 +9,7 @@ use interplay_common::spelling::suggestion;
 
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::merge::merge_tables;
+use crate::format::read::planner_flag::{flow_help, refuse_unfit_planner};
 use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};
 use crate::text::error::{Document, Fault, Place, quoted};
 use crate::text::name::EGO;
@@ -49,7 +50,7 @@ impl Override {
                 if !has_vehicles(root) {
                     return Err(no_vehicles(root, &place));
                 }
-                refuse_unfit_planner(root, kind, &place)?;
+                refuse_unfit_planner(root, &ego_name(root), kind, &place)?;
                 return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) }, schema);
             }
         };
@@ -289,45 +290,6 @@ fn no_vehicles(root: &Table, place: &Place) -> Fault {
         return fault.help("the building has a controller, which `--set controller.kind=KIND` chooses");
     }
     fault.help("add a `[[vehicle]]`, or name another scenario: `interplay list` shows them")
-}
-
-/// Which key changes the drivers of a scenario whose vehicles come from flows; none without flows.
-fn flow_help(root: &Table) -> Option<String> {
-    let TomlValue::Array(flows) = &root.get("flow")?.node.value else { return None };
-    let name = flows.iter().find_map(TomlNode::label)?;
-    Some(format!("its vehicles come from flows: `flow.{name}.vehicle.driver.kind` and `.style` choose their drivers"))
-}
-
-/// Refuses kinds of drivers that need more than their name, unless the ego has such a driver already.
-fn refuse_unfit_planner(root: &Table, kind: &str, place: &Place) -> Result<(), Fault> {
-    let (reason, help) = match kind {
-        "walker" => {
-            ("a walker moves a pedestrian, not a vehicle", "state `class = \"pedestrian\"` and the driver in the file")
-        }
-        "recorded" => {
-            ("a recorded driver needs a record", "state `driver = { kind = \"recorded\", file = FILE }` in the file")
-        }
-        "inputs" => {
-            ("a driver of inputs needs inputs that were recorded", "`interplay play` records them in a file of its own")
-        }
-        "external" => (
-            "an external driver waits for inputs from a program of your own",
-            "Python and `Simulation::apply` hand them in",
-        ),
-        _ => return Ok(()),
-    };
-    let ego = ego_name(root);
-    let vehicles = root.get("vehicle").and_then(|entry| match &entry.node.value {
-        TomlValue::Array(vehicles) => Some(vehicles),
-        _ => None,
-    });
-    let driver = vehicles.into_iter().flatten().find(|vehicle| vehicle.label() == Some(&*ego));
-    let stated = driver.and_then(|vehicle| vehicle.at("driver.kind")).and_then(TomlNode::text);
-    if stated == Some(kind) {
-        return Ok(());
-    }
-    let message = format!("`--planner {kind}` cannot drive `{ego}`: {reason}");
-    Err(Fault::at(place, "not a planner of a vehicle", message).help(help))
 }
 
 fn ego_name(root: &Table) -> String {

@@ -57,3 +57,18 @@ impl Checker<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::from_text;
+
+    #[test]
+    fn a_lane_that_a_detector_lists_twice_is_refused() {
+        let text = "title = 'a'\nshows = 'a'\nroad = { kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }\n[defaults]\nclass = 'car'\n\
+                    [[vehicle]]\nname = 'ego'\nstart = { lane = 0, along_m = 0.0, speed_mps = 10.0 }\n\
+                    [[detector]]\nname = 'exit'\nlanes = [0, 1, 0]\nalong_m = 50.0\n";
+        let error = from_text("a.toml", text, &[]).map(|_| ()).expect_err("refused");
+        assert_eq!(error.faults()[0].message(), "detector `exit` lists lane 0 twice");
+        assert!(from_text("a.toml", &text.replace("1, 0]", "1]"), &[]).is_ok());
+    }
+}
