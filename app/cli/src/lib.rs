@@ -147,7 +147,7 @@ fn command(registry: &Registry) -> clap::Command {
     let drivers = format!("Who drives the ego instead of the scenario's choice: {kinds}");
     let mut command = Interplay::command();
     for name in ["run", "suite", "check"] {
-        command = command.mut_subcommand(name, |one| one.mut_arg("planner", |planner| planner.help(&drivers)));
+        command = command.mut_subcommand(name, |one| one.mut_arg("planner", |planner| planner.help(drivers.clone())));
     }
     command
 }

@@ -30,9 +30,10 @@ pub(crate) struct Completions {
 impl Completions {
     pub(crate) fn execute(self, mut interplay: clap::Command, registry: &Registry) -> ExitStatus {
         for name in with_planner(&interplay) {
-            let kinds = registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(&&**kind));
-            let kinds =
-                PossibleValuesParser::new(kinds.map(|kind| PossibleValue::new(kind.to_owned())).collect::<Vec<_>>());
+            let kinds = registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(kind));
+            // Values of arguments live as long as the process.
+            let kinds = kinds.map(|kind| PossibleValue::new(&*kind.to_owned().leak()));
+            let kinds = PossibleValuesParser::new(kinds.collect::<Vec<PossibleValue>>());
             interplay = interplay
                 .mut_subcommand(name, |command| command.mut_arg("planner", |planner| planner.value_parser(kinds)));
         }
