@@ -143,8 +143,8 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
 
 /// The arguments, with the kinds of drivers that `--planner` takes.
 fn command(registry: &Registry) -> clap::Command {
-    let kinds = registry.driver_kinds().join(", ");
-    let drivers = format!("Who drives the ego instead of the scenario's choice: {kinds}");
+    let kinds = completions::planners(registry).collect::<Vec<&str>>().join(", ");
+    let drivers = format!("Driver of the ego instead of the scenario's own: {kinds}");
     let mut command = Interplay::command();
     for name in ["run", "suite", "check"] {
         command = command.mut_subcommand(name, |one| one.mut_arg("planner", |planner| planner.help(drivers.clone())));

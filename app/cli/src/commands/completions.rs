@@ -30,9 +30,8 @@ pub(crate) struct Completions {
 impl Completions {
     pub(crate) fn execute(self, mut interplay: clap::Command, registry: &Registry) -> ExitStatus {
         for name in with_planner(&interplay) {
-            let kinds = registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(kind));
             // Values of arguments live as long as the process.
-            let kinds = kinds.map(|kind| PossibleValue::new(&*kind.to_owned().leak()));
+            let kinds = planners(registry).map(|kind| PossibleValue::new(&*kind.to_owned().leak()));
             let kinds = PossibleValuesParser::new(kinds.collect::<Vec<PossibleValue>>());
             interplay = interplay
                 .mut_subcommand(name, |command| command.mut_arg("planner", |planner| planner.value_parser(kinds)));
@@ -56,6 +55,11 @@ impl Completions {
 
 /// Kinds of drivers that `--planner` refuses: they need more than their name.
 const NO_PLANNERS: [&str; 4] = ["external", "inputs", "recorded", "walker"];
+
+/// The kinds of drivers that `--planner` takes.
+pub(crate) fn planners(registry: &Registry) -> impl Iterator<Item = &str> {
+    registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(kind))
+}
 
 /// The subcommands with a flag `--planner`.
 fn with_planner(interplay: &clap::Command) -> Vec<String> {
