@@ -62,7 +62,7 @@ pub(crate) struct PlanFile {
 /// A random change of every start.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct PlanJitter {
+pub(crate) struct PlanJitter {
     /// Largest change of the position along the road, in both directions \[m\].
     #[schemars(range(min = 0.0))]
     pub position_m: f64,
