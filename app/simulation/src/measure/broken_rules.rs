@@ -23,6 +23,9 @@ const SPEEDING_MPS: f64 = 0.5;
 /// Minimum time between leaving a conflict and the arrival of the vehicle with priority, for a real car \[s\].
 const SPARE_S: f64 = 1.0;
 
+/// A line at the end of a lane belongs to that lane: a place is looked up this far before it \[m\].
+const BEFORE_LINE_M: f64 = 1e-3;
+
 /// Watches which rules the vehicles of a run break.
 #[derive(Clone, Debug)]
 pub struct RuleWatch {
@@ -147,7 +150,7 @@ impl WatchedVehicle {
         let (vehicle, along_m) = (&end.vehicles[self.vehicle], end.along_m[self.vehicle]);
         let speed_mps = end.states[self.vehicle].speed_mps;
         let mut add = |rule: Rule, at_m: f64, of: Option<usize>| {
-            let leg = vehicle.route.leg(at_m);
+            let leg = vehicle.route.leg(at_m - BEFORE_LINE_M);
             broken.push(BrokenRule {
                 time_s: to_nanosecond(end.time_s),
                 vehicle: vehicle.name.clone(),

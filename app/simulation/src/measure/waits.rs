@@ -77,7 +77,7 @@ impl Deadlock {
     /// In words: `ego and ring wait for each other`.
     pub fn sentence(&self) -> String {
         match self.vehicles.as_slice() {
-            [only] => format!("{only} stands: {}", self.reason),
+            [only] => format!("{only} stands ({})", self.reason),
             names => format!("{} wait for each other", names.join(" and ")),
         }
     }
@@ -268,7 +268,7 @@ mod tests {
     fn a_vehicle_that_stands_without_a_reason_is_stuck_after_ten_seconds() {
         let (waits, events) = stood(101, [&["main"], &[]]);
         let [deadlock] = waits.deadlocks() else { panic!("{:?}", waits.deadlocks()) };
-        assert_eq!(deadlock.sentence(), "main stands: no reason found");
+        assert_eq!(deadlock.sentence(), "main stands (no reason found)");
         assert_eq!(events.len(), 1);
         assert!(stood(95, [&["main"], &[]]).1.is_empty(), "not yet");
         assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason found)");
