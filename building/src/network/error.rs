@@ -129,15 +129,6 @@ pub enum Remark {
         /// Capacity over total conductance \[s\].
         time_constant_s: f64,
     },
-    /// A zone cools by many kelvin in a night without heating, as a model room does and a furnished one does not.
-    Light {
-        /// Name of the zone.
-        zone: String,
-        /// Its capacity \[kJ/K\].
-        capacity_kj_per_k: f64,
-        /// By how much it cools in 5 h if it is 20 K colder around it \[K\].
-        cools_by_k: f64,
-    },
     /// A zone needs months to follow its surroundings.
     Slow {
         /// Name of the zone.
@@ -159,11 +150,6 @@ impl fmt::Display for Remark {
                 f,
                 "`{zone}` settles in {time_constant_s:.0} s: are its resistances in K/kW (1 K·min/kJ is 60 K/kW) and \
                  its capacity in kJ/K?"
-            ),
-            Self::Light { zone, capacity_kj_per_k, cools_by_k } => write!(
-                f,
-                "`{zone}` cools by {cools_by_k:.0} K in 5 h if it is 20 K colder around it: `capacity_kj_per_k` \
-                 ({capacity_kj_per_k}) is that of its air; with furniture and the inner side of its walls a room has about 10000"
             ),
             Self::Slow { zone, time_constant_s } => write!(
                 f,

@@ -9,10 +9,6 @@ use super::{Network, NetworkError};
 
 /// A zone that settles faster than this is remarked upon \[s\].
 const FAST_S: f64 = 600.0;
-/// A zone that cools by more than this in [`NIGHT_S`] with surroundings that are colder by [`COLDER_K`] is remarked upon \[K\].
-const LIGHT_K: f64 = 10.0;
-const NIGHT_S: f64 = 5.0 * 3600.0;
-const COLDER_K: f64 = 20.0;
 /// A zone that settles more slowly than this is remarked upon \[s\].
 const SLOW_S: f64 = 90.0 * 86_400.0;
 
@@ -33,16 +29,10 @@ impl Network {
             remarks.push(Remark::NoWayOut { zones: closed });
         }
         let time_constants = self.node_time_constants_s();
-        let capacities = self.capacities_kj_per_k.iter().copied();
-        for ((zone, &time_constant_s), capacity_kj_per_k) in
-            self.names[..self.zone_count].iter().zip(&time_constants).zip(capacities)
-        {
+        for (zone, &time_constant_s) in self.names[..self.zone_count].iter().zip(&time_constants) {
             let zone = zone.clone();
-            let cools_by_k = COLDER_K * (1.0 - libm::exp(-NIGHT_S / time_constant_s));
             if time_constant_s < FAST_S {
                 remarks.push(Remark::Fast { zone, time_constant_s });
-            } else if cools_by_k > LIGHT_K {
-                remarks.push(Remark::Light { zone, capacity_kj_per_k, cools_by_k });
             } else if time_constant_s > SLOW_S && time_constant_s.is_finite() {
                 remarks.push(Remark::Slow { zone, time_constant_s });
             }
