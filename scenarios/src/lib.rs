@@ -82,7 +82,7 @@ pub use format::start::StartConfig;
 pub use format::stated::Stated;
 pub use format::vehicle_config::{GoalDefaults, VehicleConfig, VehicleDefaults};
 pub use format::weather::WeatherConfig;
-pub use load::files::{files, files_below};
+pub use load::files::{FolderContents, FolderScenario, files, files_below};
 pub use load::{from_text, load};
 pub use model::building::boptest_plant::{
     BoptestForecast, BoptestIndicators, BoptestInput, BoptestPlantConfig, BoptestPrices, BoptestZone,
@@ -113,7 +113,7 @@ pub use model::traffic::plant::{Dynamic, Kinematic, Plant};
 pub use model::traffic::real_time::{Deadline, Detail, RealTime};
 pub use model::traffic::weights::{StartJitter, Weights};
 pub use plans::standard_changes::StandardChange;
-pub use plans::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
+pub use plans::{RunRefusals, SweepPlan, SweepPoint, embedded_plans, first_planner, names_matching};
 pub use resolve::budget::RunCost;
 pub use roads::*;
 pub use streets::Street;

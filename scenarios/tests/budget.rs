@@ -56,11 +56,11 @@ fn a_run_that_is_too_large_is_refused_with_the_responsible_key() {
     let fragments = ["the run makes 1000000000 steps, more than 20000000", "`budget = { steps = 1000000000 }`"];
     refused(&text, &[&fragments[..], &["lower `step_s`", "bad.toml:3"]].concat());
     let minutes = "[building]\nstep_s = 60\n[controller]\nkind = 'distributed'\ncompare = true\n";
-    refused(minutes, &["thousand million operations", "lengthen `building.step_s`", "bad.toml:4"]);
+    refused(minutes, &["billion operations", "lengthen `building.step_s`", "bad.toml:4"]);
     let tower = "[building]\ngrid = { rows = 10, columns = 100 }\n[controller]\nkind = 'clairvoyant'\n";
     refused(tower, &["not available for the exact model of 1000 temperatures", "forward Euler", "bad.toml:6"]);
     let euler = tower.replace("[controller]", "method = 'euler'\nstep_s = 60\n[controller]");
-    refused(&euler, &["thousand million operations"]);
+    refused(&euler, &["billion operations"]);
     let cars: String = (0..64).map(|i| self::car(&format!("car-{i}"), 2 * i)).collect();
     let cars = cars.replace("speed_mps = 1 }", "speed_mps = 1 }\ndriver = { kind = 'negotiation' }");
     let fragments = ["the run makes 6400000 plans, more than 200000", "lower `duration_s` to 312", "bad.toml:3"];

@@ -1,7 +1,7 @@
 //! Scenarios of CommonRoad: carried-over parts, places of errors, and no panics of the importer.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::drivers::recorded::Record;
@@ -176,7 +176,31 @@ fn a_folder_lists_scenarios_of_commonroad_and_no_other_xml() {
     fs::write(&scenario, text("motorway.xml")).expect("written");
     fs::write(&report, "<testsuites/>").expect("written");
     assert!(is_commonroad(&scenario) && !is_commonroad(&report));
-    assert_eq!(files_below(place.path()).expect("readable"), [scenario]);
+    assert_eq!(scenarios_of(place.path()), [(scenario, false)]);
+}
+
+/// The scenarios of a folder, and whether others extend them.
+fn scenarios_of(folder: &Path) -> Vec<(PathBuf, bool)> {
+    let found = files_below(folder).expect("readable").scenarios;
+    found.into_iter().map(|scenario| (scenario.path, scenario.is_extended)).collect()
+}
+
+#[test]
+fn a_folder_tells_plans_and_extended_files_from_scenarios_and_leaves_out_sweeps() {
+    let place = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        let path = place.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).and_then(|()| fs::write(&path, text)).expect("written");
+        path
+    };
+    let base = file("base.toml", "title = 'a street'\n[road]\nkind = 'two-way'\n");
+    let mine = file("sub/mine.toml", "extends = '../base.toml'\n[[vehicle]]\nname = 'ego'\n");
+    let plan = file("plan.toml", "scenario = ['mine.toml']\nplanner = ['idm']\n");
+    for inside in ["sweeps/quick/plan.toml", "sub/sweeps/copy.toml", ".venv/x.toml"] {
+        file(inside, "scenario = ['mine.toml']\n");
+    }
+    assert_eq!(scenarios_of(place.path()), [(base, true), (mine, false)]);
+    assert_eq!(files_below(place.path()).expect("readable").plans, [plan]);
 }
 
 /// Fragments that get further through the parser than random letters.

@@ -243,13 +243,13 @@ fn writing_out_every_default_of_the_schema_changes_nothing() {
 fn a_commented_file_means_the_same_as_its_original() {
     for file in embedded() {
         let scenario = Scenario { figure: None, ..load(file.name, &[]).expect("authored") };
-        let text = Registry::standard().commented(file.name, Path::new("")).expect("authored");
+        let text = Registry::standard().commented(file.name, Path::new(""), true).expect("authored");
         let again = from_text("new.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
         assert!(again == scenario, "{} is another scenario:\n{text}", file.name);
         let comments = text.lines().filter(|line| line.starts_with("# "));
         assert!(comments.map(|line| line.chars().count()).max().is_some_and(|longest| longest <= 110), "{text}");
     }
-    let text = Registry::standard().commented("lane-change/front-nice", Path::new("")).expect("authored");
+    let text = Registry::standard().commented("lane-change/front-nice", Path::new(""), true).expect("authored");
     for piece in [
         "# Width of each lane [m]. At least 0.001, at most 40.\nlane_width_m = 0.37",
         "\n#patience_steps = 5",
@@ -269,7 +269,7 @@ fn the_defaults_in_a_commented_file_are_the_defaults() {
     let mut stated = 0;
     for name in ["lane-change/front-nice", "building/four-room-ilc"] {
         let scenario = Scenario { figure: None, ..load(name, &[]).expect("authored") };
-        let text = Registry::standard().commented(name, Path::new("")).expect("authored");
+        let text = Registry::standard().commented(name, Path::new(""), true).expect("authored");
         let mut live = true;
         for (at, line) in text.match_indices('\n').map(|(end, _)| (end + 1, text[end + 1..].lines().next())) {
             let line = line.unwrap_or_default();

@@ -230,7 +230,7 @@ fn networks_are_written_and_read_back() {
         let path = folder.path().join("first.toml");
         std::fs::write(&path, &text).expect("the folder can be written");
         let first = load(&path.to_string_lossy(), &[]).unwrap_or_else(|error| panic!("{road}: {error:?}"));
-        let written = Registry::standard().commented(&path.to_string_lossy(), folder.path()).expect("it loads");
+        let written = Registry::standard().commented(&path.to_string_lossy(), folder.path(), false).expect("it loads");
         let second = from_text("second.toml", &written, &[]).unwrap_or_else(|error| panic!("{written}\n{error:?}"));
         assert_eq!(first, second, "{written}");
         assert!(second.network.is_some());

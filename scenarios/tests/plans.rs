@@ -147,17 +147,19 @@ fn a_star_in_a_plan_stands_for_all_vehicles_except_the_ego() {
     );
 }
 
-/// The change of starts of real cars is that of 1/10 scale cars by Froude's law.
+/// Metres are metres at every scale; with `scaled`, the change of starts of real cars is that of 1/10 scale cars by Froude's law.
 #[test]
-fn jitter_of_a_plan_is_scaled_to_the_vehicles() {
-    let plan = sound(
-        "scenario = ['lane-change/front-nice', 'roundabout/nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
-    );
-    for (point, scale) in points(&plan).iter().zip([1.0_f64, 10.0]) {
-        let scenario = plan.scenario(point).expect("sound");
-        assert_eq!(scenario.vehicles[0].body.scale, scale);
-        let jitter = scenario.start_jitter;
-        assert_eq!((jitter.position_m, jitter.speed_mps), (0.1 * scale, 0.1 * scale.sqrt()));
+fn jitter_of_a_plan_is_scaled_to_the_vehicles_on_request_only() {
+    for (more, is_scaled) in [("", false), (", scaled = true", true)] {
+        let plan = sound(&format!(
+            "scenario = ['lane-change/front-nice', 'roundabout/nice']\njitter = {{ position_m = 0.1, speed_mps = 0.1{more} }}\n",
+        ));
+        for (point, scale) in points(&plan).iter().zip([1.0_f64, 10.0]) {
+            let scenario = plan.scenario(point).expect("sound");
+            assert_eq!(scenario.vehicles[0].body.scale, scale);
+            let (jitter, scale) = (scenario.start_jitter, if is_scaled { scale } else { 1.0 });
+            assert_eq!((jitter.position_m, jitter.speed_mps), (0.1 * scale, 0.1 * scale.sqrt()));
+        }
     }
 }
 

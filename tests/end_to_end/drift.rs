@@ -81,7 +81,7 @@ fn marked<'a>(text: &'a str, mark: &str) -> Vec<Marked<'a>> {
 /// A line without what depends on the machine: times of plans, which end the rows below a heading that ends with them, and how long a run
 /// took.
 fn masked(line: &str, is_row_of_times: bool) -> String {
-    if line.contains(" times real time") {
+    if line.contains(" simulated in ") {
         return line.split(" in ").next().unwrap_or_default().to_owned();
     }
     let words: Vec<&str> = line.split_whitespace().collect();

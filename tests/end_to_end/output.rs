@@ -86,7 +86,7 @@ fn a_failed_expectation_exits_with_code_1() {
 fn results_go_to_stdout_and_the_rest_to_stderr() {
     let folder = scratch("streams");
     let outcome = interplay(&folder, &["run", "--set", "duration_s=2", "--record", "my.rrd"]);
-    assert!(outcome.stdout.contains("FAIL completes.ego: want "), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("FAIL completes.ego: wanted: ego reaches its goal"), "{}", outcome.stdout);
     let (place, command) = outcome.stderr.split_once("; to open it: ").expect("two parts");
     // The program is called as the shell would find it.
     assert_eq!((place, command.ends_with(" view my.rrd\n")), ("recorded to my.rrd", true), "{command}");
@@ -112,8 +112,17 @@ fn list_names_every_authored_scenario() {
     let folder = scratch("list");
     let outcome = interplay(&folder, &["list"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
-    let names: Vec<&str> = outcome.stdout.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let (rows, headings): (Vec<&str>, Vec<&str>) =
+        outcome.stdout.lines().filter(|line| !line.is_empty()).partition(|line| line.starts_with("  "));
+    let names: Vec<&str> = rows.iter().filter_map(|line| line.split_whitespace().next()).collect();
     assert!(names.iter().copied().eq(embedded().iter().map(|file| file.name)), "{names:?}");
+    assert!(headings.contains(&"intersection") && headings.len() < names.len() / 2, "{headings:?}");
+    let family = interplay(&folder, &["list", "intersection"]).stdout;
+    let of_family = |line: &&str| line.starts_with("  intersection/");
+    assert!(
+        family.starts_with("intersection\n") && family.lines().filter(of_family).count() + 1 == family.lines().count()
+    );
+    assert_eq!(interplay(&folder, &["list", "nowhere"]).code, Some(2));
     let list = interplay(&folder, &["list", "--json"]).json();
     for (row, file) in list.as_array().expect("a list").iter().zip(embedded()) {
         has_keys(row, "name title shows figure");

@@ -68,7 +68,14 @@ fn a_failed_expectation_fails_the_suite_and_is_named() {
     let outcome = interplay(&folder, &["suite", "sub/good.toml", "sub", "--junit", "out.xml"]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(1), ""), "{outcome:?}");
     let lines: Vec<&str> = outcome.stdout.lines().collect();
-    let starts = ["scenario ", "good ", "bad ", "  FAIL min_gap_m: want 9.0, got 0.", "good ", "FAILED: 2 of 3 met "];
+    let starts = [
+        "scenario ",
+        "good ",
+        "bad ",
+        "  FAIL min_gap_m: wanted: at least 9.0 m; got: 0.",
+        "good ",
+        "FAILED: 2 of 3 met ",
+    ];
     assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
     for (line, start) in lines.iter().zip(starts) {
         assert!(line.starts_with(start), "`{line}` does not start with `{start}`");
@@ -76,24 +83,43 @@ fn a_failed_expectation_fails_the_suite_and_is_named() {
     assert!(lines[1].contains(" passed ") && lines[2].contains(" FAILED "), "{}", outcome.stdout);
     let xml = fs::read_to_string(folder.join("out.xml")).expect("the results were written");
     assert_eq!(xml.matches("<testcase ").count(), 3, "{xml}");
-    assert_eq!(xml.matches("<failure message=\"min_gap_m: want 9.0, got 0.").count(), 1, "{xml}");
+    assert_eq!(xml.matches("<failure message=\"min_gap_m: wanted: at least 9.0 m; got: 0.").count(), 1, "{xml}");
     assert!(xml.contains("tests=\"3\" skipped=\"0\" failures=\"1\" errors=\"0\""), "{xml}");
 }
 
-/// No scenario runs if one of them is wrong.
+/// One unusable file does not keep the others from running; it is an error in the results, and the command ends with 2.
 #[test]
-fn a_suite_reports_all_invalid_files_and_runs_nothing() {
+fn a_suite_reports_all_invalid_files_and_runs_the_others() {
     let folder = scratch("suite-bad");
     short(&folder, "good.toml", "");
     fs::write(folder.join("one.toml"), "title = 3\n").expect("a file can be written");
     fs::write(folder.join("two.toml"), "[nonsense]\n").expect("a file can be written");
     fs::create_dir(folder.join("empty")).expect("a folder can be made");
+    fs::create_dir_all(folder.join("sweeps/quick")).expect("a folder can be made");
+    for (name, text) in [
+        ("plan.toml", "scenario = ['good.toml']\nplanner = ['idm']\n"),
+        ("sweeps/quick/plan.toml", "scenario = ['good.toml']\n"),
+        ("base.toml", "title = 'A street'\n[road]\nkind = 'two-way'\n"),
+        (
+            "two-way.toml",
+            "extends = 'base.toml'\nshows = 'A car'\nduration_s = 0.5\n[[vehicle]]\nname = 'ego'\nclass = 'car'\n\
+         start = { lane = 'east', along_m = 5.0, speed_mps = 5.0 }\n",
+        ),
+    ] {
+        fs::write(folder.join(name), text).expect("a file can be written");
+    }
     let outcome = interplay(&folder, &["suite", ".", "missing.toml", "empty", "--json", "--junit", "out.xml"]);
-    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(2), ""), "{outcome:?}");
-    for piece in ["one.toml", "two.toml", "missing.toml", "no .toml file in folder `empty`"] {
+    assert_eq!((outcome.code, names(&outcome.json())), (Some(2), vec!["good", "two-way"]), "{outcome:?}");
+    for piece in
+        ["one.toml", "two.toml", "missing.toml", "no scenario in folder `empty`", "left out", "base.toml", "plan.toml"]
+    {
         assert!(outcome.stderr.contains(piece), "{piece}: {}", outcome.stderr);
     }
-    assert!(!folder.join("out.xml").exists());
+    assert!(!outcome.stderr.contains("sweeps"), "{}", outcome.stderr);
+    let xml = fs::read_to_string(folder.join("out.xml")).expect("the results were written");
+    assert!(xml.contains("failures=\"0\" errors=\"3\""), "{xml}");
+    let checked = interplay(&folder, &["check", "."]);
+    assert_eq!((checked.code, checked.stdout.matches("ok  ").count()), (Some(2), 2), "{checked:?}");
     assert_eq!(interplay(&folder, &["suite", "--jobs", "0"]).code, Some(2));
 }
 
@@ -105,4 +131,56 @@ fn unwritable_suite_results_exit_with_code_3() {
     assert_eq!(outcome.code, Some(3), "{outcome:?}");
     assert!(outcome.stderr.contains("good.toml/results.xml"), "{outcome:?}");
     assert!(outcome.stdout.contains("PASSED: 1 of 1 "), "{outcome:?}");
+}
+
+/// A street on which a car runs into one that stands, and nothing is expected.
+const CONTACT: &str = "title = 'A contact'
+shows = 'A car that does not brake'
+duration_s = 6.0
+[defaults]
+class = 'car'
+[road]
+kind = 'lanes'
+[[vehicle]]
+name = 'ego'
+start = { lane = 0, along_m = 0.0, speed_mps = 10.0 }
+driver = { kind = 'scripted', script = [{ speed_mps = 10.0 }] }
+[[vehicle]]
+name = 'standing'
+start = { lane = 0, along_m = 30.0, speed_mps = 0.0 }
+goal = { speed_mps = 0.0 }
+driver = { kind = 'scripted' }
+";
+
+#[test]
+fn a_contact_that_the_ego_begins_fails_a_run_without_expectations() {
+    let folder = scratch("contact");
+    fs::write(folder.join("contact.toml"), CONTACT).expect("a file can be written");
+    for command in [&["run", "contact.toml", "--no-record"][..], &["suite", "contact.toml"]] {
+        let outcome = interplay(&folder, command);
+        let said =
+            "FAIL no_contact_by_ego: wanted: no contact that the ego begins, where nothing else is expected; got: ego ";
+        assert!(outcome.code == Some(1) && outcome.stdout.contains(said), "{outcome:?}");
+        let allowed = interplay(&folder, &[command, &["--allow-contacts"]].concat());
+        assert_eq!(allowed.code, Some(0), "{allowed:?}");
+    }
+    fs::write(folder.join("contact.toml"), CONTACT.to_owned() + "[expect]\nno_collision = false\n").expect("written");
+    assert_eq!(interplay(&folder, &["run", "contact.toml", "--no-record"]).code, Some(0), "a contact was expected");
+}
+
+#[test]
+fn a_suite_takes_families_patterns_and_changes() {
+    let folder = scratch("suite-changes");
+    short(&folder, "mine.toml", "");
+    let run = |arguments: &[&str]| interplay(&folder, &[&["suite", "--json"], arguments].concat());
+    let changed = run(&["mine.toml", "--planner", "idm", "--seed", "7", "--set", "duration_s=0.3"]).json();
+    assert_eq!((&changed[0]["seed"], &changed[0]["simulated_s"]), (&7.into(), &0.3.into()));
+    assert_eq!(changed[0]["vehicles"][0]["driver"], "idm");
+    let family =
+        run(&["intersection/n*", "--set", "duration_s=0.3", "--set", "expect={}", "--set", "counterfactual=[]"]);
+    assert!(names(&family.json()).iter().all(|name| name.starts_with("intersection/n")), "{family:?}");
+    for planner in ["walker", "recorded", "inputs", "external"] {
+        let refused = run(&["mine.toml", "--planner", planner]);
+        assert!(refused.code == Some(2) && refused.stderr.contains("cannot drive `ego`"), "{refused:?}");
+    }
 }

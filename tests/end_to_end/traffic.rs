@@ -308,7 +308,7 @@ fn a_failed_expectation_names_the_vehicles_and_the_time() {
         assert_eq!(got(&format!("comfort.ego.{key}")), wanted);
     }
     let text = interplay(&folder, &["run", "tight.toml", "--no-record"]).stdout;
-    assert!(text.contains("FAIL gap_at_least_m: want 9.0, got {\"m\":"), "{text}");
+    assert!(text.contains("FAIL gap_at_least_m: wanted: at least 9.0 m; got: "), "{text}");
     assert!(text.contains("\"between\":[\"ego\",\"crossing\"]"), "{text}");
     // No vehicle gets there in half a second.
     let short = ["run", "sound.toml", "--no-record", "--set", "duration_s=0.5"];

@@ -43,7 +43,7 @@ def main() -> int:
     parser.add_argument("--binary", default="target/release/interplay")
     binary = str(pathlib.Path(parser.parse_args().binary).resolve())
     listed = subprocess.run([binary, "list"], check=True, capture_output=True, text=True).stdout
-    names = re.findall(r"(?m)^([a-z-]+/[a-z0-9-]+) ", listed)
+    names = re.findall(r"(?m)^ *([a-z-]+/[a-z0-9-]+) ", listed)
     differences: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as folder:
         for name in names:

@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
-//! Results go to stdout, everything else to stderr. Exit codes: 0 all well, 1 an expectation failed, 2 bad input, 3 a run
-//! could not be finished.
+//! Results go to stdout, everything else to stderr. Exit codes: 0 all well, 1 an expectation failed or, where nothing was expected, the
+//! ego began a contact, 2 bad input, 3 a run could not be finished.
 //!
 //! The binary is this and nothing else:
 //!
@@ -42,7 +42,8 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
 #[derive(Debug, Parser)]
 #[command(name = "interplay", version = VERSION.as_str(), max_term_width = 100)]
 #[command(after_help = "Without a command: interplay run people/intersection --no-record.\n\n\
-    Exit codes: 0 all well, 1 an expectation failed, 2 bad input, 3 a run could not be finished.")]
+    Exit codes: 0 all well, 1 an expectation failed or, where nothing was expected, the ego began a contact, \
+    2 bad input, 3 a run could not be finished.")]
 struct Interplay {
     #[command(subcommand)]
     command: Option<Command>,
@@ -135,14 +136,18 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Some(Command::Identify(command)) => command.execute(),
         Some(Command::ExportFmu(command)) => command.execute(registry),
         Some(Command::FmuHost(command)) => command.execute(),
-        Some(Command::Completions(asked)) => asked.execute(command),
+        Some(Command::Completions(asked)) => asked.execute(command, registry),
         Some(Command::Man(asked)) => asked.execute(command),
     }
 }
 
 /// The arguments, with the kinds of drivers that `--planner` takes.
 fn command(registry: &Registry) -> clap::Command {
-    let kinds = registry.driver_kinds().join(", ");
-    let drivers = format!("Who drives the ego instead of the scenario's choice: {kinds}");
-    Interplay::command().mut_subcommand("run", |run| run.mut_arg("planner", |planner| planner.help(drivers)))
+    let kinds = completions::planners(registry).collect::<Vec<&str>>().join(", ");
+    let drivers = format!("Driver of the ego instead of the scenario's own: {kinds}");
+    let mut command = Interplay::command();
+    for name in ["run", "suite", "check"] {
+        command = command.mut_subcommand(name, |one| one.mut_arg("planner", |planner| planner.help(drivers.clone())));
+    }
+    command
 }

@@ -36,6 +36,7 @@ pub struct DetectorWriter {
     /// Position \[m\] and speed \[m/s\] of each vehicle at the last tick; none if it was not on the road.
     before: Vec<Option<([f64; 2], f64)>>,
     time_s: f64,
+    step_s: f64,
     detectors: Vec<Counting>,
     /// Scheduled entry time of each vehicle that has not entered yet \[s\].
     awaited_s: Vec<Option<f64>>,
@@ -87,6 +88,7 @@ impl DetectorWriter {
             rows: RowFile::begin(target, &COLUMNS)?,
             before: Vec::new(),
             time_s: 0.0,
+            step_s: scenario.step_s,
             detectors: scenario.detectors.iter().map(counting).collect(),
             awaited_s: scenario.vehicles.iter().map(|vehicle| vehicle.stay.enters_s).collect(),
         })
@@ -146,9 +148,13 @@ impl Watcher for DetectorWriter {
 
     fn finish(mut self: Box<Self>) -> Result<(), WatchError> {
         let outside = self.outside(self.time_s);
+        // The last frame is of the beginning of the last step.
+        let end_s = self.time_s + self.step_s;
         for counting in &mut self.detectors {
             if self.time_s > counting.began_s() + EDGE_TOLERANCE_S {
-                counting.write(self.time_s, outside, &mut self.rows)?;
+                let edge_s = counting.edge_s();
+                let to_s = if end_s > edge_s - EDGE_TOLERANCE_S { edge_s } else { end_s };
+                counting.write(to_s, outside, &mut self.rows)?;
             }
         }
         self.rows.finish()

@@ -77,7 +77,8 @@ pub(crate) fn seconds_since_1970(shown: DateTime) -> f64 {
 }
 
 /// Patterns of dates with a time that are understood; `%z` is an offset from UTC.
-const PATTERNS: [&str; 10] = [
+const PATTERNS: [&str; 11] = [
+    "%Y-%m-%dT%H:%M:%S%.f%z",
     "%Y-%m-%dT%H:%M:%S%z",
     "%Y-%m-%dT%H:%M%z",
     "%Y-%m-%d %H:%M:%S%z",
@@ -106,6 +107,8 @@ pub(super) struct RowTime {
     pub elapsed_s: f64,
     /// The day on the clocks of the row, and the time since its midnight \[s\].
     pub local: Option<(Date, f64)>,
+    /// Whether the text states an offset from UTC, or counts from 1970: then no change of the clocks disturbs it.
+    pub is_absolute: bool,
 }
 
 impl TimeForm {
@@ -124,7 +127,7 @@ impl TimeForm {
             Self::Elapsed(3600.0) => "hours since the first midnight, as in 0.25",
             Self::Elapsed(_) => "seconds since the first midnight, as in 900",
             Self::Calendar => {
-                "a date with a time, as in 2026-07-06 00:15 or 2026-07-06T00:15+02:00; numbers of hours stand in a column `hour`, of seconds in `time_s`"
+                "a date with a time, as in 2026-07-06 00:15 or 2026-07-06T00:15+02:00, or seconds since 1970; numbers of hours stand in a column `hour`, of seconds in `time_s`"
             }
         }
     }
@@ -134,19 +137,34 @@ impl TimeForm {
         match self {
             Self::Elapsed(unit_s) => {
                 let number = text.parse::<f64>().ok().filter(|number| number.is_finite())?;
-                Some(RowTime { elapsed_s: number * unit_s, local: None })
+                Some(RowTime { elapsed_s: number * unit_s, local: None, is_absolute: true })
             }
             Self::Calendar => calendar(text),
         }
     }
 }
 
+/// Numbers in this range are seconds since 1970, from 1973 to 2286; a thousand times larger ones are milliseconds.
+const SECONDS_SINCE_1970: std::ops::Range<f64> = 1e8..1e10;
+
+/// A time since 1970, on the clocks of UTC.
+fn since_1970(text: &str) -> Option<RowTime> {
+    let number: f64 = text.parse().ok()?;
+    let elapsed_s = [number, 1e-3 * number].into_iter().find(|seconds| SECONDS_SINCE_1970.contains(seconds))?;
+    let days = (elapsed_s / 86_400.0).floor();
+    let date = Date::constant(1970, 1, 1).checked_add(jiff::Span::new().days(days as i64)).ok()?;
+    Some(RowTime { elapsed_s, local: Some((date, elapsed_s - 86_400.0 * days)), is_absolute: true })
+}
+
 fn calendar(text: &str) -> Option<RowTime> {
+    if let Some(time) = since_1970(text) {
+        return Some(time);
+    }
     let parsed = PATTERNS.iter().find_map(|pattern| parsed(pattern, text))?;
     let here = parsed.to_datetime().ok()?;
     let since_midnight = here.duration_since(here.date().to_datetime(Time::midnight()));
     let local = Some((here.date(), since_midnight.as_secs_f64()));
-    Some(RowTime { elapsed_s: ClockTime::stated(&parsed)?.elapsed_s, local })
+    Some(RowTime { elapsed_s: ClockTime::stated(&parsed)?.elapsed_s, local, is_absolute: parsed.offset().is_some() })
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 pub(crate) mod clock;
 mod held;
+pub(crate) mod home_assistant;
 mod read;
 
 pub use held::{HeldSeries, bridge, gaps};

@@ -7,12 +7,15 @@
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use interplay_common::cell::shown_cell;
-use jiff::civil::Date;
+use jiff::civil::{Date, Weekday};
 
 use super::clock::{RowTime, TimeForm};
+use super::home_assistant;
 
 /// The most that the interval between two rows may differ from the first one, as a share of it.
 const MAX_JITTER: f64 = 0.01;
+/// By how much clocks are put back and forward \[s\].
+const HOUR_S: f64 = 3600.0;
 /// How long a value holds in a table of one row \[s\].
 const ONLY_ROW_S: f64 = 3600.0;
 
@@ -65,7 +68,10 @@ impl SeriesTable {
     /// [`SeriesError`] with the line, for a table without rows, a time or number that is none, and times that do not rise by equal
     /// intervals.
     pub fn parse(text: &str) -> Result<Self, SeriesError> {
-        let text = text.trim_start_matches('\u{feff}');
+        // Carriage returns would make the reader count lines wrongly.
+        let text =
+            home_assistant::table(text).unwrap_or_else(|| text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
+        let text = text.as_str();
         let before = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
         let Some(header_line) = text.lines().nth(before) else {
             return Err(SeriesError::new(1, "the table is empty: its first line must be a header"));
@@ -83,7 +89,9 @@ impl SeriesTable {
         if columns.is_empty() {
             return Err(SeriesError::new(before + 1, "the header names no series beside the times"));
         }
-        for (row, line) in rows.iter().zip(&row_lines) {
+        let row_lines: Vec<usize> = times.iter().map(|(_, row)| row_lines[*row]).collect();
+        for ((_, row), line) in times.iter().zip(&row_lines) {
+            let row = &rows[*row];
             for (index, column) in columns.iter_mut().enumerate() {
                 let cell = row.get(index + 1).unwrap_or_default();
                 let title = &column.title;
@@ -92,11 +100,12 @@ impl SeriesTable {
                 column.values.push(number(cell, separator).ok_or_else(problem)?);
             }
         }
-        let first_s = times[0].local.map_or(times[0].elapsed_s, |(_, since_midnight_s)| since_midnight_s);
+        let first = times[0].0;
+        let first_s = first.local.map_or(first.elapsed_s, |(_, since_midnight_s)| since_midnight_s);
         Ok(Self {
             first_s,
             interval_s: interval_s(&times),
-            first_day: times[0].local.map(|(day, _)| day),
+            first_day: first.local.map(|(day, _)| day),
             columns,
             header_line: before + 1,
             lines: row_lines,
@@ -156,16 +165,31 @@ fn records(text: &str, before: usize, separator: u8) -> Result<(Vec<StringRecord
     Ok((records, lines))
 }
 
-fn times(form: TimeForm, rows: &[StringRecord], lines: &[usize]) -> Result<Vec<RowTime>, SeriesError> {
-    let mut times: Vec<RowTime> = Vec::with_capacity(rows.len());
-    for (row, line) in rows.iter().zip(lines) {
+/// The times of a table at equal intervals, each with its row. Where clocks without an offset from UTC are put back, the first of two
+/// hours of the same name counts; where they are put forward, the row before the hour that is left out holds during it.
+fn times(form: TimeForm, rows: &[StringRecord], lines: &[usize]) -> Result<Vec<(RowTime, usize)>, SeriesError> {
+    let mut times: Vec<(RowTime, usize)> = Vec::with_capacity(rows.len());
+    for (index, (row, line)) in rows.iter().zip(lines).enumerate() {
         let text = row.get(0).unwrap_or_default();
         let wrong =
             || SeriesError::new(*line, format!("the time is {}; it must be {}", shown_cell(text), form.wanted()));
         let time = form.read(text).ok_or_else(wrong)?;
-        if let Some(before) = times.last() {
+        if let Some((before, held)) = times.last().copied() {
             let (wanted_s, found_s) = (interval_s(&times), time.elapsed_s - before.elapsed_s);
             let wanted_s = if times.len() < 2 { found_s } else { wanted_s };
+            if may_change_clocks(&time) && (wanted_s - HOUR_S - 1e-6..=1e-6).contains(&found_s) {
+                continue;
+            }
+            if may_change_clocks(&time) && (found_s - wanted_s - HOUR_S).abs() <= MAX_JITTER * wanted_s {
+                let later = |step: usize| {
+                    let by_s = step as f64 * wanted_s;
+                    let local = before.local.map(|(day, since_midnight_s)| (day, since_midnight_s + by_s));
+                    (RowTime { elapsed_s: before.elapsed_s + by_s, local, ..before }, held)
+                };
+                times.extend((1..=(HOUR_S / wanted_s).round() as usize).map(later));
+                times.push((time, index));
+                continue;
+            }
             if found_s <= 0.0 || (found_s - wanted_s).abs() > MAX_JITTER * wanted_s {
                 let problem = format!(
                     "the time {} is {} after that of the row above; rows must follow each other every {}",
@@ -176,15 +200,25 @@ fn times(form: TimeForm, rows: &[StringRecord], lines: &[usize]) -> Result<Vec<R
                 return Err(SeriesError::new(*line, problem));
             }
         }
-        times.push(time);
+        times.push((time, index));
     }
     Ok(times)
 }
 
+/// Whether clocks may be put back or forward at a time without an offset from UTC: in the night of a Sunday of spring or autumn.
+fn may_change_clocks(time: &RowTime) -> bool {
+    time.local.is_some_and(|(day, since_midnight_s)| {
+        !time.is_absolute
+            && day.weekday() == Weekday::Sunday
+            && [3, 4, 9, 10, 11].contains(&day.month())
+            && since_midnight_s <= 4.0 * HOUR_S
+    })
+}
+
 /// The time between the first two rows \[s\].
-fn interval_s(times: &[RowTime]) -> f64 {
+fn interval_s(times: &[(RowTime, usize)]) -> f64 {
     match times {
-        [first, second, ..] => second.elapsed_s - first.elapsed_s,
+        [(first, _), (second, _), ..] => second.elapsed_s - first.elapsed_s,
         _ => ONLY_ROW_S,
     }
 }
@@ -233,6 +267,36 @@ mod tests {
             SeriesTable::parse("t,a\n24.10.2026 00:15,1\n24.10.2026 00:30,1\n").map(|t| t.interval_s),
             Ok(900.0)
         );
+    }
+
+    /// On 2026-10-25 the clocks of Europe show the hour from 2 to 3 twice, on 2026-03-29 not at all.
+    #[test]
+    fn hours_of_local_clocks_stay_where_they_are_around_a_change() {
+        let rows = |day: &str, hours: &[f64]| -> String {
+            let row = |hour: &f64| format!("{day} {:02}:{:02},{hour}\n", hour.floor(), 60.0 * hour.fract());
+            hours.iter().map(row).collect()
+        };
+        for (day, hours, values) in [
+            ("2026-10-25", vec![0.0, 1.0, 2.0, 2.0, 3.0, 4.0], vec![0.0, 1.0, 2.0, 3.0, 4.0]),
+            ("2026-10-25", vec![1.5, 2.0, 2.5, 2.0, 2.5, 3.0], vec![1.5, 2.0, 2.5, 3.0]),
+            ("2026-03-29", vec![0.0, 1.0, 3.0, 4.0], vec![0.0, 1.0, 1.0, 3.0, 4.0]),
+        ] {
+            let table = SeriesTable::parse(&format!("time,a\n{}", rows(day, &hours))).expect("a table");
+            assert_eq!(table.columns[0].values, values, "{day}");
+        }
+        let monday = format!("time,a\n{}", rows("2026-10-26", &[0.0, 1.0, 1.0, 2.0]));
+        assert_eq!(SeriesTable::parse(&monday).expect_err("a row twice").line, 4);
+    }
+
+    #[test]
+    fn lines_are_counted_with_carriage_returns_and_times_since_1970_are_read() {
+        let error = SeriesTable::parse("hour,a\r\n0,1\r\n1,x\r\n").expect_err("x is wrong");
+        assert_eq!(error.line, 3);
+        for text in ["time,a\n1783296000,1\n1783299600,2\n", "time,a\n1783296000000,1\n1783299600000,2\n"] {
+            let table = SeriesTable::parse(text).expect("a table");
+            assert_eq!((table.first_s, table.interval_s), (0.0, 3600.0));
+            assert_eq!(table.first_day.map(|day| day.to_string()).as_deref(), Some("2026-07-06"));
+        }
     }
 
     #[test]

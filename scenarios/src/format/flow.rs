@@ -18,12 +18,12 @@ pub struct FlowConfig {
     /// Its name, unique among flows; its vehicles are named after it.
     #[schemars(extend("pattern" = name::pattern()), example = &"west")]
     pub name: String,
-    /// How many vehicles come in an hour \[1/h\].
+    /// How many vehicles come in an hour, on all its lanes together \[1/h\].
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100_000.0), example = 1200.0, extend("x-excludes" = ["rates"]), extend("x-unit" = "1/h"))]
     pub vehicles_per_h: Option<f64>,
-    /// How many vehicles come in an hour by time: pairs of a time \[s\] and the number from then on, in order of time. Before the first
-    /// pair no vehicle comes.
+    /// How many vehicles come in an hour by time, on all its lanes together: pairs of a time \[s\] and the number from then on, in
+    /// order of time. Before the first pair no vehicle comes.
     #[serde(default)]
     #[schemars(length(max = 1000), example = json!([[0.0, 600.0], [300.0, 1500.0]]))]
     pub rates: Vec<[f64; 2]>,

@@ -63,17 +63,40 @@ fn is_scenario(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "toml") || is_commonroad(path)
 }
 
-/// All .toml files below a folder, and scenarios of CommonRoad, sorted by name.
+/// Name of the folders of sweeps, which hold plans and copies of scenarios.
+const SWEEPS: &str = "sweeps";
+
+/// What a folder holds.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FolderContents {
+    /// The scenarios, sorted by name.
+    pub scenarios: Vec<FolderScenario>,
+    /// The plans of many runs, sorted by name.
+    pub plans: Vec<PathBuf>,
+}
+
+/// A file of a folder that counts as a scenario.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FolderScenario {
+    /// Its path.
+    pub path: PathBuf,
+    /// Whether another file of the folder extends it: then it need not be complete.
+    pub is_extended: bool,
+}
+
+/// The .toml files below a folder, and scenarios of CommonRoad. Folders of sweeps and hidden folders are not entered.
 ///
 /// # Errors
 /// The system's error, if a folder cannot be read.
-pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
+pub fn files_below(folder: &Path) -> io::Result<FolderContents> {
     let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder)? {
             let entry = entry?;
+            let name = entry.file_name();
+            let is_entered = name != SWEEPS && !name.to_string_lossy().starts_with('.');
             if entry.file_type()?.is_dir() {
-                folders.push(entry.path());
+                folders.extend(is_entered.then(|| entry.path()));
             } else if is_scenario(&entry.path()) {
                 found.push(entry.path());
             }
@@ -81,5 +104,22 @@ pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
     }
     // The files are sorted by name without extension: `distributed` comes before `distributed-hundred`.
     found.sort_by_key(|path| path.with_extension(""));
-    Ok(found)
+    let (plans, scenarios): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(|path| is_plan(path));
+    let real = |path: &Path| path.canonicalize().ok();
+    let parents = scenarios.iter().filter_map(|path| match parent(&Source::File(path.clone()))? {
+        Source::File(path) => real(&path),
+        _ => None,
+    });
+    let extended: Vec<PathBuf> = parents.collect();
+    let scenario =
+        |path: PathBuf| FolderScenario { is_extended: real(&path).is_some_and(|path| extended.contains(&path)), path };
+    Ok(FolderContents { scenarios: scenarios.into_iter().map(scenario).collect(), plans })
+}
+
+/// Whether a file is a plan of many runs; not where it cannot be read.
+fn is_plan(path: &Path) -> bool {
+    let source = Source::File(path.to_owned());
+    let read = (!is_commonroad(path)).then(|| source.read(1).ok()).flatten();
+    let tree = read.and_then(|(document, text)| tree::parse(&document, &text).ok());
+    tree.is_some_and(|tree| load::plan_in_its_place(&tree).is_some())
 }

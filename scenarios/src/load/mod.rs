@@ -242,7 +242,7 @@ pub(crate) fn assemble_on(
 }
 
 /// The fault of a file that is a plan of many runs and not a scenario.
-fn plan_in_its_place(tree: &TomlNode) -> Option<Fault> {
+pub(crate) fn plan_in_its_place(tree: &TomlNode) -> Option<Fault> {
     let table =
         tree.table().filter(|table| !["shows", "vehicle", "building"].iter().any(|key| table.contains_key(*key)))?;
     let entry = table.get("scenario")?;

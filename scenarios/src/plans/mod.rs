@@ -21,6 +21,7 @@ mod read;
 mod refusals;
 mod without_effect;
 
+pub use names::names_matching;
 pub use plan::{SweepPlan, SweepPoint};
-pub use read::embedded_plans;
+pub use read::{embedded_plans, first_planner};
 pub use refusals::RunRefusals;

@@ -1,6 +1,6 @@
 //! The scenarios that an entry of a plan selects.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use interplay_building::energy::Tariff;
 use interplay_common::spelling::suggestion;
@@ -23,23 +23,29 @@ pub(super) struct NamedScenario {
     pub source: String,
 }
 
+/// The names of the scenarios in the binary that an entry stands for: one of them, a pattern with `*` such as `intersection/*`, a family, or
+/// streets. Empty if there are none.
+pub fn names_matching(entry: &str) -> Vec<String> {
+    let matching = |fits: &dyn Fn(&str) -> bool| -> Vec<String> {
+        embedded().iter().filter(|file| fits(file.name)).map(|file| file.name.to_owned()).collect()
+    };
+    let family = format!("{}/", entry.trim_end_matches('/'));
+    let mut found = matching(&|name| fits(entry, name));
+    if found.is_empty() {
+        found = matching(&|name| name.starts_with(&family));
+    }
+    if found.is_empty() {
+        found = Street::matching(entry).iter().map(Street::name).collect();
+    }
+    found
+}
+
 /// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, streets, a file, or all .toml files below
 /// a folder, sorted by name. Paths are relative to `folder`.
 pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<NamedScenario>, Fault> {
-    let matching = |fits: &dyn Fn(&str) -> bool| -> Vec<NamedScenario> {
-        embedded().iter().filter(|file| fits(file.name)).map(|file| embedded_scenario(file.name)).collect()
-    };
-    let family = format!("{}/", entry.trim_end_matches('/'));
-    let found = match matching(&|name| fits(entry, name)) {
-        none if none.is_empty() => matching(&|name| name.starts_with(&family)),
-        found => found,
-    };
+    let found = names_matching(entry);
     if !found.is_empty() {
-        return Ok(found);
-    }
-    let streets = Street::matching(entry);
-    if !streets.is_empty() {
-        return Ok(streets.iter().map(street).collect());
+        return Ok(found.into_iter().map(embedded_scenario).collect());
     }
     let path = folder.join(entry);
     if path.is_dir() {
@@ -47,8 +53,9 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
             Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
         };
         let files = files_below(&path).map_err(unreadable)?;
+        let files: Vec<PathBuf> = files.scenarios.into_iter().map(|scenario| scenario.path).collect();
         if files.is_empty() {
-            return Err(Fault::at(place, "empty", format!("there is no .toml file in folder {}", quoted(entry))));
+            return Err(Fault::at(place, "empty", format!("there is no scenario in folder {}", quoted(entry))));
         }
         if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
             let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));
@@ -70,13 +77,12 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
     Err(Fault::at(place, "unknown", message).help(help))
 }
 
-fn embedded_scenario(name: &str) -> NamedScenario {
-    let family = name.split('/').next().unwrap_or(name).to_owned();
-    NamedScenario { name: name.to_owned(), family, source: name.to_owned() }
-}
-
-fn street(street: &Street) -> NamedScenario {
-    NamedScenario { name: street.name(), family: street.family(), source: street.name() }
+/// A scenario in the binary. The family of a street is the folder of its kind.
+fn embedded_scenario(name: String) -> NamedScenario {
+    let is_street = name.starts_with("streets/");
+    let family = if is_street { name.rsplit_once('/') } else { name.split_once('/') };
+    let family = family.map_or(&*name, |(family, _)| family).to_owned();
+    NamedScenario { family, source: name.clone(), name }
 }
 
 fn in_folder(file: &Path, folder: &Path) -> NamedScenario {

@@ -4,8 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
-use crate::model::traffic::weights::StartJitter;
-
 /// A plan of many runs: scenarios, times drivers of the others, times values that vary, times planners of the ego.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -40,11 +38,10 @@ pub(crate) struct PlanFile {
     #[serde(default)]
     #[schemars(extend("x-paths" = true))]
     pub vary: Map<String, Json>,
-    /// Random change of every start at 1/10 scale, drawn from the seed of the sample; for larger vehicles it is scaled by
-    /// Froude's law.
+    /// Random change of every start, drawn from the seed of the sample.
     #[serde(default)]
     #[schemars(example = json!({ "position_m": 0.1, "speed_mps": 0.1 }))]
-    pub jitter: Option<StartJitter>,
+    pub jitter: Option<PlanJitter>,
     /// How values are chosen: `grid` runs every combination of lists and ranges, each with as many samples of the
     /// distributions; `random` and `latin-hypercube` draw all values for each sample.
     #[serde(default)]
@@ -60,6 +57,20 @@ pub(crate) struct PlanFile {
     #[serde(default = "million")]
     #[schemars(range(min = 1))]
     pub max_runs: u64,
+}
+
+/// A random change of every start.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct PlanJitter {
+    /// Largest change of the position along the road, in both directions \[m\].
+    #[schemars(range(min = 0.0))]
+    pub position_m: f64,
+    /// Largest change of the speed, up and down \[m/s\].
+    #[schemars(range(min = 0.0))]
+    pub speed_mps: f64,
+    /// Whether the amounts are those of cars at 1/10 scale, which are scaled to larger vehicles by Froude's law.
+    pub scaled: bool,
 }
 
 /// A planner of the ego.

@@ -18,7 +18,7 @@ use crate::format::read::tree::{self, TomlNode, TomlValue};
 use crate::format::registry::Registry;
 use crate::load::{self, stated_counterfactuals};
 use crate::model::traffic::weights::StartJitter;
-use crate::plans::plan_file::PlanFile;
+use crate::plans::plan_file::{PlanFile, PlanJitter};
 use crate::resolve::check::shape;
 use crate::resolve::placement::KnownRoads;
 use crate::text::error::{Document, Fault, LoadError, Place, quoted};
@@ -176,6 +176,15 @@ fn read(
     Ok(plan)
 }
 
+/// The name of the planner that the text of a plan lists first; none without a list.
+pub fn first_planner(plan: &str) -> Option<String> {
+    let tree = tree::parse(&Document::new("plan.toml", plan, 1), plan).ok()?;
+    let TomlValue::Array(planners) = &tree.at("planner")?.value else { return None };
+    let first = planners.first()?;
+    let name = first.text().or_else(|| first.at("name").and_then(TomlNode::text));
+    name.map(str::to_owned)
+}
+
 fn refuse(faults: Vec<Fault>) -> Result<(), Vec<Fault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
@@ -277,7 +286,7 @@ fn planned(
     registry: &Registry,
     named: NamedScenario,
     place: &Place,
-    jitter: Option<(StartJitter, &Place)>,
+    jitter: Option<(PlanJitter, &Place)>,
     with_counterfactuals: bool,
 ) -> Result<PlannedScenario, Vec<Fault>> {
     let mut tree = load::tree_named_at(registry, &named.source, place)?;
@@ -290,10 +299,10 @@ fn planned(
         let message = format!("{} has no vehicles, so `jitter` has no start to change", quoted(&named.name));
         return Err(vec![Fault::at(place, "no vehicle starts", message)]);
     }
-    let scale = scenario.vehicles.first().map_or(1.0, |vehicle| vehicle.body.scale);
-    let scaled = |jitter: StartJitter| StartJitter {
-        position_m: jitter.position_m * scale,
-        speed_mps: jitter.speed_mps * scale.sqrt(),
+    let vehicle_scale = scenario.vehicles.first().map_or(1.0, |vehicle| vehicle.body.scale);
+    let scaled = |jitter: PlanJitter| {
+        let scale = if jitter.scaled { vehicle_scale } else { 1.0 };
+        StartJitter { position_m: jitter.position_m * scale, speed_mps: jitter.speed_mps * scale.sqrt() }
     };
     let canonical = format!("{}{}{}", tree.to_json(), names::contents(&scenario), registry.versions());
     Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(|(jitter, _)| scaled(jitter)), counterfactuals })

@@ -51,7 +51,13 @@ impl Registry {
         overrides: &[Override],
     ) -> Result<Vec<StandardChange>, LoadError> {
         let changed_tree = load::changed_tree(self, name_or_path, overrides)?;
-        let stated = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).flat_map(|vehicle| {
+        // Vehicles of flows are not in the file, so no change can name them.
+        let is_written = |vehicle: &&Vehicle| {
+            let written = changed_tree.at("vehicle").map(|vehicles| &vehicles.value);
+            matches!(written, Some(TomlValue::Array(all)) if all.iter().any(|one| one.label() == Some(&*vehicle.name)))
+        };
+        let driven = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
+        let stated = driven.filter(is_written).flat_map(|vehicle| {
             let plain = self.plain_driver(name_or_path, vehicle, overrides);
             let kind = kind_to_state(vehicle, &changed_tree);
             let changes = changes(vehicle, plain.as_ref(), self).into_iter();

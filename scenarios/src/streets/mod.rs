@@ -125,11 +125,6 @@ impl Street {
         fitting.flat_map(|kind| (first..=last).take(MAX_NUMBERS).map(move |number| Street { kind, number })).collect()
     }
 
-    /// The name of its kind in rows of sweeps.
-    pub(crate) fn family(&self) -> String {
-        format!("{FOLDER}{}", KINDS[self.kind].word)
-    }
-
     /// The name of the street.
     pub fn name(&self) -> String {
         format!("{FOLDER}{}/{}", KINDS[self.kind].word, self.number)

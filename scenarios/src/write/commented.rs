@@ -1,6 +1,6 @@
 //! Writes a scenario as a file to start from, with a comment from the schema on every key.
 //!
-//! Keys that the scenario states are written with their values, including those that it inherits by `extends`. All
+//! Keys that the scenario states are written with their values, including those that it inherits by `extends`. On request, all
 //! other keys follow as comments with their defaults (`#step_s = 0.1`). Each kind of table is explained where it first
 //! appears; later tables of the kind contain only the keys that they state.
 
@@ -22,19 +22,20 @@ const WIDTH: usize = 110;
 
 impl Registry {
     /// The scenario with this name or path as a commented file that means the same, for a file in `folder`. A path to a file that
-    /// would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows another picture.
+    /// would lead elsewhere from there becomes absolute. The figure is left out, since a variant shows another picture. With
+    /// `all_keys`, the keys that are not stated follow as comments with their defaults.
     ///
     /// # Errors
     ///
     /// As [`Registry::load`].
-    pub fn commented(&self, name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
+    pub fn commented(&self, name_or_path: &str, folder: &Path, all_keys: bool) -> Result<String, LoadError> {
         let scenario = self.load(name_or_path, &[])?;
         let mut tree = tree(self, name_or_path)?;
         make_paths_absolute(&mut tree, folder);
         let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
         stated.remove("figure");
         let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
-        let mut writer = Writer { text: String::new(), explained: Some(BTreeSet::new()), vehicles, building };
+        let mut writer = Writer { text: String::new(), explained: Some(BTreeSet::new()), all_keys, vehicles, building };
         writer.table("", self.complete(), &stated, true);
         Ok(writer.text)
     }
@@ -42,7 +43,7 @@ impl Registry {
 
 /// A file that states `stated`, without comments.
 pub(crate) fn plain(stated: &Map<String, Json>) -> String {
-    let mut writer = Writer { text: String::new(), explained: None, vehicles: true, building: true };
+    let mut writer = Writer { text: String::new(), explained: None, all_keys: false, vehicles: true, building: true };
     writer.table("", Registry::standard().complete(), stated, true);
     writer.text
 }
@@ -51,6 +52,8 @@ struct Writer {
     text: String,
     /// Tables that have been explained, by definition and kind; none if nothing is explained.
     explained: Option<BTreeSet<String>>,
+    /// Whether keys that are not stated are written, as comments.
+    all_keys: bool,
     vehicles: bool,
     building: bool,
 }
@@ -79,7 +82,7 @@ impl Writer {
         for (key, property) in keys(schema, value) {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
             let stated = value.get(key).filter(|value| !value.is_null());
-            let shown = stated.or_else(|| property.default_or_example().filter(|_| first));
+            let shown = stated.or_else(|| property.default_or_example().filter(|_| first && self.all_keys));
             let is_written = stated.is_some() || !property.is_deprecated();
             let Some(shown) = shown.filter(|_| is_written && self.concerns(property)) else { continue };
             let live = live && stated.is_some();

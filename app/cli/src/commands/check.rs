@@ -3,7 +3,7 @@
 use clap::Args;
 use interplay_scenarios::{Override, Registry, Scenario};
 
-use crate::flag_values::files;
+use crate::flag_values::files::Found;
 use crate::output::error::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 
@@ -13,7 +13,7 @@ use crate::output::{print_error, print_load_error, printed};
     after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/\n  interplay check my.toml --planner nash --set horizon_steps=40"
 )]
 pub(crate) struct Check {
-    /// Scenario files, names of embedded scenarios, or folders that are searched for .toml files
+    /// Scenario files, names of embedded scenarios, families and patterns of them, or folders that are searched for scenarios
     #[arg(value_name = "FILE|DIR", required = true)]
     paths: Vec<String>,
 
@@ -31,25 +31,21 @@ impl Check {
         let planner = self.planner.iter().cloned().map(Override::Planner);
         let overrides: Vec<Override> = planner.chain(self.sets.iter().cloned().map(Override::Set)).collect();
         let mut ending = ExitStatus::Well;
-        for path in &self.paths {
-            match files::find(path) {
-                Ok(found) => {
-                    for file in found.into_iter().map(|found| found.scenario) {
-                        match registry.load(&file, &overrides) {
-                            Ok(scenario) => ending = ending.max(printed(&approved(&file, &scenario))),
-                            Err(error) => {
-                                print_load_error(error);
-                                ending = ending.max(ExitStatus::BadInput);
-                            }
-                        }
-                    }
-                }
+        let mut found = Found::of(&self.paths);
+        for error in &found.errors {
+            print_error(&error.to_string());
+            ending = ExitStatus::BadInput;
+        }
+        for (argument, outcome) in found.load(registry, &overrides) {
+            match outcome {
+                Ok(scenario) => ending = ending.max(printed(&approved(&argument.scenario, &scenario))),
                 Err(error) => {
-                    print_error(&error.to_string());
-                    ending = ExitStatus::BadInput;
+                    print_load_error(error);
+                    ending = ending.max(ExitStatus::BadInput);
                 }
             }
         }
+        found.note().iter().for_each(|note| print_error(note));
         ending
     }
 }
@@ -60,7 +56,13 @@ fn approved(file: &str, scenario: &Scenario) -> String {
     let remarks: Vec<_> = network.iter().flat_map(|network| network.remarks()).collect();
     let remarks = remarks.iter().map(ToString::to_string);
     let all = scenario.remarks.iter().map(ToString::to_string).chain(remarks);
-    all.fold(format!("ok  {file}\n    makes {}\n", scenario.cost()), |text, remark| {
+    let others = scenario.counterfactuals.len();
+    let others = match (others, scenario.counterfactual_cost()) {
+        (0, _) => String::new(),
+        (1, cost) => format!("    its counterfactual makes {cost}\n"),
+        (count, cost) => format!("    its {count} counterfactuals make {cost}\n"),
+    };
+    all.fold(format!("ok  {file}\n    makes {}\n{others}", scenario.own_cost()), |text, remark| {
         text + &format!("    note: {remark}\n")
     })
 }

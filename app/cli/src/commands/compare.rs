@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use interplay_presentation::page::Page;
-use interplay_presentation::report;
+use interplay_presentation::report::{self, ShownFigures};
 use interplay_scenarios::Registry;
 use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 
@@ -30,13 +30,17 @@ pub(crate) struct Compare {
     #[arg(value_name = "OTHER", conflicts_with_all = ["baseline", "by"])]
     second: Option<PathBuf>,
 
-    /// The planner that the others are compared with [default: as-written, otherwise the first by name]
+    /// The planner that the others are compared with [default: the first of the plan]
     #[arg(long, value_name = "PLANNER")]
     baseline: Option<String>,
 
     /// What the rows are grouped by, besides the style
     #[arg(long, value_name = "WHAT", value_enum, default_value_t = By::Family)]
     by: By,
+
+    /// Show all figures, and not only success, which vehicle goes first, time and contacts at fault
+    #[arg(long)]
+    all: bool,
 
     /// Where the page goes [default: comparison.html in the folder; with OTHER or --json, nowhere]
     #[arg(long, value_name = "FILE.html")]
@@ -65,12 +69,13 @@ impl Compare {
             ));
             return ExitStatus::BadInput;
         }
+        let shown = if self.all { ShownFigures::All } else { ShownFigures::First };
         let by = if self.by == By::Family { GroupBy::Family } else { GroupBy::Scenario };
         match &self.second {
             None => match compare(&self.first, self.baseline.as_deref(), by, registry.metrics()) {
                 Ok(figures) => {
                     let page = |title: &str| report::comparison_page(title, &figures).map_err(CommandError::from);
-                    self.show(|| json("the figures", &figures), || report::comparison(&figures), page)
+                    self.show(|| json("the figures", &figures), || report::comparison(&figures, shown), page)
                 }
                 Err(error) => gave_up(error),
             },
@@ -121,7 +126,14 @@ fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
 
 /// Compares the rows of a folder and writes their page, as a sweep does at its end.
 pub(crate) fn after_sweep(folder: &Path, registry: &Registry) -> ExitStatus {
-    let compare =
-        Compare { first: folder.to_owned(), second: None, baseline: None, by: By::Family, page: None, json: false };
+    let compare = Compare {
+        first: folder.to_owned(),
+        second: None,
+        baseline: None,
+        by: By::Family,
+        all: false,
+        page: None,
+        json: false,
+    };
     compare.execute(registry)
 }

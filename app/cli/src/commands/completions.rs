@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap_complete::Shell;
-use interplay_scenarios::embedded;
+use interplay_scenarios::{Registry, embedded};
 
 use crate::output::error::ExitStatus;
 use crate::output::printed;
@@ -28,7 +28,14 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn execute(self, mut interplay: clap::Command) -> ExitStatus {
+    pub(crate) fn execute(self, mut interplay: clap::Command, registry: &Registry) -> ExitStatus {
+        for name in with_planner(&interplay) {
+            // Values of arguments live as long as the process.
+            let kinds = planners(registry).map(|kind| PossibleValue::new(&*kind.to_owned().leak()));
+            let kinds = PossibleValuesParser::new(kinds.collect::<Vec<PossibleValue>>());
+            interplay = interplay
+                .mut_subcommand(name, |command| command.mut_arg("planner", |planner| planner.value_parser(kinds)));
+        }
         for (name, argument) in TAKES_SCENARIOS {
             let names = embedded().iter().map(|file| PossibleValue::new(file.name));
             let names = PossibleValuesParser::new(names.collect::<Vec<PossibleValue>>());
@@ -44,6 +51,20 @@ impl Completions {
             _ => script.into_owned(),
         })
     }
+}
+
+/// Kinds of drivers that `--planner` refuses: they need more than their name.
+const NO_PLANNERS: [&str; 4] = ["external", "inputs", "recorded", "walker"];
+
+/// The kinds of drivers that `--planner` takes.
+pub(crate) fn planners(registry: &Registry) -> impl Iterator<Item = &str> {
+    registry.driver_kinds().into_iter().filter(|kind| !NO_PLANNERS.contains(kind))
+}
+
+/// The subcommands with a flag `--planner`.
+fn with_planner(interplay: &clap::Command) -> Vec<String> {
+    let has_planner = |command: &&clap::Command| command.get_arguments().any(|argument| argument.get_id() == "planner");
+    interplay.get_subcommands().filter(has_planner).map(|command| command.get_name().to_owned()).collect()
 }
 
 fn names() -> String {

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use interplay_files::{NewFolders, write_new};
 use interplay_presentation::shell;
-use interplay_scenarios::{ImportOptions, LoadError, Registry, Replacement, ScenarioFile, import_commonroad_file};
+use interplay_scenarios::{
+    Completes, ImportOptions, LoadError, Registry, Replacement, ScenarioFile, VehicleConfig, import_commonroad_file,
+};
 use thiserror::Error;
 
 use crate::output::error::ExitStatus;
@@ -94,10 +96,11 @@ impl Import {
         let beside = |ending: &str| out.with_extension(ending);
         let named = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let records = beside("csv");
-        let (file, rows) = imported.with_records_in(&named(&records));
+        let (mut file, rows) = imported.with_records_in(&named(&records));
+        let warning = expect_and_warn(&mut file);
         let mut head = String::new();
         let _ = writeln!(head, "# Imported from {}.", plain_line(&named(&self.file)));
-        for note in &imported.notes {
+        for note in imported.notes.iter().chain(&warning) {
             let _ = writeln!(head, "# - {note}");
         }
         let network = beside("network.toml");
@@ -106,11 +109,27 @@ impl Import {
         files.extend(network_text.map(|text| (network, text)));
         files.extend(rows.map(|rows| (records, rows)));
         write_all(&files)?;
-        let lines: String = imported.notes.iter().map(|note| format!("{note}\n")).collect();
+        let lines: String = imported.notes.iter().chain(&warning).map(|note| format!("{note}\n")).collect();
         let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
         let run = shell::line(["interplay", "run", &out.to_string_lossy()]);
         Ok(format!("{lines}wrote {}; to run it: {run}\n", names.join(", ")))
     }
+}
+
+/// Expects that no two vehicles touch, and that an ego which has to reach another lane does; returns a warning where vehicles follow
+/// records, since these do not react.
+fn expect_and_warn(file: &mut ScenarioFile) -> Option<String> {
+    file.expect.no_collision = Some(true);
+    let ego = file.vehicles.iter().find(|vehicle| vehicle.name == "ego" && vehicle.route.len() > 1);
+    let completes = ego.map(|ego| Completes { vehicle: ego.name.clone(), after_s: None, before_s: None });
+    file.expect.completes.extend(completes);
+    let is_recorded = |vehicle: &&VehicleConfig| {
+        vehicle.driver.as_ref().and_then(|driver| driver.get("kind")?.as_str()) == Some("recorded")
+    };
+    let recorded = file.vehicles.iter().filter(is_recorded).count();
+    (recorded > 0).then(|| {
+        format!("recorded vehicles: {recorded} follow their records and react to no other; `--replace all` gives them drivers")
+    })
 }
 
 /// The text of the scenario, and that of its network where it is large.

@@ -16,10 +16,11 @@ use crate::output::{print_error, print_load_error, printed};
 /// What editors complete from, beside the scenario.
 const SCHEMA_FILE: &str = "interplay.schema.json";
 
-/// Write a commented scenario file to start from: every key with what it means, its unit and its default.
+/// Write a commented scenario file to start from: each key with what it means and its unit.
 ///
-/// The file means the same as the scenario that it starts from, and stands on its own. Lines such as `#step_s = 0.1` show
-/// defaults: take away the `#` to change them. The schema for editors is written beside it, unless it is there already.
+/// The file means the same as the scenario that it starts from, and stands on its own. With `--all`, lines such as `#step_s = 0.1` show
+/// all other keys with their defaults: take away the `#` to change them. The schema for editors is written beside it, unless it is there
+/// already.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  interplay new my.toml --from intersection/nice && interplay run my.toml")]
 pub(crate) struct New {
@@ -30,6 +31,10 @@ pub(crate) struct New {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(long, value_name = "NAME|FILE", default_value = crate::commands::run::DEFAULT_SCENARIO)]
     from: String,
+
+    /// Also write every key that the scenario does not state, as a comment with its default
+    #[arg(long)]
+    all: bool,
 }
 
 /// Why no new file was written.
@@ -66,15 +71,17 @@ impl New {
             return Err(NewError::Exists(self.file.clone()));
         }
         let folder = self.file.parent().unwrap_or(Path::new(""));
-        let scenario = registry.commented(&self.from, folder)?;
+        let scenario = registry.commented(&self.from, folder, self.all)?;
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
         // A comment must stay one line, even if the name of the file contains a line break.
         let command = shell::line(words.iter().map(String::as_str)).replace(char::is_control, "·");
-        let head = format!(
-            "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
-             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
-             # and that of the `#[table]` above them.\n\n"
-        );
+        let how = if self.all {
+            "# Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
+             # and that of the `#[table]` above them.\n"
+        } else {
+            "# `interplay new --all` writes the keys that are not stated here, too, with their defaults.\n"
+        };
+        let head = format!("#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n{how}\n");
         let folders = NewFolders::make_above(&self.file).map_err(unwritable(&self.file))?;
         // The schema is written first: if the scenario file exists, its schema exists too.
         let schema = folder.join(SCHEMA_FILE);

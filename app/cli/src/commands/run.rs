@@ -76,6 +76,10 @@ pub(crate) struct Run {
     #[arg(long, value_name = "SECONDS", value_parser = values::time, requires = "animate", allow_negative_numbers = true)]
     animate_until: Option<f64>,
 
+    /// End with 0 although nothing is expected of the run and its ego begins a contact
+    #[arg(long)]
+    allow_contacts: bool,
+
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
@@ -150,7 +154,8 @@ impl Run {
             Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     let view = shell::line([this_program().as_str(), "view", &path.to_string_lossy()]);
-                    print_error(&format!("recorded to {}; to open it: {view}", path.display()));
+                    let off = if self.record.is_none() { " (`--no-record` writes none)" } else { "" };
+                    print_error(&format!("recorded to {}{off}; to open it: {view}", path.display()));
                 }
                 if self.introduces {
                     print_next_commands();
@@ -211,6 +216,7 @@ impl Run {
             watchers.push(Box::new(frame_log.clone()));
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
+        let report = if self.allow_contacts { report } else { report.without_contacts_by_ego() };
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
         let recorded = RecordedRun::to_draw(scenario, frame_log.frames(), report);
         Ok(RecordedRun { command: self.words(), shown_until_s: self.animate_until, ..recorded })

@@ -61,6 +61,14 @@ impl Why {
             ));
             return ExitStatus::BadInput;
         }
+        if changes.is_empty() {
+            print_error(&format!(
+                "`interplay why` changes one driver at a time, and the vehicles of `{0}` come from flows; to compare drivers of a \
+                 flow: `interplay sweep --scenario {0} --arm 'flow.NAME.vehicle.driver.style=tough'`",
+                self.scenario
+            ));
+            return ExitStatus::BadInput;
+        }
         if let Some(reason) = self.at_s.and_then(|at_s| too_late(at_s, &scenario)).or_else(|| without_input(&scenario))
         {
             print_error(&reason);

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use interplay_scenarios::{Override, Registry, embedded, files_below};
+use interplay_scenarios::{
+    FolderScenario, LoadError, Override, Registry, Scenario, embedded, files_below, names_matching,
+};
 use thiserror::Error;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,6 +15,63 @@ pub(crate) struct ScenarioArgument {
     pub name: String,
     /// Name of the embedded scenario, or path of the file.
     pub scenario: String,
+    /// Whether it was found in a folder in which another file extends it: it is left out if it is not complete.
+    pub may_be_incomplete: bool,
+}
+
+/// The scenarios of several arguments.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    pub scenarios: Vec<ScenarioArgument>,
+    /// The files of folders that are not scenarios of their own.
+    pub left_out: Vec<PathBuf>,
+    /// Why an argument gives no scenarios.
+    pub errors: Vec<FolderError>,
+}
+
+impl Found {
+    /// The scenarios that some arguments select, each with a name of its own.
+    pub fn of(arguments: &[String]) -> Found {
+        let mut all = Found::default();
+        for argument in arguments {
+            match find(argument) {
+                Ok((scenarios, plans)) => {
+                    all.scenarios.extend(scenarios);
+                    all.left_out.extend(plans);
+                }
+                Err(error) => all.errors.push(error),
+            }
+        }
+        all.scenarios = with_names_of_their_own(all.scenarios);
+        all
+    }
+
+    /// Loads the scenarios, changed by `overrides`, in their order. Incomplete files that others extend join [`Found::left_out`].
+    pub fn load(
+        &mut self,
+        registry: &Registry,
+        overrides: &[Override],
+    ) -> Vec<(ScenarioArgument, Result<Scenario, LoadError>)> {
+        let mut loaded = Vec::new();
+        for argument in &self.scenarios {
+            match registry.load(&argument.scenario, overrides) {
+                Err(_) if argument.may_be_incomplete => self.left_out.push(PathBuf::from(&argument.scenario)),
+                outcome => loaded.push((argument.clone(), outcome)),
+            }
+        }
+        loaded
+    }
+
+    /// A note about the files that were left out; none without any.
+    pub fn note(&self) -> Option<String> {
+        const SHOWN: usize = 4;
+        let names = self.left_out.iter().take(SHOWN).map(|path| path.display().to_string()).collect::<Vec<_>>();
+        let more = self.left_out.len().saturating_sub(SHOWN);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        (!names.is_empty()).then(|| {
+            format!("note: left out, since they are plans or files that others extend: {}{more}", names.join(", "))
+        })
+    }
 }
 
 /// Why a folder gives no scenarios.
@@ -22,35 +81,44 @@ pub(crate) enum FolderError {
     Unreadable { folder: String, reason: io::Error },
     #[error("the name of `{file}` is not UTF-8 text; rename the file")]
     NotUtf8 { file: String },
-    #[error("there is no .toml file in folder `{folder}`")]
+    #[error("there is no scenario in folder `{folder}`")]
     Empty { folder: String },
 }
 
-/// The scenarios that an argument selects: an embedded scenario, a file, or all .toml files below a folder, sorted.
+/// The scenarios that an argument selects: a file, all scenarios below a folder, sorted, or an embedded scenario, a family or a pattern
+/// of them; and the plans of a folder.
 ///
 /// # Errors
-/// [`FolderError`], if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
-pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError> {
-    if !Path::new(argument).is_dir() {
-        return Ok(vec![ScenarioArgument { name: short_name(argument), scenario: argument.to_owned() }]);
+/// [`FolderError`], if a folder cannot be read or has no scenario in it. Whether the others exist shows when they are loaded.
+fn find(argument: &str) -> Result<(Vec<ScenarioArgument>, Vec<PathBuf>), FolderError> {
+    let folder = Path::new(argument);
+    if !folder.is_dir() {
+        let matching = if folder.exists() { Vec::new() } else { names_matching(argument) };
+        let named = |name: String, scenario: String| ScenarioArgument { name, scenario, may_be_incomplete: false };
+        let found = match matching.is_empty() {
+            true => vec![named(short_name(argument), argument.to_owned())],
+            false => matching.into_iter().map(|name| named(name.clone(), name)).collect(),
+        };
+        return Ok((found, Vec::new()));
     }
-    let found = files_below(Path::new(argument))
-        .map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
-    if found.is_empty() {
+    let found =
+        files_below(folder).map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
+    if found.scenarios.is_empty() {
         return Err(FolderError::Empty { folder: argument.to_owned() });
     }
-    let named = |path: PathBuf| {
-        let name = path.strip_prefix(argument).unwrap_or(&path).with_extension("");
+    let named = |FolderScenario { path, is_extended }: FolderScenario| {
+        let name = path.strip_prefix(folder).unwrap_or(&path).with_extension("");
         let Some(scenario) = path.to_str() else {
             return Err(FolderError::NotUtf8 { file: path.display().to_string() });
         };
-        Ok(ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: scenario.to_owned() })
+        let name = name.to_string_lossy().into_owned();
+        Ok(ScenarioArgument { name, scenario: scenario.to_owned(), may_be_incomplete: is_extended })
     };
-    found.into_iter().map(named).collect()
+    Ok((found.scenarios.into_iter().map(named).collect::<Result<_, _>>()?, found.plans))
 }
 
 /// The same scenarios, those of one name with as much of their paths before it as tells them apart: `team-a/merge`, `team-b/merge`.
-pub(crate) fn with_names_of_their_own(mut found: Vec<ScenarioArgument>) -> Vec<ScenarioArgument> {
+fn with_names_of_their_own(mut found: Vec<ScenarioArgument>) -> Vec<ScenarioArgument> {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     found.iter().for_each(|scenario| *counts.entry(scenario.name.clone()).or_default() += 1);
     let longest = found.iter().map(|scenario| parts(&scenario.scenario).len()).max().unwrap_or(0);
@@ -138,7 +206,11 @@ mod tests {
     #[test]
     fn files_with_equal_names_in_several_folders_get_distinct_run_names() {
         let found = |paths: &[&str]| -> Vec<String> {
-            let of = |path: &&str| ScenarioArgument { name: short_name(path), scenario: (*path).to_owned() };
+            let of = |path: &&str| ScenarioArgument {
+                name: short_name(path),
+                scenario: (*path).to_owned(),
+                may_be_incomplete: false,
+            };
             let named = with_names_of_their_own(paths.iter().map(of).collect());
             named.into_iter().map(|scenario| scenario.name).collect()
         };
@@ -152,9 +224,21 @@ mod tests {
     }
 
     #[test]
+    fn families_and_patterns_select_embedded_scenarios() {
+        let names = |argument: &str| -> Vec<String> {
+            find(argument).expect("no folder").0.into_iter().map(|found| found.name).collect()
+        };
+        let family = names("lane-change");
+        assert!(family.len() > 3 && family.iter().all(|name| name.starts_with("lane-change/")), "{family:?}");
+        assert_eq!(names("lane-change/*"), family);
+        assert_eq!(names("streets/ring/3-4").len(), 2);
+        assert_eq!(names("nowhere"), ["nowhere"]);
+    }
+
+    #[test]
     fn files_of_a_folder_are_found_with_their_relative_paths() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/files");
-        let found = find(folder).expect("the authored files are there");
+        let (found, _) = find(folder).expect("the authored files are there");
         let names: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         assert_eq!(names, embedded().iter().map(|file| file.name).collect::<Vec<_>>());
         assert!(find(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).is_err(), "no scenario lies among the sources");

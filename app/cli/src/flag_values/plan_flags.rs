@@ -96,7 +96,7 @@ impl PlanFlags {
         }
         if let Some(starts) = self.starts {
             writeln!(text, "samples = {starts} # --starts")?;
-            writeln!(text, "jitter = {{ position_m = 0.1, speed_mps = 0.1 }} # --starts")?;
+            writeln!(text, "jitter = {{ position_m = 0.1, speed_mps = 0.1, scaled = true }} # --starts")?;
         }
         for (table, assignments) in [("set", &self.sets), ("vary", &self.vary)] {
             if !assignments.is_empty() {

@@ -2,6 +2,7 @@
 
 use interplay_planners::Driver;
 use interplay_scenarios::Scenario;
+use interplay_simulation::frame::BrokenRule;
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use serde::Serialize;
@@ -76,6 +77,8 @@ impl Session {
         if story.is_empty() && report.order.len() > 1 {
             story.push(format!("In the end: {}", report.order.join(" before ")));
         }
+        let sentence = |broken: &BrokenRule| format!("{} {} at {:.1} s", broken.vehicle, broken.words(), broken.time_s);
+        story.extend(report.broken_rules.iter().map(sentence));
         story.extend(
             report
                 .collisions

@@ -110,6 +110,7 @@ impl<'a> DrivingRun<'a> {
             end_s: self.end_s(),
             settled_s: self.settled_s(),
             until_s: self.until_s,
+            is_flow: self.scenario.is_crowd() && self.scenario.ego().is_some_and(|ego| ego.stay.leaves_at_end),
             time_ratio,
         }
     }

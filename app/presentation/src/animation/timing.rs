@@ -41,6 +41,8 @@ pub struct RunTimes {
     pub settled_s: Option<f64>,
     /// The stated end of the animation \[s\].
     pub until_s: Option<f64>,
+    /// Whether the ego is one of many vehicles that come and go.
+    pub is_flow: bool,
     /// Factor of times at 1/10 scale.
     pub time_ratio: f64,
 }
@@ -78,9 +80,13 @@ fn usual_rate(end_s: f64) -> f64 {
 
 /// The end of the animation: a while after the last goal, interaction or collision, or the end of the run.
 fn last_s(report: &Report, times: &RunTimes) -> f64 {
-    let RunTimes { ego, end_s, settled_s, until_s, time_ratio } = *times;
+    let RunTimes { ego, end_s, settled_s, until_s, time_ratio, .. } = *times;
     if let Some(until_s) = until_s {
         return until_s.min(end_s);
+    }
+    // Of traffic that comes and goes, no single vehicle ends the picture.
+    if times.is_flow {
+        return end_s;
     }
     let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
     let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
@@ -118,7 +124,7 @@ mod tests {
     }
 
     fn times(end_s: f64, settled_s: Option<f64>) -> RunTimes {
-        RunTimes { ego: 0, end_s, settled_s, until_s: None, time_ratio: 1.0 }
+        RunTimes { ego: 0, end_s, settled_s, until_s: None, is_flow: false, time_ratio: 1.0 }
     }
 
     #[test]

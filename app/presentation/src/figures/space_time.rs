@@ -1,7 +1,11 @@
 //! Space-time diagrams: positions of all vehicles along a road over time, which show queues and waves.
 
-use interplay_planners::{Route, State};
-use interplay_scenarios::Scenario;
+use std::collections::BTreeSet;
+
+use interplay_planners::State;
+use interplay_planners::road::CentreLine;
+use interplay_planners::road::network::Lane;
+use interplay_scenarios::{LaneReference, Scenario};
 
 use super::recorded_run::RecordedRun;
 use crate::palette::{BLUE, GREEN, ORANGE, VERMILLION};
@@ -18,22 +22,26 @@ const CLASSES: [(f64, LineStyle); 4] = [
     (f64::INFINITY, LineStyle { width: 1, colour: BLUE.rgb, dash: Dash::Solid }),
 ];
 
-/// Positions along the road over time, coloured by speed: one plot per parallel lane, or on a network one plot along the longest
-/// route. `None` for a run with few vehicles.
+/// Most lanes of a network that are drawn, the longest.
+const MAX_LANES: usize = 12;
+
+/// Positions over time, coloured by speed: one plot per lane that vehicles of a route use, with its detectors. `None` for a run with few
+/// vehicles.
 pub(super) fn space_time(title: &str, recorded: &RecordedRun) -> Option<Panels> {
     let scenario = &recorded.scenario;
     if scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none()).count() < MIN_VEHICLES {
         return None;
     }
-    let longest = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
-    let axis = longest.max_by(|one, other| one.route.end_m().total_cmp(&other.route.end_m()))?;
     let vehicles = || recorded.frames.iter().flat_map(|frame| &frame.vehicles);
     let fastest_mps = vehicles().map(|vehicle| vehicle.state.speed_mps).fold(0.0, f64::max);
-    let places = lane_strips(scenario, &axis.route);
-    let panels = places.iter().map(|place| Panel {
-        name: place.name.clone(),
-        curves: curves(recorded, &axis.route, place, fastest_mps),
-        ..Panel::default()
+    let panels = strips(scenario)?.into_iter().map(|strip| {
+        let detectors = scenario.detectors.iter().filter(|one| one.lanes.contains(&strip.reference));
+        Panel {
+            name: format!("{}: position [m]", strip.name),
+            curves: curves(recorded, &strip, fastest_mps),
+            limits: detectors.map(|one| (one.along_m, format!("detector {}", one.name))).collect(),
+            ..Panel::default()
+        }
     });
     Some(Panels {
         title: title.to_owned(),
@@ -44,35 +52,55 @@ pub(super) fn space_time(title: &str, recorded: &RecordedRun) -> Option<Panels> 
     })
 }
 
-/// A strip of road along a route, as wide as a lane.
+/// A lane as a strip beside a line.
 struct LaneStrip {
     name: String,
+    reference: LaneReference,
+    line: CentreLine,
+    /// Lateral coordinates of its edges from the line \[m\].
     across_m: [f64; 2],
+    /// Arc lengths of its ends \[m\].
+    along_m: [f64; 2],
 }
 
-/// The lanes of the road, or the lane of the route.
-fn lane_strips(scenario: &Scenario, route: &Route) -> Vec<LaneStrip> {
-    match scenario.road.parallel_lanes() {
-        Some(lanes) => (0..lanes.count)
-            .rev()
-            .map(|lane| {
-                let middle_m = scenario.road.lane_centre_m(Default::default(), lane).unwrap_or_default();
-                let half_m = 0.5 * scenario.road.lane_width_m();
-                LaneStrip {
-                    name: format!("lane {lane}: position [m]"),
-                    across_m: [middle_m - half_m, middle_m + half_m],
-                }
-            })
-            .collect(),
-        None => {
-            let half_m = route.half_width.value(0.5 * route.end_m().min(1e6));
-            vec![LaneStrip { name: "position along the way [m]".to_owned(), across_m: [-half_m, half_m] }]
-        }
+/// The parallel lanes of a road, the left one first, or the longest lanes on the routes through a network; `None` without vehicles.
+fn strips(scenario: &Scenario) -> Option<Vec<LaneStrip>> {
+    let driven = scenario.vehicles.iter().filter(|vehicle| vehicle.obstacle.is_none());
+    if let Some(lanes) = scenario.road.parallel_lanes() {
+        let line = &driven.max_by(|one, other| one.route.end_m().total_cmp(&other.route.end_m()))?.route.centre;
+        let half_m = 0.5 * scenario.road.lane_width_m();
+        let strip = |lane: usize| {
+            let middle_m = scenario.road.lane_centre_m(Default::default(), lane).unwrap_or_default();
+            LaneStrip {
+                name: format!("lane {lane}"),
+                reference: LaneReference::Number(lane),
+                line: line.clone(),
+                across_m: [middle_m - half_m, middle_m + half_m],
+                along_m: [f64::NEG_INFINITY, f64::INFINITY],
+            }
+        };
+        return Some((0..lanes.count).rev().map(strip).collect());
     }
+    let network = scenario.network.as_ref()?;
+    let used: BTreeSet<&str> = driven.flat_map(|one| one.route.legs.iter().map(|leg| leg.lane.as_str())).collect();
+    let mut lanes: Vec<&Lane> = network.lanes().iter().filter(|lane| used.contains(lane.name.as_str())).collect();
+    lanes.sort_by(|one, other| other.centre.length_m().total_cmp(&one.centre.length_m()));
+    let strip = |lane: &&Lane| {
+        let length_m = lane.centre.length_m();
+        let half_m = 0.5 * lane.width.value(0.5 * length_m);
+        LaneStrip {
+            name: format!("lane {}", lane.name),
+            reference: LaneReference::Name(lane.name.clone()),
+            line: lane.centre.clone(),
+            across_m: [-half_m, half_m],
+            along_m: [0.0, length_m],
+        }
+    };
+    Some(lanes.iter().take(MAX_LANES).map(strip).collect())
 }
 
 /// One curve per speed class. It joins the pieces of all vehicles, with breaks where a vehicle is in another class or absent.
-fn curves(recorded: &RecordedRun, route: &Route, place: &LaneStrip, fastest_mps: f64) -> Vec<Curve> {
+fn curves(recorded: &RecordedRun, place: &LaneStrip, fastest_mps: f64) -> Vec<Curve> {
     let class = |state: &State| {
         let share = state.speed_mps / fastest_mps.max(f64::MIN_POSITIVE);
         CLASSES.iter().position(|(most, _)| share < *most).unwrap_or(CLASSES.len() - 1)
@@ -82,9 +110,10 @@ fn curves(recorded: &RecordedRun, route: &Route, place: &LaneStrip, fastest_mps:
         let mut last: Option<(usize, [f64; 2])> = None;
         for frame in &recorded.frames {
             let Some(vehicle) = frame.vehicles.get(index) else { continue };
-            let at = route.locate(vehicle.state.position(), None);
+            let at = place.line.project(vehicle.state.position(), None);
             let is_there = !vehicle.is_absent
                 && (place.across_m[0]..=place.across_m[1]).contains(&at.across_m)
+                && (place.along_m[0]..=place.along_m[1]).contains(&at.along_m)
                 && libm::cos(vehicle.state.heading_rad - at.heading_rad) > 0.0;
             let now = is_there.then(|| (class(&vehicle.state), [frame.time_s, at.along_m]));
             if let Some((class, point)) = now {

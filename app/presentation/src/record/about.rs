@@ -128,7 +128,9 @@ mod tests {
         (one.passed, one.expectations[0].passed) = (false, false);
         let text = verdicts(&report.counterfactuals);
         assert!(
-            text.contains("second: **failed** (order crossing, ego) `order_differs: want true, got true`\n"),
+            text.contains(
+                "second: **failed** (order crossing, ego) `order_differs: wanted: another order; got: another order`\n"
+            ),
             "{text}"
         );
     }

@@ -1,12 +1,12 @@
 //! Runs as JUnit XML for build servers: a test case for every run and counterfactual, a failure for failed expectations, an error
-//! for an unfinished run.
+//! for a file that is unusable or an unfinished run.
 
 use std::time::Duration;
 
 use interplay_simulation::report::Expectation;
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite, XmlString};
 
-use super::Case;
+use super::{Case, CaseError};
 
 /// The document; the suite took `wall_s` seconds.
 ///
@@ -27,7 +27,7 @@ fn test_cases(case: &Case) -> Vec<TestCase> {
         Ok(report) => (failures(&mut case.failed()), report.wall_s),
         Err(error) => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-            status.set_message(text(&error.to_string()));
+            status.set_message(text(&error_message(error)));
             (status, 0.0)
         }
     };
@@ -36,6 +36,20 @@ fn test_cases(case: &Case) -> Vec<TestCase> {
         test_case(family, &name, failures(&mut one.failed()), one.run.wall_s)
     });
     std::iter::once(test_case(family, name, status, time_s)).chain(others).collect()
+}
+
+/// An error with the first fault of a file, which names its place.
+fn error_message(error: &CaseError) -> String {
+    match error {
+        CaseError::Unusable(load) => {
+            let faults = load.faults().iter().map(|fault| {
+                let place = fault.line_and_column().map_or_else(String::new, |(line, _)| format!(" in line {line}"));
+                format!("{}{place}", fault.message())
+            });
+            format!("{error}: {}", faults.collect::<Vec<_>>().join("; "))
+        }
+        CaseError::Unfinished(_) => error.to_string(),
+    }
 }
 
 /// The status of a test case with these failed expectations.
@@ -71,7 +85,7 @@ mod tests {
     use super::*;
 
     fn unfinished(name: &str, error: &str) -> String {
-        let case = Case { name: name.to_owned(), outcome: Err(RunError::Watch(error.into())) };
+        let case = Case { name: name.to_owned(), outcome: Err(RunError::Watch(error.into()).into()) };
         junit(&[case], 1.0).expect("it can be written")
     }
 

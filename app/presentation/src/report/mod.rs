@@ -3,6 +3,7 @@
 mod building;
 mod columns;
 mod comparison;
+mod crowd;
 mod identification;
 mod identified_scenario;
 mod identified_summary;
@@ -12,12 +13,12 @@ mod suite;
 mod summary;
 mod why;
 
-pub use comparison::{comparison, comparison_page, version_comparison, version_comparison_page};
+pub use comparison::{ShownFigures, comparison, comparison_page, version_comparison, version_comparison_page};
 pub use identification::identification;
 pub use identified_scenario::{Believed, identified_scenario};
 pub use identified_summary::identified_summary;
 pub use junit::junit;
 pub use prediction::prediction;
-pub use suite::{Case, table};
+pub use suite::{Case, CaseError, table};
 pub use summary::summary;
 pub use why::why;

@@ -2,17 +2,30 @@
 
 use std::fmt::Write;
 
+use interplay_scenarios::LoadError;
 use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_simulation::run::RunError;
+use thiserror::Error;
 
 use super::columns::{Align, lines, written};
 
-/// One run of a suite: its report, or why it could not be finished.
+/// One run of a suite: its report, or why there is none.
 #[derive(Debug)]
 pub struct Case {
     pub name: String,
-    /// The report of the run, or why it could not be finished.
-    pub outcome: Result<Report, RunError>,
+    /// The report of the run, or why there is none.
+    pub outcome: Result<Report, CaseError>,
+}
+
+/// Why a run has no report.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// The file is not a scenario that can be run.
+    #[error(transparent)]
+    Unusable(#[from] LoadError),
+    /// The run could not be finished.
+    #[error(transparent)]
+    Unfinished(#[from] RunError),
 }
 
 impl Case {
@@ -29,7 +42,8 @@ impl Case {
     /// The outcome of the scenario's own run in words.
     fn verdict(&self) -> &'static str {
         match &self.outcome {
-            Err(_) => "UNFINISHED",
+            Err(CaseError::Unusable(_)) => "UNUSABLE",
+            Err(CaseError::Unfinished(_)) => "UNFINISHED",
             Ok(_) if self.failed().next().is_some() => "FAILED",
             Ok(report) if report.expectations.is_empty() => "nothing expected",
             Ok(_) => "passed",

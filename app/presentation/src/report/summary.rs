@@ -8,6 +8,7 @@ use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansRepo
 
 use super::building;
 use super::columns::{Align, write_table, written};
+use super::crowd::{Crowd, flow_of};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -15,13 +16,15 @@ pub fn summary(title: &str, report: &Report) -> String {
 }
 
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
-    let factor = report.simulated_s / report.wall_s.max(1e-9);
+    // A building is simulated so fast that the factor says nothing.
+    let factor = Some(report.simulated_s / report.wall_s.max(1e-9)).filter(|_| !report.vehicles.is_empty());
+    let factor = factor.map_or_else(String::new, |factor| format!(" ({factor:.0} times real time)"));
     let simulated = match &report.building {
         Some(building) if report.vehicles.is_empty() => counted(building.iterations.len(), "day"),
         _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
     };
     writeln!(text, "{title}  [{}]", report.scenario)?;
-    writeln!(text, "  {simulated} simulated in {:.2} s ({factor:.0} times real time)", report.wall_s)?;
+    writeln!(text, "  {simulated} simulated in {:.2} s{factor}", report.wall_s)?;
     if !report.vehicles.is_empty() {
         write_driving(text, report)?;
     }
@@ -38,12 +41,16 @@ fn to_milliseconds(time_s: f64) -> f64 {
 }
 
 fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
-    for vehicle in &report.vehicles {
+    let (crowds, alone) = Crowd::split(&report.vehicles);
+    for crowd in &crowds {
+        writeln!(text, "  {}", crowd.sentence())?;
+    }
+    for vehicle in &alone {
         if let Some(time_s) = vehicle.completed_s {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    writeln!(text, "  order at the end: {}", report.order_of_driven().join(", "))?;
+    writeln!(text, "  order at the end: {}", order_in_words(report, &crowds))?;
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is the only vehicle")?,
@@ -58,17 +65,32 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
         write!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
         writeln!(text, "{}", collision.fault.as_ref().map_or_else(String::new, |fault| format!(": {}", fault.why)))?;
     }
-    for vehicle in report.vehicles.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
+    for broken in &report.broken_rules {
+        writeln!(text, "  RULE BROKEN at {:.2} s: {} {}", broken.time_s, broken.vehicle, broken.words())?;
+    }
+    for vehicle in alone.iter().filter(|vehicle| !vehicle.standing.is_empty()) {
         let waits: Vec<String> = vehicle.standing.iter().map(Wait::sentence).collect();
         writeln!(text, "  {} {}", vehicle.name, waits.join(", "))?;
-    }
-    for broken in &report.broken_rules {
-        writeln!(text, "  RULE BROKEN at {:.2} s: {}", broken.time_s, broken.sentence())?;
     }
     for deadlock in &report.deadlocks {
         writeln!(text, "  DEADLOCK at {:.2} s: {}", deadlock.time_s, deadlock.sentence())?;
     }
-    write_vehicles(text, &report.vehicles)
+    write_vehicles(text, &crowds, &alone)
+}
+
+/// The order at the end; the vehicles of a crowd that follow one another are counted.
+fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> String {
+    let mut places: Vec<(&str, usize)> = Vec::new();
+    for name in report.order_of_driven() {
+        let crowd = flow_of(name).filter(|flow| crowds.iter().any(|crowd| crowd.name == *flow));
+        match (places.last_mut(), crowd) {
+            (Some((last, count)), Some(crowd)) if *last == crowd => *count += 1,
+            (_, crowd) => places.push((crowd.unwrap_or(name), usize::from(crowd.is_some()))),
+        }
+    }
+    let place =
+        |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
+    places.iter().map(place).collect::<Vec<_>>().join(", ")
 }
 
 /// The belief of a driver about another one: the likely kinds of driver, and the one that it plans for.
@@ -127,7 +149,7 @@ fn remarks(plans: &PlansReport) -> String {
     failed.into_iter().chain(slow).collect::<Vec<_>>().join(", ")
 }
 
-fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
+fn write_vehicles(text: &mut String, crowds: &[Crowd<'_>], alone: &[&VehicleReport]) -> std::fmt::Result {
     use Align::{Left, Right};
     let header = [
         ("vehicle", Left),
@@ -152,8 +174,34 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
             remarks(plans),
         ]
     };
-    let driven = vehicles.iter().filter(|vehicle| !vehicle.is_obstacle);
-    write_table(text, &header, driven.map(row))
+    let driven = alone.iter().filter(|vehicle| !vehicle.is_obstacle);
+    write_table(text, &header, driven.map(|vehicle| row(vehicle)).chain(crowds.iter().map(crowd_row)))
+}
+
+/// The row of a crowd: ranges over its vehicles, sums of plans, and the slowest median of planning times.
+fn crowd_row(crowd: &Crowd<'_>) -> Vec<String> {
+    let came = || crowd.vehicles.iter().filter(|vehicle| vehicle.travel.has_come());
+    let [least, most] = came().fold([f64::INFINITY, 0.0_f64], |[least, most], vehicle| {
+        let [low, high] = vehicle.speed_range_mps();
+        [least.min(low), most.max(high)]
+    });
+    let mean = came().filter_map(|vehicle| vehicle.metrics.number("mean_abs_acceleration")).sum::<f64>();
+    let worst = |of: fn(&PlansReport) -> f64| came().map(|vehicle| of(&vehicle.plans)).fold(0.0, f64::max);
+    let total = |of: fn(&PlansReport) -> usize| came().map(|vehicle| of(&vehicle.plans)).sum::<usize>();
+    let mut drivers: Vec<&str> = crowd.vehicles.iter().map(|vehicle| vehicle.driver.as_str()).collect();
+    drivers.sort_unstable();
+    drivers.dedup();
+    let failed = total(|plans| plans.failed);
+    vec![
+        format!("{} ({})", crowd.name, crowd.vehicles.len()),
+        drivers.join(", "),
+        format!("{:.2}-{most:.2}", least.min(most)),
+        format!("{:.2}", mean / came().count().max(1) as f64),
+        total(|plans| plans.count).to_string(),
+        format!("{:.2}", worst(|plans| plans.median_ms)),
+        format!("{:.2}", worst(|plans| plans.p99_ms)),
+        if failed > 0 { format!("{failed} FAILED") } else { String::new() },
+    ]
 }
 
 #[cfg(test)]

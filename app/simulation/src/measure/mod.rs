@@ -16,6 +16,7 @@ mod planning;
 mod rectangle;
 mod registered;
 mod right_of_way;
+mod travel;
 mod values;
 mod vehicle_metric;
 mod waits;
@@ -38,12 +39,13 @@ pub use milestones::{Milestones, is_arrival};
 pub use planning::{Beliefs, HeldBelief, Planning};
 pub use registered::{RegisterMetrics, metric_table, metrics_of};
 pub use right_of_way::{Passage, Passages};
+pub use travel::Travel;
 pub use values::{Measured, MetricValue, MetricValues};
 pub use vehicle_metric::{Fold, LeastOfRun, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};
-use crate::state::frame::Collision;
+use crate::state::frame::{BrokenRule, Collision};
 use crate::state::standing::Standing;
 
 /// All measures of a run.
@@ -86,6 +88,8 @@ pub struct VehicleMeasures {
     pub beliefs: Beliefs,
     /// Its metrics.
     pub metrics: Measurements,
+    /// How it travels.
+    pub travel: Travel,
     /// Its last state.
     pub last: State,
 }
@@ -142,6 +146,7 @@ impl Measures {
             planning: Planning::new(scenario.plan_budget_ms(vehicle)),
             beliefs: Beliefs::default(),
             metrics: Measurements::begin(scenario, MetricSubject::Vehicle, &start, index),
+            travel: Travel::new(vehicle),
             last: starts[index],
         });
         let metrics = match scenario.vehicles.as_slice() {
@@ -185,6 +190,9 @@ pub fn measure(
             frame.events.push(milestones::arrival(&vehicle.name, measured.completion.crosses()));
         }
         measured.last = *state;
+    }
+    for (vehicle, measured) in frame.vehicles.iter().zip(&mut measures.vehicles) {
+        measured.travel.observe(vehicle, clock.step_s);
     }
     let begun = measures.milestones.observe(frame);
     frame.events.extend(begun);

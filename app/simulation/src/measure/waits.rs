@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use interplay_planners::PassingSide;
-use interplay_scenarios::{Scenario, Vehicle};
+use interplay_scenarios::Scenario;
 use serde::Serialize;
 
 use crate::state::components::to_nanosecond;
@@ -31,7 +31,7 @@ pub struct Wait {
     pub waits_for: Vec<String>,
     /// The reason, or the last one before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`,
     /// `before it passes van`, `no room beside van`,
-    /// `they wait for each other`, `lets ego pass`, `as its scripted driver is told`, or `no reason that shows`.
+    /// `they wait for each other`, `lets ego pass`, `as its script says`, or `no reason found`.
     pub reason: String,
 }
 
@@ -77,20 +77,17 @@ impl Deadlock {
     /// In words: `ego and ring wait for each other`.
     pub fn sentence(&self) -> String {
         match self.vehicles.as_slice() {
-            [only] => format!("{only} stands and shows no reason"),
+            [only] => format!("{only} stands ({})", self.reason),
             names => format!("{} wait for each other", names.join(" and ")),
         }
     }
 }
 
 const IN_A_CIRCLE: &str = "they wait for each other";
-const UNEXPLAINED: &str = "no reason that shows";
+const UNEXPLAINED: &str = "no reason found";
 
-/// Why a vehicle stands that neither rules nor other vehicles stop: a script, or letting another vehicle pass.
-fn own_reason(vehicle: &Vehicle, seen: &VehicleFrame) -> String {
-    if vehicle.driver.goes_first() && !vehicle.driver.can_be_asked() {
-        return format!("as its {} driver is told", vehicle.driver.kind());
-    }
+/// Why a vehicle stands that neither rules nor other vehicles stop: it lets another vehicle pass, or no reason is found.
+fn own_reason(seen: &VehicleFrame) -> String {
     let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
     let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
     if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
@@ -132,20 +129,21 @@ impl Waits {
             let mut is_unexplained = false;
             let is_slow = frame.vehicles[index].state.speed_mps < SLOW_MPS * self.times[index];
             let shown = if is_slow { standing.plain_reason(index) } else { None };
-            let shows_none = shown.is_none();
+            let is_told = standing.told_by(index).is_some();
+            let shows_none = shown.is_none() && !is_told;
             self.last[index] = shown.map(|reason| (reason, frame.time_s)).or_else(|| self.last[index].take());
             if standing.stands(index) {
                 let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
                 is_unexplained = shows_none;
                 let (waits_for, reason) = self.wait(standing, frame, index, &circle);
+                let before_s = self.unexplained_s[index];
+                if is_unexplained && passes(before_s, before_s + step_s, STUCK_S * self.times[index]) {
+                    self.deadlocks.push(deadlock(frame, step_s, &[index], &reason));
+                }
                 self.add(index, waits_for, reason, step_s);
                 circles.extend(Some(circle).filter(|circle| !circle.is_empty()));
             }
-            let before_s = self.unexplained_s[index];
-            self.unexplained_s[index] = if is_unexplained { before_s + step_s } else { 0.0 };
-            if passes(before_s, self.unexplained_s[index], STUCK_S * self.times[index]) {
-                self.deadlocks.push(deadlock(frame, step_s, &[index], UNEXPLAINED));
-            }
+            self.unexplained_s[index] = if is_unexplained { self.unexplained_s[index] + step_s } else { 0.0 };
         }
         self.close(circles, frame, step_s);
         self.deadlocks[known..].iter().map(event).collect()
@@ -165,6 +163,9 @@ impl Waits {
 
     /// The vehicles for which a vehicle waits, and why. A vehicle that waits for a deadlocked one is not deadlocked itself.
     fn wait(&self, standing: &Standing<'_>, frame: &Frame, index: usize, circle: &[usize]) -> (Vec<String>, String) {
+        if let Some(told_by) = standing.told_by(index) {
+            return (Vec::new(), told_by.to_owned());
+        }
         let setting_off_s = SETTING_OFF_S * self.times[index];
         match &self.last[index] {
             Some((reason, at_s)) if circle.is_empty() && frame.time_s - at_s <= setting_off_s => words(reason),
@@ -172,7 +173,7 @@ impl Waits {
                 let others = circle.iter().filter(|other| **other != index);
                 (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
             }
-            _ => (Vec::new(), own_reason(standing.vehicle(index), &frame.vehicles[index])),
+            _ => (Vec::new(), own_reason(&frame.vehicles[index])),
         }
     }
 
@@ -267,10 +268,10 @@ mod tests {
     fn a_vehicle_that_stands_without_a_reason_is_stuck_after_ten_seconds() {
         let (waits, events) = stood(101, [&["main"], &[]]);
         let [deadlock] = waits.deadlocks() else { panic!("{:?}", waits.deadlocks()) };
-        assert_eq!(deadlock.sentence(), "main stands and shows no reason");
+        assert_eq!(deadlock.sentence(), "main stands (no reason found)");
         assert_eq!(events.len(), 1);
         assert!(stood(95, [&["main"], &[]]).1.is_empty(), "not yet");
-        assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason that shows)");
+        assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason found)");
     }
 
     /// A vehicle that waits for a moving one is not deadlocked.

@@ -5,9 +5,11 @@ mod counterfactual;
 mod judge;
 mod judge_building;
 mod outcome;
+mod words;
 
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_scenarios::{Expect, Scenario, Vehicle};
+use serde_json::json;
 use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::{BuildingReport, ZoneOutcome};
@@ -67,6 +69,21 @@ impl Report {
             .map(|(one, run)| counterfactual::judge_counterfactual(&one.stated, scenario, self, run))
             .collect();
         self.passed &= self.counterfactuals.iter().all(|counterfactual| counterfactual.passed);
+    }
+
+    /// The report, failed if nothing was expected of the run and its ego began a contact.
+    pub fn without_contacts_by_ego(mut self) -> Self {
+        let expects_nothing = self.expectations.is_empty() && self.counterfactuals.is_empty();
+        if expects_nothing && self.metrics.number("contact_by_ego").is_some_and(|begun| begun > 0.0) {
+            let why =
+                self.collisions.iter().filter_map(|contact| Some((contact.time_s, contact.fault.as_ref()?))).next();
+            let why =
+                why.map_or_else(|| "a contact".to_owned(), |(time_s, fault)| format!("{} at {time_s:.1} s", fault.why));
+            let want = json!("no contact that the ego begins, where nothing else is expected");
+            self.expectations.push(Expectation::new("no_contact_by_ego", want, json!(why), false));
+            self.passed = false;
+        }
+        self
     }
 
     /// Judges this run by the expectations of a scenario, independently of its own.

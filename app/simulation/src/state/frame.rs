@@ -227,27 +227,24 @@ pub enum RoadRule {
     OvertakingBeforeLight,
 }
 
-impl RoadRule {
-    /// What a vehicle does that breaks the rule, in words that follow its name.
-    pub fn sentence(self) -> &'static str {
-        match self {
-            RoadRule::StopSign => "passes a stop sign without standing",
-            RoadRule::RedLight => "passes a red light",
-            RoadRule::RightOfWay => "takes the right of way of another vehicle",
-            RoadRule::SpeedLimit => "exceeds the speed limit",
-            RoadRule::OvertakingQueue => "overtakes a vehicle that waits",
-            RoadRule::OvertakingAtZebra => "overtakes at a zebra crossing",
-            RoadRule::OvertakingInJunction => "overtakes in a junction",
-            RoadRule::OvertakingBeforeLight => "overtakes before a traffic light",
-        }
-    }
-}
-
 impl BrokenRule {
-    /// In words: `ego passes a red light (lane in, 112.0 m)`.
-    pub fn sentence(&self) -> String {
-        let lane = self.lane.as_ref().map(|lane| format!("lane {lane}, ")).unwrap_or_default();
-        format!("{} {} ({lane}{:.1} m)", self.vehicle, self.rule.sentence(), self.along_m)
+    /// What the vehicle did, and where: `passed the red light of lane in`.
+    pub fn words(&self) -> String {
+        let place = match (&self.lane, self.rule) {
+            (Some(lane), RoadRule::StopSign | RoadRule::RedLight) => format!(" of lane {lane}"),
+            (Some(lane), _) => format!(" on lane {lane}, {:.0} m along it", self.along_m),
+            (None, _) => format!(" {:.0} m along its route", self.along_m),
+        };
+        match self.rule {
+            RoadRule::StopSign => format!("passed the stop sign{place} without standing"),
+            RoadRule::RedLight => format!("passed the red light{place}"),
+            RoadRule::RightOfWay => format!("took the right of way of another{place}"),
+            RoadRule::SpeedLimit => format!("exceeded the speed limit{place}"),
+            RoadRule::OvertakingQueue => format!("overtook a vehicle that waits{place}"),
+            RoadRule::OvertakingAtZebra => format!("overtook at a zebra crossing{place}"),
+            RoadRule::OvertakingInJunction => format!("overtook in a junction{place}"),
+            RoadRule::OvertakingBeforeLight => format!("overtook before a traffic light{place}"),
+        }
     }
 }
 

@@ -92,11 +92,6 @@ impl<'a> Standing<'a> {
         Standing { vehicles, frame }
     }
 
-    /// A vehicle as the scenario states it.
-    pub(crate) fn vehicle(&self, index: usize) -> &'a Vehicle {
-        &self.vehicles[index]
-    }
-
     /// Whether a vehicle is stationary although it wants to move.
     pub fn stands(&self, index: usize) -> bool {
         let (vehicle, times) = (&self.vehicles[index], self.scale(index).sqrt());
@@ -104,6 +99,15 @@ impl<'a> Standing<'a> {
             && !self.is_absent(index)
             && self.state(index).speed_mps < STANDING_MPS * times
             && self.along_m(index) + vehicle.body.front_m + NEAR_M * self.scale(index) < vehicle.route.end_m()
+    }
+
+    /// What makes a vehicle stand whatever happens around it, in words: its script, its record, or inputs from outside.
+    pub(crate) fn told_by(&self, index: usize) -> Option<&'static str> {
+        match &self.vehicles[index].driver {
+            Driver::Scripted(_) => Some("as its script says"),
+            Driver::Recorded(_) => Some("as its record says"),
+            driver => driver.is_driven_from_outside().then_some("as its inputs say"),
+        }
     }
 
     /// Why a vehicle is stationary; `None` if no reason is visible, or if vehicles wait for one another in a cycle.
@@ -125,7 +129,8 @@ impl<'a> Standing<'a> {
         let mut found: Vec<usize> = Vec::new();
         let mut next = vec![index];
         while let Some(vehicle) = next.pop() {
-            let reason = self.plain_reason(vehicle).filter(|_| self.stands(vehicle));
+            let waits = self.stands(vehicle) && self.told_by(vehicle).is_none();
+            let reason = self.plain_reason(vehicle).filter(|_| waits);
             let names = reason.iter().flat_map(StandingReason::waits_for);
             let waited_for = names.filter_map(|name| self.vehicles.iter().position(|other| other.name == name));
             let new: Vec<usize> = waited_for.filter(|other| self.stands(*other) && !found.contains(other)).collect();
@@ -145,7 +150,9 @@ impl<'a> Standing<'a> {
                     return false;
                 }
                 passed.push(index);
-                !self.stands(index) || self.plain_reason(index).is_some_and(|reason| self.ends(&reason, passed))
+                !self.stands(index)
+                    || self.told_by(index).is_some()
+                    || self.plain_reason(index).is_some_and(|reason| self.ends(&reason, passed))
             })
     }
 

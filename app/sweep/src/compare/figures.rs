@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
-use interplay_scenarios::RegisteredMetrics;
+use interplay_scenarios::{RegisteredMetrics, first_planner};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
@@ -14,6 +14,7 @@ use super::estimate::{Estimate, Quantiles, Share};
 use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
+use crate::sweep::PLAN_FILE;
 
 /// Comparison of the planners from the rows of a folder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -150,8 +151,8 @@ const MAX_FIGURES: u64 = 1 << 12;
 /// The name of the driver that a scenario's file states.
 const AS_WRITTEN: &str = "as-written";
 
-/// Compares the planners in the rows of a folder or file. Without a `baseline`, they are compared with `as-written` if that is
-/// there, otherwise with the first by name. `registered` metrics are compared, too.
+/// Compares the planners in the rows of a folder or file. Without a `baseline`, they are compared with the first planner of the plan in
+/// the folder, otherwise with `as-written` if that is there, otherwise with the first by name. `registered` metrics are compared, too.
 ///
 /// # Errors
 /// If a file cannot be read or is not a table of runs, or if the baseline has no row.
@@ -172,8 +173,12 @@ pub fn compare(
             let known = interplay_common::spelling::suggestion(stated, "there are", &planners);
             return Err(SweepError::Input(format!("no run has the planner `{stated}`; {known}")));
         }
-        None if planners.contains(&AS_WRITTEN) => AS_WRITTEN.to_owned(),
-        None => planners.first().copied().unwrap_or_default().to_owned(),
+        None => {
+            let plan = std::fs::read_to_string(path.join(PLAN_FILE)).ok();
+            let first = plan.and_then(|plan| first_planner(&plan)).filter(|first| planners.contains(&&**first));
+            let written = || planners.contains(&AS_WRITTEN).then(|| AS_WRITTEN.to_owned());
+            first.or_else(written).unwrap_or_else(|| planners.first().copied().unwrap_or_default().to_owned())
+        }
     };
     let groups = grouped(&all, by);
     let mut groups: Vec<GroupFigures> = groups

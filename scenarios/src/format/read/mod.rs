@@ -4,6 +4,7 @@ pub(crate) mod degrees;
 pub(crate) mod embedded;
 pub(crate) mod merge;
 pub(crate) mod overrides;
+mod planner_flag;
 pub(crate) mod regular_file;
 pub(crate) mod source;
 pub(crate) mod stated_path;

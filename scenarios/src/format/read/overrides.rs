@@ -9,6 +9,7 @@ use interplay_common::spelling::suggestion;
 
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::merge::merge_tables;
+use crate::format::read::planner_flag::{flow_help, refuse_unfit_planner};
 use crate::format::read::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};
 use crate::text::error::{Document, Fault, Place, quoted};
 use crate::text::name::EGO;
@@ -49,6 +50,7 @@ impl Override {
                 if !has_vehicles(root) {
                     return Err(no_vehicles(root, &place));
                 }
+                refuse_unfit_planner(root, &ego_name(root), kind, &place)?;
                 return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) }, schema);
             }
         };
@@ -177,7 +179,8 @@ impl SettingPath {
     pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
         if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
-            return Err(Fault::at(&self.0[1].place, "no vehicle here", message));
+            let fault = Fault::at(&self.0[1].place, "no vehicle here", message);
+            return Err(flow_help(root).map_or(fault.clone(), |help| fault.help(help)));
         }
         let mut paths = self.in_scenario(root).into_iter();
         paths.try_for_each(|path| lay(Some(schema), root, (&path.0, 0), value.clone()))
@@ -280,6 +283,9 @@ fn has_vehicles(root: &Table) -> bool {
 fn no_vehicles(root: &Table, place: &Place) -> Fault {
     let message = "the scenario has no vehicles, so `--planner` has nothing to change";
     let fault = Fault::at(place, "no vehicle to drive", message);
+    if let Some(help) = flow_help(root) {
+        return fault.help(help);
+    }
     if root.contains_key("building") {
         return fault.help("the building has a controller, which `--set controller.kind=KIND` chooses");
     }

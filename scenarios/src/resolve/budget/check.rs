@@ -62,7 +62,7 @@ impl std::fmt::Display for Excess {
             Quantity::Plans => write!(f, "{found} plans, more than {limit}"),
             Quantity::Steps => write!(f, "{found} steps, more than {limit}"),
             Quantity::Design => {
-                write!(f, "days that take about {found} thousand million operations to design, more than {limit}")
+                write!(f, "days that take about {found} billion operations to design, more than {limit}")
             }
             Quantity::Time => write!(f, "work of about {found} s for a processor, more than {limit} s"),
             Quantity::Recording => write!(f, "a recording of about {found} MB, more than {limit} MB"),

@@ -38,7 +38,7 @@ pub struct RunCost {
     pub steps: u64,
     /// Time points that are recorded; those of vehicles and building may coincide.
     pub records: u64,
-    /// Operations of the designs of the building's days, in thousands of millions.
+    /// Operations of the designs of the building's days, in billions.
     pub design_gop: f64,
     /// Time of one core of the reference machine, with all plans, steps and designs \[s\].
     pub processor_s: f64,
@@ -122,8 +122,18 @@ fn plots_bytes(zones: usize, building_steps: u64) -> f64 {
 impl Scenario {
     /// The cost of a run of the scenario, including its counterfactuals, which are not recorded.
     pub fn cost(&self) -> RunCost {
+        self.own_cost().with_unrecorded(self.counterfactual_cost())
+    }
+
+    /// The cost of the scenario's own run.
+    pub fn own_cost(&self) -> RunCost {
+        RunCost::estimate(self)
+    }
+
+    /// The cost of its counterfactuals, which are not recorded.
+    pub fn counterfactual_cost(&self) -> RunCost {
         let others = self.counterfactuals.iter().map(|other| RunCost::estimate(&other.scenario));
-        others.fold(RunCost::estimate(self), RunCost::with_unrecorded)
+        others.fold(RunCost::default(), RunCost::with_unrecorded)
     }
 }
 
@@ -135,9 +145,11 @@ impl fmt::Display for RunCost {
         }
         write!(f, "{} steps, ", self.steps)?;
         if self.design_gop >= 0.05 {
-            write!(f, "{:.1} thousand million operations of design, ", self.design_gop)?;
+            write!(f, "{:.1} billion operations of design, ", self.design_gop)?;
         }
-        write!(f, "{} records in about {:.1} MB, ", self.records, self.recorded_mb)?;
+        if self.records > 0 {
+            write!(f, "{} records in about {:.1} MB, ", self.records, self.recorded_mb)?;
+        }
         match self.processor_s {
             short if short < 10.0 => write!(f, "about {short:.1} s of a processor"),
             long => write!(f, "about {long:.0} s of a processor"),

@@ -3,6 +3,7 @@
 //! A number for another scale may be within its bounds and yet give a meaningless run: a 1/10 scale car on a motorway, an ellipse
 //! that does not contain a lorry. Each remark is located like an error, and states what would work.
 
+use interplay_building::network::Zone;
 use interplay_planners::{Body, Driver, SafetyEllipse};
 
 use crate::format::flow::FlowConfig;
@@ -29,11 +30,18 @@ const MAX_START_ANGLE_DEG: f64 = 20.0;
 /// More vehicles an hour than a lane carries: a queue forms before the road.
 const MOST_PER_LANE_PER_H: f64 = 2000.0;
 
+/// A zone without a stated capacity is remarked upon if it cools by more than [`MOST_COOLING_K`] in [`NIGHT_S`] without heating while its
+/// surroundings are colder by [`COLDER_K`].
+const MOST_COOLING_K: f64 = 10.0;
+const NIGHT_S: f64 = 5.0 * 3600.0;
+const COLDER_K: f64 = 20.0;
+
 /// All remarks.
 pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
     faults.extend(crowded_flows(tree));
     faults.extend(idle_detail(scenario, tree));
+    faults.extend(light_zones(scenario, tree));
     let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         // The first vehicle of a flow stands for all of them, since they are written in one place.
@@ -57,6 +65,28 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
         faults.extend(short_horizon(scenario, vehicle).map(|said| remark("goal.speed_mps", "cannot stop", said)));
     }
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
+}
+
+/// Zones whose capacity is not stated and that cool by many kelvin in a night without heating.
+fn light_zones(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+    let Some(building) = &scenario.building else { return Vec::new() };
+    let remark = |(index, zone): (usize, &Zone)| {
+        let stated = tree.at(&format!("building.zone.{index}"))?;
+        let walls = building.walls.iter().filter(|wall| wall.between.contains(&zone.name));
+        let conductance_kw_per_k: f64 = walls.map(|wall| 1.0 / wall.resistance_k_per_kw).sum();
+        let share = 1.0 - libm::exp(-NIGHT_S * conductance_kw_per_k / zone.capacity_kj_per_k);
+        let is_light = COLDER_K * share > MOST_COOLING_K && stated.at("capacity_kj_per_k").is_none();
+        let message = format!(
+            "zone {} cools by {:.0} K in 5 h if it is 20 K colder around it: `capacity_kj_per_k` is not stated, and the default is \
+             that of its air ({})",
+            quoted(&zone.name),
+            COLDER_K * share,
+            zone.capacity_kj_per_k
+        );
+        let help = "a room with furniture and the inner side of its walls has about 10000";
+        is_light.then(|| Fault::at(&stated.place, "cools quickly", message).help(help))
+    };
+    building.zones.iter().enumerate().filter_map(remark).collect()
 }
 
 /// A level of detail that concerns no vehicle.

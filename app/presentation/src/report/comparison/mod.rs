@@ -8,24 +8,28 @@ use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, Plann
 use crate::page::{Page, Section};
 use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
 use crate::report::columns::{Align, lines_within};
+pub use rows::ShownFigures;
 use rows::{TextRows, differences, figures, heading, version_name, versus};
 
 /// Characters of a line after its indentation: a terminal of 100 shows it whole.
 const WIDTH: usize = 98;
 
 /// The figures of every planner as text, and below each group its differences from the baseline.
-pub fn comparison(comparison: &Comparison) -> String {
+pub fn comparison(comparison: &Comparison, shown: ShownFigures) -> String {
     let mut text = format!("{}, {} of them without a result\n", counted(comparison.runs, "run"), comparison.unfinished);
     for group in &comparison.groups {
         text += &format!("\n{}\n", heading(group));
-        text.extend(figures(group).iter().map(indented));
-        let versus = versus(group);
+        text.extend(figures(group, shown).iter().map(indented));
+        let versus = versus(group, shown);
         if !versus.is_empty() {
             text += &format!("  versus {}, under the same conditions\n", comparison.baseline);
             text.extend(versus.iter().map(indented));
         }
     }
     text += "\n* unlikely to be chance: below 5 % after Holm's correction for all tests of a kind\n";
+    if shown == ShownFigures::First && comparison.groups.iter().any(|group| group.has_vehicles) {
+        text += "`interplay compare --all` shows the other figures: braking, gaps, comfort, rules and times of plans\n";
+    }
     text
 }
 
@@ -42,7 +46,7 @@ pub fn version_comparison(comparison: &VersionComparison) -> String {
         groups.map(|group| (version_name(group), &group.difference)).collect();
     if !changed.is_empty() {
         text += "\nthe second versus the first, where any run differs\n";
-        text.extend(differences(&changed, comparison.has_vehicles).iter().map(indented));
+        text.extend(differences(&changed, comparison.has_vehicles, ShownFigures::All).iter().map(indented));
         text += "\n* unlikely to be chance: below 5 % after Holm's correction for all tests of a kind\n";
     }
     text
@@ -116,9 +120,9 @@ fn section(index: usize, family: String, groups: Vec<&GroupFigures>, baseline: &
     }
     let mut tables = Vec::new();
     for group in groups {
-        tables.extend(figures(group).into_iter().map(|of| table(heading(group), of)));
+        tables.extend(figures(group, ShownFigures::All).into_iter().map(|of| table(heading(group), of)));
         let title = format!("{}, versus {baseline}", heading(group));
-        tables.extend(versus(group).into_iter().map(|of| table(title.clone(), of)));
+        tables.extend(versus(group, ShownFigures::All).into_iter().map(|of| table(title.clone(), of)));
     }
     Ok(Section { id: format!("part-{index}"), heading: family, pictures, tables, ..Section::default() })
 }
@@ -135,7 +139,7 @@ pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> P
     let changed: Vec<(String, &PairedDifference)> =
         changed.map(|group| (version_name(group), &group.difference)).collect();
     let heading = "The second versus the first, where any run differs";
-    let tables = differences(&changed, comparison.has_vehicles);
+    let tables = differences(&changed, comparison.has_vehicles, ShownFigures::All);
     let tables: Vec<TextTable> = tables.into_iter().map(|of| table(heading.to_owned(), of)).collect();
     let section = Section { id: "changes".to_owned(), heading: "Changes".to_owned(), tables, ..Section::default() };
     let opening = std::iter::once(summary).chain([LEGEND[1].to_owned()]).collect();

@@ -35,6 +35,22 @@ const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
     ("plan ms: median, 99 %", |one| plan_times(one)),
 ];
 
+/// The columns that the first look shows, with those of [`BRIEF_METRIC`].
+const BRIEF: [&str; 6] = ["planner", "runs", "success % (95 %)", "time s (95 %)", "first %", "yields %: ego, others"];
+/// The metric that the first look shows.
+const BRIEF_METRIC: &str = "contacts_at_fault";
+/// The first columns of differences are success, the later ones the time; the first look shows these.
+const BRIEF_DIFFERENCES: [usize; 7] = [0, 1, 2, 3, 6, 7, 8];
+
+/// The columns of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShownFigures {
+    /// Success, which vehicle goes first, time, and contacts at fault.
+    First,
+    /// All of them.
+    All,
+}
+
 /// The figures that these columns contain, or that only the JSON output has.
 const COVERED: [&str; 18] = [
     "success",
@@ -113,14 +129,17 @@ pub(super) fn heading(group: &GroupFigures) -> String {
 }
 
 /// Tables of the figures of planners: of vehicles, and of buildings, if there are any.
-pub(super) fn figures(group: &GroupFigures) -> Vec<TextRows> {
+pub(super) fn figures(group: &GroupFigures, shown: ShownFigures) -> Vec<TextRows> {
     let planners: Vec<&PlannerFigures> = group.planners.iter().collect();
     let buildings: Vec<(&PlannerFigures, &BuildingFigures)> =
         planners.iter().filter_map(|planner| Some((*planner, planner.building.as_ref()?))).collect();
-    let is_other = |named: &&NamedFigure| !COVERED.contains(&named.key.as_str());
+    let is_brief = shown == ShownFigures::First;
+    let is_other =
+        |named: &&NamedFigure| !COVERED.contains(&named.key.as_str()) && (!is_brief || named.key == BRIEF_METRIC);
     let others = planners.first().into_iter().flat_map(|planner| planner.figures.0.iter().filter(is_other));
     let metrics = others.map(metric_column).collect();
-    let traffic = table(&TRAFFIC, metrics, planners.into_iter().filter(|_| group.has_vehicles));
+    let columns: Vec<_> = TRAFFIC.into_iter().filter(|(title, _)| !is_brief || BRIEF.contains(title)).collect();
+    let traffic = table(&columns, metrics, planners.into_iter().filter(|_| group.has_vehicles));
     [traffic, table(&building_columns(), Vec::new(), buildings.iter())]
         .into_iter()
         .filter(|(_, rows)| !rows.is_empty())
@@ -128,14 +147,22 @@ pub(super) fn figures(group: &GroupFigures) -> Vec<TextRows> {
 }
 
 /// Tables of named differences: of vehicles, and of buildings, if there are any.
-pub(super) fn differences(all: &[(String, &PairedDifference)], has_vehicles: bool) -> Vec<TextRows> {
+pub(super) fn differences(
+    all: &[(String, &PairedDifference)],
+    has_vehicles: bool,
+    shown: ShownFigures,
+) -> Vec<TextRows> {
+    let is_brief = shown == ShownFigures::First;
     let named: Vec<(&str, &PairedDifference)> = all.iter().map(|(name, one)| (name.as_str(), *one)).collect();
     let buildings: Vec<(&str, &BuildingDifference)> =
         named.iter().filter_map(|(name, one)| Some((*name, one.building.as_ref()?))).collect();
     let splits = named.first().into_iter().flat_map(|(_, one)| &one.metrics.0);
-    let others = splits.filter(|metric| !COVERED.contains(&metric.key));
+    let others = splits.filter(|metric| !is_brief && !COVERED.contains(&metric.key));
     let metrics = others.flat_map(|metric| split_columns(metric.key, &metric.title)).collect();
-    let traffic = table(&difference_columns(), metrics, named.iter().filter(|_| has_vehicles));
+    let columns = difference_columns().into_iter().enumerate();
+    let columns = columns.filter(|(at, _)| !is_brief || BRIEF_DIFFERENCES.contains(at));
+    let columns: Vec<_> = columns.map(|(_, column)| column).collect();
+    let traffic = table(&columns, metrics, named.iter().filter(|_| has_vehicles));
     [traffic, table(&building_difference_columns(), Vec::new(), buildings.iter())]
         .into_iter()
         .filter(|(_, rows)| !rows.is_empty())
@@ -143,11 +170,11 @@ pub(super) fn differences(all: &[(String, &PairedDifference)], has_vehicles: boo
 }
 
 /// The differences of a group from the baseline.
-pub(super) fn versus(group: &GroupFigures) -> Vec<TextRows> {
+pub(super) fn versus(group: &GroupFigures, shown: ShownFigures) -> Vec<TextRows> {
     let differing = group.planners.iter().filter_map(|planner| {
         Some((planner.planner.clone(), planner.versus_baseline.as_ref().filter(|versus| versus.pairs > 0)?))
     });
-    differences(&differing.collect::<Vec<_>>(), group.has_vehicles)
+    differences(&differing.collect::<Vec<_>>(), group.has_vehicles, shown)
 }
 
 /// A table without the columns that are empty in all rows.

@@ -78,7 +78,7 @@ fn broken_at(moment: &ObservedMoment<'_>, vehicle: usize, rule: RoadRule) -> Bro
 
 /// The event of a broken rule.
 pub(super) fn event(broken: &BrokenRule) -> Event {
-    Event { vehicle: broken.vehicle.clone(), level: Level::Warning, text: broken.rule.sentence().to_owned() }
+    Event { vehicle: broken.vehicle.clone(), level: Level::Warning, text: broken.words() }
 }
 
 /// The traffic lights ahead on a vehicle's route.

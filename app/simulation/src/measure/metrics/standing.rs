@@ -61,7 +61,8 @@ struct StandingSoFar {
 impl Measurement for StandingSoFar {
     fn observe(&mut self, tick: &ObservedTick<'_>) {
         let standing = Standing::of(tick.end.vehicles, tick.frame);
-        if !standing.stands(self.vehicle) || standing.reason(self.vehicle).is_some() {
+        let is_told = standing.told_by(self.vehicle).is_some();
+        if is_told || !standing.stands(self.vehicle) || standing.reason(self.vehicle).is_some() {
             self.now_s = 0.0;
             return;
         }
