@@ -142,6 +142,6 @@ mod tests {
         let asked = [1, 14, 15].map(|tick| asks_at(&scene, &mut selection, tick));
         assert_eq!(asked, [false, false, true], "the pause takes 3 s");
         selection.concede(&scene);
-        assert!(!asks_at(&scene, &mut selection, 100), "there is no third talk");
+        assert!(!asks_at(&scene, &mut selection, 100), "a third talk does not begin");
     }
 }

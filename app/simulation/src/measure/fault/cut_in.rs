@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use interplay_planners::State;
 use interplay_planners::scene::duties::{needed_braking_mps2, owed_gap_m};
 
-use super::{REMEMBERED_S, RoadUser};
+use super::road_user::{REMEMBERED_S, RoadUser};
 use crate::state::frame::{Event, Frame, Level};
 use crate::state::standing::STANDING_MPS;
 

@@ -12,25 +12,19 @@
 //!   fast as the other approaches it.
 
 mod cut_in;
+mod road_user;
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::sync::Arc;
 
+use interplay_planners::State;
 use interplay_planners::road::network::Precedence;
-use interplay_planners::{Body, Route, State};
 use interplay_scenarios::Vehicle;
 
 use crate::state::frame::{ContactFault, Frame};
 use crate::state::standing::STANDING_MPS;
 use cut_in::{CutIn, CutIns};
-
-/// A vehicle that has stood for this time is not at fault, for a real car \[s\].
-const STOOD_S: f64 = 1.0;
-/// A body is out of its lane if it is beyond the line by this share of its width.
-const OUT_WIDTHS: f64 = 0.1;
-/// For how long a gap that was too short, and a duty to wait, count, for a real car \[s\].
-const REMEMBERED_S: f64 = 5.0;
+use road_user::{REMEMBERED_S, RoadUser};
 
 /// What has to be remembered of a run to say which vehicle is at fault. Vehicles are numbered in the scenario's order.
 #[derive(Clone, Debug)]
@@ -43,30 +37,12 @@ pub struct Faults {
     cut_ins: CutIns,
 }
 
-/// A vehicle, with the time for which it has stood \[s\].
-#[derive(Clone, Debug)]
-struct RoadUser {
-    name: String,
-    body: Body,
-    route: Arc<Route>,
-    /// Whether it drives like people, who owe one another gaps.
-    knows_comfort: bool,
-    stood_s: f64,
-}
-
 impl Faults {
     /// Nothing has happened yet.
     pub fn new(vehicles: &[Vehicle], ego: usize) -> Self {
-        let user = |vehicle: &Vehicle| RoadUser {
-            name: vehicle.name.clone(),
-            body: vehicle.body,
-            route: Arc::clone(&vehicle.route),
-            knows_comfort: vehicle.limits.comfort.is_some(),
-            stood_s: 0.0,
-        };
         Faults {
             ego,
-            users: vehicles.iter().map(user).collect(),
+            users: vehicles.iter().map(RoadUser::new).collect(),
             index: vehicles.iter().enumerate().map(|(index, vehicle)| (vehicle.name.clone(), index)).collect(),
             waited_s: BTreeMap::new(),
             cut_ins: CutIns::default(),
@@ -186,32 +162,6 @@ enum Why {
     CutIn(CutIn),
     /// Words between its name and that of the other.
     Words(&'static str),
-}
-
-impl RoadUser {
-    fn time_ratio(&self) -> f64 {
-        self.body.real_ratio().sqrt()
-    }
-
-    fn length_m(&self) -> f64 {
-        self.body.front_m + self.body.rear_m
-    }
-
-    fn has_stood(&self) -> bool {
-        self.stood_s >= STOOD_S * self.time_ratio()
-    }
-
-    /// Arc lengths of rear and front on its route \[m\].
-    fn reach_m(&self, state: &State) -> [f64; 2] {
-        let along_m = self.route.along(state.position());
-        [along_m - self.body.rear_m, along_m + self.body.front_m]
-    }
-
-    fn is_out_of_lane(&self, state: &State) -> bool {
-        let at = self.route.locate(state.position(), None);
-        let beyond_m = at.across_m.abs() + 0.5 * self.body.width_m - self.route.half_width.value(at.along_m);
-        beyond_m > OUT_WIDTHS * self.body.width_m
-    }
 }
 
 /// Of two vehicles that meet head-on, whether the first is outside its lane and the second inside its own, or the reverse.
