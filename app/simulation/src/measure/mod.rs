@@ -45,7 +45,7 @@ pub use vehicle_metric::{Fold, LeastOfRun, VehicleMetric, VehicleQuantity};
 pub use waits::{Deadlock, Wait, Waits};
 
 use crate::state::components::{Clock, CurrentFrame, CurrentTraffic};
-use crate::state::frame::{BrokenRule, Collision};
+use crate::state::frame::Collision;
 use crate::state::standing::Standing;
 
 /// All measures of a run.

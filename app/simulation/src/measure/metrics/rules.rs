@@ -38,7 +38,7 @@ impl Measurement for BrokenCount {
     }
 
     fn measured(&self) -> Measured {
-        Measured { value: Some(MetricValue::Count(self.count as u64)), ..Measured::default() }
+        Measured { value: Some(MetricValue::Count(self.count)), ..Measured::default() }
     }
 
     fn fork(&self) -> Box<dyn Measurement> {
