@@ -37,7 +37,8 @@ pub(super) fn head_on(draft: &mut Draft) {
     let from_s = draft.between(0.0, 4.0);
     let orders = if draft.chance(0.5) {
         let until_s = from_s + draft.between(4.0, 9.0);
-        let slow_m = along_m + draft.between(15.0, 30.0);
+        // It is still ahead when the other one begins to overtake.
+        let slow_m = along_m + draft.between(25.0, 40.0) + 0.4 * their_mps * from_s;
         draft.vehicle(Draftee { class: "truck", ..car("slow", "west", slow_m, 0.6 * their_mps) });
         format!("{{ from_s = {from_s:.1}, lateral_m = 3.5 }}, {{ from_s = {until_s:.1}, lateral_m = 0.0 }}")
     } else {
