@@ -15,7 +15,7 @@ use interplay_scenarios::Vehicle;
 
 use crate::measure::metric::ObservedMoment;
 use crate::state::components::to_nanosecond;
-use crate::state::frame::{BrokenRule, Event, Level, Rule};
+use crate::state::frame::{BrokenRule, Event, Level, RoadRule};
 use crate::state::standing::STANDING_MPS;
 
 /// A real car is speeding if it exceeds a limit by this \[m/s\].
@@ -149,7 +149,7 @@ impl WatchedVehicle {
     fn observe(&mut self, end: &ObservedMoment<'_>, broken: &mut Vec<BrokenRule>) {
         let (vehicle, along_m) = (&end.vehicles[self.vehicle], end.along_m[self.vehicle]);
         let speed_mps = end.states[self.vehicle].speed_mps;
-        let mut add = |rule: Rule, at_m: f64, of: Option<usize>| {
+        let mut add = |rule: RoadRule, at_m: f64, of: Option<usize>| {
             let leg = vehicle.route.leg(at_m - BEFORE_LINE_M);
             broken.push(BrokenRule {
                 time_s: to_nanosecond(end.time_s),
@@ -163,7 +163,7 @@ impl WatchedVehicle {
         let excess_mps = speeding_mps(vehicle, along_m, speed_mps);
         let is_fast = excess_mps > SPEEDING_MPS * self.scale.sqrt();
         if is_fast && !self.is_speeding {
-            add(Rule::SpeedLimit, along_m, None);
+            add(RoadRule::SpeedLimit, along_m, None);
         }
         self.is_speeding = is_fast || (self.is_speeding && excess_mps > 0.0);
         let front_m = along_m + vehicle.body.front_m;
@@ -172,19 +172,19 @@ impl WatchedVehicle {
             sign.has_stood |= speed_mps < STANDING_MPS * self.scale.sqrt() && front_m > sign.line_m - near_m;
             sign.is_past = front_m > sign.line_m + 0.5 * self.scale;
             if sign.is_past && !sign.has_stood {
-                add(Rule::StopSign, sign.line_m, None);
+                add(RoadRule::StopSign, sign.line_m, None);
             }
         }
         let is_red =
             |light: &&LightAhead| matches!(light.cycle.colour_at(end.time_s), LightColour::Red | LightColour::RedAmber);
         for light in self.lights.iter().filter(|light| front_m > light.line_m).filter(is_red) {
-            add(Rule::RedLight, light.line_m, None);
+            add(RoadRule::RedLight, light.line_m, None);
         }
         self.lights.retain(|light| front_m <= light.line_m);
         let spare_s = SPARE_S * self.scale.sqrt();
         for crossing in self.crossings.iter_mut().filter(|crossing| !crossing.is_settled) {
             if crossing.is_taken(end, self.vehicle, spare_s) {
-                add(Rule::RightOfWay, crossing.conflict.own_m[0], Some(crossing.other));
+                add(RoadRule::RightOfWay, crossing.conflict.own_m[0], Some(crossing.other));
             }
         }
     }

@@ -194,7 +194,7 @@ pub struct BrokenRule {
     /// The name of the vehicle that broke it.
     pub vehicle: String,
     /// The rule.
-    pub rule: Rule,
+    pub rule: RoadRule,
     /// The vehicle whose right of way was taken; none for other rules.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
@@ -208,7 +208,7 @@ pub struct BrokenRule {
 /// A rule of the road.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Rule {
+pub enum RoadRule {
     /// To stand at a stop sign.
     StopSign,
     /// To stop at a red light.
@@ -223,15 +223,17 @@ impl BrokenRule {
     /// What the vehicle did, and where: `passed the red light of lane in`.
     pub fn words(&self) -> String {
         let place = match (&self.lane, self.rule) {
-            (Some(lane), Rule::StopSign | Rule::RedLight) => format!(" of lane {lane}"),
+            (Some(lane), RoadRule::StopSign | RoadRule::RedLight) => format!(" of lane {lane}"),
             (Some(lane), _) => format!(" on lane {lane}, {:.0} m along it", self.along_m),
             (None, _) => format!(" {:.0} m along its route", self.along_m),
         };
         match self.rule {
-            Rule::StopSign => format!("passed the stop sign{place} without standing"),
-            Rule::RedLight => format!("passed the red light{place}"),
-            Rule::RightOfWay => format!("took the right of way of {}{place}", self.of.as_deref().unwrap_or("another")),
-            Rule::SpeedLimit => format!("exceeded the speed limit{place}"),
+            RoadRule::StopSign => format!("passed the stop sign{place} without standing"),
+            RoadRule::RedLight => format!("passed the red light{place}"),
+            RoadRule::RightOfWay => {
+                format!("took the right of way of {}{place}", self.of.as_deref().unwrap_or("another"))
+            }
+            RoadRule::SpeedLimit => format!("exceeded the speed limit{place}"),
         }
     }
 }
