@@ -210,7 +210,10 @@ fn a_run_of_a_building_writes_a_recording() {
     let folder = scratch("building-recorded");
     let outcome = interplay(&folder, &["run", "building/four-room-ilc", "--set", "iterations=3"]);
     let said = &outcome.stderr;
-    assert!(said.starts_with("recorded to recordings/building/four-room-ilc.rrd (`--no-record` writes none); to open it: "), "{said}");
+    assert!(
+        said.starts_with("recorded to recordings/building/four-room-ilc.rrd (`--no-record` writes none); to open it: "),
+        "{said}"
+    );
     assert!(said.ends_with(" view recordings/building/four-room-ilc.rrd\n"), "{said}");
     let bytes = fs::read(folder.join("recordings/building/four-room-ilc.rrd")).expect("there is a recording");
     for piece in ["/building/plan/rooms", "/building/zone/4/temperature", "/building/iteration/cost", "iteration"] {

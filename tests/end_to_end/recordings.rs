@@ -26,7 +26,12 @@ fn short(folder: &Path, more: &[&str]) -> String {
 fn a_recording_is_written_under_the_name_of_its_scenario() {
     let folder = scratch("default-recording");
     let said = short(&folder, &[]);
-    assert!(said.starts_with("recorded to recordings/lane-change/front-tough.rrd (`--no-record` writes none); to open it: "), "{said}");
+    assert!(
+        said.starts_with(
+            "recorded to recordings/lane-change/front-tough.rrd (`--no-record` writes none); to open it: "
+        ),
+        "{said}"
+    );
     assert!(said.ends_with(" view recordings/lane-change/front-tough.rrd\n"), "{said}");
     let place = "recordings/lane-change/front-tough.rrd";
     assert_eq!(contents(&folder), ["recordings", "recordings/lane-change", place]);

@@ -110,9 +110,15 @@ fn a_suite_reports_all_invalid_files_and_runs_the_others() {
     }
     let outcome = interplay(&folder, &["suite", ".", "missing.toml", "empty", "--json", "--junit", "out.xml"]);
     assert_eq!((outcome.code, names(&outcome.json())), (Some(2), vec!["good", "two-way"]), "{outcome:?}");
-    for piece in
-        ["one.toml", "two.toml", "missing.toml", "no scenario in folder `empty`", "left out", "base.toml", "plan.toml"]
-    {
+    for piece in [
+        "one.toml",
+        "two.toml",
+        "missing.toml",
+        "folder `empty` contains no scenario",
+        "left out",
+        "base.toml",
+        "plan.toml",
+    ] {
         assert!(outcome.stderr.contains(piece), "{piece}: {}", outcome.stderr);
     }
     assert!(!outcome.stderr.contains("sweeps"), "{}", outcome.stderr);

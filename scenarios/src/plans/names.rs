@@ -55,7 +55,7 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
         let files = files_below(&path).map_err(unreadable)?;
         let files: Vec<PathBuf> = files.scenarios.into_iter().map(|scenario| scenario.path).collect();
         if files.is_empty() {
-            return Err(Fault::at(place, "empty", format!("there is no scenario in folder {}", quoted(entry))));
+            return Err(Fault::at(place, "empty", format!("folder {} contains no scenario", quoted(entry))));
         }
         if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
             let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));

@@ -87,7 +87,7 @@ impl Suite {
         let unusable = loaded.iter().filter_map(|(_, outcome)| outcome.as_ref().err());
         unusable.for_each(|error| print_load_error(error.clone()));
         if loaded.is_empty() {
-            print_error("there is no scenario to run; `interplay list` shows those in the binary");
+            print_error("nothing to run; `interplay list` shows those in the binary");
             return ExitStatus::BadInput;
         }
         let began = Instant::now();

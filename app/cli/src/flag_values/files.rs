@@ -81,7 +81,7 @@ pub(crate) enum FolderError {
     Unreadable { folder: String, reason: io::Error },
     #[error("the name of `{file}` is not UTF-8 text; rename the file")]
     NotUtf8 { file: String },
-    #[error("there is no scenario in folder `{folder}`")]
+    #[error("folder `{folder}` contains no scenario")]
     Empty { folder: String },
 }
 

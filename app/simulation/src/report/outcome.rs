@@ -1,7 +1,5 @@
 //! The outcome of a run, as plain values.
 
-use std::fmt;
-
 use interplay_planners::State;
 use interplay_scenarios::{Vehicle, readable};
 use serde::{Serialize, Serializer};
@@ -281,13 +279,6 @@ impl Expectation {
     /// The expected and the actual value, with numbers rounded for a reader.
     pub fn shown(&self) -> [Value; 2] {
         [rounded(&self.want, None), rounded(&self.got, self.want.as_f64())]
-    }
-}
-
-impl fmt::Display for Expectation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [wanted, got] = self.words();
-        write!(f, "{}: wanted: {wanted}; got: {got}", self.what)
     }
 }
 

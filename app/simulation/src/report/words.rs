@@ -1,5 +1,7 @@
 //! Expectations in words: what was wanted and what a run gave, with units, instead of JSON.
 
+use std::fmt;
+
 use interplay_common::units::{quantity_of, unit_of};
 use serde_json::Value;
 
@@ -28,6 +30,13 @@ impl Expectation {
             _ => bound(&self.what, &want, &got),
         };
         [wanted, self.at.iter().fold(got, |got, at| format!("{got} ({at})"))]
+    }
+}
+
+impl fmt::Display for Expectation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [wanted, got] = self.words();
+        write!(f, "{}: wanted: {wanted}; got: {got}", self.what)
     }
 }
 
