@@ -120,8 +120,10 @@ impl DriverKind for Settings {
         })
     }
 
+    /// Persuasion has no effect among people (`docs/evidence/people.md`), and costs a constraint.
     fn people_defaults(&self) -> Map<String, Json> {
-        Map::from_iter([("answer_s".to_owned(), json!(ANSWER_S)), ("concedes".to_owned(), json!("order"))])
+        let defaults = [("answer_s", json!(ANSWER_S)), ("concedes", json!("order")), ("persuasion", json!(false))];
+        defaults.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
     }
 
     fn replacement_in_why(&self) -> Option<StandardReplacement> {
