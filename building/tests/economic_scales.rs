@@ -99,16 +99,17 @@ fn near(one: f64, other: f64, share: f64) -> bool {
     (one / other - 1.0).abs() < share
 }
 
+/// More power may buy all heat in the cheapest step, so a larger limit may save a little; it never costs, and beyond what any plan uses
+/// it changes nothing.
 #[test]
 fn a_limit_that_is_stated_large_costs_nothing() {
-    for seed in 0..4 {
-        let usual = House { seed, ..USUAL }.run();
-        for limit_kw in [1e3, 1e6] {
-            let large = House { seed, limit_kw, ..USUAL }.run();
-            assert!(near(large.money, usual.money, 0.01), "{seed}, {limit_kw}: {} and {}", large.money, usual.money);
-            let (one, other) = (large.optimum.energy_cost, usual.optimum.energy_cost);
-            assert!(near(one, other, 0.01), "{seed}, {limit_kw}: optimum {one} and {other}");
-        }
+    for seed in 0..2 {
+        let [usual, large, huge] = [20.0, 1e3, 1e6].map(|limit_kw| House { seed, limit_kw, ..USUAL }.run());
+        assert!(large.money <= 1.01 * usual.money, "{seed}: {} and {}", large.money, usual.money);
+        assert!(near(huge.money, large.money, 0.01), "{seed}: {} and {}", huge.money, large.money);
+        let (one, other) = (huge.optimum.energy_cost, large.optimum.energy_cost);
+        assert!(near(one, other, 0.01), "{seed}: optimum {one} and {other}");
+        assert!(huge.money <= 1.02 * huge.optimum.energy_cost, "{seed}: {} above {one}", huge.money);
     }
 }
 
